@@ -1,0 +1,1 @@
+#include "gi/settings.h"

@@ -1,0 +1,83 @@
+// The Vulkan instance, device, queue, and what they can do. Vulkan 1.3 with dynamic rendering, synchronization2, buffer
+// device address, timeline semaphores, scalar block layout, 8/16-bit storage and int64 is the floor (lavapipe has it).
+#pragma once
+
+#include <volk.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace irad {
+
+class Allocator;
+
+struct DeviceOptions {
+  std::string select;        ///< index or part of a name (case-insensitive); empty: the best suitable device
+  bool validate = false;     ///< core + synchronization validation; every message is counted and kept
+  bool presentable = false;  ///< enable the surface and swapchain extensions (GLFW names them)
+  bool poison = false;       ///< fill all fresh device memory with NaN bit patterns
+};
+
+/// One physical device as `--list-devices` shows it.
+struct DeviceInfo {
+  uint32_t index = 0;
+  std::string name, driver, type;  ///< type: "discrete", "integrated", "virtual", "cpu", "other"
+  std::string apiVersion;
+  uint64_t memoryBytes = 0;          ///< largest device-local heap
+  std::vector<std::string> missing;  ///< needs it does not meet, in words; empty: suitable
+};
+
+/// Counts of what was asked of the device, for tests and `irad plan --prove`.
+struct DeviceCounters {
+  std::atomic<uint64_t> dispatches{0}, draws{0}, submits{0}, allocations{0};
+};
+
+class Device {
+ public:
+  /// Throws DeviceError listing every device and what it lacks when none is suitable.
+  static std::unique_ptr<Device> create(const DeviceOptions& options);
+  static std::vector<DeviceInfo> list();
+  ~Device();
+  Device(const Device&) = delete;
+
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice handle = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;
+  DeviceOptions options;
+  DeviceInfo info;
+  VkPhysicalDeviceLimits limits{};
+  VkDeviceSize maxAllocation = 0;  ///< maxMemoryAllocationSize
+  uint32_t subgroupSize = 0;
+  bool isCpu = false;  ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
+  mutable DeviceCounters counters;
+
+  Allocator& memory() const { return *allocator_; }
+
+  void name(VkObjectType type, uint64_t object, const std::string& name) const;
+
+  /// Runs `destroy` once every submission made so far has finished on the device.
+  void retire(std::function<void()> destroy) const;
+  /// Submits `commands`; returns the timeline value that `wait` takes. `presentWait`/`presentSignal` may be null.
+  uint64_t submit(VkCommandBuffer commands, VkSemaphore presentWait = VK_NULL_HANDLE,
+                  VkSemaphore presentSignal = VK_NULL_HANDLE) const;
+  void wait(uint64_t timelineValue) const;  ///< throws WorkError on device loss
+  bool finished(uint64_t timelineValue) const;
+  void waitIdle() const;
+
+  /// Validation messages of severity >= WARNING, PERFORMANCE and loader messages excluded. A test fails on any.
+  std::vector<std::string> validationMessages() const;
+
+ private:
+  Device() = default;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Allocator> allocator_;
+};
+
+}  // namespace irad

@@ -1,0 +1,119 @@
+// Buffers and images: move-only handles that free themselves once the device has finished with them. Memory is
+// sub-allocated, named, and counted per subsystem (METHOD section 10); a heap's budget is checked before allocation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/barrier.h"
+#include "renderer/device.h"
+
+namespace irad {
+
+enum class Subsystem { Scene, Shadow, Targets, Voxels, Field, Facets, Matrix, Solver, Volumes, Specular, Staging, Ui };
+const char* toString(Subsystem);
+
+enum class Access { Device, Upload, Readback };  ///< Upload / Readback buffers are persistently mapped
+
+class Buffer {
+ public:
+  Buffer() = default;
+  /// Storage + transfer + device address (+ indirect). `bytes` of 0 allocates 16 so that an address always exists.
+  /// Throws DeviceError naming the buffer, its size and the budget when memory does not suffice.
+  Buffer(const Device& device, std::string name, Subsystem subsystem, uint64_t bytes, Access access = Access::Device);
+  ~Buffer();
+  Buffer(Buffer&&) noexcept;
+  Buffer& operator=(Buffer&&) noexcept;
+
+  explicit operator bool() const { return handle != VK_NULL_HANDLE; }
+  VkBuffer handle = VK_NULL_HANDLE;
+  uint64_t address = 0;
+  uint64_t bytes = 0;
+  void* mapped = nullptr;
+  std::string name;
+  mutable ResourceState state;  ///< last uses, for barrier derivation (renderer/barrier.h)
+
+ private:
+  friend class Allocator;
+  const Device* device_ = nullptr;
+  uint64_t allocation_ = 0;
+};
+
+struct ImageDesc {
+  std::string name;
+  Subsystem subsystem = Subsystem::Targets;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t width = 1, height = 1, depth = 1;  ///< depth > 1, or volume = true: a 3D image
+  uint32_t layers = 1, mips = 1;
+  bool volume = false, cube = false;  ///< cube: layers is a multiple of 6, viewed as a cube array
+  bool array = false;                 ///< view as a 2D array even with one layer
+  VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                            VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  VkFormat aliasFormat = VK_FORMAT_UNDEFINED;  ///< also viewable in this format (MUTABLE_FORMAT), e.g. rgba8 as r32ui
+};
+
+/// Images stay in GENERAL layout; the transition from UNDEFINED happens at first use.
+class Image {
+ public:
+  Image() = default;
+  Image(const Device& device, const ImageDesc& desc);
+  ~Image();
+  Image(Image&&) noexcept;
+  Image& operator=(Image&&) noexcept;
+
+  explicit operator bool() const { return handle != VK_NULL_HANDLE; }
+  VkImage handle = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;       ///< all mips and layers
+  VkImageView aliasView = VK_NULL_HANDLE;  ///< in aliasFormat
+  std::vector<VkImageView> layerViews;     ///< one per layer, as a render target (layers > 1 or cube only)
+  ImageDesc desc;
+  mutable ResourceState state;
+  uint64_t bytes() const;  ///< measured (allocator)
+
+ private:
+  friend class Allocator;
+  const Device* device_ = nullptr;
+  uint64_t allocation_ = 0;
+};
+
+/// One row of the memory table: measured by the allocator.
+struct MemoryRow {
+  std::string name;
+  Subsystem subsystem;
+  std::string format;  ///< "buffer" or the image's format and extent
+  uint64_t bytes;
+};
+
+class Allocator {
+ public:
+  explicit Allocator(const Device& device);
+  ~Allocator();
+  std::vector<MemoryRow> rows() const;  ///< live resources, largest first
+  uint64_t used() const;
+  uint64_t peak() const;
+  uint64_t budget() const;  ///< bytes this process may use on the device-local heap (heap size less a reserve)
+  /// Throws DeviceError "NAME needs A MiB, B of C MiB are free" if `bytes` more would exceed the budget.
+  void check(const std::string& name, uint64_t bytes) const;
+
+ private:
+  friend class Buffer;
+  friend class Image;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+enum class Wrap { Repeat, Mirror, Clamp };
+struct SamplerDesc {
+  Wrap u = Wrap::Repeat, v = Wrap::Repeat;
+  bool linearMag = true, linearMin = true, mips = true, linearMips = true;
+  bool compare = false;  ///< depth comparison (less or equal), for shadow maps
+  bool operator==(const SamplerDesc&) const = default;
+};
+/// Cached by the device; never freed before it.
+VkSampler sampler(const Device& device, const SamplerDesc& desc);
+
+}  // namespace irad

@@ -1,0 +1,119 @@
+// A glTF 2.0 scene as the engine uses it: static, flattened to world space, one vertex and index array, triangles grouped
+// by material. World coordinates are glTF's (right-handed, Y up, metres as the file says); positions are stored in fp32
+// relative to `origin`, which is taken in double precision, so that a scene 10^6 units from the origin keeps its detail.
+// Light units: 1 lux = 1 W/m^2, 1 cd = 1 W/sr; emitted radiance = emissiveFactor x emissiveStrength x texture.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/resources.h"
+
+namespace irad {
+
+/// A decoded image, RGBA, 8 bits per channel, top row first. `srgb` is decided by use (base colour, emissive: yes).
+struct SceneImage {
+  std::string name;
+  uint32_t width = 0, height = 0;
+  bool srgb = false;
+  std::vector<uint8_t> rgba;
+};
+
+/// A use of an image by a material. uv' = transform * (uv, 1) per KHR_texture_transform (column-major 2x3).
+struct TextureUse {
+  int image = -1;  ///< index into Scene::images, -1: none (the factor alone)
+  SamplerDesc sampler;
+  uint32_t uvSet = 0;  ///< 0 or 1
+  glm::mat3x2 transform{1.0f};
+};
+
+enum class AlphaMode : uint32_t { Opaque, Mask, Blend };
+
+struct Material {
+  std::string name;
+  glm::vec4 baseColor{1.0f};  ///< linear
+  float metallic = 1.0f, roughness = 1.0f;
+  glm::vec3 emission{0.0f};  ///< emissiveFactor x emissiveStrength: radiance, W/(m^2 sr), >= 0
+  float normalScale = 1.0f, occlusionStrength = 1.0f, alphaCutoff = 0.5f;
+  AlphaMode alpha = AlphaMode::Opaque;
+  bool doubleSided = false;
+  TextureUse baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
+};
+
+enum class LightType : uint32_t { Sun, Point, Spot };
+
+struct Light {
+  std::string name;
+  LightType type = LightType::Sun;
+  glm::dvec3 position{0.0};                 ///< world; point and spot
+  glm::vec3 direction{0.0f, -1.0f, 0.0f};   ///< unit, the way the light shines; sun and spot
+  glm::vec3 color{1.0f};                    ///< linear
+  float intensity = 1.0f;                   ///< sun: lux; point, spot: candela
+  float range = 0.0f;                       ///< 0: unlimited
+  float innerCos = 1.0f, outerCos = 0.70710678f;  ///< spot: cosines of the half-angles
+};
+
+struct Camera {
+  std::string name;
+  glm::dvec3 position{0.0};
+  glm::quat orientation{1, 0, 0, 0};  ///< rotates camera space (looks along -Z, Y up) to world
+  bool orthographic = false;
+  float yfov = 1.0f;        ///< perspective: vertical angle, radians
+  float ymag = 1.0f;        ///< orthographic: half height
+  float aspect = 0.0f;      ///< 0: that of the viewport
+  float znear = 0.1f, zfar = 0.0f;  ///< zfar 0: chosen from the bounds
+};
+
+struct Draw {
+  uint32_t material = 0, firstIndex = 0, indexCount = 0;
+};
+
+struct Scene {
+  std::filesystem::path path;
+  std::string sha256;   ///< of the scene file itself
+  glm::dvec3 origin{0.0};  ///< world position of local (0,0,0): the centre of the bounds
+  glm::vec3 boundsMin{0.0f}, boundsMax{0.0f};  ///< local
+
+  // Structure of arrays, one element per vertex; all the same length.
+  std::vector<glm::vec3> positions;  ///< local
+  std::vector<glm::vec3> normals;    ///< unit
+  std::vector<glm::vec4> tangents;   ///< xyz unit, w = handedness +-1
+  std::vector<glm::vec2> uv0, uv1;
+  std::vector<glm::vec4> colors;     ///< linear, multiplies the base colour; 1 where the file has none
+  std::vector<uint32_t> indices;     ///< three per triangle, counter-clockwise seen from the front (mirrored nodes rewound)
+  std::vector<Draw> draws;           ///< at most one per material, in material order; empty ones left out
+
+  std::vector<Material> materials;  ///< at least one
+  std::vector<SceneImage> images;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;  ///< at least one after addDefaults
+
+  std::vector<std::string> warnings;  ///< in words, each once
+  bool defaultCamera = false, defaultLight = false;
+
+  uint32_t triangleCount() const { return static_cast<uint32_t>(indices.size() / 3); }
+};
+
+struct LoadOptions {
+  bool lambertian = false;  ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
+  std::function<void(float fraction, const char* step)> progress;  ///< may be empty
+};
+
+/// Loads .gltf or .glb (or .irscene, the decoded cache that writeSceneCache makes; the portable build reads only that
+/// and untextured glTF). Throws InputError naming file, object and value; what is merely odd becomes a warning. Adds a
+/// fitted camera where the file has none, and a default sun where it has no light and nothing that emits; both noted.
+Scene loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// A scene with all images decoded, for machines without image decoders. Little-endian, versioned, written atomically.
+void writeSceneCache(const Scene& scene, const std::filesystem::path& path);
+
+/// SHA-256 of a file as 64 hex digits; throws InputError when it cannot be read.
+std::string sha256File(const std::filesystem::path& path);
+
+}  // namespace irad

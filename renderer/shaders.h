@@ -1,0 +1,57 @@
+// SPIR-V by source name ("gi/solve.comp"): embedded at build time; recompiled with glslang on reload when the sources
+// are present. The reflection is our own small reader of the words we need.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace irad {
+
+struct ShaderBinding {
+  uint32_t set = 0, binding = 0, count = 1;
+  bool storageImage = false;  ///< else: combined image sampler
+  std::string name;
+};
+
+struct ShaderModule {
+  std::string name;
+  std::vector<uint32_t> spirv;
+  std::vector<ShaderBinding> bindings;      ///< sorted by set, binding
+  std::array<uint32_t, 3> localSize{1, 1, 1};
+  uint32_t pushBytes = 0;  ///< size of the push-constant block
+};
+
+/// Struct layouts found in a module, for the layout test: struct name -> (member name, byte offset), total size.
+struct ReflectedStruct {
+  std::string name;
+  std::vector<std::pair<std::string, uint32_t>> members;
+};
+std::vector<ReflectedStruct> reflectStructs(std::span<const uint32_t> spirv);
+ShaderModule reflect(std::string name, std::vector<uint32_t> spirv);
+
+class ShaderLibrary {
+ public:
+  ShaderLibrary();  ///< the embedded modules
+  const ShaderModule& get(std::string_view name) const;  ///< unknown name: broken invariant, near names printed
+  std::vector<std::string> names() const;
+  uint64_t generation() const { return generation_; }  ///< grows with every successful reload; pipelines key on it
+
+  /// Recompiles every stage below `sources` (the shaders/ folder). Empty result: all replaced. Otherwise the
+  /// compiler's messages, and every old module stays in place.
+  std::string reload(const std::filesystem::path& sources);
+
+ private:
+  std::map<std::string, ShaderModule, std::less<>> modules_;
+  uint64_t generation_ = 0;
+};
+
+/// Compiles one GLSL file (includes relative to `sources`); throws WorkError with glslang's message.
+std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const std::string& name);
+
+}  // namespace irad
