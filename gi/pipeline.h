@@ -1,0 +1,50 @@
+// The whole method, stage after stage, for one scene: what is dirty is redone, the rest is kept.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gi/stages.h"
+#include "gi/views.h"
+#include "renderer/forward.h"
+
+namespace irad {
+
+/// Called between steps with the running stage's name and its share done; returns false to cancel.
+using Progress = std::function<bool(const char* stage, float fraction)>;
+
+class Pipeline {
+ public:
+  Pipeline(Context& context, Scene scene, const Settings& settings);
+  ~Pipeline();
+
+  const Scene& scene() const;
+  SceneOnDevice& device();
+  const Settings& settings() const;
+  /// Takes new settings; returns the first stage that the next prepare() will redo.
+  Redo set(const Settings& settings);
+  /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
+  void lightsChanged();
+
+  /// Runs what is dirty up to the scatter: blocking. The old state stays usable when it throws or is cancelled.
+  /// `maxSweeps` 0: settings.solver.maxSweeps.
+  void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
+  /// True when nothing is dirty and the solver's bound is below the tolerance.
+  bool asleep() const;
+
+  /// One picture of `view` into targets.linear and targets.display.
+  void render(Frame& frame, const Camera& camera, View view, Targets& targets);
+
+  const FacetList& facets() const;
+  const Field& field() const;
+  const FormFactors& matrix() const;
+  const Lighting& lighting() const;
+  const ShadowMaps& shadows() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace irad

@@ -1,0 +1,215 @@
+// Every setting once: a plain struct and one visit() that gives name, range, unit, help, and what must be redone when it
+// changes. Widgets, --set, JSON, presets, `irad settings`, reset buttons and the round-trip test all come from visit().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shaders/shared/gi_params.h"
+
+namespace irad {
+
+enum class VoxelMethod : uint32_t { raster, conservative };
+enum class NormalEncoding : uint32_t { axis6, axis26, oct8, oct16 };
+enum class FieldMethod : uint32_t { chebyshev, jfa };
+enum class MatrixFormat : uint32_t { padded, csr };
+enum class Traversal : uint32_t { dda, sdf };
+enum class HitRule : uint32_t { thesis, robust };
+enum class SampleFilter : uint32_t { nearest, linear, blur };
+enum class SpecularMode : uint32_t { off, fragment, compute };
+enum class ToneCurve : uint32_t { linear, neutral };
+enum class SolverKernel : uint32_t { automatic, tree, subgroup, row };
+
+/// The first stage that has to run again when a setting changes; later ones follow. Ordered.
+enum class Redo : uint32_t { Voxels, Field, Matrix, Gather, Solve, Scatter, Shade, Nothing };
+
+/// The names of an enumeration's values, in order. Specialized below visit().
+template <class E>
+struct EnumNames;
+
+struct Meta {
+  const char* name;  ///< "group.member", as --set takes it
+  double min = 0, max = 0;
+  const char* unit;  ///< "" where there is none
+  const char* help;  ///< one sentence
+  Redo redo;
+  bool logarithmic = false;
+};
+
+struct VoxelSettings {
+  uint32_t resolution = 64;  ///< N: voxels along the longest axis
+  VoxelMethod method = VoxelMethod::conservative;
+  uint32_t facets = 2;
+  NormalEncoding normals = NormalEncoding::oct16;
+};
+struct FieldSettings {
+  FieldMethod method = FieldMethod::chebyshev;
+  bool keepPasses = false;
+};
+struct MatrixSettings {
+  MatrixFormat format = MatrixFormat::csr;
+  MatrixParams gpu{128, HIT_RULE_ROBUST, TRAVERSAL_SDF, 1, 0};
+};
+struct GatherSettings {
+  uint32_t samples = 4;  ///< shadow lookups per facet and light
+};
+struct SolverSettings {
+  SolverParams gpu{1.0f, 1.0f, 1e-12f};
+  float tolerance = 1e-3f;        ///< stop when the error bound is below this share of the largest H
+  uint32_t sweepsPerFrame = 4;    ///< interactive; headless runs until the tolerance or maxSweeps
+  uint32_t maxSweeps = 1000;
+  SolverKernel kernel = SolverKernel::automatic;
+};
+struct ScatterSettings {
+  bool edgeRemoval = false;  ///< T 5.9.1: the volume holds B - lambda E instead of H
+};
+struct SampleSettings {
+  SampleParams gpu{FILTER_BLUR, 1, 1, 0.5f};
+};
+struct SpecularSettings {
+  SpecularMode mode = SpecularMode::compute;
+  SpecularParams gpu{4, TRAVERSAL_SDF, 0.6f, 0.15f, 1e-4f, 1};
+};
+struct LightSettings {
+  uint32_t shadowResolution = 2048;  ///< texels per side; point lights use half per cube face
+};
+struct CameraSettings {
+  float exposureEv = 0.0f;
+  ShadeParams gpu{1.0f, TONE_NEUTRAL, 1.5f, 3, 1};
+};
+struct ThesisSettings {
+  bool literal = false;  ///< bring back the thesis's plain slips (METHOD, first paragraph)
+};
+
+struct Settings {
+  VoxelSettings voxel;
+  FieldSettings field;
+  MatrixSettings matrix;
+  GatherSettings gather;
+  SolverSettings solver;
+  ScatterSettings scatter;
+  SampleSettings sample;
+  SpecularSettings specular;
+  LightSettings light;
+  CameraSettings camera;
+  ThesisSettings thesis;
+  bool lambertian = false;  ///< scene.lambertian: all materials Lambertian (LoadOptions::lambertian)
+};
+
+template <>
+struct EnumNames<VoxelMethod> {
+  static constexpr std::array names{"raster", "conservative"};
+};
+template <>
+struct EnumNames<NormalEncoding> {
+  static constexpr std::array names{"axis6", "axis26", "oct8", "oct16"};
+};
+template <>
+struct EnumNames<FieldMethod> {
+  static constexpr std::array names{"chebyshev", "jfa"};
+};
+template <>
+struct EnumNames<MatrixFormat> {
+  static constexpr std::array names{"padded", "csr"};
+};
+template <>
+struct EnumNames<Traversal> {
+  static constexpr std::array names{"dda", "sdf"};
+};
+template <>
+struct EnumNames<HitRule> {
+  static constexpr std::array names{"thesis", "robust"};
+};
+template <>
+struct EnumNames<SampleFilter> {
+  static constexpr std::array names{"nearest", "linear", "blur"};
+};
+template <>
+struct EnumNames<SpecularMode> {
+  static constexpr std::array names{"off", "fragment", "compute"};
+};
+template <>
+struct EnumNames<ToneCurve> {
+  static constexpr std::array names{"linear", "neutral"};
+};
+template <>
+struct EnumNames<SolverKernel> {
+  static constexpr std::array names{"auto", "tree", "subgroup", "row"};
+};
+
+/// Tag for a uint32_t of an uploaded struct that holds an enumeration's value: visited as that enumeration.
+template <class E>
+struct EnumRef {
+  uint32_t& value;
+};
+/// The same for a 0/1 word.
+struct BoolRef {
+  uint32_t& value;
+};
+
+/// Calls f(member, Meta) for every setting. `member` is one of: uint32_t&, float&, bool&, enum class&, EnumRef<E>, BoolRef.
+template <class F>
+void visit(Settings& s, F&& f) {
+  using enum Redo;
+  f(s.voxel.resolution, Meta{"voxel.resolution", 8, 1022, "voxels", "Voxels along the scene's longest axis (N).", Voxels});
+  f(s.voxel.method, Meta{"voxel.method", 0, 0, "", "raster: dominant-axis rasterization (T 5.1.2, leaves pin-holes); conservative: separating-axis test, watertight.", Voxels});
+  f(s.voxel.facets, Meta{"voxel.facets", 1, 2, "", "Facets that a voxel may hold; 2 keeps both sides of thin walls.", Voxels});
+  f(s.voxel.normals, Meta{"voxel.normals", 0, 0, "", "Encoding of facet normals.", Voxels});
+  f(s.field.method, Meta{"field.method", 0, 0, "", "Distance field that sdf traversals read.", Field});
+  f(s.field.keepPasses, Meta{"field.keep_passes", 0, 1, "", "Keep every jump-flood pass for viewing.", Field});
+  f(s.matrix.format, Meta{"matrix.format", 0, 0, "", "padded: fixed stride, 8 B per hit (T Fig. 7); csr: exact size, 4 B per distinct column.", Matrix});
+  f(s.matrix.gpu.rays, Meta{"matrix.rays", 1, 4096, "rays", "Rays per facet (N of METHOD section 5).", Matrix});
+  f(EnumRef<HitRule>{s.matrix.gpu.hitRule}, Meta{"matrix.hit_rule", 0, 0, "", "Which faces a ray starts from and stops at.", Matrix});
+  f(EnumRef<Traversal>{s.matrix.gpu.traversal}, Meta{"matrix.traversal", 0, 0, "", "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix});
+  f(BoolRef{s.matrix.gpu.jitter}, Meta{"matrix.jitter", 0, 1, "", "Shift the direction set per voxel (Cranley-Patterson).", Matrix});
+  f(s.matrix.gpu.seed, Meta{"matrix.seed", 0, 4294967295.0, "", "Seed of the ray directions (--seed).", Matrix});
+  f(s.gather.samples, Meta{"gather.samples", 1, 16, "samples", "Shadow lookups per facet and light.", Gather});
+  f(s.solver.gpu.lambda, Meta{"solver.lambda", 0, 2, "", "Artistic gain of T 4.3; 1 leaves the physics alone.", Solve});
+  f(s.solver.gpu.omega, Meta{"solver.omega", 0.05, 1, "", "Under-relaxation: (1 - omega) B + omega (...); keeps the answer.", Solve});
+  f(s.solver.gpu.flush, Meta{"solver.flush", 0, 1e-3, "W/m^2", "Values below become exact zero.", Solve, true});
+  f(s.solver.tolerance, Meta{"solver.tolerance", 1e-7, 1, "", "Error bound, as a share of the largest H, at which the solver sleeps.", Solve, true});
+  f(s.solver.sweepsPerFrame, Meta{"solver.sweeps_per_frame", 1, 1000, "sweeps", "Jacobi sweeps per frame of the window.", Solve});
+  f(s.solver.maxSweeps, Meta{"solver.max_sweeps", 1, 100000, "sweeps", "Sweeps of a headless solve at most.", Solve});
+  f(s.solver.kernel, Meta{"solver.kernel", 0, 0, "", "tree: T 5.8's 64-thread shared-memory tree; subgroup: one subgroup per row; row: one invocation per row.", Solve});
+  f(s.scatter.edgeRemoval, Meta{"scatter.edge_removal", 0, 1, "", "T 5.9.1: subtract direct light from the sampled volume.", Scatter});
+  f(EnumRef<SampleFilter>{s.sample.gpu.filter_}, Meta{"sample.filter", 0, 0, "", "How shading looks up indirect light.", Scatter});
+  f(BoolRef{s.sample.gpu.premultiplied}, Meta{"sample.premultiplied", 0, 1, "", "Divide by the presence in alpha (T eq. 24).", Shade});
+  f(BoolRef{s.sample.gpu.gated}, Meta{"sample.gated", 0, 1, "", "Take only facets that face the same way, so that walls do not leak.", Scatter});
+  f(s.sample.gpu.normalOffset, Meta{"sample.normal_offset", 0, 2, "voxels", "Offset of the lookup along the normal.", Shade});
+  f(s.specular.mode, Meta{"specular.mode", 0, 0, "", "Where specular rays are traced: in the forward fragment shader (T 5.11) or in compute over the G-buffer.", Shade});
+  f(s.specular.gpu.rays, Meta{"specular.rays", 1, 64, "rays", "Specular rays per pixel.", Shade});
+  f(EnumRef<Traversal>{s.specular.gpu.traversal}, Meta{"specular.traversal", 0, 0, "", "Traversal of specular rays.", Shade});
+  f(s.specular.gpu.maxRoughness, Meta{"specular.max_roughness", 0, 1, "", "Rougher surfaces take the diffuse irradiance instead of rays.", Shade});
+  f(s.specular.gpu.fade, Meta{"specular.fade", 0, 1, "", "Width of the blend below max_roughness.", Shade});
+  f(s.specular.gpu.threshold, Meta{"specular.threshold", 0, 1, "W/(m^2 sr)", "No rays where F0 x H / pi is below.", Shade, true});
+  f(BoolRef{s.specular.gpu.filter_}, Meta{"specular.filter", 0, 1, "", "Edge-aware filter over traced reflections.", Shade});
+  f(s.light.shadowResolution, Meta{"light.shadow_resolution", 64, 8192, "texels", "Shadow-map size; point lights use half per cube face.", Gather});
+  f(s.camera.exposureEv, Meta{"camera.exposure", -16, 16, "EV", "Exposure of the displayed picture; EXR files stay linear.", Nothing});
+  f(EnumRef<ToneCurve>{s.camera.gpu.toneCurve}, Meta{"camera.tone_curve", 0, 0, "", "linear, or Khronos PBR Neutral.", Nothing});
+  f(s.camera.gpu.shadowBias, Meta{"camera.shadow_bias", 0, 10, "texels", "Normal offset of shadow lookups.", Gather});
+  f(s.camera.gpu.pcf, Meta{"camera.pcf", 1, 5, "taps", "Percentage-closer filter taps per axis.", Gather});
+  f(BoolRef{s.camera.gpu.specularDirect}, Meta{"camera.specular_direct", 0, 1, "", "Specular lobe of direct lights.", Shade});
+  f(s.thesis.literal, Meta{"thesis.literal", 0, 1, "", "Bring back the thesis's plain slips, to show what they cost.", Voxels});
+  f(s.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
+}
+
+/// "thesis", "fast", "balanced", "reference" applied over `settings`; UsageError lists the names. `cpuDevice` picks the
+/// defaults by device class (METHOD: CPU rasterizer N = 64, 128 rays; GPU N = 256, 384 rays).
+void applyPreset(Settings& settings, std::string_view name);
+Settings defaultSettings(bool cpuDevice);
+std::vector<std::string> presetNames();
+
+/// One "name=value"; UsageError names the near matches of an unknown name, or the range of a bad value.
+void applySetting(Settings& settings, std::string_view assignment);
+/// Value as --set would take it.
+std::string settingValue(const Settings& settings, std::string_view name);
+/// First stage that must run again to go from `a` to `b`.
+Redo difference(const Settings& a, const Settings& b);
+
+std::string settingsToJson(const Settings& settings, int indent = 2);  ///< {"voxel.resolution": 64, ...}
+void settingsFromJson(Settings& settings, std::string_view json);     ///< UsageError on unknown names or bad values
+
+}  // namespace irad

@@ -1,0 +1,117 @@
+// The stages of the method: each a function that takes handles and returns handles, one file per stage, called in order
+// by pipeline.cpp. Stage names and equations: METHOD.md.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gi/settings.h"
+#include "renderer/frame.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/shadow.h"
+#include "shaders/shared/facets.h"
+#include "shaders/shared/grid.h"
+#include "shaders/shared/matrix.h"
+
+namespace irad {
+
+// ---- 2. Grid (T 5.1.1) ----------------------------------------------------------------------------------------------
+/// Bounds are local fp32; the arithmetic is double. Throws UsageError when an axis would exceed 1022 + 2 voxels.
+Grid makeGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
+
+// ---- Prefix sum -----------------------------------------------------------------------------------------------------
+/// Exclusive scan of `count` uints in place; the total is written to `total` (one uint at element 0). Deterministic.
+void exclusiveScan(Frame& frame, const char* stage, const Buffer& values, uint32_t count, const Buffer& total);
+
+// ---- 2. Voxelization ------------------------------------------------------------------------------------------------
+/// Per voxel and facet slot: which triangle won (ordered atomic key), and its attributes.
+struct Voxels {
+  Grid grid;
+  Buffer gridRecord;  ///< one Grid
+  uint32_t slots = 1;  ///< voxel.facets
+  Buffer keys;        ///< slots x voxels uints: 8-bit coverage | 24-bit (triangle id + 1) complement order; 0 = empty
+  // Attributes of the winners, slots x voxels; read by compactFacets, then released.
+  Buffer shape, albedo, emission;
+};
+Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings);
+
+// ---- 4. Facet list (T 5.3) ------------------------------------------------------------------------------------------
+struct FacetList {
+  Grid grid;
+  uint32_t count = 0;         ///< facets
+  uint32_t solidVoxels = 0;
+  Buffer voxel, shape, albedo, emission, reverse;
+  Buffer record;              ///< one FacetArrays
+  bool hasEmission = false;
+  NormalEncoding encoding = NormalEncoding::oct16;
+  FacetArrays addresses() const;
+};
+/// Morton-ordered compaction by prefix sum. Frees the attribute volumes of `voxels`.
+FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
+/// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.
+FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,
+                       const std::vector<uint32_t>& shape, const std::vector<glm::uvec2>& albedo,
+                       const std::vector<glm::vec3>& emission, NormalEncoding encoding);
+
+// ---- 3. Distance fields (T 5.2) -------------------------------------------------------------------------------------
+struct Field {
+  FieldMethod method = FieldMethod::chebyshev;
+  Buffer chebyshev;  ///< one byte per voxel, 4 per uint, x fastest: exact Chebyshev distance to the nearest solid, 0..255
+  Image jfaDistance; ///< R8_UNORM volume: Euclidean distance / maxDistance
+  float jfaMax = 0;  ///< voxels that 1.0 stands for
+  Image jfaSeeds;    ///< R32_UINT packVoxel of the nearest seed, the last pass
+  std::vector<Image> jfaPasses;  ///< every pass, on request (field.keep_passes)
+};
+/// Builds what `settings` and the solid set (facets.reverse) call for.
+Field buildField(Context& context, const FacetList& facets, const Settings& settings);
+
+// ---- 5. Form-factor matrix ------------------------------------------------------------------------------------------
+struct MatrixStats {
+  uint64_t rays = 0, hits = 0, entries = 0, escaped = 0, invalid = 0;
+  uint64_t bytesUsed = 0, bytesAllocated = 0;  ///< used: of filled entries (padded: 8 B per hit)
+  uint32_t largestRow = 0;
+};
+struct FormFactors {
+  MatrixFormat format = MatrixFormat::csr;
+  uint32_t rows = 0, rays = 0;
+  std::vector<Buffer> segments;  ///< entries of rowsPerSegment rows each (csr), or of fixed stride (padded)
+  Buffer rowStart;               ///< rows: first entry within its segment
+  Buffer rowInfo;                ///< rows: entries | ... see shared/matrix.h
+  Buffer record;                 ///< one MatrixArrays
+  MatrixStats stats;
+};
+/// `progress` (0..1) may be empty; it returns false to cancel, upon which a WorkError "cancelled" is thrown.
+FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
+                        const std::function<bool(float)>& progress = {});
+
+// ---- 6. Relight (T 5.7-5.9) -----------------------------------------------------------------------------------------
+struct SolveReport {
+  uint32_t sweeps = 0;
+  float residual = 0;   ///< max |dB| of the last sweep, W/m^2
+  float bound = 0;      ///< rho/(1-rho) max|dB|: error bound on B, W/m^2
+  float largestH = 0;
+  float largestGain = 0;  ///< rho-bar: largest row gain
+  uint32_t nonFinite = 0, negative = 0;
+  bool converged = false;
+};
+/// Per-facet light, fp32 vec4 (xyz, w unused): W/m^2.
+struct Lighting {
+  Buffer direct;    ///< D
+  Buffer emitted;   ///< F M: first gather from emissive facets alone (the part of H that is direct light of emitters)
+  Buffer indirect;  ///< H
+  Buffer radiosity, radiosityNext;  ///< B, double buffer
+  Buffer shaded;    ///< H as shading samples it (blurred over neighbours that face the same way, or edge-removed)
+  Buffer shadedEmitted;  ///< `emitted` likewise
+  Image volume;     ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
+  Buffer residual;  ///< solver's reductions, see shared/solve.h
+  SolveReport report;
+};
+Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
+void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets, Lighting& light,
+            const Settings& settings);
+/// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity. Blocking.
+SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
+                  const Settings& settings, uint32_t maxSweeps);
+void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
+
+}  // namespace irad

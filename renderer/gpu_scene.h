@@ -1,0 +1,29 @@
+// A scene on the device: vertex arrays, materials, textures with mips, one descriptor set per material.
+#pragma once
+
+#include <vector>
+
+#include "renderer/frame.h"
+#include "renderer/scene/scene.h"
+#include "shaders/shared/scene_gpu.h"
+
+namespace irad {
+
+class SceneOnDevice {
+ public:
+  SceneOnDevice(Context& context, const Scene& scene);
+
+  const Scene& scene;  ///< must outlive this
+  Buffer positions, normals, tangents, uv0, uv1, colors, indices, triangleMaterials, materials, lights;
+  Buffer record;                        ///< one GpuScene
+  std::vector<Image> textures;
+  std::vector<VkDescriptorSet> materialSets;  ///< per material, set 1
+  std::vector<GpuLight> lightValues;          ///< as uploaded; ShadowMaps fills in layers and matrices
+  bool anyEmission = false;                   ///< a factor and a texel of its texture (a texture's maximum counts) are > 0
+  bool anyAlphaMask = false;
+
+  /// Re-uploads lightValues into `lights`.
+  void uploadLights(Context& context);
+};
+
+}  // namespace irad

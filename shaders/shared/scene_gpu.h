@@ -1,0 +1,87 @@
+// The scene as shaders see it: vertex arrays by address, materials, lights, camera. Positions are local (relative to
+// Scene::origin), fp32.
+#ifndef IRAD_SHARED_SCENE_GPU_H
+#define IRAD_SHARED_SCENE_GPU_H
+#include "shared/types.h"
+IRAD_BEGIN
+
+/// Flags of GpuMaterial.
+IRAD_CONST uint MATERIAL_ALPHA_MASK = 1u;
+IRAD_CONST uint MATERIAL_DOUBLE_SIDED = 2u;
+IRAD_CONST uint MATERIAL_BASE_COLOR_TEXTURE = 4u;
+IRAD_CONST uint MATERIAL_METALLIC_ROUGHNESS_TEXTURE = 8u;
+IRAD_CONST uint MATERIAL_NORMAL_TEXTURE = 16u;
+IRAD_CONST uint MATERIAL_OCCLUSION_TEXTURE = 32u;
+IRAD_CONST uint MATERIAL_EMISSIVE_TEXTURE = 64u;
+IRAD_CONST uint MATERIAL_LAMBERTIAN = 128u;  ///< no specular lobe at all (LoadOptions::lambertian)
+
+/// Order of the five textures in set 1.
+IRAD_CONST uint TEXTURE_BASE_COLOR = 0u;
+IRAD_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
+IRAD_CONST uint TEXTURE_NORMAL = 2u;
+IRAD_CONST uint TEXTURE_OCCLUSION = 3u;
+IRAD_CONST uint TEXTURE_EMISSIVE = 4u;
+
+struct GpuMaterial {
+  vec4 baseColor;  ///< linear
+  vec3 emission;   ///< radiance, W/(m^2 sr)
+  float metallic;
+  float roughness;
+  float normalScale;
+  float occlusionStrength;
+  float alphaCutoff;
+  uint flags;
+  uint uvSets;          ///< bit i: texture i uses TEXCOORD_1
+  vec3 uvRow[10];       ///< two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
+};
+
+/// Light types as in renderer/scene/scene.h.
+IRAD_CONST uint LIGHT_SUN = 0u;
+IRAD_CONST uint LIGHT_POINT = 1u;
+IRAD_CONST uint LIGHT_SPOT = 2u;
+
+struct GpuLight {
+  vec3 position;   ///< local
+  uint type;
+  vec3 direction;  ///< unit, the way the light shines
+  float range;     ///< 0: unlimited
+  vec3 intensity;  ///< colour x intensity: lux (sun) or candela
+  int shadowLayer; ///< layer in the 2D array (sun, spot) or cube index (point); -1: casts no shadow
+  float innerCos, outerCos;
+  float shadowNear, shadowFar;  ///< point and spot: planes of the shadow projection
+  float shadowTexel;  ///< world size of one shadow texel (sun), or its tangent at unit distance (spot, point)
+  mat4 shadowMatrix;  ///< local position -> clip space of the layer (sun, spot)
+};
+
+struct GpuCamera {
+  mat4 viewProjection;  ///< local position -> clip, Vulkan depth 0..1
+  mat4 inverseViewProjection;
+  vec3 position;  ///< local
+  float znear, zfar;
+  uint orthographic;
+  uvec2 size;  ///< pixels
+};
+
+IRAD_ARRAY(MaterialArray, GpuMaterial, 16)
+IRAD_ARRAY(LightArray, GpuLight, 16)
+IRAD_ARRAY(CameraArray, GpuCamera, 16)
+
+/// One per scene: every pass that reads geometry gets its address.
+struct GpuScene {
+  Vec3Array positions;
+  Vec3Array normals;
+  Vec4Array tangents;
+  Vec2Array uv0;
+  Vec2Array uv1;
+  Vec4Array colors;
+  UintArray indices;           ///< 3 per triangle
+  UintArray triangleMaterials; ///< material of each triangle
+  MaterialArray materials;
+  LightArray lights;
+  uint lightCount;
+  uint triangleCount;
+};
+IRAD_ARRAY(SceneArray, GpuScene, 16)
+
+IRAD_END
+#endif
