@@ -37,6 +37,7 @@ struct Meta {
   const char* help;  ///< one sentence
   Redo redo;
   bool logarithmic = false;
+  double step = 0;  ///< > 0: only min + k step is allowed
 };
 
 struct VoxelSettings {
@@ -136,6 +137,10 @@ struct EnumNames<ToneCurve> {
   static constexpr std::array names{"linear", "neutral"};
 };
 template <>
+struct EnumNames<Redo> {
+  static constexpr std::array names{"voxels", "field", "matrix", "gather", "solve", "scatter", "shade", "nothing"};
+};
+template <>
 struct EnumNames<SolverKernel> {
   static constexpr std::array names{"auto", "tree", "subgroup", "row"};
 };
@@ -190,15 +195,16 @@ void visit(Settings& s, F&& f) {
   f(s.camera.exposureEv, Meta{"camera.exposure", -16, 16, "EV", "Exposure of the displayed picture; EXR files stay linear.", Nothing});
   f(EnumRef<ToneCurve>{s.camera.gpu.toneCurve}, Meta{"camera.tone_curve", 0, 0, "", "linear, or Khronos PBR Neutral.", Nothing});
   f(s.camera.gpu.shadowBias, Meta{"camera.shadow_bias", 0, 10, "texels", "Normal offset of shadow lookups.", Gather});
-  f(s.camera.gpu.pcf, Meta{"camera.pcf", 1, 5, "taps", "Percentage-closer filter taps per axis.", Gather});
+  f(s.camera.gpu.pcf, Meta{"camera.pcf", 1, 5, "taps", "Percentage-closer filter taps per axis.", Gather, false, 2});
   f(BoolRef{s.camera.gpu.specularDirect}, Meta{"camera.specular_direct", 0, 1, "", "Specular lobe of direct lights.", Shade});
   f(s.thesis.literal, Meta{"thesis.literal", 0, 1, "", "Bring back the thesis's plain slips, to show what they cost.", Voxels});
   f(s.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
 }
 
-/// "thesis", "fast", "balanced", "reference" applied over `settings`; UsageError lists the names. `cpuDevice` picks the
-/// defaults by device class (METHOD: CPU rasterizer N = 64, 128 rays; GPU N = 256, 384 rays).
-void applyPreset(Settings& settings, std::string_view name);
+/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve and scene.lambertian,
+/// which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
+/// rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
+void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);
 std::vector<std::string> presetNames();
 
@@ -208,6 +214,16 @@ void applySetting(Settings& settings, std::string_view assignment);
 std::string settingValue(const Settings& settings, std::string_view name);
 /// First stage that must run again to go from `a` to `b`.
 Redo difference(const Settings& a, const Settings& b);
+
+/// One setting as tables show it.
+struct SettingInfo {
+  Meta meta;
+  std::string kind;  ///< "integer", "number", "switch" or "choice"
+  std::vector<std::string> choices;  ///< of a choice, in order
+  std::string value;
+  std::string range() const;  ///< "1 to 4096 rays", "padded | csr", "true | false"
+};
+std::vector<SettingInfo> settingInfos(const Settings& settings);
 
 std::string settingsToJson(const Settings& settings, int indent = 2);  ///< {"voxel.resolution": 64, ...}
 void settingsFromJson(Settings& settings, std::string_view json);     ///< UsageError on unknown names or bad values

@@ -1,0 +1,84 @@
+// The presets and the defaults by device class (METHOD, first paragraphs).
+#include <fmt/format.h>
+
+#include "gi/near_match.h"
+#include "gi/settings.h"
+#include "renderer/error.h"
+
+namespace irad {
+namespace {
+
+/// T Table 5 and the algorithms behind it: 256 voxels, 384 rays, "3axis" normals, DDA, padded rows, blurred and
+/// premultiplied lookups, two specular rays in the fragment shader, edge removal off, lambda = 0.8 (T 7.7).
+void thesis(Settings& s) {
+  s.voxel = {256, VoxelMethod::raster, 1, NormalEncoding::axis26};
+  s.field.method = FieldMethod::jfa;
+  s.matrix.format = MatrixFormat::padded;
+  s.matrix.gpu.rays = 384;
+  s.matrix.gpu.hitRule = HIT_RULE_THESIS;
+  s.matrix.gpu.traversal = TRAVERSAL_DDA;
+  s.matrix.gpu.jitter = 1;  // "a jittered Hammersley sequence" (T 5.4)
+  s.gather.samples = 1;
+  s.solver.gpu.lambda = 0.8f;
+  s.solver.kernel = SolverKernel::tree;
+  s.scatter.edgeRemoval = false;
+  s.sample.gpu.filter_ = FILTER_BLUR;
+  s.sample.gpu.premultiplied = 1;
+  s.sample.gpu.gated = 0;
+  s.specular.mode = SpecularMode::fragment;
+  s.specular.gpu.rays = 2;
+  s.specular.gpu.traversal = TRAVERSAL_DDA;
+  s.specular.gpu.filter_ = 0;
+}
+
+void fast(Settings& s, bool cpuDevice) {
+  s.voxel.resolution = cpuDevice ? 48 : 128;
+  s.matrix.gpu.rays = cpuDevice ? 64 : 128;
+  s.gather.samples = 1;
+  s.solver.tolerance = 1e-2f;
+  s.specular.gpu.rays = 1;
+  s.light.shadowResolution = 1024;
+}
+
+void reference(Settings& s, bool cpuDevice) {
+  s.voxel.resolution = cpuDevice ? 128 : 320;
+  s.matrix.gpu.rays = cpuDevice ? 512 : 1024;
+  s.gather.samples = 16;
+  s.solver.tolerance = 1e-5f;
+  s.specular.gpu.rays = 32;
+  s.specular.gpu.filter_ = 0;
+  s.light.shadowResolution = 4096;
+  s.camera.gpu.pcf = 5;
+}
+
+}  // namespace
+
+std::vector<std::string> presetNames() {
+  return {"thesis", "fast", "balanced", "reference"};
+}
+
+Settings defaultSettings(bool cpuDevice) {
+  Settings settings;
+  settings.voxel.resolution = cpuDevice ? 64 : 256;
+  settings.matrix.gpu.rays = cpuDevice ? 128 : 384;
+  return settings;
+}
+
+void applyPreset(Settings& settings, std::string_view name, bool cpuDevice) {
+  Settings preset = defaultSettings(cpuDevice);  // "balanced" is the default itself
+  if (name == "thesis")
+    thesis(preset);
+  else if (name == "fast")
+    fast(preset, cpuDevice);
+  else if (name == "reference")
+    reference(preset, cpuDevice);
+  else if (name != "balanced")
+    throw UsageError(fmt::format("unknown preset '{}'{}", name, suggestion(name, presetNames())));
+  preset.matrix.gpu.seed = settings.matrix.gpu.seed;
+  preset.camera.exposureEv = settings.camera.exposureEv;
+  preset.camera.gpu.toneCurve = settings.camera.gpu.toneCurve;
+  preset.lambertian = settings.lambertian;
+  settings = preset;
+}
+
+}  // namespace irad
