@@ -43,6 +43,7 @@ struct Material {
   float normalScale = 1.0f, occlusionStrength = 1.0f, alphaCutoff = 0.5f;
   AlphaMode alpha = AlphaMode::Opaque;
   bool doubleSided = false;
+  bool lambertian = false;  ///< no specular lobe (LoadOptions::lambertian)
   TextureUse baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
 };
 

@@ -40,13 +40,18 @@ IRAD_CONST uint LIGHT_SUN = 0u;
 IRAD_CONST uint LIGHT_POINT = 1u;
 IRAD_CONST uint LIGHT_SPOT = 2u;
 
+/// Whether a light's shadow is drawn in six cube faces: points, and spots too wide for one perspective map.
+IRAD_FN bool lightUsesCube(uint type, float outerCos) {
+  return type == LIGHT_POINT || (type == LIGHT_SPOT && outerCos < 0.342f);  // half-angle over 70 degrees
+}
+
 struct GpuLight {
   vec3 position;   ///< local
   uint type;
   vec3 direction;  ///< unit, the way the light shines
   float range;     ///< 0: unlimited
   vec3 intensity;  ///< colour x intensity: lux (sun) or candela
-  int shadowLayer; ///< layer in the 2D array (sun, spot) or cube index (point); -1: casts no shadow
+  int shadowLayer; ///< layer in the 2D array, or cube index where lightUsesCube; -1: casts no shadow
   float innerCos, outerCos;
   float shadowNear, shadowFar;  ///< point and spot: planes of the shadow projection
   float shadowTexel;  ///< world size of one shadow texel (sun), or its tangent at unit distance (spot, point)

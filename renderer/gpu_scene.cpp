@@ -1,0 +1,173 @@
+#include "renderer/gpu_scene.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "renderer/error.h"
+
+namespace irad {
+namespace {
+
+constexpr size_t kTextures = 5;  // per material, in the order of TEXTURE_*
+
+std::array<const TextureUse*, kTextures> texturesOf(const Material& m) {
+  return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture};
+}
+
+uint32_t mipCount(uint32_t width, uint32_t height) {
+  return static_cast<uint32_t>(std::bit_width(std::max(width, height)));
+}
+
+Image uploadTexture(Context& context, const SceneImage& source) {
+  IRAD_CHECK_OP(source.rgba.size(), ==, 4ull * source.width * source.height);
+  ImageDesc desc;
+  desc.name = source.name.empty() ? "texture" : source.name;
+  desc.subsystem = Subsystem::Scene;
+  desc.format = source.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+  desc.width = source.width;
+  desc.height = source.height;
+  desc.mips = mipCount(source.width, source.height);
+  desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  Image image(context.device, desc);
+  upload(context, image, std::as_bytes(std::span(source.rgba)));
+  if (desc.mips > 1) generateMips(context, image);
+  return image;
+}
+
+Image constantTexture(Context& context, const char* name, std::array<uint8_t, 4> texel) {
+  return uploadTexture(context, SceneImage{name, 1, 1, false, {texel.begin(), texel.end()}});
+}
+
+GpuMaterial toGpu(const Material& m) {
+  GpuMaterial gpu{};
+  gpu.baseColor = m.baseColor;
+  gpu.emission = m.emission;
+  gpu.metallic = m.metallic;
+  gpu.roughness = m.roughness;
+  gpu.normalScale = m.normalScale;
+  gpu.occlusionStrength = m.occlusionStrength;
+  gpu.alphaCutoff = m.alphaCutoff;
+  if (m.alpha == AlphaMode::Mask) gpu.flags |= MATERIAL_ALPHA_MASK;
+  // Blending is not ordered here: a textured blend material is cut out at one half, an untextured one is opaque.
+  if (m.alpha == AlphaMode::Blend && m.baseColorTexture.image >= 0) {
+    gpu.flags |= MATERIAL_ALPHA_MASK;
+    gpu.alphaCutoff = 0.5f;
+  }
+  if (m.doubleSided) gpu.flags |= MATERIAL_DOUBLE_SIDED;
+  if (m.lambertian) gpu.flags |= MATERIAL_LAMBERTIAN;
+  const auto uses = texturesOf(m);
+  for (uint32_t i = 0; i < kTextures; ++i) {
+    const TextureUse& use = *uses[i];
+    if (use.image >= 0) gpu.flags |= MATERIAL_BASE_COLOR_TEXTURE << i;
+    if (use.uvSet == 1) gpu.uvSets |= 1u << i;
+    const glm::mat3x2& t = use.transform;
+    gpu.uvRow[2 * i] = {t[0][0], t[1][0], t[2][0]};
+    gpu.uvRow[2 * i + 1] = {t[0][1], t[1][1], t[2][1]};
+  }
+  return gpu;
+}
+
+GpuLight toGpu(const Light& light, const glm::dvec3& origin) {
+  GpuLight gpu{};
+  gpu.position = glm::vec3(light.position - origin);
+  gpu.type = static_cast<uint32_t>(light.type);
+  gpu.direction = light.direction;
+  gpu.range = light.range;
+  gpu.intensity = light.color * light.intensity;
+  gpu.shadowLayer = -1;
+  gpu.innerCos = light.innerCos;
+  gpu.outerCos = light.outerCos;
+  gpu.shadowMatrix = glm::mat4(1.0f);
+  return gpu;
+}
+
+/// Largest texel per channel: what an emissive factor can be multiplied by at most.
+glm::vec3 largestTexel(const SceneImage& image) {
+  glm::uvec3 largest(0);
+  for (size_t i = 0; i + 3 < image.rgba.size(); i += 4)
+    for (int c = 0; c < 3; ++c) largest[c] = std::max<uint32_t>(largest[c], image.rgba[i + c]);
+  return glm::vec3(largest) / 255.0f;
+}
+
+bool emits(const Scene& scene, const Material& m) {
+  glm::vec3 most = m.emission;
+  if (m.emissiveTexture.image >= 0 && std::max({most.x, most.y, most.z}) > 0.0f)
+    most *= largestTexel(scene.images.at(m.emissiveTexture.image));
+  return std::max({most.x, most.y, most.z}) > 0.0f;
+}
+
+template <class T>
+Buffer uploadArray(Context& context, const char* name, const std::vector<T>& values) {
+  return makeBuffer(context, name, Subsystem::Scene, std::span<const T>(values));
+}
+
+}  // namespace
+
+SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(source) {
+  static_assert(MATERIAL_EMISSIVE_TEXTURE == MATERIAL_BASE_COLOR_TEXTURE << TEXTURE_EMISSIVE);
+
+  // Vertices and triangles.
+  positions = uploadArray(context, "positions", scene.positions);
+  normals = uploadArray(context, "normals", scene.normals);
+  tangents = uploadArray(context, "tangents", scene.tangents);
+  uv0 = uploadArray(context, "uv0", scene.uv0);
+  uv1 = uploadArray(context, "uv1", scene.uv1);
+  colors = uploadArray(context, "colors", scene.colors);
+  indices = uploadArray(context, "indices", scene.indices);
+  std::vector<uint32_t> owners(scene.triangleCount(), 0);
+  for (const Draw& draw : scene.draws)
+    std::fill_n(owners.begin() + draw.firstIndex / 3, draw.indexCount / 3, draw.material);
+  triangleMaterials = uploadArray(context, "triangle materials", owners);
+
+  // Materials and their textures; a material without one gets a constant (white, or the flat normal).
+  for (const Material& m : scene.materials) materialValues.push_back(toGpu(m));
+  materials = uploadArray(context, "materials", materialValues);
+  textures.reserve(scene.images.size() + 2);
+  for (const SceneImage& image : scene.images) textures.push_back(uploadTexture(context, image));
+  const size_t white = textures.size();
+  textures.push_back(constantTexture(context, "white", {255, 255, 255, 255}));
+  const size_t flat = textures.size();
+  textures.push_back(constantTexture(context, "flat normal", {128, 128, 255, 255}));
+  for (const Material& m : scene.materials) {
+    std::array<VkImageView, kTextures> views{};
+    std::array<VkSampler, kTextures> samplers{};
+    const auto uses = texturesOf(m);
+    for (uint32_t i = 0; i < kTextures; ++i) {
+      const size_t image = uses[i]->image >= 0   ? static_cast<size_t>(uses[i]->image)
+                           : i == TEXTURE_NORMAL ? flat
+                                                 : white;
+      views[i] = textures.at(image).view;
+      samplers[i] = sampler(context.device, uses[i]->sampler);
+    }
+    materialSets.push_back(context.materialSet(views, samplers));
+  }
+  for (const Draw& draw : scene.draws) {
+    anyEmission = anyEmission || emits(scene, scene.materials.at(draw.material));
+    anyAlphaMask = anyAlphaMask || (materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
+  }
+
+  // Lights, and the record that every geometry pass gets the address of.
+  for (const Light& light : scene.lights) lightValues.push_back(toGpu(light, scene.origin));
+  lights = Buffer(context.device, "lights", Subsystem::Scene, sizeof(GpuLight) * lightValues.size());
+  uploadLights(context);
+  GpuScene gpu{};
+  gpu.positions = positions.address;
+  gpu.normals = normals.address;
+  gpu.tangents = tangents.address;
+  gpu.uv0 = uv0.address;
+  gpu.uv1 = uv1.address;
+  gpu.colors = colors.address;
+  gpu.indices = indices.address;
+  gpu.triangleMaterials = triangleMaterials.address;
+  gpu.materials = materials.address;
+  gpu.lights = lights.address;
+  gpu.lightCount = static_cast<uint32_t>(lightValues.size());
+  gpu.triangleCount = scene.triangleCount();
+  record = makeBuffer(context, "scene record", Subsystem::Scene, std::span<const GpuScene>(&gpu, 1));
+}
+
+void SceneOnDevice::uploadLights(Context& context) {
+  if (!lightValues.empty()) upload(context, lights, std::as_bytes(std::span(lightValues)));
+}
+
+}  // namespace irad

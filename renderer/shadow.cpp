@@ -1,0 +1,232 @@
+#include "renderer/shadow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/error.h"
+
+namespace irad {
+namespace {
+
+/// Depth maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
+constexpr uint64_t kMostTexels = uint64_t{1} << 28;  // 1 GiB of D32
+
+struct DepthPush {
+  uint64_t scene;
+  uint64_t projection;
+  uint32_t material;
+};
+
+/// One picture of the scene from a light: where it goes and how it projects.
+struct Face {
+  bool cube;
+  int layer;
+  glm::mat4 matrix;
+};
+
+using Basis = std::array<glm::dvec3, 3>;  // right, up, forward
+
+Basis basisAbout(const glm::dvec3& forward) {
+  const glm::dvec3 f = glm::normalize(forward);
+  const glm::dvec3 a = glm::abs(f);
+  const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                          : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                   : glm::dvec3(0, 0, 1);
+  const glm::dvec3 right = glm::normalize(glm::cross(f, axis));
+  return {right, glm::cross(right, f), f};
+}
+
+/// The six faces of a cube map in Vulkan's layer order; t runs down, and targets are drawn with y up.
+constexpr std::array<std::array<glm::vec3, 3>, 6> kCubeFaces{{{{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}},
+                                                              {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}},
+                                                              {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}},
+                                                              {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}},
+                                                              {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                                              {{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}}};
+
+/// Rows are clip x, y, z, w.
+glm::mat4 fromRows(const std::array<glm::dvec4, 4>& rows) {
+  glm::mat4 m;
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r) m[c][r] = static_cast<float>(rows[r][c]);
+  return m;
+}
+
+glm::mat4 perspective(const Basis& basis, const glm::dvec3& eye, double tangent, double nearPlane, double farPlane) {
+  const auto row = [&](const glm::dvec3& axis, double scale) {
+    return glm::dvec4(axis * scale, -glm::dot(axis, eye) * scale);
+  };
+  const double depthScale = farPlane / (farPlane - nearPlane);
+  glm::dvec4 depth = row(basis[2], depthScale);
+  depth.w -= nearPlane * depthScale;
+  return fromRows({row(basis[0], 1.0 / tangent), row(basis[1], 1.0 / tangent), depth, row(basis[2], 1.0)});
+}
+
+/// Near and far planes of a light at `eye`: from the scene's bounds (and the light's range), so that they scale with
+/// it.
+void fitPlanes(const Scene& scene, GpuLight& light) {
+  double farthest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 c((corner & 1) != 0 ? scene.boundsMax.x : scene.boundsMin.x,
+                      (corner & 2) != 0 ? scene.boundsMax.y : scene.boundsMin.y,
+                      (corner & 4) != 0 ? scene.boundsMax.z : scene.boundsMin.z);
+    farthest = std::max(farthest, glm::distance(glm::dvec3(c), glm::dvec3(light.position)));
+  }
+  if (!(farthest > 0.0)) farthest = 1.0;
+  if (light.range > 0.0f) farthest = std::min(farthest, static_cast<double>(light.range));
+  const glm::dvec3 inside = glm::clamp(light.position, scene.boundsMin, scene.boundsMax);
+  const double outside = glm::distance(inside, glm::dvec3(light.position));
+  light.shadowFar = static_cast<float>(farthest * (1.0 + 1.0 / 1024.0));
+  light.shadowNear = std::min(static_cast<float>(std::max(farthest / 2048.0, outside * 0.5)), 0.5f * light.shadowFar);
+}
+
+/// A sun's map encloses the vertices, tightly, in the light's own axes; a rim of 4 texels is left for the filter.
+void fitSun(const Scene& scene, GpuLight& light, uint32_t resolution) {
+  const Basis basis = basisAbout(light.direction);
+  glm::dvec3 lo(std::numeric_limits<double>::max()), hi(std::numeric_limits<double>::lowest());
+  for (const glm::vec3& p : scene.positions) {
+    const glm::dvec3 q(glm::dot(basis[0], glm::dvec3(p)), glm::dot(basis[1], glm::dvec3(p)),
+                       glm::dot(basis[2], glm::dvec3(p)));
+    lo = glm::min(lo, q);
+    hi = glm::max(hi, q);
+  }
+  if (scene.positions.empty()) lo = hi = glm::dvec3(0.0);
+  const glm::dvec3 centre = 0.5 * (lo + hi);
+  glm::dvec3 half = 0.5 * (hi - lo);
+  double largest = std::max({half.x, half.y, half.z});
+  if (!(largest > 0.0)) largest = 1.0;
+  const double rim = static_cast<double>(resolution) / (resolution - 8.0);
+  const double side = std::max({half.x, half.y, largest / 1024.0}) * rim;
+  const double depth = std::max(half.z, largest / 1024.0) * (1.0 + 1.0 / 256.0);
+  light.shadowTexel = static_cast<float>(2.0 * side / resolution);
+  light.shadowNear = 0.0f;
+  light.shadowFar = static_cast<float>(2.0 * depth);
+  light.shadowMatrix =
+      fromRows({glm::dvec4(basis[0] / side, -centre.x / side), glm::dvec4(basis[1] / side, -centre.y / side),
+                glm::dvec4(basis[2] / (2.0 * depth), 0.5 - centre.z / (2.0 * depth)), glm::dvec4(0, 0, 0, 1)});
+}
+
+/// A spot's map covers its outer cone and the filter's rim.
+void fitSpot(const Scene& scene, GpuLight& light, uint32_t resolution) {
+  fitPlanes(scene, light);
+  const double cosine = std::clamp(static_cast<double>(light.outerCos), 0.05, 0.99999);
+  const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine * resolution / (resolution - 8.0);
+  light.shadowTexel = static_cast<float>(2.0 * tangent / resolution);
+  light.shadowMatrix =
+      perspective(basisAbout(light.direction), light.position, tangent, light.shadowNear, light.shadowFar);
+}
+
+Image depthArray(const Device& device, const char* name, uint32_t size, uint32_t layers, bool cube) {
+  ImageDesc desc;
+  desc.name = name;
+  desc.subsystem = Subsystem::Shadow;
+  desc.format = VK_FORMAT_D32_SFLOAT;
+  desc.width = desc.height = size;
+  desc.layers = layers;
+  desc.cube = cube;
+  desc.array = !cube;
+  desc.usage =
+      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return Image(device, desc);
+}
+
+}  // namespace
+
+ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution) {
+  // Give each light its layers. A light of no intensity needs none.
+  uint32_t flats = 0, cubes = 0;
+  for (GpuLight& light : scene.lightValues) {
+    light.shadowLayer = -1;
+    if (std::max({light.intensity.x, light.intensity.y, light.intensity.z}) <= 0.0f) continue;
+    light.shadowLayer = static_cast<int>(lightUsesCube(light.type, light.outerCos) ? cubes++ : flats++);
+  }
+
+  // Choose the largest size that the device and a bounded share of memory allow.
+  uint32_t size = std::clamp(resolution, 16u, context.device.limits.maxImageDimension2D);
+  while (size > 64 && uint64_t{size} * size * flats + uint64_t{size / 2} * (size / 2) * 6 * cubes > kMostTexels)
+    size /= 2;
+  const uint32_t cubeSize = size / 2;
+
+  ShadowMaps maps;
+  maps.flat = depthArray(context.device, "shadow maps", flats > 0 ? size : 1, std::max(flats, 1u), /*cube*/ false);
+  maps.cubes =
+      depthArray(context.device, "shadow cubes", cubes > 0 ? cubeSize : 1, 6 * std::max(cubes, 1u), /*cube*/ true);
+  SamplerDesc compare{Wrap::Clamp, Wrap::Clamp};
+  compare.mips = compare.linearMips = false;
+  compare.compare = true;
+  maps.sampler = sampler(context.device, compare);
+
+  // Fit each light's projections to the scene.
+  std::vector<Face> faces;
+  for (GpuLight& light : scene.lightValues) {
+    if (light.shadowLayer < 0) continue;
+    if (light.type == LIGHT_SUN) {
+      fitSun(scene.scene, light, size);
+    } else if (!lightUsesCube(light.type, light.outerCos)) {
+      fitSpot(scene.scene, light, size);
+    } else {
+      fitPlanes(scene.scene, light);
+      light.shadowTexel = 2.0f / static_cast<float>(cubeSize);
+      for (int f = 0; f < 6; ++f) {
+        const Basis basis{kCubeFaces[f][0], kCubeFaces[f][1], kCubeFaces[f][2]};
+        faces.push_back({true, light.shadowLayer * 6 + f,
+                         perspective(basis, light.position, /*tangent*/ 1.0, light.shadowNear, light.shadowFar)});
+      }
+      continue;
+    }
+    faces.push_back({false, light.shadowLayer, light.shadowMatrix});
+  }
+  scene.uploadLights(context);
+
+  // Draw. Every triangle casts, whichever side it shows; masked materials look at their textures.
+  std::vector<glm::mat4> matrices;
+  for (const Face& face : faces) matrices.push_back(face.matrix);
+  const Buffer projections =
+      makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
+  const auto masked = [&](const Draw& draw) {
+    return (scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
+  };
+  Frame frame = context.begin();
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const Face& face = faces[i];
+    const Image& target = face.cube ? maps.cubes : maps.flat;
+    DepthPush push{scene.record.address, projections.address + i * sizeof(glm::mat4), 0};
+    const auto drawAll = [&](bool cutOut) {
+      return [&, cutOut](Commands& commands) {
+        for (const Draw& draw : scene.scene.draws) {
+          if (masked(draw) != cutOut) continue;
+          push.material = draw.material;
+          if (cutOut) commands.bindMaterial(scene.materialSets.at(draw.material));
+          commands.push(push);
+          commands.draw(draw.indexCount, draw.firstIndex);
+        }
+      };
+    };
+    frame.pass("RE Shadow")
+        .shaders({"forward/depth.vert", "forward/depth.frag"})
+        .read(scene.record, scene.positions, scene.indices, projections)
+        .depth(target, /*write*/ true, 1.0f, face.layer)
+        .run(drawAll(false));
+    if (!scene.anyAlphaMask) continue;
+    frame.pass("RE Shadow")
+        .shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
+        .read(scene.record, scene.positions, scene.indices, scene.uv0, scene.uv1, scene.colors, scene.materials,
+              projections)
+        .depth(target, /*write*/ true, {}, face.layer)
+        .run(drawAll(true));
+  }
+  // Placeholders are cleared, so that a lookup would find no blocker.
+  for (const Image* unused : {flats == 0 ? &maps.flat : nullptr, cubes == 0 ? &maps.cubes : nullptr}) {
+    if (unused == nullptr) continue;
+    for (uint32_t layer = 0; layer < unused->desc.layers; ++layer)
+      frame.pass("RE Shadow")
+          .shaders({"forward/depth.vert", "forward/depth.frag"})
+          .depth(*unused, /*write*/ true, 1.0f, static_cast<int>(layer))
+          .run([](Commands&) {});
+  }
+  frame.submitAndWait();
+  return maps;
+}
+
+}  // namespace irad

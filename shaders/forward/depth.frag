@@ -1,0 +1,3 @@
+// Opaque surfaces: the depth alone.
+#version 460
+void main() {}

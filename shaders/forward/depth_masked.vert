@@ -1,0 +1,17 @@
+// Depth only, for alpha-masked materials: texture coordinates and the vertex's alpha as well.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/scene_gpu.h"
+#include "forward/depth_push.glsl"
+
+layout(location = 0) out vec4 uv;
+layout(location = 1) out float alpha;
+invariant gl_Position;
+
+void main() {
+  GpuScene scene = push.scene.at[0];
+  uint vertex = scene.indices.at[gl_VertexIndex];
+  uv = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
+  alpha = scene.colors.at[vertex].w;
+  gl_Position = push.projection.at[0].matrix * vec4(scene.positions.at[vertex], 1.0);
+}

@@ -1,0 +1,133 @@
+// Light from the analytic lights and its visibility through the shadow maps: one definition for shading and for the
+// facet gather. The including shader binds the maps; by default they are set 0, bindings 0 and 1.
+#ifndef IRAD_FORWARD_SHADOW_GLSL
+#define IRAD_FORWARD_SHADOW_GLSL
+#include "shared/scene_gpu.h"
+
+#ifndef IRAD_SHADOW_SET
+#define IRAD_SHADOW_SET 0
+#endif
+#ifndef IRAD_SHADOW_FLAT_BINDING
+#define IRAD_SHADOW_FLAT_BINDING 0
+#endif
+#ifndef IRAD_SHADOW_CUBE_BINDING
+#define IRAD_SHADOW_CUBE_BINDING 1
+#endif
+layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArrayShadow shadowFlat;
+layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
+
+/// Unit vector from `position` towards the light.
+vec3 lightDirection(GpuLight light, vec3 position) {
+  return light.type == LIGHT_SUN ? -light.direction : normalize(light.position - position);
+}
+
+/// Light that reaches `position` on a surface facing it, W/m^2: lux for a sun, I / d^2 times KHR_lights_punctual's range
+/// window for the others, times the squared angular ramp of a spot. Shadows apart.
+vec3 lightIntensity(GpuLight light, vec3 position) {
+  if (light.type == LIGHT_SUN) return light.intensity;
+  vec3 toLight = light.position - position;
+  float d2 = dot(toLight, toLight);
+  if (!(d2 > 0.0)) return vec3(0.0);
+  float attenuation = 1.0 / d2;
+  if (light.range > 0.0) {
+    float r2 = d2 / (light.range * light.range);
+    attenuation *= clamp(1.0 - r2 * r2, 0.0, 1.0);
+  }
+  if (light.type == LIGHT_SPOT) {
+    float c = dot(light.direction, -toLight) * inversesqrt(d2);
+    float ramp = light.innerCos > light.outerCos
+                     ? clamp((c - light.outerCos) / (light.innerCos - light.outerCos), 0.0, 1.0)
+                     : (c >= light.outerCos ? 1.0 : 0.0);
+    attenuation *= ramp * ramp;
+  }
+  return light.intensity * attenuation;
+}
+
+/// Irradiance of the unshadowed light on a surface with this normal, W/m^2.
+vec3 lightIrradiance(GpuLight light, vec3 position, vec3 normal) {
+  float cosine = dot(normal, lightDirection(light, position));
+  return cosine > 0.0 ? lightIntensity(light, position) * cosine : vec3(0.0);
+}
+
+/// The flat maps. Every tap compares with the depth that the receiver's own plane has at the tap (the plane's depth is
+/// affine in the map for both projections), so that the normal offset need only cover one bilinear footprint.
+float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset, float texel, uint pcf) {
+  vec4 clip = light.shadowMatrix * vec4(p + n * offset, 1.0);
+  if (!(clip.w > 0.0)) return 1.0;
+  vec3 ndc = clip.xyz / clip.w;
+  // Two directions in the plane, carried through the projection, give d depth / d (x, y).
+  vec3 a = abs(n);
+  vec3 axis = a.x < a.y ? (a.x < a.z ? vec3(1, 0, 0) : vec3(0, 0, 1)) : (a.y < a.z ? vec3(0, 1, 0) : vec3(0, 0, 1));
+  vec3 t = normalize(cross(n, axis)) * texel;
+  vec3 b = cross(n, t);
+  vec4 ct = light.shadowMatrix * vec4(t, 0.0);
+  vec4 cb = light.shadowMatrix * vec4(b, 0.0);
+  vec3 dt = (ct.xyz - ndc * ct.w) / clip.w;
+  vec3 db = (cb.xyz - ndc * cb.w) / clip.w;
+  float det = dt.x * db.y - dt.y * db.x;
+  vec2 slope = vec2(0.0);
+  if (det != 0.0) {
+    slope = vec2(dt.z * db.y - dt.y * db.z, dt.x * db.z - dt.z * db.x) / det;
+    slope *= min(1.0, 10.0 * cosine);  // grazing light: a steeper plane than 1 : 10 is not followed
+  }
+  float size = float(textureSize(shadowFlat, 0).x);
+  vec2 uv = ndc.xy * vec2(0.5, -0.5) + 0.5;
+  float first = -0.5 * float(pcf - 1u);
+  float sum = 0.0;
+  for (uint y = 0u; y < pcf; ++y)
+    for (uint x = 0u; x < pcf; ++x) {
+      vec2 tap = (vec2(x, y) + first) / size;
+      float depth = ndc.z + dot(slope, tap * vec2(2.0, -2.0));
+      sum += texture(shadowFlat, vec4(uv + tap, float(light.shadowLayer), min(depth, 1.0)));
+    }
+  return sum / float(pcf * pcf);
+}
+
+/// Depth stored in a cube face at distance z along its axis.
+float cubeDepth(GpuLight light, float z) {
+  return light.shadowFar * (z - light.shadowNear) / ((light.shadowFar - light.shadowNear) * z);
+}
+
+float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
+  vec3 d = p + n * offset - light.position;
+  vec3 a = abs(d);
+  float major = max(a.x, max(a.y, a.z));
+  if (!(major > 0.0)) return 1.0;
+  // Taps step along the two other axes of the face; the receiver's plane n.x = n.d gives each its depth.
+  vec3 u = major == a.x ? vec3(0, 1, 0) : vec3(1, 0, 0);
+  vec3 v = major == a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+  float texel = light.shadowTexel * major;
+  float height = dot(n, d);
+  float first = -0.5 * float(pcf - 1u);
+  float sum = 0.0;
+  for (uint y = 0u; y < pcf; ++y)
+    for (uint x = 0u; x < pcf; ++x) {
+      vec3 tap = d + (u * (float(x) + first) + v * (float(y) + first)) * texel;
+      float along = dot(n, tap);
+      float ratio = height < 0.0 && along < 0.0 ? clamp(height / along, 0.8, 1.25) : 1.0;
+      vec3 at = abs(tap) * ratio;
+      float depth = cubeDepth(light, max(at.x, max(at.y, at.z)));
+      sum += texture(shadowCubes, vec4(tap, float(light.shadowLayer)), min(depth, 1.0));
+    }
+  return sum / float(pcf * pcf);
+}
+
+/// Share of the light that reaches a point of a surface, 0..1: pcf x pcf bilinear comparisons one texel apart. The point
+/// is lifted off the surface along its normal by `biasTexels` texels times the sine of the light's angle, which is what
+/// the slope inside one texel needs; nothing here has a length of its own, so the scene's scale does not matter.
+float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float biasTexels, uint pcf) {
+  if (light.shadowLayer < 0) return 1.0;
+  float cosine = dot(normal, lightDirection(light, localPosition));
+  float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
+  float lift = biasTexels * max(sine, 0.1);
+  if (lightUsesCube(light.type, light.outerCos)) {
+    vec3 a = abs(localPosition - light.position);
+    float texel = light.shadowTexel * max(a.x, max(a.y, a.z));
+    return cubeVisibility(light, localPosition, normal, lift * texel, pcf);
+  }
+  float texel = light.shadowTexel;
+  if (light.type == LIGHT_SPOT) texel *= dot(localPosition - light.position, light.direction);
+  return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift * texel, texel, pcf);
+}
+
+#endif
