@@ -1,0 +1,23 @@
+// Pictures to files: EXR (linear, fp32) and PNG (display) with OpenImageIO; .pfm and .npy in builds without it. All
+// appear whole or not at all (renderer/output_file.h), and hold nothing but pixels: no date, so two runs give the same
+// bytes.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <span>
+
+namespace irad {
+
+/// Light before exposure and tone curve, top row first; alpha is left out. Writes stem.exr (three float channels R G B,
+/// ZIP), or stem.pfm; returns the file's path.
+std::filesystem::path writeLinear(const std::filesystem::path& stem, glm::uvec2 size,
+                                  std::span<const glm::vec4> pixels);
+/// What the screen shows: sRGB-encoded bytes, alpha left out. Writes stem.png, or stem.npy of shape (height, width, 3).
+std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2 size,
+                                   std::span<const glm::u8vec4> pixels);
+
+/// Portable float map: "PF", little-endian, bottom row first. In every build.
+void writePfm(const std::filesystem::path& path, glm::uvec2 size, std::span<const glm::vec4> pixels);
+
+}  // namespace irad

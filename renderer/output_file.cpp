@@ -1,0 +1,108 @@
+#include "renderer/output_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+
+#include "renderer/error.h"
+
+namespace irad {
+
+static_assert(std::endian::native == std::endian::little, "the file formats here are little-endian");
+
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+  // The process id keeps two runs into one folder apart.
+  temporary_ = path_.parent_path() / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
+  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (!file_) fail("create", errno);
+}
+
+OutputFile::~OutputFile() {
+  if (file_) std::fclose(file_);
+  if (temporary_.empty()) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void OutputFile::fail(const char* doing, int error) {
+  if (file_) std::fclose(file_);
+  file_ = nullptr;
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+  temporary_.clear();
+  throw WorkError(fmt::format("cannot {} {}: {}", doing, path_.string(), std::strerror(error)));
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write", errno);
+}
+
+void OutputFile::commit() {
+  if (std::fflush(file_) != 0) fail("write", errno);
+  std::FILE* const file = file_;
+  file_ = nullptr;
+  if (std::fclose(file) != 0) fail("write", errno);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("write", errno);
+  temporary_.clear();
+}
+
+void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+void writeFile(const std::filesystem::path& path, std::string_view text) {
+  writeFile(path, std::as_bytes(std::span(text)));
+}
+
+void makeFolder(const std::filesystem::path& path) {
+  if (path.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error && !std::filesystem::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw WorkError(fmt::format("cannot create folder {}: {}", path.string(), error.message()));
+}
+
+template <class T>
+NpyFile<T>::NpyFile(std::filesystem::path path, std::vector<uint64_t> shape) : file_(std::move(path)) {
+  std::string dimensions;
+  for (const uint64_t extent : shape) {
+    expected_ *= extent;
+    dimensions += fmt::format("{}, ", extent);
+  }
+  if (shape.size() > 1) dimensions.resize(dimensions.size() - 2);  // (3,) but (3, 4)
+  if (shape.size() == 1) dimensions.pop_back();
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", NpyType<T>::descr, dimensions);
+  // Magic (6), version (2), length (2), then the dictionary, padded so that the data start at a multiple of 64.
+  const size_t unpadded = 10 + header.size() + 1;
+  header.append((64 - unpadded % 64) % 64, ' ');
+  header += '\n';
+  const auto length = static_cast<uint16_t>(header.size());
+  file_.write(std::string_view("\x93NUMPY\x01\x00", 8));
+  file_.write(std::as_bytes(std::span(&length, 1)));
+  file_.write(header);
+}
+
+template <class T>
+void NpyFile<T>::write(std::span<const T> elements) {
+  written_ += elements.size();
+  IRAD_CHECK_OP(written_, <=, expected_);
+  file_.write(std::as_bytes(elements));
+}
+
+template <class T>
+void NpyFile<T>::commit() {
+  IRAD_CHECK_OP(written_, ==, expected_);
+  file_.commit();
+}
+
+template class NpyFile<float>;
+template class NpyFile<int32_t>;
+template class NpyFile<int64_t>;
+template class NpyFile<uint8_t>;
+
+}  // namespace irad
