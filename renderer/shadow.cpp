@@ -5,18 +5,13 @@
 #include <limits>
 
 #include "renderer/error.h"
+#include "shaders/shared/passes.h"
 
 namespace irad {
 namespace {
 
 /// Depth maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
 constexpr uint64_t kMostTexels = uint64_t{1} << 28;  // 1 GiB of D32
-
-struct DepthPush {
-  uint64_t scene;
-  uint64_t projection;
-  uint32_t material;
-};
 
 /// One picture of the scene from a light: where it goes and how it projects.
 struct Face {
@@ -191,7 +186,7 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
   for (size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
     const Image& target = face.cube ? maps.cubes : maps.flat;
-    DepthPush push{scene.record.address, projections.address + i * sizeof(glm::mat4), 0};
+    DepthPush push{scene.record.address, projections.address + i * sizeof(Projection), 0, 0};
     const auto drawAll = [&](bool cutOut) {
       return [&, cutOut](Commands& commands) {
         for (const Draw& draw : scene.scene.draws) {

@@ -1,8 +1,9 @@
 // Depth only: shadow maps (RE Shadow) and the depth prepass (RE Depth). Vertices are pulled by index.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/scene_gpu.h"
-#include "forward/depth_push.glsl"
+#include "shared/passes.h"
+
+layout(push_constant, scalar) uniform PushBlock { DepthPush push; };
 
 invariant gl_Position;
 

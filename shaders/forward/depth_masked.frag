@@ -2,7 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/material.glsl"
-#include "forward/depth_push.glsl"
+#include "shared/passes.h"
+
+layout(push_constant, scalar) uniform PushBlock { DepthPush push; };
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in float alpha;

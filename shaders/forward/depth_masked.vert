@@ -1,8 +1,9 @@
 // Depth only, for alpha-masked materials: texture coordinates and the vertex's alpha as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/scene_gpu.h"
-#include "forward/depth_push.glsl"
+#include "shared/passes.h"
+
+layout(push_constant, scalar) uniform PushBlock { DepthPush push; };
 
 layout(location = 0) out vec4 uv;
 layout(location = 1) out float alpha;

@@ -1,0 +1,128 @@
+// Indirect light at a point of a surface: the facets around it, gated so that light stays on its own surface
+// (METHOD section 7), or the thesis's volume lookups (T 5.10).
+#ifndef IRAD_FORWARD_INDIRECT_GLSL
+#define IRAD_FORWARD_INDIRECT_GLSL
+#include "shared/facets.h"
+#include "shared/gi_params.h"
+#include "shared/grid.h"
+#include "shared/normals.h"
+
+struct Indirect {
+  vec3 irradiance;  ///< H, W/m^2
+  vec3 emitted;     ///< its part that comes straight from emissive facets, F M
+};
+
+/// How well a facet of voxel `v` stands for a surface through `p` (voxel units) with normal `n`: 1 on the same plane,
+/// 0 where it faces away or lies on another level (the far side of a thin wall, the next step of a stair).
+float facetAgreement(uint shape, uint encoding, vec3 v, vec3 p, vec3 n) {
+  vec3 m = decodeNormal(shape & 0xFFFFu, encoding);
+  float facing = dot(m, n);
+  if (facing <= 0.0) return 0.0;
+  float plane = abs(dot(m, p - (v + 0.5)) - facetOffset(shape));
+  return facing * facing * clamp(1.5 - plane, 0.0, 1.0);
+}
+
+/// The better of a voxel's facets; returns its index, or NO_FACET when neither agrees.
+uint bestFacet(FacetArrays facets, Grid grid, uint encoding, ivec3 v, vec3 p, vec3 n, out float agreement) {
+  agreement = 0.0;
+  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(grid.dims)))) return NO_FACET;
+  uint entry = facets.reverse.at[voxelIndex(uvec3(v), grid.dims)];
+  if (entry == NO_FACET) return NO_FACET;
+  uint facet = entry & ~SECOND_FACET;
+  uint best = NO_FACET;
+  for (uint i = 0u; i < ((entry & SECOND_FACET) != 0u ? 2u : 1u); ++i) {
+    float a = facetAgreement(facets.shape.at[facet + i], encoding, vec3(v), p, n);
+    if (a > agreement) {
+      agreement = a;
+      best = facet + i;
+    }
+  }
+  return best;
+}
+
+/// The nearest facet of the 3 x 3 x 3 voxels around `p` that agrees with `n`, or NO_FACET.
+uint nearestFacet(FacetArrays facets, Grid grid, uint encoding, vec3 p, vec3 n) {
+  ivec3 centre = ivec3(floor(p));
+  uint best = NO_FACET;
+  float nearest = 1e9;
+  for (int i = 0; i < 27; ++i) {
+    ivec3 v = centre + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+    float agreement;
+    uint facet = bestFacet(facets, grid, encoding, v, p, n, agreement);
+    if (facet == NO_FACET) continue;
+    vec3 d = p - (vec3(v) + 0.5);
+    float distance2 = dot(d, d) + 1.0 - agreement;
+    if (distance2 < nearest) {
+      nearest = distance2;
+      best = facet;
+    }
+  }
+  return best;
+}
+
+/// Gated lookup at `p` (voxel units). The taps are the eight voxels whose centres surround p + offset n.
+Indirect facetIndirect(FacetArrays facets, Grid grid, uint encoding, Vec4Array shaded, Vec4Array shadedEmitted,
+                       SampleParams sampling, vec3 p, vec3 n) {
+  Indirect result = Indirect(vec3(0.0), vec3(0.0));
+  float total = 0.0;
+  if (sampling.filter_ != FILTER_NEAREST) {
+    vec3 q = p + n * sampling.normalOffset - 0.5;
+    vec3 base = floor(q);
+    vec3 f = q - base;
+    for (int i = 0; i < 8; ++i) {
+      ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+      vec3 w = mix(1.0 - f, f, vec3(corner));
+      float agreement;
+      uint facet = bestFacet(facets, grid, encoding, ivec3(base) + corner, p, n, agreement);
+      if (facet == NO_FACET) continue;
+      float weight = w.x * w.y * w.z * agreement;
+      total += weight;
+      result.irradiance += weight * shaded.at[facet].xyz;
+      if (facets.hasEmission != 0u) result.emitted += weight * shadedEmitted.at[facet].xyz;
+    }
+    if (total >= 1.0 / 256.0) {
+      result.irradiance /= total;
+      result.emitted /= total;
+      return result;
+    }
+  }
+  uint facet = nearestFacet(facets, grid, encoding, p, n);
+  if (facet == NO_FACET) return Indirect(vec3(0.0), vec3(0.0));
+  return Indirect(shaded.at[facet].xyz, facets.hasEmission != 0u ? shadedEmitted.at[facet].xyz : vec3(0.0));
+}
+
+#ifdef IRAD_VOLUME
+/// The thesis's lookups in the RGBA16F volume at `p` (voxel units): the texel, the hardware's trilinear filter, or 3 x 3
+/// x 3 trilinear taps half a voxel apart. Where presence is below 1/256 the nearest solid texel of the 3 x 3 x 3 around
+/// p is taken instead of dividing by it.
+vec3 volumeIndirect(Grid grid, SampleParams sampling, vec3 p, vec3 n) {
+  vec3 q = p + n * sampling.normalOffset;
+  vec3 size = vec3(grid.dims);
+  vec4 c = vec4(0.0);
+  if (sampling.filter_ == FILTER_NEAREST) {
+    c = texelFetch(indirectVolume, clamp(ivec3(floor(q)), ivec3(0), ivec3(grid.dims) - 1), 0);
+  } else if (sampling.filter_ == FILTER_LINEAR) {
+    c = textureLod(indirectVolume, q / size, 0.0);
+  } else {
+    for (int i = 0; i < 27; ++i)
+      c += textureLod(indirectVolume, (q + 0.5 * (vec3(i % 3, (i / 3) % 3, i / 9) - 1.0)) / size, 0.0) / 27.0;
+  }
+  if (sampling.premultiplied == 0u) return c.rgb;
+  if (c.a >= 1.0 / 256.0) return c.rgb / c.a;  // T eq. 24
+  float nearest = 1e9;
+  vec3 found = vec3(0.0);
+  for (int i = 0; i < 27; ++i) {
+    ivec3 v = ivec3(floor(p)) + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+    if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(grid.dims)))) continue;
+    vec4 texel = texelFetch(indirectVolume, v, 0);
+    vec3 d = q - (vec3(v) + 0.5);
+    if (texel.a >= 1.0 / 256.0 && dot(d, d) < nearest) {
+      nearest = dot(d, d);
+      found = texel.rgb / texel.a;
+    }
+  }
+  return found;
+}
+#endif
+
+#endif

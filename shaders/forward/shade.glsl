@@ -1,0 +1,121 @@
+// "RE Forward", fragment stage: surface, direct light, indirect lookup. Written once per visible pixel (the depth
+// prepass and EQUAL see to it); renderer/forward.h says what each target holds.
+#include "forward/indirect.glsl"
+#include "forward/material.glsl"
+#include "forward/shadow.glsl"
+#include "shared/ggx.h"
+#include "shared/passes.h"
+
+layout(push_constant, scalar) uniform PushBlock { ForwardPush push; };
+layout(location = 0) in vec3 local;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec4 uv;
+layout(location = 4) in vec4 tint;
+
+layout(location = 0) out vec4 outNormal;
+layout(location = 1) out vec4 outGeometric;
+layout(location = 2) out vec4 outAlbedo;
+layout(location = 3) out vec4 outF0;
+layout(location = 4) out vec4 outDirect;
+layout(location = 5) out vec4 outHighlight;
+layout(location = 6) out vec4 outIndirect;
+layout(location = 7) out vec4 outEmitted;
+
+/// The triangle's own normal, towards the viewer. A triangle too thin to have one takes the vertices'.
+vec3 faceNormal(vec3 view) {
+  vec3 n = cross(dFdx(local), dFdy(local));
+  float l2 = dot(n, n);
+  n = l2 > 0.0 ? n * inversesqrt(l2) : normalize(normal);
+  return dot(n, view) < 0.0 ? -n : n;
+}
+
+vec3 mappedNormal(GpuMaterial m, vec3 n) {
+  if ((m.flags & MATERIAL_NORMAL_TEXTURE) == 0u) return n;
+  vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
+  float l2 = dot(t, t);
+  if (!(l2 > 0.0)) return n;
+  t *= inversesqrt(l2);
+  vec3 s = texture(normalTexture, textureUv(m, TEXTURE_NORMAL, uv)).xyz * 2.0 - 1.0;
+  s.xy *= m.normalScale;
+  return normalize(t * s.x + cross(n, t) * (tangent.w * s.y) + n * s.z);
+}
+
+void main() {
+  GpuScene scene = push.scene.at[0];
+  GpuMaterial m = scene.materials.at[push.material];
+  GpuCamera camera = push.camera.at[0];
+
+  // Surface frame: the triangle's normal, the vertices' (smooth), the normal map's; all on the viewer's side.
+  vec3 view = camera.orthographic != 0u
+                  ? -normalize(vec3(camera.viewProjection[0][2], camera.viewProjection[1][2], camera.viewProjection[2][2]))
+                  : normalize(camera.position - local);
+  vec3 face = faceNormal(view);
+  vec3 smooth_ = normalize(normal);
+  if (dot(smooth_, face) < 0.0) smooth_ = -smooth_;
+  vec3 n = mappedNormal(m, smooth_);
+  vec3 lookup = dot(smooth_, face) > 0.3 ? smooth_ : face;
+
+  // Material: metallic-roughness, glTF 2.0 section 3.9.2.
+  vec4 base = clamp(materialBaseColor(m, uv, tint), 0.0, 1.0);
+  float metallic = m.metallic;
+  float roughness = m.roughness;
+  if ((m.flags & MATERIAL_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
+    vec4 mr = texture(metallicRoughnessTexture, textureUv(m, TEXTURE_METALLIC_ROUGHNESS, uv));
+    metallic *= mr.b;
+    roughness *= mr.g;
+  }
+  metallic = clamp(metallic, 0.0, 1.0);
+  roughness = clamp(roughness, 0.0, 1.0);
+  bool lambertian = (m.flags & MATERIAL_LAMBERTIAN) != 0u;
+  vec3 albedo = lambertian ? base.rgb : base.rgb * (1.0 - metallic);
+  vec3 f0 = lambertian ? vec3(0.0) : mix(vec3(0.04), base.rgb, metallic);
+  float occlusion = 1.0;
+  if ((m.flags & MATERIAL_OCCLUSION_TEXTURE) != 0u)
+    occlusion += m.occlusionStrength *
+                 (texture(occlusionTexture, textureUv(m, TEXTURE_OCCLUSION, uv)).r - 1.0);
+  vec3 emission = m.emission;
+  if ((m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
+    emission *= texture(emissiveTexture, textureUv(m, TEXTURE_EMISSIVE, uv)).rgb;
+
+  // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (METHOD section 1: D).
+  float nv = max(dot(n, view), 1e-3);
+  float alpha = max(roughness * roughness, GGX_LEAST_ALPHA);
+  vec3 direct = vec3(0.0);
+  vec3 highlight = vec3(0.0);
+  for (uint i = 0u; i < scene.lightCount; ++i) {
+    GpuLight light = scene.lights.at[i];
+    vec3 l = lightDirection(light, local);
+    float nl = dot(n, l);
+    vec3 e = nl > 0.0 ? lightIntensity(light, local) * nl : vec3(0.0);
+    if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
+    e *= shadowVisibility(light, local, face, push.shadowBias, push.pcf);
+    direct += e;
+    if (lambertian || push.specularDirect == 0u) continue;
+    vec3 h = normalize(l + view);
+    highlight += e * fresnelSchlick(f0, max(dot(view, h), 0.0)) *
+                 (ggxDistribution(max(dot(n, h), 0.0), alpha) * ggxVisibility(nl, nv, alpha));
+  }
+
+  // Indirect light.
+  Indirect indirect = Indirect(vec3(0.0), vec3(0.0));
+  if (push.hasIndirect != 0u) {
+    Grid grid = push.grid.at[0];
+    vec3 p = (local - grid.origin) * grid.inverseEdge;
+#ifdef IRAD_VOLUME
+    indirect.irradiance = volumeIndirect(grid, push.sampling, p, lookup);
+#else
+    indirect = facetIndirect(push.facets.at[0], grid, push.normalEncoding, push.shaded, push.shadedEmitted,
+                             push.sampling, p, lookup);
+#endif
+  }
+
+  outNormal = vec4(n, roughness);
+  outGeometric = vec4(face, metallic);
+  outAlbedo = vec4(albedo, occlusion);
+  outF0 = vec4(f0, lambertian ? 0.0 : 1.0);
+  outDirect = vec4(direct, 1.0);
+  outHighlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
+  outIndirect = vec4(indirect.irradiance, 1.0);
+  outEmitted = vec4(indirect.emitted, 1.0);
+}
