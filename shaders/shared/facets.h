@@ -37,6 +37,7 @@ struct FacetArrays {
   uint count;
   uint hasEmission;     ///< 0: `emission` must not be read
 };
+IRAD_ARRAY(FacetRecord, FacetArrays, 16)
 
 IRAD_END
 #endif

@@ -1,0 +1,256 @@
+// Rays through the voxel grid, shared by the matrix build, specular tracing and brute force (METHOD sections 3, 5, 8).
+// Everything is in voxel units: cell c spans [c, c + 1).
+//
+//   TraceWorld world = TraceWorld(facetRecord.at[0], chebyshev, dims, jfaMax);
+//   TraceHit hit = traceRay(world, origin, direction, normal);
+//
+// `normal` is the geometric normal of the surface that the ray leaves (unit; direction . normal > 0 expected). hit.facet
+// is a facet index, or one of TRACE_ESCAPED, TRACE_BLOCKED, TRACE_INVALID; hit.t the distance in voxels. The includer
+// specializes constant 0 (traversal), 1 (hit rule), 2 (normal encoding). TRACE_JFA needs `#define TRACE_JFA_TEXTURE name`
+// of a sampler3D declared before the include; without it that value behaves as TRACE_DDA_REVERSE.
+//
+// Hit rule `robust`: the ray is met by facet planes, not by cells. A facet's plane is taken inside its own cell; a ray
+// that leaves a solid cell without meeting a recorded plane asks the cells one step along and against the recorded
+// normal, whose surfaces may pass through this cell unrecorded (corners: a cell holds two facets at most). A plane is met
+// from the front only by rays that start in front of it. Backs of faces make the ray invalid or block it.
+// Hit rule `thesis` (T 5.6): the first cell with a front face (d . n < 0), back faces let through.
+#ifndef IRAD_TRACE_GLSL
+#define IRAD_TRACE_GLSL
+
+#include "shared/facets.h"
+#include "shared/gi_params.h"
+#include "shared/grid.h"
+#include "shared/normals.h"
+#include "shared/trace.h"
+
+layout(constant_id = 0) const uint TRACE_METHOD = TRACE_DDA_REVERSE;
+layout(constant_id = 1) const uint TRACE_HIT_RULE = HIT_RULE_ROBUST;
+layout(constant_id = 2) const uint TRACE_NORMALS = NORMALS_OCT16;
+
+struct TraceWorld {
+  FacetArrays facets;
+  ByteArray chebyshev;  ///< unread with TRACE_DDA_REVERSE and TRACE_JFA
+  uvec3 dims;
+  float jfaMax;  ///< voxels that 1.0 stands for in the UNORM8 volume; TRACE_JFA only
+};
+
+struct TraceHit {
+  uint facet;
+  float t;
+  uint steps;  ///< cells visited
+};
+
+/// Where the ray is: the cell and the distance at which it entered it.
+struct TraceWalk {
+  vec3 origin, direction, inverse;
+  vec3 forward;  ///< per axis 1 where the direction is positive, else 0
+  vec3 cell;
+  float t;
+};
+
+TraceWalk traceStart(vec3 origin, vec3 direction) {
+  TraceWalk w;
+  w.origin = origin;
+  // A zero component would give 0 x inf below; 1e-9 moves the ray by 1e-6 voxels across the largest grid.
+  w.direction = mix(direction, vec3(1e-9f), lessThan(abs(direction), vec3(1e-9f)));
+  w.inverse = 1.0f / w.direction;
+  w.forward = step(vec3(0.0f), w.direction);
+  w.cell = floor(origin);
+  w.t = 0.0f;
+  return w;
+}
+
+bool traceInside(TraceWalk w, uvec3 dims) {
+  return all(greaterThanEqual(w.cell, vec3(0.0f))) && all(lessThan(w.cell, vec3(dims)));
+}
+
+uint traceIndex(vec3 cell, uvec3 dims) { return voxelIndex(uvec3(cell), dims); }
+
+/// Distance at which the ray leaves the cube of cells within `k` - 1 of its cell (k = 1: the cell itself).
+vec3 traceBounds(TraceWalk w, float k) {
+  vec3 bound = w.cell + (1.0f - k) + w.forward * (2.0f * k - 1.0f);
+  return (bound - w.origin) * w.inverse;
+}
+
+/// Steps out of that cube. The exit axis moves by whole cells; the others follow from the ray's position, held inside the
+/// cube, so that hits equal those of the cell-by-cell walk (Amanatides and Woo 1987).
+void traceAdvance(inout TraceWalk w, float k) {
+  vec3 t = traceBounds(w, k);
+  float exit = min(t.x, min(t.y, t.z));
+  bvec3 axis = bvec3(t.x == exit, t.y == exit && t.x != exit, t.z == exit && t.x != exit && t.y != exit);
+  vec3 along = clamp(floor(w.origin + exit * w.direction), w.cell - (k - 1.0f), w.cell + (k - 1.0f));
+  w.cell = mix(along, w.cell + (w.forward * 2.0f - 1.0f) * k, axis);
+  w.t = exit;
+}
+
+/// 0 where the cell is solid, else how many cells may be stepped over at once.
+float traceClearance(TraceWorld world, vec3 cell) {
+  uint index = traceIndex(cell, world.dims);
+  if (TRACE_METHOD == TRACE_SKIP) return float(uint(world.chebyshev.at[index]));
+  if (TRACE_METHOD == TRACE_DDA_FIELD) return uint(world.chebyshev.at[index]) == 0u ? 0.0f : 1.0f;
+  return world.facets.reverse.at[index] == NO_FACET ? 1.0f : 0.0f;
+}
+
+/// Walks to the next solid cell, the present one included. False: left the grid.
+bool traceToSolid(TraceWorld world, inout TraceWalk w, inout uint steps) {
+#ifdef TRACE_JFA_TEXTURE
+  // T 5.2: a sphere of the stored distance is stepped over. Its UNORM8 value and the distance being one between cell
+  // centres make rays tunnel and end elsewhere; METHOD section 3 gives the figures. This is the thesis's behaviour.
+  while (traceInside(w, world.dims)) {
+    float d = texelFetch(TRACE_JFA_TEXTURE, ivec3(w.cell), 0).r * world.jfaMax;
+    if (d <= 0.0f) return true;
+    ++steps;
+    w.t += d;
+    w.cell = floor(w.origin + w.t * w.direction);
+  }
+  return false;
+#else
+  while (traceInside(w, world.dims)) {
+    float k = traceClearance(world, w.cell);
+    if (k <= 0.0f) return true;
+    ++steps;
+    traceAdvance(w, k);
+  }
+  return false;
+#endif
+}
+
+struct TracePlane {
+  vec3 normal;
+  float start;  ///< signed distance of the ray's origin
+  float slope;  ///< d . n
+};
+
+TracePlane tracePlane(TraceWorld world, TraceWalk w, vec3 cell, uint shape) {
+  TracePlane p;
+  p.normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+  p.start = dot(p.normal, w.origin - (cell + 0.5f)) - facetOffset(shape);
+  p.slope = dot(p.normal, w.direction);
+  return p;
+}
+
+/// The facets to be asked at one solid cell: those recorded there, then those of the cells beside it.
+TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
+  TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
+  uint passed = TRACE_ESCAPED;  // last face passed in front of, for rays that slip through where planes do not join
+  float passedAt = 0.0f;
+  bool first = true;
+  while (traceToSolid(world, w, hit.steps)) {
+    vec3 bounds = traceBounds(w, 1.0f);
+    float leave = min(bounds.x, min(bounds.y, bounds.z));
+    uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
+    uint facet = entry & ~SECOND_FACET;
+    uint left = entry >= SECOND_FACET ? 2u : 1u;
+    vec3 at = w.cell;
+    vec3 beside[2];
+    beside[0] = vec3(0.0f);
+    beside[1] = vec3(0.0f);
+    uint asked = 0u;  // 0: recorded facets; 1..4: cells along +n0, -n0, +n1, -n1
+    float nearest = 1e30f;
+    uint met = TRACE_ESCAPED;
+    bool behind = false, before = false;  // of surfaces found beside the first cell
+    for (;;) {
+      if (left > 0u) {
+        uint shape = world.facets.shape.at[facet];
+        TracePlane p = tracePlane(world, w, at, shape);
+        float enterS = p.start + p.slope * w.t;
+        float leaveS = p.start + p.slope * leave;
+        bool own = dot(p.normal, ownNormal) > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
+        bool recorded = asked == 0u;
+        if (p.slope < 0.0f && p.start > -TRACE_BEHIND) {
+          float cross = -p.start / p.slope;
+          if (leaveS <= TRACE_ON_PLANE && (recorded || enterS >= -TRACE_ON_PLANE)) {
+            cross = max(cross, w.t);
+            if (cross < nearest) {
+              nearest = cross;
+              met = facet;
+            }
+          } else if (recorded && leaveS <= TRACE_JOINT) {
+            passed = facet;
+            passedAt = leave;
+          }
+        } else if (p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE && leaveS > TRACE_ON_PLANE) {
+          float cross = -p.start / p.slope;
+          if (cross < nearest) {
+            nearest = cross;
+            met = (shape & FACET_DOUBLE_SIDED) != 0u ? facet
+                                                     : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
+          }
+        }
+        if (recorded) {
+          vec3 side = round(p.normal);
+          if (left == 2u || entry < SECOND_FACET) beside[0] = side;
+          else beside[1] = side;
+        } else if (first && asked == 1u && !own) {
+          if (p.start < -TRACE_ON_PLANE) behind = true;
+          else before = true;
+        }
+        --left;
+        ++facet;
+      }
+      if (left == 0u) {
+        if (met != TRACE_ESCAPED || asked == 4u) break;
+        ++asked;
+        vec3 side = asked <= 2u ? beside[0] : beside[1];
+        at = w.cell + (asked == 1u || asked == 3u ? side : -side);
+        if (side != vec3(0.0f) && all(greaterThanEqual(at, vec3(0.0f))) && all(lessThan(at, vec3(world.dims)))) {
+          uint other = world.facets.reverse.at[traceIndex(at, world.dims)];
+          if (other != NO_FACET) {
+            facet = other & ~SECOND_FACET;
+            left = other >= SECOND_FACET ? 2u : 1u;
+          }
+        }
+      }
+    }
+    if (first && behind && !before) met = TRACE_INVALID;
+    first = false;
+    if (met != TRACE_ESCAPED) {
+      hit.facet = met;
+      hit.t = nearest;
+      break;
+    }
+    traceAdvance(w, 1.0f);
+    ++hit.steps;
+  }
+  // Left the grid, or met a back, right after passing closely in front of a face: it slipped through a joint.
+  if (hit.facet > TRACE_LAST_FACET && passed != TRACE_ESCAPED) {
+    float end = hit.facet == TRACE_ESCAPED ? w.t : hit.t;
+    if (end - passedAt < TRACE_NEAR) {
+      hit.facet = passed;
+      hit.t = passedAt;
+    }
+  }
+  return hit;
+}
+
+TraceHit traceThesis(TraceWorld world, TraceWalk w) {
+  TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
+  while (traceToSolid(world, w, hit.steps)) {
+    uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
+    uint facet = entry & ~SECOND_FACET;
+    float slope = dot(decodeNormal(world.facets.shape.at[facet] & 0xFFFFu, TRACE_NORMALS), w.direction);
+    if (entry >= SECOND_FACET) {
+      float second = dot(decodeNormal(world.facets.shape.at[facet + 1u] & 0xFFFFu, TRACE_NORMALS), w.direction);
+      if (second < slope) {
+        slope = second;
+        ++facet;
+      }
+    }
+    if (slope < 0.0f) {
+      hit.facet = facet;
+      hit.t = w.t;
+      break;
+    }
+    traceAdvance(w, 1.0f);
+    ++hit.steps;
+  }
+  return hit;
+}
+
+TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
+  TraceWalk w = traceStart(origin, direction);
+  if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
+  return traceRobust(world, w, normal);
+}
+
+#endif

@@ -1,0 +1,75 @@
+// What the ray traversals of shaders/gi/trace.glsl take and give (METHOD sections 3 and 5).
+#ifndef IRAD_SHARED_TRACE_H
+#define IRAD_SHARED_TRACE_H
+#include "shared/facets.h"
+#include "shared/sampling.h"
+IRAD_BEGIN
+
+// Specialization constant 0 of every shader that traces.
+IRAD_CONST uint TRACE_DDA_REVERSE = 0u;  ///< cell by cell, solid where the reverse map has a facet
+IRAD_CONST uint TRACE_DDA_FIELD = 1u;    ///< cell by cell, solid where the Chebyshev byte is 0 (a quarter of the bytes)
+IRAD_CONST uint TRACE_SKIP = 2u;         ///< steps over the empty cube that the Chebyshev distance proves
+IRAD_CONST uint TRACE_JFA = 3u;          ///< sphere-marches the UNORM8 Euclidean distance (T 5.2): only shaders that bind it
+
+// What a ray met, in place of a facet index.
+IRAD_CONST uint TRACE_ESCAPED = 0xFFFFFFFFu;  ///< left the grid
+IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;  ///< the back of a face, 4 voxels away or more: absorbed
+IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;  ///< started behind a surface: does not count
+IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
+
+// The robust rule's lengths, in voxels.
+IRAD_CONST float TRACE_ON_PLANE = 0.05f;     ///< planes are known to about this (offset 1/254, normal 1 degree)
+IRAD_CONST float TRACE_BEHIND = 0.02f;       ///< an origin this far behind a face cannot meet its front
+IRAD_CONST float TRACE_JOINT = 0.2f;         ///< a ray passing a face this closely may have slipped through a joint
+IRAD_CONST float TRACE_OWN_PLANE = 1.5f;     ///< backs of faces this near the own plane are not met
+IRAD_CONST float TRACE_NEAR = 4.0f;          ///< a back face nearer than this makes the ray invalid
+IRAD_CONST float TRACE_OWN_NORMAL = 0.8f;    ///< cosine above which two faces lie in one plane
+
+/// One byte per voxel: exact Chebyshev distance to the nearest solid voxel (Field::chebyshev).
+#ifdef __cplusplus
+using ByteArray = uint64_t;
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ByteArray { uint8_t at[]; };
+#endif
+
+/// Where ray k of a facet starts under the robust rule: on the facet's plane, jittered over its cell's footprint along
+/// the normal's largest axis. `jitter` in (0, 1)^2.
+IRAD_FN vec3 facetPoint(uvec3 voxel, vec3 normal, float offset, vec2 jitter) {
+  vec2 j = jitter - vec2(0.5f);
+  vec3 a = abs(normal);
+  vec3 p;
+  if (a.z >= a.x && a.z >= a.y)
+    p = vec3(j.x, j.y, (offset - normal.x * j.x - normal.y * j.y) / normal.z);
+  else if (a.y >= a.x)
+    p = vec3(j.x, (offset - normal.x * j.x - normal.z * j.y) / normal.y, j.y);
+  else
+    p = vec3((offset - normal.y * j.x - normal.z * j.y) / normal.x, j.x, j.y);
+  return vec3(voxel) + vec3(0.5f) + p;
+}
+
+/// Point k of the R2 sequence (Roberts 2018), shifted: the jitter over a facet, independent of the directions.
+IRAD_FN vec2 facetJitter(uint k, uvec2 shift) {
+  return vec2(unitFloat(3242174889u * (k + 1u) + shift.x), unitFloat(2447445414u * (k + 1u) + shift.y));
+}
+
+/// The ray set of a facet: shifts of directions (xy) and of starts (zw). Without jitter every voxel has the same set.
+IRAD_FN uvec4 rayShifts(uint packedVoxel, uint seed, uint jitter) {
+  if (jitter == 0u) return uvec4(0u, 0u, 0x80000000u, 0x80000000u);
+  uint a = hashUint(packedVoxel ^ hashUint(seed));
+  uint b = hashUint(a ^ 0x9E3779B9u);
+  uint c = hashUint(b ^ 0x85EBCA6Bu);
+  return uvec4(a, b, c, hashUint(c ^ 0xC2B2AE35u));
+}
+
+/// Pushed to gi/trace_rays.comp.
+struct TraceRaysPush {
+  FacetRecord facets;
+  ByteArray chebyshev;
+  UintArray hits;  ///< rays x rows words: facet met, or TRACE_*
+  uvec3 dims;
+  float jfaMax;
+  uint firstRow, rows, rays, jitter, seed, pad;
+};
+
+IRAD_END
+#endif
