@@ -11,7 +11,6 @@ struct Projection {
   mat4 matrix;
 };
 IRAD_ARRAY(ProjectionArray, Projection, 16)
-IRAD_ARRAY(FacetRecord, FacetArrays, 16)
 
 /// "RE Shadow" and "RE Depth".
 struct DepthPush {
