@@ -1,0 +1,37 @@
+// Facet list, step 2: writes voxel and winning triangle of every facet at its place, and the reverse map of every voxel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "facet_block.glsl"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { CompactPush push; };
+
+void main() {
+  uint block = irad_index();
+  if (block >= push.blocks) return;
+  uvec3 dims = push.grid.at[0].dims;
+  uint voxels = push.grid.at[0].voxels;
+  uvec3 corner = mortonDecode(block * 64u, push.grid.at[0].mortonBits);
+  if (any(greaterThanEqual(corner, dims))) return;
+  uint facet = push.blockCounts.at[block];
+  for (uint code = 0u; code < 64u; ++code) {
+    uvec3 v = corner + inBlock(code);
+    if (any(greaterThanEqual(v, dims))) continue;
+    uint index = voxelIndex(v, dims);
+    uint front = push.keys.at[index];
+    uint entry = NO_FACET;
+    if (front != 0u) {
+      entry = facet;
+      push.voxel.at[facet] = packVoxel(v);
+      push.triangle.at[facet] = keyTriangle(front);
+      ++facet;
+      uint back = push.slots == 2u ? push.keys.at[voxels + index] : 0u;
+      if (back != 0u) {
+        entry |= SECOND_FACET;
+        push.voxel.at[facet] = packVoxel(v);
+        push.triangle.at[facet] = keyTriangle(back) | SECOND_FACET;
+        ++facet;
+      }
+    }
+    push.reverse.at[index] = entry;
+  }
+}

@@ -1,0 +1,67 @@
+// Attributes of the facets (METHOD sections 1-2), sampled at the centre of the part of the winning triangle that lies in
+// the voxel: normal, plane offset, albedo = base colour x (1 - metallic) clamped to [0, .98], emitted exitance.
+// One dispatch per textured material, whose set 1 is bound, and one for all facets that read no texture.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/normals.h"
+#include "voxel_triangle.glsl"
+#include "voxel_clip.glsl"
+#include "voxel_material.glsl"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ShadeFacetsPush push; };
+
+const uint TEXTURES =
+    MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+const float MAX_ALBEDO = 0.98;
+
+bool finite(float x) { return abs(x) < 3.0e38; }
+
+void main() {
+  uint facet = irad_index();
+  if (facet >= push.count) return;
+  uint entry = push.triangle.at[facet];
+  bool second = (entry & SECOND_FACET) != 0u;
+  uint triangle = entry & ~SECOND_FACET;
+  uint material = push.scene.at[0].triangleMaterials.at[triangle];
+  uint flags = push.scene.at[0].materials.at[material].flags;
+  if (push.material == UNTEXTURED ? (flags & TEXTURES) != 0u : material != push.material) return;
+
+  vec3 cell = vec3(unpackVoxel(push.voxel.at[facet]));
+  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  vec3 centre;
+  clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
+  MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
+
+  // The second facet of a two-sided triangle is the side that faces against the first facet.
+  vec3 facing = normalize(t.normal);
+  if (second) {
+    vec3 winner = triangleNormal(push.scene, push.grid, push.triangle.at[facet - 1u]);
+    if (dot(t.normal, winner) > 0.0) facing = -facing;
+  }
+  Vec3Array normals = push.scene.at[0].normals;
+  vec3 normal = normals.at[p.vertex.x] * p.weight.x + normals.at[p.vertex.y] * p.weight.y +
+                normals.at[p.vertex.z] * p.weight.z;
+  float size = dot(normal, normal);
+  normal = size > 1e-12 && finite(size) ? normal * inversesqrt(size) : facing;
+  if (dot(normal, facing) < 0.0) normal = -normal;
+  uint code = encodeNormal(normal, push.encoding);
+  float offset = dot(centre - vec3(0.5), decodeNormal(code, push.encoding));
+  push.shape.at[facet] =
+      code | packFacetOffset(offset) | ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? FACET_DOUBLE_SIDED : 0u);
+
+  vec3 albedo = baseColorAt(push.scene, p).rgb * (1.0 - metallicAt(push.scene, p));
+  bool clamped = false;
+  for (int i = 0; i < 3; ++i) {
+    float a = albedo[i];
+    albedo[i] = a >= 0.0 ? min(a, MAX_ALBEDO) : 0.0;  // NaN becomes 0
+    if (!(a >= 0.0 && a <= MAX_ALBEDO)) clamped = true;
+  }
+  if (clamped) atomicAdd(push.clamped.at[0], 1u);
+  push.albedo.at[facet] = packAlbedo(albedo);
+
+  if (push.hasEmission != 0u) {
+    vec3 exitance = IRAD_PI * emittedRadianceAt(push.scene, p);
+    for (int i = 0; i < 3; ++i) exitance[i] = exitance[i] > 0.0 ? min(exitance[i], 3.0e38) : 0.0;
+    push.emission.at[facet] = exitance;
+  }
+}

@@ -1,0 +1,91 @@
+// Material lookups of the voxelizers: base colour, alpha, metalness, emission at a point of a triangle, filtered over the
+// texels that one voxel covers. Set 1 is the material's.
+layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
+layout(set = 1, binding = 1) uniform sampler2D metallicRoughnessTexture;
+layout(set = 1, binding = 4) uniform sampler2D emissiveTexture;
+
+/// Weights of the three vertices at `point` (voxel units); clamped into the triangle against rounding.
+vec3 barycentrics(VoxelTriangle t, vec3 point) {
+  float scale = 1.0 / dot(t.normal, t.normal);
+  vec3 d = point - t.v[0];
+  float b1 = dot(cross(d, t.v[2] - t.v[0]), t.normal) * scale;
+  float b2 = dot(cross(t.v[1] - t.v[0], d), t.normal) * scale;
+  vec3 b = clamp(vec3(1.0 - b1 - b2, b1, b2), vec3(0.0), vec3(1.0));
+  return b / (b.x + b.y + b.z);
+}
+
+struct MaterialPoint {
+  uvec3 vertex;  ///< the triangle's vertices
+  vec3 weight;   ///< their weights
+  float area;    ///< the triangle's, in voxel faces
+  uint material;
+};
+
+MaterialPoint materialPoint(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point) {
+  MaterialPoint p;
+  UintArray indices = scenes.at[0].indices;
+  p.vertex = uvec3(indices.at[3u * triangle], indices.at[3u * triangle + 1u], indices.at[3u * triangle + 2u]);
+  p.weight = barycentrics(t, point);
+  p.area = 0.5 * length(t.normal);
+  p.material = scenes.at[0].triangleMaterials.at[triangle];
+  return p;
+}
+
+/// Texture coordinates of texture `slot` and the level of detail at which a texel is about as large as a voxel.
+vec3 textureCoordinates(SceneArray scenes, MaterialPoint p, uint slot, ivec2 size) {
+  MaterialArray materials = scenes.at[0].materials;
+  bool second = ((materials.at[p.material].uvSets >> slot) & 1u) != 0u;
+  Vec2Array uv = scenes.at[0].uv0;
+  if (second) uv = scenes.at[0].uv1;
+  vec3 rowU = materials.at[p.material].uvRow[2u * slot];
+  vec3 rowV = materials.at[p.material].uvRow[2u * slot + 1u];
+  vec2 corner[3];
+  for (int i = 0; i < 3; ++i) {
+    vec3 h = vec3(uv.at[p.vertex[i]], 1.0);
+    corner[i] = vec2(dot(rowU, h), dot(rowV, h));
+  }
+  vec2 at = corner[0] * p.weight.x + corner[1] * p.weight.y + corner[2] * p.weight.z;
+  vec2 d = (corner[1] - corner[0]) * vec2(size);
+  vec2 e = (corner[2] - corner[0]) * vec2(size);
+  float texels = 0.5 * abs(d.x * e.y - d.y * e.x) / max(p.area, 1e-20);  // texels per voxel face
+  return vec3(at, texels > 1.0 ? 0.5 * log2(texels) : 0.0);
+}
+
+vec4 vertexColor(SceneArray scenes, MaterialPoint p) {
+  Vec4Array colors = scenes.at[0].colors;
+  return colors.at[p.vertex.x] * p.weight.x + colors.at[p.vertex.y] * p.weight.y + colors.at[p.vertex.z] * p.weight.z;
+}
+
+vec4 baseColorAt(SceneArray scenes, MaterialPoint p) {
+  vec4 color = scenes.at[0].materials.at[p.material].baseColor * vertexColor(scenes, p);
+  if ((scenes.at[0].materials.at[p.material].flags & MATERIAL_BASE_COLOR_TEXTURE) != 0u) {
+    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_BASE_COLOR, textureSize(baseColorTexture, 0));
+    color *= textureLod(baseColorTexture, uvl.xy, uvl.z);
+  }
+  return color;
+}
+
+float metallicAt(SceneArray scenes, MaterialPoint p) {
+  float metallic = scenes.at[0].materials.at[p.material].metallic;
+  if ((scenes.at[0].materials.at[p.material].flags & MATERIAL_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
+    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_METALLIC_ROUGHNESS, textureSize(metallicRoughnessTexture, 0));
+    metallic *= textureLod(metallicRoughnessTexture, uvl.xy, uvl.z).b;
+  }
+  return metallic;
+}
+
+vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
+  vec3 emission = scenes.at[0].materials.at[p.material].emission;
+  if ((scenes.at[0].materials.at[p.material].flags & MATERIAL_EMISSIVE_TEXTURE) != 0u) {
+    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_EMISSIVE, textureSize(emissiveTexture, 0));
+    emission *= textureLod(emissiveTexture, uvl.xy, uvl.z).rgb;
+  }
+  return emission;
+}
+
+/// Whether the material's alpha mask cuts the triangle away at `point`.
+bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
+  if ((flags & MATERIAL_ALPHA_MASK) == 0u) return false;
+  MaterialPoint p = materialPoint(scenes, t, triangle, point);
+  return baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
+}

@@ -1,0 +1,73 @@
+// A triangle as the voxelizers see it: in voxel units, with its facing and its cells along the dominant axis.
+#include "shared/voxelize.h"
+
+struct VoxelTriangle {
+  vec3 v[3];    ///< voxel units
+  vec3 normal;  ///< (v1 - v0) x (v2 - v0); zero when the triangle is degenerate
+  uint axis;    ///< dominant axis: the largest |normal| component (T eq. 11), the first of equals
+};
+
+/// Degenerate: thinner than the rounding of its own coordinates (4 ulp), so that its facing is noise; or not finite.
+VoxelTriangle loadTriangle(SceneArray scenes, GridArray grids, uint triangle) {
+  Vec3Array positions = scenes.at[0].positions;
+  UintArray indices = scenes.at[0].indices;
+  vec3 p0 = positions.at[indices.at[3u * triangle]];
+  vec3 p1 = positions.at[indices.at[3u * triangle + 1u]];
+  vec3 p2 = positions.at[indices.at[3u * triangle + 2u]];
+  vec3 origin = grids.at[0].origin;
+  float inverseEdge = grids.at[0].inverseEdge;
+  VoxelTriangle t;
+  t.v[0] = (p0 - origin) * inverseEdge;
+  t.v[1] = (p1 - origin) * inverseEdge;
+  t.v[2] = (p2 - origin) * inverseEdge;
+  // The facing from differences of the stored positions. `precise`: every pass must choose the same axis.
+  vec3 a = (p1 - p0) * inverseEdge;
+  vec3 b = (p2 - p0) * inverseEdge;
+  vec3 c = b - a;
+  precise vec3 n = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+  precise float area2 = n.x * n.x + n.y * n.y + n.z * n.z;
+  precise float longest2 = max(a.x * a.x + a.y * a.y + a.z * a.z,
+                               max(b.x * b.x + b.y * b.y + b.z * b.z, c.x * c.x + c.y * c.y + c.z * c.z));
+  vec3 size = max(abs(p0), max(abs(p1), abs(p2)));
+  precise float ulp = max(size.x, max(size.y, size.z)) * inverseEdge * (4.0 / 8388608.0);
+  t.normal = area2 > longest2 * ulp * ulp && area2 < 1e30 ? n : vec3(0.0);
+  vec3 m = abs(n);
+  t.axis = m.x >= m.y && m.x >= m.z ? 0u : (m.y >= m.z ? 1u : 2u);
+  return t;
+}
+
+bool degenerate(VoxelTriangle t) { return t.normal == vec3(0.0); }
+
+/// Facing of the winner of a voxel's first facet, for the second: normal of `triangle`, not normalized.
+vec3 triangleNormal(SceneArray scenes, GridArray grids, uint triangle) {
+  return loadTriangle(scenes, grids, triangle).normal;
+}
+
+uint triangleFlags(SceneArray scenes, uint triangle) {
+  return scenes.at[0].materials.at[scenes.at[0].triangleMaterials.at[triangle]].flags;
+}
+
+/// Whether a triangle may be the second facet beside a winner that faces along `winner`: it faces against it, or its
+/// material has two sides and its back does.
+bool opposes(vec3 normal, uint flags, vec3 winner) {
+  float cosine = dot(normal, winner) * inversesqrt(dot(normal, normal) * dot(winner, winner));
+  return cosine < OPPOSED_COSINE || ((flags & MATERIAL_DOUBLE_SIDED) != 0u && cosine > -OPPOSED_COSINE);
+}
+
+/// The cells [lo, hi] that the triangle's bounds touch. Cells are half-open: a wall on a cell face lies in one cell.
+void cellBounds(VoxelTriangle t, uvec3 dims, out ivec3 lo, out ivec3 hi) {
+  ivec3 last = ivec3(dims) - 1;
+  lo = clamp(ivec3(floor(min(t.v[0], min(t.v[1], t.v[2])))), ivec3(0), last);
+  hi = clamp(ivec3(floor(max(t.v[0], max(t.v[1], t.v[2])))), ivec3(0), last);
+}
+
+/// Tiles of a triangle: their edge in columns and how many there are along the two other axes.
+uint tileEdge(uvec2 columns, out uvec2 tiles) {
+  uint edge = TILE_COLUMNS;
+  tiles = (columns + edge - 1u) / edge;
+  while (tiles.x * tiles.y > TILES_PER_TRIANGLE) {
+    edge *= 2u;
+    tiles = (columns + edge - 1u) / edge;
+  }
+  return edge;
+}

@@ -1,0 +1,91 @@
+// Push constants and keys of voxelization, compaction and distance fields (METHOD sections 2-4).
+#ifndef IRAD_SHARED_VOXELIZE_H
+#define IRAD_SHARED_VOXELIZE_H
+#include "shared/facets.h"
+#include "shared/grid.h"
+#include "shared/scene_gpu.h"
+IRAD_BEGIN
+
+/// Ordered key of a triangle in a voxel, resolved by atomicMax: bits 24-31 the area of the triangle inside the voxel in
+/// 1/170 voxel faces (a plane cuts a unit cube in at most sqrt 2), bits 0-23 the triangle's complement, so that equal
+/// areas go to the lower triangle. 0 is empty: the lower bits are never 0.
+IRAD_CONST uint MAX_TRIANGLES = 0xFFFFFEu;
+IRAD_FN uint voxelKey(float area, uint triangle) {
+  float q = floor(area * 170.0f + 0.5f);
+  return (uint(q < 255.0f ? q : 255.0f) << 24) | (0xFFFFFFu - triangle);
+}
+IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
+
+/// The second facet of a voxel faces against the first: n . n' below this. Perpendicular walls (a corner) are not opposed.
+IRAD_CONST float OPPOSED_COSINE = -0.25f;
+
+/// Conservative voxelization: a triangle's columns (along its dominant axis) are cut into tiles of (4 << level)^2, level
+/// the least for which this many tiles suffice. MAX_TRIANGLES x this < 2^32, so that the prefix sum cannot wrap.
+IRAD_CONST uint TILES_PER_TRIANGLE = 256u;
+IRAD_CONST uint TILE_COLUMNS = 4u;
+
+struct VoxelizePush {
+  SceneArray scene;
+  GridArray grid;
+  UintArray keys;       ///< slots x voxels
+  UintArray tileStart;  ///< per triangle: tiles, then their exclusive prefix sum
+  uint firstTriangle;
+  uint endTriangle;
+  uint firstTile;
+  uint tileCount;
+  uint slot;     ///< 0: the best triangle of all; 1: the best that faces against it
+  uint literal;  ///< thesis.literal
+};
+
+struct CompactPush {
+  GridArray grid;
+  UintArray keys;
+  UintArray blockCounts;  ///< facets per block of 4 x 4 x 4 voxels (64 Morton codes), then their exclusive prefix sum
+  UintArray totals;       ///< [0] facets (from the prefix sum), [1] solid voxels
+  UintArray voxel;
+  UintArray triangle;     ///< winner | SECOND_FACET for the second facet of a voxel
+  UintArray reverse;
+  uint blocks;
+  uint slots;
+};
+
+IRAD_CONST uint UNTEXTURED = 0xFFFFFFFFu;
+struct ShadeFacetsPush {
+  SceneArray scene;
+  GridArray grid;
+  UintArray voxel;
+  UintArray triangle;
+  UintArray shape;
+  Uvec2Array albedo;
+  Vec3Array emission;
+  UintArray clamped;  ///< [0]: facets whose albedo had to be clamped
+  uint count;
+  uint material;  ///< facets of this material, or of all that read no texture (UNTEXTURED)
+  uint encoding;
+  uint hasEmission;
+  uint literal;
+};
+
+struct ScanPush {
+  UintArray values;
+  UintArray total;
+  uint count;   ///< elements of this level
+  uint stride;  ///< of this level's elements within `values`
+  uint last;    ///< 1: one block; its sum is the total
+};
+/// Elements that one workgroup scans.
+IRAD_CONST uint SCAN_BLOCK = 2048u;
+
+struct FieldPush {
+  GridArray grid;
+  UintArray reverse;
+  UintArray source;
+  UintArray target;
+  uint step;  ///< chebyshev: the axis; jump flooding: the step in voxels
+  float scale;
+};
+/// Jump flooding: no seed known yet.
+IRAD_CONST uint NO_SEED = 0xFFFFFFFFu;
+
+IRAD_END
+#endif
