@@ -18,6 +18,8 @@ namespace irad {
 // ---- 2. Grid (T 5.1.1) ----------------------------------------------------------------------------------------------
 /// Bounds are local fp32; the arithmetic is double. Throws UsageError when an axis would exceed 1022 + 2 voxels.
 Grid makeGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
+/// T eq. 4-7 to the letter (thesis.literal): no padding, floored dimensions, p == max outside.
+Grid makeLiteralGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
 
 // ---- Prefix sum -----------------------------------------------------------------------------------------------------
 /// Exclusive scan of `count` uints in place; the total is written to `total` (one uint at element 0). Deterministic.
@@ -29,9 +31,8 @@ struct Voxels {
   Grid grid;
   Buffer gridRecord;  ///< one Grid
   uint32_t slots = 1;  ///< voxel.facets
-  Buffer keys;        ///< slots x voxels uints: 8-bit coverage | 24-bit (triangle id + 1) complement order; 0 = empty
-  // Attributes of the winners, slots x voxels; read by compactFacets, then released.
-  Buffer shape, albedo, emission;
+  Buffer keys;        ///< slots x voxels uints, voxelKey of shared/voxelize.h; 0 = empty
+  const SceneOnDevice* scene = nullptr;  ///< of which compactFacets reads the winners' attributes
 };
 Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings);
 
@@ -40,13 +41,14 @@ struct FacetList {
   Grid grid;
   uint32_t count = 0;         ///< facets
   uint32_t solidVoxels = 0;
+  uint32_t clampedAlbedo = 0;  ///< facets whose albedo was outside [0, .98] or not a number
   Buffer voxel, shape, albedo, emission, reverse;
   Buffer record;              ///< one FacetArrays
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
   FacetArrays addresses() const;
 };
-/// Morton-ordered compaction by prefix sum. Frees the attribute volumes of `voxels`.
+/// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
 /// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.
 FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,

@@ -44,7 +44,8 @@ void main() {
   float size = dot(normal, normal);
   normal = size > 1e-12 && finite(size) ? normal * inversesqrt(size) : facing;
   if (dot(normal, facing) < 0.0) normal = -normal;
-  uint code = encodeNormal(normal, push.encoding);
+  uint code = push.literal != 0u && push.encoding == NORMALS_OCT8 ? encodeOct8Literal(normal)
+                                                                  : encodeNormal(normal, push.encoding);
   float offset = dot(centre - vec3(0.5), decodeNormal(code, push.encoding));
   push.shape.at[facet] =
       code | packFacetOffset(offset) | ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? FACET_DOUBLE_SIDED : 0u);

@@ -10,9 +10,8 @@ void main() {
   if (triangle >= push.endTriangle) return;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   uint count = 0u;
-  if (!degenerate(t)) {
-    ivec3 lo, hi;
-    cellBounds(t, push.grid.at[0].dims, lo, hi);
+  ivec3 lo, hi;
+  if (!degenerate(t) && cellBounds(t, push.grid.at[0].dims, lo, hi)) {
     uint u = (t.axis + 1u) % 3u;
     uint w = (t.axis + 2u) % 3u;
     uvec2 tiles;

@@ -54,11 +54,12 @@ bool opposes(vec3 normal, uint flags, vec3 winner) {
   return cosine < OPPOSED_COSINE || ((flags & MATERIAL_DOUBLE_SIDED) != 0u && cosine > -OPPOSED_COSINE);
 }
 
-/// The cells [lo, hi] that the triangle's bounds touch. Cells are half-open: a wall on a cell face lies in one cell.
-void cellBounds(VoxelTriangle t, uvec3 dims, out ivec3 lo, out ivec3 hi) {
-  ivec3 last = ivec3(dims) - 1;
-  lo = clamp(ivec3(floor(min(t.v[0], min(t.v[1], t.v[2])))), ivec3(0), last);
-  hi = clamp(ivec3(floor(max(t.v[0], max(t.v[1], t.v[2])))), ivec3(0), last);
+/// The cells [lo, hi] that the triangle's bounds touch; false when none is in the grid (a wall at p == max of a grid
+/// without padding: thesis.literal). Cells are half-open: a wall on a cell face lies in one cell.
+bool cellBounds(VoxelTriangle t, uvec3 dims, out ivec3 lo, out ivec3 hi) {
+  lo = max(ivec3(floor(min(t.v[0], min(t.v[1], t.v[2])))), ivec3(0));
+  hi = min(ivec3(floor(max(t.v[0], max(t.v[1], t.v[2])))), ivec3(dims) - 1);
+  return all(lessThanEqual(lo, hi));
 }
 
 /// Tiles of a triangle: their edge in columns and how many there are along the two other axes.

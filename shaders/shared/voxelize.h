@@ -14,13 +14,16 @@ IRAD_FN uint voxelKey(float area, uint triangle) {
   float q = floor(area * 170.0f + 0.5f);
   return (uint(q < 255.0f ? q : 255.0f) << 24) | (0xFFFFFFu - triangle);
 }
-IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
+IRAD_FN uint keyTriangle(uint key) {
+  return 0xFFFFFFu - (key & 0xFFFFFFu);
+}
 
-/// The second facet of a voxel faces against the first: n . n' below this. Perpendicular walls (a corner) are not opposed.
+/// The second facet of a voxel faces against the first: n . n' below this. Perpendicular walls (a corner) are not
+/// opposed.
 IRAD_CONST float OPPOSED_COSINE = -0.25f;
 
-/// Conservative voxelization: a triangle's columns (along its dominant axis) are cut into tiles of (4 << level)^2, level
-/// the least for which this many tiles suffice. MAX_TRIANGLES x this < 2^32, so that the prefix sum cannot wrap.
+/// Conservative voxelization: a triangle's columns (along its dominant axis) are cut into tiles of (4 << level)^2,
+/// level the least for which this many tiles suffice. MAX_TRIANGLES x this < 2^32, so that the prefix sum cannot wrap.
 IRAD_CONST uint TILES_PER_TRIANGLE = 256u;
 IRAD_CONST uint TILE_COLUMNS = 4u;
 
@@ -33,8 +36,7 @@ struct VoxelizePush {
   uint endTriangle;
   uint firstTile;
   uint tileCount;
-  uint slot;     ///< 0: the best triangle of all; 1: the best that faces against it
-  uint literal;  ///< thesis.literal
+  uint slot;  ///< 0: the best triangle of all; 1: the best that faces against it
 };
 
 struct CompactPush {
@@ -43,7 +45,7 @@ struct CompactPush {
   UintArray blockCounts;  ///< facets per block of 4 x 4 x 4 voxels (64 Morton codes), then their exclusive prefix sum
   UintArray totals;       ///< [0] facets (from the prefix sum), [1] solid voxels
   UintArray voxel;
-  UintArray triangle;     ///< winner | SECOND_FACET for the second facet of a voxel
+  UintArray triangle;  ///< winner | SECOND_FACET for the second facet of a voxel
   UintArray reverse;
   uint blocks;
   uint slots;

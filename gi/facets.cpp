@@ -1,0 +1,180 @@
+// The facet list (METHOD section 4, T 5.3): Morton-ordered compaction, attributes, reverse map.
+#include <algorithm>
+#include <set>
+
+#include "gi/stages.h"
+#include "renderer/error.h"
+#include "shaders/shared/voxelize.h"
+
+namespace irad {
+namespace {
+
+constexpr const char* kStage = "GI CompactList";
+
+void allocate(const Device& device, FacetList& list) {
+  const uint64_t n = list.count;
+  list.voxel = Buffer(device, "facet voxel", Subsystem::Facets, 4 * n);
+  list.shape = Buffer(device, "facet shape", Subsystem::Facets, 4 * n);
+  list.albedo = Buffer(device, "facet albedo", Subsystem::Facets, 8 * n);
+  list.emission = Buffer(device, "facet emission", Subsystem::Facets, list.hasEmission ? 12 * n : 0);
+  list.reverse = Buffer(device, "facet reverse map", Subsystem::Facets, 4ull * list.grid.voxels);
+}
+
+void makeRecord(Context& context, FacetList& list) {
+  const FacetArrays arrays = list.addresses();
+  list.record = makeBuffer<FacetArrays>(context, "facet record", Subsystem::Facets, std::span(&arrays, 1));
+}
+
+/// Attributes of all facets ("GI Voxelization": in the thesis the voxelizer writes them). Every material that samples a
+/// texture takes its own facets out of the list; one dispatch does all others.
+uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& list, const Buffer& triangles,
+                     Frame& frame, const Settings& settings) {
+  const SceneOnDevice& scene = *voxels.scene;
+  Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
+  frame.pass(kStage).fill(clamped, 0);
+  ShadeFacetsPush push{};
+  push.scene = scene.record.address;
+  push.grid = voxels.gridRecord.address;
+  push.voxel = list.voxel.address;
+  push.triangle = triangles.address;
+  push.shape = list.shape.address;
+  push.albedo = list.albedo.address;
+  push.emission = list.emission.address;
+  push.clamped = clamped.address;
+  push.count = list.count;
+  push.encoding = static_cast<uint32_t>(list.encoding);
+  push.hasEmission = list.hasEmission;
+  push.literal = settings.thesis.literal;
+  constexpr uint32_t kSampled =
+      MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+  std::set<uint32_t> groups;
+  for (const Draw& draw : scene.scene.draws)
+    groups.insert((scene.materialValues.at(draw.material).flags & kSampled) != 0 ? draw.material : UNTEXTURED);
+  frame.pass("GI Voxelization")
+      .shader("gi/facet_shade.comp")
+      .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+            scene.uv1, scene.colors, scene.normals, voxels.gridRecord, list.voxel, triangles)
+      .write(list.shape, list.albedo, list.emission, clamped)
+      .run([&](Commands& commands) {
+        for (const uint32_t material : groups) {
+          commands.bindMaterial(scene.materialSets.at(material == UNTEXTURED ? 0 : material));
+          push.material = material;
+          commands.push(push);
+          commands.dispatch(list.count);
+        }
+      });
+  frame.submitAndWait();
+  return downloadAs<uint32_t>(context, clamped).at(0);
+}
+
+}  // namespace
+
+FacetArrays FacetList::addresses() const {
+  FacetArrays arrays{};
+  arrays.voxel = voxel.address;
+  arrays.shape = shape.address;
+  arrays.albedo = albedo.address;
+  arrays.emission = emission.address;
+  arrays.reverse = reverse.address;
+  arrays.count = count;
+  arrays.hasEmission = hasEmission;
+  return arrays;
+}
+
+FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings) {
+  FacetList list;
+  list.grid = voxels.grid;
+  list.encoding = settings.voxel.normals;
+  list.hasEmission = voxels.scene->anyEmission;
+  const uint32_t bits = voxels.grid.mortonBits.x + voxels.grid.mortonBits.y + voxels.grid.mortonBits.z;
+  CompactPush push{};
+  push.grid = voxels.gridRecord.address;
+  push.keys = voxels.keys.address;
+  push.slots = voxels.slots;
+  push.blocks = 1u << (bits - 6);
+
+  // Facets per block of 64 voxels, and where each block's facets start.
+  Buffer blocks(context.device, "block counts", Subsystem::Facets, 4ull * push.blocks);
+  Buffer totals(context.device, "facet totals", Subsystem::Facets, 8);
+  push.blockCounts = blocks.address;
+  push.totals = totals.address;
+  {
+    Frame frame = context.begin();
+    frame.pass(kStage).fill(totals, 0);
+    frame.pass(kStage)
+        .shader("gi/facet_count.comp")
+        .read(voxels.keys, voxels.gridRecord)
+        .write(blocks, totals)
+        .push(push)
+        .dispatch(push.blocks);
+    exclusiveScan(frame, kStage, blocks, push.blocks, totals);
+    frame.submitAndWait();
+  }
+  const std::vector<uint32_t> found = downloadAs<uint32_t>(context, totals);
+  list.count = found.at(0);
+  list.solidVoxels = found.at(1);
+  // The reverse map's top bit marks a second facet.
+  if (list.count >= SECOND_FACET)
+    throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, SECOND_FACET - 1));
+
+  allocate(context.device, list);
+  Buffer triangles(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
+  push.voxel = list.voxel.address;
+  push.triangle = triangles.address;
+  push.reverse = list.reverse.address;
+  Frame frame = context.begin();
+  frame.pass(kStage)
+      .shader("gi/facet_emit.comp")
+      .read(voxels.keys, voxels.gridRecord, blocks)
+      .write(list.voxel, triangles, list.reverse)
+      .push(push)
+      .dispatch(push.blocks);
+  if (list.count > 0)
+    list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, frame, settings);
+  else
+    frame.submitAndWait();
+  makeRecord(context, list);
+  voxels.keys = Buffer();
+  return list;
+}
+
+FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,
+                       const std::vector<uint32_t>& shape, const std::vector<glm::uvec2>& albedo,
+                       const std::vector<glm::vec3>& emission, NormalEncoding encoding) {
+  IRAD_CHECK_OP(voxel.size(), ==, shape.size());
+  IRAD_CHECK_OP(voxel.size(), ==, albedo.size());
+  IRAD_CHECK(emission.empty() || emission.size() == voxel.size(), "{} emissions for {} facets", emission.size(),
+             voxel.size());
+  FacetList list;
+  list.grid = grid;
+  list.count = static_cast<uint32_t>(voxel.size());
+  list.encoding = encoding;
+  list.hasEmission =
+      std::any_of(emission.begin(), emission.end(), [](const glm::vec3& e) { return e != glm::vec3(0); });
+  std::vector<uint32_t> reverse(grid.voxels, NO_FACET);
+  for (uint32_t i = 0; i < list.count; ++i) {
+    const uvec3 v = unpackVoxel(voxel[i]);
+    IRAD_CHECK(glm::all(glm::lessThan(v, grid.dims)), "facet {} lies in voxel ({}, {}, {}), outside the grid", i, v.x,
+               v.y, v.z);
+    uint32_t& entry = reverse[voxelIndex(v, grid.dims)];
+    IRAD_CHECK(entry == NO_FACET || entry == i - 1, "facets of one voxel are neighbours, two at most (facet {})", i);
+    if (entry == NO_FACET) {
+      entry = i;
+      ++list.solidVoxels;
+    } else {
+      entry |= SECOND_FACET;
+    }
+  }
+  const auto make = [&context]<class T>(const char* name, const std::vector<T>& values) {
+    return makeBuffer<T>(context, name, Subsystem::Facets, std::span<const T>(values));
+  };
+  list.voxel = make("facet voxel", voxel);
+  list.shape = make("facet shape", shape);
+  list.albedo = make("facet albedo", albedo);
+  list.emission = make("facet emission", list.hasEmission ? emission : std::vector<glm::vec3>{});
+  list.reverse = make("facet reverse map", reverse);
+  makeRecord(context, list);
+  return list;
+}
+
+}  // namespace irad

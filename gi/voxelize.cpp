@@ -1,0 +1,122 @@
+// Voxelization (METHOD section 2, T 5.1): which triangle owns each voxel, and which one faces against it.
+#include <algorithm>
+
+#include "gi/stages.h"
+#include "renderer/error.h"
+#include "shaders/shared/voxelize.h"
+
+namespace irad {
+namespace {
+
+constexpr const char* kStage = "GI Voxelization";
+
+/// Triangles that one dispatch or draw takes: a masked material by itself, with its textures; all between together.
+struct Range {
+  uint32_t first, end;  // triangles
+  uint32_t material;    // whose set is bound
+  uint32_t firstTile = 0, tiles = 0;
+};
+
+std::vector<Range> triangleRanges(const SceneOnDevice& scene) {
+  std::vector<Range> ranges;
+  bool open = false;  // the last range may grow
+  for (const Draw& draw : scene.scene.draws) {
+    const Range range{draw.firstIndex / 3, (draw.firstIndex + draw.indexCount) / 3, draw.material};
+    const bool masked = (scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
+    if (open && !masked && ranges.back().end == range.first)
+      ranges.back().end = range.end;
+    else
+      ranges.push_back(range);
+    open = !masked;
+  }
+  return ranges;
+}
+
+/// Counts the tiles of every triangle and reads back where each range's tiles start.
+Buffer countTiles(Context& context, const SceneOnDevice& scene, const VoxelizePush& base, const Voxels& voxels,
+                  std::vector<Range>& ranges) {
+  const uint32_t triangles = scene.scene.triangleCount();
+  Buffer starts(context.device, "tile starts", Subsystem::Voxels, 4ull * triangles);
+  Buffer total(context.device, "tile total", Subsystem::Voxels, 4);
+  Buffer bounds(context.device, "tile bounds", Subsystem::Voxels, 4ull * (ranges.size() + 1), Access::Readback);
+  VoxelizePush push = base;
+  push.tileStart = starts.address;
+  push.endTriangle = triangles;
+  Frame frame = context.begin();
+  frame.pass(kStage)
+      .shader("gi/voxel_tiles.comp")
+      .read(scene.record, scene.positions, scene.indices, voxels.gridRecord)
+      .write(starts)
+      .push(push)
+      .dispatch(triangles);
+  exclusiveScan(frame, kStage, starts, triangles, total);
+  for (size_t i = 0; i < ranges.size(); ++i) frame.pass(kStage).copy(starts, bounds, 4, 4ull * ranges[i].first, 4 * i);
+  frame.pass(kStage).copy(total, bounds, 4, 0, 4 * ranges.size());
+  frame.submitAndWait();
+  const auto* start = static_cast<const uint32_t*>(bounds.mapped);
+  for (size_t i = 0; i < ranges.size(); ++i) {
+    ranges[i].firstTile = start[i];
+    ranges[i].tiles = start[i + 1] - start[i];
+  }
+  return starts;
+}
+
+}  // namespace
+
+Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  const uint32_t triangles = scene.scene.triangleCount();
+  if (triangles > MAX_TRIANGLES)
+    throw InputError(fmt::format("{}: {} triangles; voxelization takes at most {}", scene.scene.path.string(),
+                                 triangles, MAX_TRIANGLES));
+  Voxels voxels;
+  voxels.scene = &scene;
+  voxels.slots = settings.voxel.facets;
+  const auto grid = settings.thesis.literal ? makeLiteralGrid : makeGrid;
+  voxels.grid = grid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
+  voxels.gridRecord = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&voxels.grid, 1));
+  voxels.keys = Buffer(context.device, "voxel keys", Subsystem::Voxels, 4ull * voxels.slots * voxels.grid.voxels);
+
+  VoxelizePush push{};
+  push.scene = scene.record.address;
+  push.grid = voxels.gridRecord.address;
+  push.keys = voxels.keys.address;
+  std::vector<Range> ranges = triangles > 0 ? triangleRanges(scene) : std::vector<Range>{};
+  const bool raster = settings.voxel.method == VoxelMethod::raster;
+  Buffer tileStarts;
+  if (!raster && !ranges.empty()) tileStarts = countTiles(context, scene, push, voxels, ranges);
+  push.tileStart = tileStarts.address;
+
+  Frame frame = context.begin();
+  frame.pass(kStage).fill(voxels.keys, 0);
+  for (push.slot = 0; push.slot < voxels.slots && !ranges.empty(); ++push.slot) {
+    Pass pass = frame.pass(kStage);
+    pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+              scene.uv1, scene.colors, voxels.gridRecord);
+    if (!raster) pass.read(tileStarts);
+    pass.write(voxels.keys);
+    if (raster) {
+      const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
+      pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.geom", "gi/voxel_raster.frag"}).extent(size, size);
+    } else {
+      pass.shader("gi/voxelize.comp");
+    }
+    pass.run([&](Commands& commands) {
+      for (const Range& range : ranges) {
+        commands.bindMaterial(scene.materialSets.at(range.material));
+        push.firstTriangle = range.first;
+        push.endTriangle = range.end;
+        push.firstTile = range.firstTile;
+        push.tileCount = range.tiles;
+        commands.push(push);
+        if (raster)
+          commands.draw(3 * (range.end - range.first), 3 * range.first);
+        else if (range.tiles > 0)
+          commands.dispatch(range.tiles);
+      }
+    });
+  }
+  frame.submitAndWait();
+  return voxels;
+}
+
+}  // namespace irad

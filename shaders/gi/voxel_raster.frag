@@ -1,0 +1,38 @@
+// Raster voxelization (T 5.1.2): a fragment is the voxel that the triangle's plane passes through at the pixel's centre
+// (T eq. 14), which leaves pin-holes. The thesis lets the last writer win; here the same ordered key as in
+// gi/voxelize.comp decides, the area being that of the plane over the whole column.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "voxel_triangle.glsl"
+#include "voxel_material.glsl"
+layout(push_constant, scalar) uniform Push { VoxelizePush push; };
+layout(location = 0) flat in uvec2 triangleAxis;
+layout(location = 1) flat in vec3 plane;
+layout(location = 2) flat in vec2 corner;
+
+void main() {
+  uvec3 dims = push.grid.at[0].dims;
+  uint triangle = triangleAxis.x;
+  uint d = triangleAxis.y;
+  vec2 pixel = floor(gl_FragCoord.xy) + 0.5;
+  vec3 point;
+  point[d] = plane.z + dot(plane.xy, pixel - corner);
+  point[(d + 1u) % 3u] = pixel.x;
+  point[(d + 2u) % 3u] = pixel.y;
+  ivec3 cell = ivec3(floor(point));
+  if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(dims)))) return;
+  uint voxel = voxelIndex(uvec3(cell), dims);
+  uint flags = triangleFlags(push.scene, triangle);
+  // Only masked materials and second facets need the triangle itself.
+  if (push.slot == 1u || (flags & MATERIAL_ALPHA_MASK) != 0u) {
+    VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+    if (push.slot == 1u) {
+      uint winner = push.keys.at[voxel];
+      if (winner == 0u) return;
+      if (!opposes(t.normal, flags, triangleNormal(push.scene, push.grid, keyTriangle(winner)))) return;
+    }
+    if (masked(push.scene, t, triangle, flags, point)) return;
+  }
+  float area = sqrt(1.0 + dot(plane.xy, plane.xy));
+  atomicMax(push.keys.at[push.slot * push.grid.at[0].voxels + voxel], voxelKey(area, triangle));
+}
