@@ -14,6 +14,7 @@
 namespace irad {
 
 class Allocator;
+struct SamplerDesc;
 
 struct DeviceOptions {
   std::string select;        ///< index or part of a name (case-insensitive); empty: the best suitable device
@@ -54,6 +55,10 @@ class Device {
   VkPhysicalDeviceLimits limits{};
   VkDeviceSize maxAllocation = 0;  ///< maxMemoryAllocationSize
   uint32_t subgroupSize = 0;
+  uint32_t timestampBits = 0;   ///< 0: the queue has no timestamps
+  bool debugUtils = false;      ///< object names and labels reach a debugger
+  bool anisotropy = false;      ///< samplers may be anisotropic
+  bool memoryBudget = false;    ///< VK_EXT_memory_budget
   bool isCpu = false;  ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
   mutable DeviceCounters counters;
 
@@ -61,8 +66,12 @@ class Device {
 
   void name(VkObjectType type, uint64_t object, const std::string& name) const;
 
-  /// Runs `destroy` once every submission made so far has finished on the device.
+  /// Runs `destroy` once every submission made so far, and every command buffer being recorded now, has finished on
+  /// the device.
   void retire(std::function<void()> destroy) const;
+  /// Brackets the recording of a command buffer: what is retired meanwhile may be used by it. Frames call these.
+  void recordingBegan() const;
+  void recordingEnded() const;
   /// Submits `commands`; returns the timeline value that `wait` takes. `presentWait`/`presentSignal` may be null.
   uint64_t submit(VkCommandBuffer commands, VkSemaphore presentWait = VK_NULL_HANDLE,
                   VkSemaphore presentSignal = VK_NULL_HANDLE) const;
@@ -74,7 +83,8 @@ class Device {
   std::vector<std::string> validationMessages() const;
 
  private:
-  Device() = default;
+  Device();
+  friend VkSampler sampler(const Device& device, const SamplerDesc& desc);
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::unique_ptr<Allocator> allocator_;

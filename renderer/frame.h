@@ -39,6 +39,7 @@ class Context {
   /// A set of that layout, alive as long as the context. Order as in materialLayout; `views` and `samplers` hold 5.
   VkDescriptorSet materialSet(std::span<const VkImageView> views, std::span<const VkSampler> samplers);
   Frame begin(uint64_t frameIndex = 0);
+  Frame beginUntimed();  ///< whose passes get no row in the timing table: transfers, tests
 
   struct Impl;
   std::unique_ptr<Impl> impl;
@@ -143,7 +144,8 @@ class Pass {
   std::shared_ptr<State> state_;
 };
 
-/// One command buffer. Move-only; dropping an unsubmitted frame discards it.
+/// One command buffer. Move-only. Record one frame at a time. Dropping an unsubmitted frame (an error unwinds) runs what
+/// was recorded, so that the resources' states stay true, and drops its readbacks and timings.
 class Frame {
  public:
   Pass pass(std::string_view stage);  ///< stage: a name of METHOD section 11, or a UI / transfer label
@@ -165,7 +167,7 @@ class Frame {
   std::unique_ptr<Impl> impl_;
 };
 
-// Blocking transfers for set-up, tests and exports.
+// Blocking transfers for set-up, tests and exports. They run at once: before what an open frame has recorded.
 void upload(Context& context, const Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
 void upload(Context& context, const Image& image, std::span<const std::byte> bytes);  ///< mip 0, all layers
 void generateMips(Context& context, const Image& image);

@@ -51,6 +51,7 @@ struct ImageDesc {
   uint32_t layers = 1, mips = 1;
   bool volume = false, cube = false;  ///< cube: layers is a multiple of 6, viewed as a cube array
   bool array = false;                 ///< view as a 2D array even with one layer
+  /// STORAGE is dropped for depth and sRGB formats, which cannot have it; depth formats gain DEPTH_STENCIL_ATTACHMENT.
   VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                             VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   VkFormat aliasFormat = VK_FORMAT_UNDEFINED;  ///< also viewable in this format (MUTABLE_FORMAT), e.g. rgba8 as r32ui
@@ -69,7 +70,7 @@ class Image {
   VkImage handle = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;       ///< all mips and layers
   VkImageView aliasView = VK_NULL_HANDLE;  ///< in aliasFormat
-  std::vector<VkImageView> layerViews;     ///< one per layer, as a render target (layers > 1 or cube only)
+  std::vector<VkImageView> layerViews;     ///< mip 0 of each layer, as a render target (layers > 1 or mips > 1)
   ImageDesc desc;
   mutable ResourceState state;
   uint64_t bytes() const;  ///< measured (allocator)
@@ -98,11 +99,11 @@ class Allocator {
   uint64_t budget() const;  ///< bytes this process may use on the device-local heap (heap size less a reserve)
   /// Throws DeviceError "NAME needs A MiB, B of C MiB are free" if `bytes` more would exceed the budget.
   void check(const std::string& name, uint64_t bytes) const;
+  struct Impl;
 
  private:
   friend class Buffer;
   friend class Image;
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
@@ -110,7 +111,8 @@ enum class Wrap { Repeat, Mirror, Clamp };
 struct SamplerDesc {
   Wrap u = Wrap::Repeat, v = Wrap::Repeat;
   bool linearMag = true, linearMin = true, mips = true, linearMips = true;
-  bool compare = false;  ///< depth comparison (less or equal), for shadow maps
+  bool compare = false;      ///< depth comparison (less or equal), for shadow maps
+  bool anisotropic = false;  ///< where the device can; all filters linear
   bool operator==(const SamplerDesc&) const = default;
 };
 /// Cached by the device; never freed before it.

@@ -24,6 +24,8 @@ struct ShaderModule {
   std::vector<uint32_t> spirv;
   std::vector<ShaderBinding> bindings;      ///< sorted by set, binding
   std::array<uint32_t, 3> localSize{1, 1, 1};
+  /// The specialization constants that set localSize (local_size_x_id); UINT32_MAX: fixed.
+  std::array<uint32_t, 3> localSizeId{UINT32_MAX, UINT32_MAX, UINT32_MAX};
   uint32_t pushBytes = 0;  ///< size of the push-constant block
 };
 
@@ -31,6 +33,7 @@ struct ShaderModule {
 struct ReflectedStruct {
   std::string name;
   std::vector<std::pair<std::string, uint32_t>> members;
+  uint32_t bytes = 0;  ///< end of the last member; 0 if it is an unsized array
 };
 std::vector<ReflectedStruct> reflectStructs(std::span<const uint32_t> spirv);
 ShaderModule reflect(std::string name, std::vector<uint32_t> spirv);
@@ -40,10 +43,12 @@ class ShaderLibrary {
   ShaderLibrary();  ///< the embedded modules
   const ShaderModule& get(std::string_view name) const;  ///< unknown name: broken invariant, near names printed
   std::vector<std::string> names() const;
+  /// Adds or replaces a module from outside the program (tests).
+  void add(std::string name, std::vector<uint32_t> spirv);
   uint64_t generation() const { return generation_; }  ///< grows with every successful reload; pipelines key on it
 
-  /// Recompiles every stage below `sources` (the shaders/ folder). Empty result: all replaced. Otherwise the
-  /// compiler's messages, and every old module stays in place.
+  /// Recompiles every stage below `sources` (the shaders/ folder) that the library knows. Empty result: all replaced.
+  /// Otherwise the compiler's messages, and every old module stays in place.
   std::string reload(const std::filesystem::path& sources);
 
  private:

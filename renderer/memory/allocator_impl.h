@@ -1,0 +1,66 @@
+// The sub-allocator: blocks per memory type, first fit by offset; buffers and optimal images never share a block, so
+// bufferImageGranularity never matters.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+#include "renderer/resources.h"
+
+namespace irad {
+
+struct Allocator::Impl {
+  struct Block {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    uint64_t size = 0;
+    uint32_t type = 0;
+    bool images = false, dedicated = false;
+    std::byte* mapped = nullptr;
+    std::map<uint64_t, uint64_t> free;  ///< offset -> size; neighbours are merged
+  };
+  struct Allocation {
+    Block* block = nullptr;
+    uint64_t offset = 0, bytes = 0;
+    MemoryRow row;
+    bool deviceLocal = false;
+  };
+  /// What a new resource is given.
+  struct Place {
+    uint64_t id = 0;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    uint64_t offset = 0;
+    void* mapped = nullptr;
+  };
+
+  explicit Impl(const Device& device);
+  ~Impl();
+
+  Place allocate(const VkMemoryRequirements& needs, MemoryRow row, Access access, bool image);
+  void free(uint64_t id);
+  uint64_t bytes(uint64_t id) const;
+  uint64_t budget() const;
+  void check(const std::string& name, uint64_t bytes) const;
+
+  /// DeviceOptions::poison: runs `record` on the device and waits.
+  void runNow(const std::function<void(VkCommandBuffer)>& record);
+
+  const Device& device;
+  VkPhysicalDeviceMemoryProperties memory{};
+  uint32_t deviceHeap = 0;  ///< the largest device-local heap
+  uint64_t physicalBytes = 0;
+
+  mutable std::mutex mutex;
+  std::vector<std::unique_ptr<Block>> blocks;
+  std::unordered_map<uint64_t, Allocation> live;
+  uint64_t nextId = 1, used = 0, peak = 0, deviceUsed = 0;
+  VkCommandPool pool = VK_NULL_HANDLE;
+
+ private:
+  uint32_t chooseType(uint32_t allowed, Access access, const std::string& name) const;
+  Block* newBlock(uint32_t type, uint64_t size, bool images, bool dedicated, const std::string& name);
+  bool fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset);
+};
+
+}  // namespace irad

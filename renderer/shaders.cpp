@@ -1,0 +1,75 @@
+#include "renderer/shaders.h"
+
+#include <algorithm>
+
+#include "renderer/error.h"
+#include "shaders/embedded.h"
+
+namespace irad {
+namespace {
+
+/// Levenshtein's edit distance.
+size_t distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+ShaderLibrary::ShaderLibrary() {
+  for (const EmbeddedShader& shader : embeddedShaders())
+    modules_.emplace(shader.name, reflect(shader.name, {shader.spirv.begin(), shader.spirv.end()}));
+}
+
+const ShaderModule& ShaderLibrary::get(std::string_view name) const {
+  if (const auto it = modules_.find(name); it != modules_.end()) return it->second;
+  std::vector<std::string> near = names();
+  std::sort(near.begin(), near.end(),
+            [&](const auto& a, const auto& b) { return distance(a, name) < distance(b, name); });
+  near.resize(std::min<size_t>(near.size(), 3));
+  std::string list;
+  for (const std::string& n : near) list += (list.empty() ? "" : ", ") + n;
+  invariantFailed(__FILE__, __LINE__, fmt::format("no shader '{}'; near: {}", name, list));
+}
+
+std::vector<std::string> ShaderLibrary::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, module] : modules_) names.push_back(name);
+  return names;
+}
+
+void ShaderLibrary::add(std::string name, std::vector<uint32_t> spirv) {
+  ShaderModule module = reflect(name, std::move(spirv));
+  modules_.insert_or_assign(std::move(name), std::move(module));
+  ++generation_;
+}
+
+std::string ShaderLibrary::reload(const std::filesystem::path& sources) {
+  std::map<std::string, ShaderModule, std::less<>> fresh;
+  std::string messages;
+  for (const auto& [name, module] : modules_) {
+    if (!std::filesystem::exists(sources / name)) continue;
+    try {
+      fresh.emplace(name, reflect(name, compileGlsl(sources, name)));
+    } catch (const WorkError& error) {
+      messages += std::string(error.what()) + "\n";
+    }
+  }
+  if (fresh.empty() && messages.empty()) messages = fmt::format("no shader sources in {}\n", sources.string());
+  if (!messages.empty()) return messages;
+  for (auto& [name, module] : fresh) modules_.insert_or_assign(name, std::move(module));
+  ++generation_;
+  return {};
+}
+
+}  // namespace irad
