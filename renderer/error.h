@@ -37,7 +37,7 @@ struct DeviceError : Error {
     const auto irad_a = (a);                                                                                  \
     const auto irad_b = (b);                                                                                  \
     if (!(irad_a op irad_b))                                                                                  \
-      ::irad::invariantFailed(__FILE__, __LINE__, fmt::format(#a " " #op " " #b " ({} vs {})", irad_a, irad_b)); \
+      ::irad::invariantFailed(__FILE__, __LINE__, fmt::format("{} ({} vs {})", #a " " #op " " #b, irad_a, irad_b)); \
   } while (false)
 #define IRAD_CHECK(condition, ...)                                                                    \
   do {                                                                                                \

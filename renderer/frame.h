@@ -59,14 +59,17 @@ class Commands {
   void dispatchGroups(uint32_t x, uint32_t y = 1, uint32_t z = 1);
   void draw(uint32_t vertexCount, uint32_t firstVertex = 0, uint32_t instances = 1);
   void cull(VkCullModeFlags mode);  ///< dynamic state; default VK_CULL_MODE_NONE, front is counter-clockwise
+  /// Viewport and scissor in pixels from the top left; clip space has y up (a negative-height viewport). Default: all.
   void viewport(float x, float y, float width, float height);
   VkCommandBuffer raw() const;
 
  private:
   friend class Pass;
   void pushBytes(const void* bytes, size_t size);
+  void checkPushed() const;
   Frame* frame_ = nullptr;
   struct Pipeline* pipeline_ = nullptr;
+  bool pushed_ = false;
 };
 
 struct ClearColor {
@@ -137,6 +140,7 @@ class Pass {
   friend class Frame;
   void use(const Buffer& buffer, bool write);
   void use(const Image& image, bool write);
+  void rasterize(VkCommandBuffer cmd, Commands& commands, const std::function<void(Commands&)>& body);
   Frame* frame_ = nullptr;
   std::string stage_;
   std::vector<uint8_t> pushed_;

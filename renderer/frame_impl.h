@@ -69,7 +69,6 @@ struct Frame::Impl {
   void endLabel();
   std::optional<uint32_t> startTimer(const std::string& stage);
   void stopTimer(uint32_t timer);
-  void end();
   void submit(VkSemaphore presentWait, VkSemaphore presentSignal, bool awaited);
 };
 

@@ -1,5 +1,5 @@
 // GLSL -> SPIR-V at run time, with the options of shaders/CMakeLists.txt.
-#include <SPIRV/GlslangToSpv.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 

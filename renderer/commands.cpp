@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include "renderer/error.h"
+#include "renderer/frame_impl.h"
+
+namespace irad {
+
+VkCommandBuffer Commands::raw() const { return frame_->commands(); }
+
+void Commands::bindMaterial(VkDescriptorSet set) {
+  IRAD_CHECK(pipeline_->material, "{} declares no set 1", pipeline_->name);
+  vkCmdBindDescriptorSets(raw(), pipeline_->bindPoint, pipeline_->layout, 1, 1, &set, 0, nullptr);
+}
+
+void Commands::pushBytes(const void* bytes, size_t size) {
+  // A scalar-layout block may end before the C++ struct's tail padding, never after it.
+  IRAD_CHECK(size % 4 == 0 && size >= pipeline_->pushBytes && size < pipeline_->pushBytes + 8,
+             "{}: {} bytes pushed, the shader's block has {}", pipeline_->name, size, pipeline_->pushBytes);
+  vkCmdPushConstants(raw(), pipeline_->layout, kAllStages, 0, static_cast<uint32_t>(size), bytes);
+  pushed_ = true;
+}
+
+void Commands::checkPushed() const {
+  IRAD_CHECK(pushed_ || pipeline_->pushBytes == 0, "{}: nothing pushed, the shader's block has {} bytes",
+             pipeline_->name, pipeline_->pushBytes);
+}
+
+void Commands::dispatch(uint64_t threads) {
+  const auto& local = pipeline_->localSize;
+  IRAD_CHECK(local[1] == 1 && local[2] == 1, "{}: dispatch(threads) of a {}x{}x{} workgroup", pipeline_->name, local[0],
+             local[1], local[2]);
+  IRAD_CHECK_OP(threads, <=, uint64_t{UINT32_MAX});  // irad_index() is a uint
+  const uint64_t groups = (threads + local[0] - 1) / local[0];
+  const uint64_t limit = frame_->context().device.limits.maxComputeWorkGroupCount[0];
+  const uint64_t rows = std::max<uint64_t>(1, (groups + limit - 1) / limit);
+  dispatchGroups(static_cast<uint32_t>((groups + rows - 1) / rows), static_cast<uint32_t>(rows));
+}
+
+void Commands::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
+  checkPushed();
+  const uint32_t* limit = frame_->context().device.limits.maxComputeWorkGroupCount;
+  IRAD_CHECK(x <= limit[0] && y <= limit[1] && z <= limit[2], "{}: {}x{}x{} groups, the device allows {}x{}x{}",
+             pipeline_->name, x, y, z, limit[0], limit[1], limit[2]);
+  if (x == 0 || y == 0 || z == 0) return;
+  vkCmdDispatch(raw(), x, y, z);
+  ++frame_->context().device.counters.dispatches;
+}
+
+void Commands::draw(uint32_t vertexCount, uint32_t firstVertex, uint32_t instances) {
+  checkPushed();
+  if (vertexCount == 0 || instances == 0) return;
+  vkCmdDraw(raw(), vertexCount, instances, firstVertex, 0);
+  ++frame_->context().device.counters.draws;
+}
+
+void Commands::cull(VkCullModeFlags mode) { vkCmdSetCullMode(raw(), mode); }
+
+void Commands::viewport(float x, float y, float width, float height) {
+  // y up: clip space as glTF and OpenGL have it, so counter-clockwise stays counter-clockwise.
+  const VkViewport viewport{x, y + height, width, -height, 0.0f, 1.0f};
+  const VkRect2D scissor{{static_cast<int32_t>(x), static_cast<int32_t>(y)},
+                         {static_cast<uint32_t>(width), static_cast<uint32_t>(height)}};
+  vkCmdSetViewport(raw(), 0, 1, &viewport);
+  vkCmdSetScissor(raw(), 0, 1, &scissor);
+}
+
+}  // namespace irad

@@ -1,0 +1,440 @@
+#include <algorithm>
+
+#include "renderer/error.h"
+#include "renderer/format.h"
+#include "renderer/frame_impl.h"
+
+namespace irad {
+namespace {
+
+constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+constexpr Use kColorTarget{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                           VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr VkPipelineStageFlags2 kDepthStages =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+constexpr Use kDepthRead{kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
+constexpr Use kDepthWrite{kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                                            VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr Use kClear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr Use kCopyFrom{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+constexpr Use kCopyTo{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr Use kIndirect{VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+
+VkImageAspectFlags aspect(const Image& image) {
+  return formatInfo(image.desc.format).kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+}  // namespace
+
+struct Pass::State {
+  std::vector<std::string> shaders;
+  std::map<uint32_t, uint32_t> constants;
+
+  struct BufferUse {
+    const Buffer* buffer;
+    bool write;
+  };
+  struct ImageUse {
+    const Image* image;
+    bool write, alias;
+    VkSampler sampler;  ///< null: a storage image
+  };
+  struct Declared {
+    ResourceState* state;
+    const Image* image;  ///< null: a buffer
+    Use use;
+  };
+  std::vector<BufferUse> buffers;
+  std::vector<ImageUse> images;  ///< binding 0, 1, 2 ... of set 0
+  std::vector<Declared> declared;
+
+  struct Color {
+    const Image* image;
+    std::optional<ClearColor> clear;
+  };
+  std::vector<Color> colors;
+  const Image* depth = nullptr;
+  std::optional<float> depthClear;
+  int depthLayer = 0;
+  uint32_t width = 0, height = 0;
+  float biasConstant = 0, biasSlope = 0;
+  RasterState raster;
+
+  /// Adds a use, merged with earlier ones of the same resource.
+  void add(ResourceState& state, const Image* image, const Use& use) {
+    for (Declared& d : declared)
+      if (d.state == &state) {
+        d.use.stages |= use.stages;
+        d.use.access |= use.access;
+        return;
+      }
+    declared.push_back({&state, image, use});
+  }
+  /// read() and write() turned into uses at these stages.
+  void resolveUses(VkPipelineStageFlags2 stages) {
+    for (const BufferUse& b : buffers) add(b.buffer->state, nullptr, {stages, b.write ? kStorageWrite : kStorageRead});
+    for (const ImageUse& i : images) {
+      const VkAccessFlags2 storage = i.write ? kStorageWrite : kStorageRead;
+      add(i.image->state, i.image, {stages, i.sampler ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : storage});
+    }
+    for (const Color& c : colors) add(c.image->state, c.image, kColorTarget);
+    if (depth) add(depth->state, depth, raster.depthWrite || depthClear ? kDepthWrite : kDepthRead);
+  }
+};
+
+// --- Declarations -----------------------------------------------------------------------------------------------------
+
+Pass Frame::pass(std::string_view stage) {
+  IRAD_CHECK(impl_ && impl_->slot, "pass {} after the frame was submitted", stage);
+  Pass pass;
+  pass.frame_ = this;
+  pass.stage_ = stage;
+  pass.state_ = std::make_shared<Pass::State>();
+  return pass;
+}
+
+Pass& Pass::shader(std::string_view name) {
+  state_->shaders.emplace_back(name);
+  return *this;
+}
+Pass& Pass::shaders(std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) state_->shaders.emplace_back(name);
+  return *this;
+}
+Pass& Pass::constant(uint32_t id, uint32_t value) {
+  state_->constants[id] = value;
+  return *this;
+}
+void Pass::use(const Buffer& buffer, bool write) {
+  IRAD_CHECK(buffer.handle, "{}: an empty buffer", stage_);
+  state_->buffers.push_back({&buffer, write});
+}
+void Pass::use(const Image& image, bool write) {
+  IRAD_CHECK(image.handle, "{}: an empty image", stage_);
+  state_->images.push_back({&image, write, false, VK_NULL_HANDLE});
+}
+Pass& Pass::sample(const Image& image, VkSampler sampler) {
+  IRAD_CHECK(image.handle && sampler, "{}: sampling an empty image or without a sampler", stage_);
+  state_->images.push_back({&image, false, false, sampler});
+  return *this;
+}
+Pass& Pass::writeAlias(const Image& image) {
+  IRAD_CHECK(image.aliasView, "{}: {} has no alias", stage_, image.desc.name);
+  state_->images.push_back({&image, true, true, VK_NULL_HANDLE});
+  return *this;
+}
+Pass& Pass::declare(const Buffer& buffer, Use use) {
+  state_->add(buffer.state, nullptr, use);
+  return *this;
+}
+Pass& Pass::declare(const Image& image, Use use) {
+  state_->add(image.state, &image, use);
+  return *this;
+}
+Pass& Pass::color(const Image& image, std::optional<ClearColor> clear) {
+  IRAD_CHECK(image.handle, "{}: an empty color target", stage_);
+  state_->colors.push_back({&image, clear});
+  return *this;
+}
+Pass& Pass::depth(const Image& image, bool write, std::optional<float> clear, int layer) {
+  IRAD_CHECK(image.handle, "{}: an empty depth target", stage_);
+  IRAD_CHECK_OP(layer, <, static_cast<int>(image.desc.layers));
+  state_->depth = &image;
+  state_->raster.depthWrite = write;
+  state_->depthClear = clear;
+  state_->depthLayer = layer;
+  return *this;
+}
+Pass& Pass::depthBias(float constant, float slope) {
+  state_->raster.depthBias = true;
+  state_->biasConstant = constant;
+  state_->biasSlope = slope;
+  return *this;
+}
+Pass& Pass::depthCompare(VkCompareOp op) {
+  state_->raster.compare = op;
+  return *this;
+}
+Pass& Pass::extent(uint32_t width, uint32_t height) {
+  state_->width = width;
+  state_->height = height;
+  return *this;
+}
+Pass& Pass::additive() {
+  state_->raster.blend = Blend::Additive;
+  return *this;
+}
+Pass& Pass::alphaBlend() {
+  state_->raster.blend = Blend::Alpha;
+  return *this;
+}
+
+// --- Recording --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The one barrier of a pass: all its dependencies merged into a global one, and the first-use transitions of images.
+class BarrierBuilder {
+ public:
+  void add(ResourceState& state, const Image* image, const Use& use) {
+    if (image && !state.defined) {
+      // To GENERAL for good. The destination is everything, so that later readers at other stages need no barrier.
+      transitions_.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                              .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                              .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                              .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                              .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+                              .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                              .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                              .image = image->handle,
+                              .subresourceRange = {aspect(*image), 0, VK_REMAINING_MIP_LEVELS, 0,
+                                                   VK_REMAINING_ARRAY_LAYERS}});
+      state = {.defined = true};
+    }
+    const Dependency d = dependency(state, use);
+    if (d.needed()) {
+      memory_.srcStageMask |= d.source.stages;
+      memory_.srcAccessMask |= d.source.access;
+      memory_.dstStageMask |= d.destination.stages;
+      memory_.dstAccessMask |= d.destination.access;
+    }
+    state = advance(state, use);
+  }
+
+  void record(VkCommandBuffer commands) const {
+    if (memory_.srcStageMask == 0 && transitions_.empty()) return;
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = memory_.srcStageMask ? 1u : 0u,
+                                .pMemoryBarriers = &memory_,
+                                .imageMemoryBarrierCount = static_cast<uint32_t>(transitions_.size()),
+                                .pImageMemoryBarriers = transitions_.data()};
+    vkCmdPipelineBarrier2(commands, &info);
+  }
+
+ private:
+  VkMemoryBarrier2 memory_{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  std::vector<VkImageMemoryBarrier2> transitions_;
+};
+
+/// Runs its function at the end of the scope, also when the pass's body throws.
+template <class F>
+struct AtEnd {
+  F f;
+  ~AtEnd() { f(); }
+};
+template <class F>
+AtEnd(F) -> AtEnd<F>;
+
+void checkBindings(const std::string& stage, const Pipeline& pipeline, size_t named) {
+  IRAD_CHECK(named == pipeline.images.size(), "{}: the pass names {} images, {} declares {}", stage, named,
+             pipeline.name, pipeline.images.size());
+}
+
+}  // namespace
+
+void Pass::record(const std::function<void(VkCommandBuffer)>& body) {
+  // Without a shader the stages of read() and write() are unknown: all of them.
+  if (state_->shaders.empty()) state_->resolveUses(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+  Frame::Impl& frame = *frame_->impl_;
+  IRAD_CHECK(frame.slot, "pass {} after the frame was submitted", stage_);
+  const VkCommandBuffer commands = frame.slot->commands;
+  BarrierBuilder barriers;
+  for (const State::Declared& d : state_->declared) barriers.add(*d.state, d.image, d.use);
+  frame.beginLabel(stage_);
+  const AtEnd label{[&] { frame.endLabel(); }};
+  barriers.record(commands);
+  const std::optional<uint32_t> timer = frame.startTimer(stage_);
+  const AtEnd stop{[&] {
+    if (timer) frame.stopTimer(*timer);
+  }};
+  body(commands);
+}
+
+void Pass::run(const std::function<void(Commands&)>& body) {
+  State& s = *state_;
+  Context& context = frame_->context();
+  for (const State::Color& c : s.colors) s.raster.colors.push_back(c.image->desc.format);
+  if (s.depth) s.raster.depth = s.depth->desc.format;
+  Pipeline& pipeline = context.impl->pipelines.get(s.shaders, s.constants, s.raster);
+  s.resolveUses(pipeline.stages);
+
+  // The images of set 0, in the order in which the pass names them.
+  checkBindings(stage_, pipeline, s.images.size());
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  if (!s.images.empty()) {
+    set = frame_->impl_->allocateSet(pipeline.set0);
+    std::vector<VkDescriptorImageInfo> infos(s.images.size());
+    std::vector<VkWriteDescriptorSet> writes(s.images.size());
+    for (uint32_t i = 0; i < s.images.size(); ++i) {
+      const State::ImageUse& image = s.images[i];
+      const ShaderBinding& binding = pipeline.images[i];
+      IRAD_CHECK(binding.binding == i && binding.count == 1, "{}: {} declares {} as binding {} x{}; the pass names {} as image {}",
+                 stage_, pipeline.name, binding.name, binding.binding, binding.count, image.image->desc.name, i);
+      IRAD_CHECK(binding.storageImage == (image.sampler == VK_NULL_HANDLE),
+                 "{}: {} is a {} in {}, but the pass gives {} as a {}", stage_, binding.name,
+                 binding.storageImage ? "storage image" : "sampler", pipeline.name, image.image->desc.name,
+                 image.sampler ? "sampler" : "storage image");
+      infos[i] = {image.sampler, image.alias ? image.image->aliasView : image.image->view, VK_IMAGE_LAYOUT_GENERAL};
+      writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                   .dstSet = set,
+                   .dstBinding = i,
+                   .descriptorCount = 1,
+                   .descriptorType = binding.storageImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+                                                          : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                   .pImageInfo = &infos[i]};
+    }
+    vkUpdateDescriptorSets(context.device.handle, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+  }
+
+  record([&](VkCommandBuffer cmd) {
+    vkCmdBindPipeline(cmd, pipeline.bindPoint, pipeline.handle);
+    if (set) vkCmdBindDescriptorSets(cmd, pipeline.bindPoint, pipeline.layout, 0, 1, &set, 0, nullptr);
+    Commands commands;
+    commands.frame_ = frame_;
+    commands.pipeline_ = &pipeline;
+    if (!pushed_.empty()) commands.pushBytes(pushed_.data(), pushed_.size());
+    if (pipeline.compute())
+      body(commands);
+    else
+      rasterize(cmd, commands, body);
+  });
+}
+
+void Pass::rasterize(VkCommandBuffer cmd, Commands& commands, const std::function<void(Commands&)>& body) {
+  const State& s = *state_;
+  uint32_t width = s.width, height = s.height;
+  const auto agree = [&](const Image& target) {
+    if (width == 0) width = target.desc.width, height = target.desc.height;
+    IRAD_CHECK(width <= target.desc.width && height <= target.desc.height, "{}: {}x{} on {} of {}x{}", stage_, width,
+               height, target.desc.name, target.desc.width, target.desc.height);
+  };
+  std::vector<VkRenderingAttachmentInfo> colors;
+  for (const State::Color& c : s.colors) {
+    agree(*c.image);
+    VkRenderingAttachmentInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                   .imageView = c.image->layerViews.empty() ? c.image->view : c.image->layerViews[0],
+                                   .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+                                   .loadOp = c.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+                                   .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    if (c.clear) info.clearValue.color = {{c.clear->r, c.clear->g, c.clear->b, c.clear->a}};
+    colors.push_back(info);
+  }
+  VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+  if (s.depth) {
+    agree(*s.depth);
+    const bool writes = s.raster.depthWrite || s.depthClear;
+    depth.imageView = s.depth->layerViews.empty() ? s.depth->view : s.depth->layerViews[s.depthLayer];
+    depth.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+    depth.loadOp = s.depthClear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+    depth.storeOp = writes ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
+    if (s.depthClear) depth.clearValue.depthStencil = {*s.depthClear, 0};
+  }
+  IRAD_CHECK(width > 0 && height > 0, "{}: a raster pass needs an attachment or an extent", stage_);
+  const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                  .renderArea = {{0, 0}, {width, height}},
+                                  .layerCount = 1,
+                                  .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
+                                  .pColorAttachments = colors.data(),
+                                  .pDepthAttachment = s.depth ? &depth : nullptr};
+  vkCmdBeginRendering(cmd, &rendering);
+  const AtEnd end{[&] { vkCmdEndRendering(cmd); }};
+  commands.viewport(0, 0, static_cast<float>(width), static_cast<float>(height));
+  commands.cull(VK_CULL_MODE_NONE);
+  vkCmdSetDepthBias(cmd, s.biasConstant, 0.0f, s.biasSlope);
+  body(commands);
+}
+
+void Pass::dispatch(uint64_t threads) {
+  run([&](Commands& commands) { commands.dispatch(threads); });
+}
+void Pass::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
+  run([&](Commands& commands) { commands.dispatchGroups(x, y, z); });
+}
+void Pass::dispatchIndirect(const Buffer& arguments, uint64_t offset) {
+  IRAD_CHECK(offset + 12 <= arguments.bytes, "{}: arguments at {} of {} bytes", stage_, offset, arguments.bytes);
+  declare(arguments, kIndirect);
+  run([&](Commands& commands) {
+    vkCmdDispatchIndirect(commands.raw(), arguments.handle, offset);
+    ++frame_->context().device.counters.dispatches;
+  });
+}
+void Pass::draw(uint32_t vertexCount, uint32_t instances) {
+  run([&](Commands& commands) { commands.draw(vertexCount, 0, instances); });
+}
+
+// --- Transfers --------------------------------------------------------------------------------------------------------
+
+void Pass::fill(const Buffer& buffer, uint32_t word) {
+  declare(buffer, kClear);
+  record([&](VkCommandBuffer commands) {
+    vkCmdFillBuffer(commands, buffer.handle, 0, (buffer.bytes + 3) / 4 * 4, word);
+  });
+}
+
+void Pass::clear(const Image& image, ClearColor value) {
+  declare(image, kClear);
+  record([&](VkCommandBuffer commands) {
+    const VkImageSubresourceRange range{aspect(image), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    if (formatInfo(image.desc.format).kind == TexelKind::Depth) {
+      const VkClearDepthStencilValue depth{value.r, 0};
+      vkCmdClearDepthStencilImage(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, &depth, 1, &range);
+      return;
+    }
+    const VkClearColorValue color{.float32 = {value.r, value.g, value.b, value.a}};
+    vkCmdClearColorImage(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, &color, 1, &range);
+  });
+}
+
+void Pass::clear(const Image& image, glm::uvec4 value) {
+  declare(image, kClear);
+  record([&](VkCommandBuffer commands) {
+    const VkImageSubresourceRange range{aspect(image), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    const VkClearColorValue color{.uint32 = {value.x, value.y, value.z, value.w}};
+    vkCmdClearColorImage(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, &color, 1, &range);
+  });
+}
+
+void Pass::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset, uint64_t toOffset) {
+  IRAD_CHECK(fromOffset + bytes <= from.bytes && toOffset + bytes <= to.bytes, "{}: {} bytes from {} + {} to {} + {}",
+             stage_, bytes, from.name, fromOffset, to.name, toOffset);
+  declare(from, kCopyFrom);
+  declare(to, kCopyTo);
+  record([&](VkCommandBuffer commands) {
+    const VkBufferCopy region{fromOffset, toOffset, bytes};
+    if (bytes > 0) vkCmdCopyBuffer(commands, from.handle, to.handle, 1, &region);
+  });
+}
+
+namespace {
+
+VkBufferImageCopy wholeImage(const Image& image, const Buffer& buffer) {
+  const ImageDesc& d = image.desc;
+  const uint64_t bytes =
+      uint64_t{d.width} * d.height * (d.volume ? d.depth : 1) * d.layers * formatInfo(d.format).bytes;
+  IRAD_CHECK(bytes <= buffer.bytes, "{} is {} bytes, {} holds {}", d.name, bytes, buffer.name, buffer.bytes);
+  return {.imageSubresource = {aspect(image), 0, 0, d.layers},
+          .imageExtent = {d.width, d.height, d.volume ? d.depth : 1}};
+}
+
+}  // namespace
+
+void Pass::copy(const Image& from, const Buffer& to) {
+  declare(from, kCopyFrom);
+  declare(to, kCopyTo);
+  record([&](VkCommandBuffer commands) {
+    const VkBufferImageCopy region = wholeImage(from, to);
+    vkCmdCopyImageToBuffer(commands, from.handle, VK_IMAGE_LAYOUT_GENERAL, to.handle, 1, &region);
+  });
+}
+
+void Pass::copy(const Buffer& from, const Image& to) {
+  declare(from, kCopyFrom);
+  declare(to, kCopyTo);
+  record([&](VkCommandBuffer commands) {
+    const VkBufferImageCopy region = wholeImage(to, from);
+    vkCmdCopyBufferToImage(commands, from.handle, to.handle, VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+  });
+}
+
+}  // namespace irad

@@ -1,0 +1,155 @@
+// Blocking transfers through staging memory, in pieces of at most 64 MiB.
+#include <algorithm>
+#include <cstring>
+
+#include "renderer/error.h"
+#include "renderer/format.h"
+#include "renderer/frame_impl.h"
+
+namespace irad {
+namespace {
+
+constexpr uint64_t kChunk = 64 * 1024 * 1024;
+
+uint64_t texelBytes(const Image& image) {
+  const ImageDesc& d = image.desc;
+  return uint64_t{d.width} * d.height * (d.volume ? d.depth : 1) * d.layers * formatInfo(d.format).bytes;
+}
+
+/// Submits, waits, and leaves the resource visible to everything, so that nothing later needs a barrier for it (the
+/// textures of materials are bound without being declared).
+void finish(Frame& frame, ResourceState& state) {
+  everythingBarrier(frame.commands());
+  frame.submitAndWait();
+  state = {.defined = state.defined};
+}
+
+/// Visits an image as pieces of whole rows (or slices, or layers) that fit in a chunk: body(piece, byte offset, bytes).
+void forPieces(const Image& image, const std::function<void(const VkBufferImageCopy&, uint64_t, uint64_t)>& body) {
+  const ImageDesc& d = image.desc;
+  const FormatInfo format = formatInfo(d.format);
+  const VkImageAspectFlags aspect =
+      format.kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+  const uint64_t row = uint64_t{d.width} * format.bytes;
+  const auto rows = static_cast<uint32_t>(std::clamp<uint64_t>(kChunk / row, 1, d.height));
+  uint64_t at = 0;
+  for (uint32_t layer = 0; layer < d.layers; ++layer)
+    for (uint32_t z = 0; z < (d.volume ? d.depth : 1);) {
+      // Several whole slices at once where they fit, else rows of one slice.
+      const uint64_t slices = d.volume ? std::clamp<uint64_t>(kChunk / (row * d.height), 1, d.depth - z) : 1;
+      for (uint32_t y = 0; y < d.height; y += rows) {
+        const uint32_t count = std::min(rows, d.height - y);
+        const uint64_t bytes = row * count * slices;
+        const VkBufferImageCopy piece{.imageSubresource = {aspect, 0, layer, 1},
+                                      .imageOffset = {0, static_cast<int32_t>(y), static_cast<int32_t>(z)},
+                                      .imageExtent = {d.width, count, static_cast<uint32_t>(slices)}};
+        body(piece, at, bytes);
+        at += bytes;
+      }
+      z += static_cast<uint32_t>(slices);
+    }
+}
+
+}  // namespace
+
+void upload(Context& context, const Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset) {
+  IRAD_CHECK(offset + bytes.size() <= buffer.bytes, "upload of {} + {} to {} of {} bytes", offset, bytes.size(),
+             buffer.name, buffer.bytes);
+  if (bytes.empty()) return;
+  const Buffer staging(context.device, "upload", Subsystem::Staging, std::min<uint64_t>(bytes.size(), kChunk),
+                       Access::Upload);
+  for (uint64_t at = 0; at < bytes.size(); at += kChunk) {
+    const uint64_t size = std::min<uint64_t>(kChunk, bytes.size() - at);
+    std::memcpy(staging.mapped, bytes.data() + at, size);
+    Frame frame = context.beginUntimed();
+    frame.pass("Upload").copy(staging, buffer, size, 0, offset + at);
+    finish(frame, buffer.state);
+  }
+}
+
+void upload(Context& context, const Image& image, std::span<const std::byte> bytes) {
+  IRAD_CHECK(bytes.size() == texelBytes(image), "upload of {} bytes to {}, which has {}", bytes.size(), image.desc.name,
+             texelBytes(image));
+  const uint64_t row = uint64_t{image.desc.width} * formatInfo(image.desc.format).bytes;
+  const Buffer staging(context.device, "upload", Subsystem::Staging,
+                       std::min<uint64_t>(bytes.size(), std::max(kChunk, row)), Access::Upload);
+  forPieces(image, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
+    std::memcpy(staging.mapped, bytes.data() + at, size);
+    Frame frame = context.beginUntimed();
+    frame.pass("Upload")
+        .declare(image, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT})
+        .record([&](VkCommandBuffer commands) {
+          vkCmdCopyBufferToImage(commands, staging.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, 1, &piece);
+        });
+    finish(frame, image.state);
+  });
+}
+
+std::vector<std::byte> download(Context& context, const Buffer& buffer) {
+  std::vector<std::byte> bytes(buffer.bytes);
+  const Buffer staging(context.device, "download", Subsystem::Staging, std::min<uint64_t>(bytes.size(), kChunk),
+                       Access::Readback);
+  for (uint64_t at = 0; at < bytes.size(); at += kChunk) {
+    const uint64_t size = std::min<uint64_t>(kChunk, bytes.size() - at);
+    Frame frame = context.beginUntimed();
+    frame.pass("Download").copy(buffer, staging, size, at, 0);
+    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {});
+    finish(frame, buffer.state);
+    std::memcpy(bytes.data() + at, staging.mapped, size);
+  }
+  return bytes;
+}
+
+std::vector<std::byte> download(Context& context, const Image& image) {
+  std::vector<std::byte> bytes(texelBytes(image));
+  const uint64_t row = uint64_t{image.desc.width} * formatInfo(image.desc.format).bytes;
+  const Buffer staging(context.device, "download", Subsystem::Staging,
+                       std::min<uint64_t>(bytes.size(), std::max(kChunk, row)), Access::Readback);
+  forPieces(image, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
+    Frame frame = context.beginUntimed();
+    frame.pass("Download")
+        .declare(image, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT})
+        .declare(staging, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT})
+        .record([&](VkCommandBuffer commands) {
+          vkCmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, staging.handle, 1, &piece);
+        });
+    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {});
+    finish(frame, image.state);
+    std::memcpy(bytes.data() + at, staging.mapped, size);
+  });
+  return bytes;
+}
+
+void generateMips(Context& context, const Image& image) {
+  const ImageDesc& d = image.desc;
+  if (d.mips < 2) return;
+  VkFormatProperties properties;
+  vkGetPhysicalDeviceFormatProperties(context.device.physical, d.format, &properties);
+  constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
+                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+  if ((properties.optimalTilingFeatures & kNeeded) != kNeeded)
+    throw DeviceError(fmt::format("{}: the device cannot make mip levels of {} by linear blits", d.name,
+                                  formatInfo(d.format).name));
+  Frame frame = context.beginUntimed();
+  const auto extent = [&](uint32_t mip) {
+    return VkOffset3D{static_cast<int32_t>(std::max(1u, d.width >> mip)),
+                      static_cast<int32_t>(std::max(1u, d.height >> mip)),
+                      static_cast<int32_t>(std::max(1u, (d.volume ? d.depth : 1) >> mip))};
+  };
+  for (uint32_t mip = 1; mip < d.mips; ++mip)
+    frame.pass("Mips")
+        .declare(image, {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT})
+        .record([&](VkCommandBuffer commands) {
+          const VkImageBlit region{
+              .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, d.layers},
+              .srcOffsets = {{0, 0, 0}, extent(mip - 1)},
+              .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, d.layers},
+              .dstOffsets = {{0, 0, 0}, extent(mip)},
+          };
+          vkCmdBlitImage(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, image.handle, VK_IMAGE_LAYOUT_GENERAL, 1,
+                         &region, VK_FILTER_LINEAR);
+        });
+  finish(frame, image.state);
+}
+
+}  // namespace irad
