@@ -97,8 +97,6 @@ std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const st
   spv::SpvBuildLogger logger;
   glslang::SpvOptions options;
   options.generateDebugInfo = true;
-  options.emitNonSemanticShaderDebugInfo = true;
-  options.emitNonSemanticShaderDebugSource = true;
   glslang::GlslangToSpv(*program.getIntermediate(stage), spirv, &logger, &options);
   if (spirv.empty()) fail("code generation", logger.getAllMessages().c_str());
   return spirv;
