@@ -126,6 +126,12 @@ class Pass {
   void run(const std::function<void(Commands&)>& body);
   // Transfers; no shader.
   void fill(const Buffer& buffer, uint32_t word);
+  /// Writes `value` (<= 64 KiB, a multiple of 4 bytes) at the buffer's start; the bytes travel in the command buffer.
+  template <class T>
+  void update(const Buffer& buffer, const T& value) {
+    static_assert(sizeof(T) <= 65536 && sizeof(T) % 4 == 0);
+    updateBytes(buffer, &value, sizeof(T));
+  }
   void clear(const Image& image, ClearColor value);
   void clear(const Image& image, glm::uvec4 value);
   void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0, uint64_t toOffset = 0);
@@ -140,6 +146,7 @@ class Pass {
   friend class Frame;
   void use(const Buffer& buffer, bool write);
   void use(const Image& image, bool write);
+  void updateBytes(const Buffer& buffer, const void* bytes, size_t size);
   void rasterize(VkCommandBuffer cmd, Commands& commands, const std::function<void(Commands&)>& body);
   Frame* frame_ = nullptr;
   std::string stage_;
@@ -148,13 +155,14 @@ class Pass {
   std::shared_ptr<State> state_;
 };
 
-/// One command buffer. Move-only. Record one frame at a time. Dropping an unsubmitted frame (an error unwinds) runs what
-/// was recorded, so that the resources' states stay true, and drops its readbacks and timings.
+/// One command buffer. Move-only. Record one frame at a time. Dropping an unsubmitted frame (an error unwinds) runs
+/// what was recorded, so that the resources' states stay true, and drops its readbacks and timings.
 class Frame {
  public:
   Pass pass(std::string_view stage);  ///< stage: a name of METHOD section 11, or a UI / transfer label
   /// Deferred: `done` is called with the bytes by whoever first notices that the frame has finished.
-  void readback(const Buffer& buffer, uint64_t offset, uint64_t bytes, std::function<void(std::span<const uint8_t>)> done);
+  void readback(const Buffer& buffer, uint64_t offset, uint64_t bytes,
+                std::function<void(std::span<const uint8_t>)> done);
   void submit(VkSemaphore presentWait = VK_NULL_HANDLE, VkSemaphore presentSignal = VK_NULL_HANDLE);
   void submitAndWait();
   Context& context() const;

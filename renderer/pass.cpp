@@ -14,8 +14,8 @@ constexpr Use kColorTarget{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
 constexpr VkPipelineStageFlags2 kDepthStages =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 constexpr Use kDepthRead{kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
-constexpr Use kDepthWrite{kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                                            VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr Use kDepthWrite{
+    kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr Use kClear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 constexpr Use kCopyFrom{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 constexpr Use kCopyTo{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -83,7 +83,8 @@ struct Pass::State {
   }
 };
 
-// --- Declarations -----------------------------------------------------------------------------------------------------
+// --- Declarations
+// -----------------------------------------------------------------------------------------------------
 
 Pass Frame::pass(std::string_view stage) {
   IRAD_CHECK(impl_ && impl_->slot, "pass {} after the frame was submitted", stage);
@@ -170,7 +171,8 @@ Pass& Pass::alphaBlend() {
   return *this;
 }
 
-// --- Recording --------------------------------------------------------------------------------------------------------
+// --- Recording
+// --------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -180,16 +182,16 @@ class BarrierBuilder {
   void add(ResourceState& state, const Image* image, const Use& use) {
     if (image && !state.defined) {
       // To GENERAL for good. The destination is everything, so that later readers at other stages need no barrier.
-      transitions_.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                              .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                              .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                              .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                              .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-                              .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .image = image->handle,
-                              .subresourceRange = {aspect(*image), 0, VK_REMAINING_MIP_LEVELS, 0,
-                                                   VK_REMAINING_ARRAY_LAYERS}});
+      transitions_.push_back(
+          {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+           .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+           .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+           .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+           .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+           .image = image->handle,
+           .subresourceRange = {aspect(*image), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}});
       state = {.defined = true};
     }
     const Dependency d = dependency(state, use);
@@ -269,8 +271,9 @@ void Pass::run(const std::function<void(Commands&)>& body) {
     for (uint32_t i = 0; i < s.images.size(); ++i) {
       const State::ImageUse& image = s.images[i];
       const ShaderBinding& binding = pipeline.images[i];
-      IRAD_CHECK(binding.binding == i && binding.count == 1, "{}: {} declares {} as binding {} x{}; the pass names {} as image {}",
-                 stage_, pipeline.name, binding.name, binding.binding, binding.count, image.image->desc.name, i);
+      IRAD_CHECK(binding.binding == i && binding.count == 1,
+                 "{}: {} declares {} as binding {} x{}; the pass names {} as image {}", stage_, pipeline.name,
+                 binding.name, binding.binding, binding.count, image.image->desc.name, i);
       IRAD_CHECK(binding.storageImage == (image.sampler == VK_NULL_HANDLE),
                  "{}: {} is a {} in {}, but the pass gives {} as a {}", stage_, binding.name,
                  binding.storageImage ? "storage image" : "sampler", pipeline.name, image.image->desc.name,
@@ -363,13 +366,19 @@ void Pass::draw(uint32_t vertexCount, uint32_t instances) {
   run([&](Commands& commands) { commands.draw(vertexCount, 0, instances); });
 }
 
-// --- Transfers --------------------------------------------------------------------------------------------------------
+// --- Transfers
+// --------------------------------------------------------------------------------------------------------
+
+void Pass::updateBytes(const Buffer& buffer, const void* bytes, size_t size) {
+  IRAD_CHECK_OP(size, <=, buffer.bytes);
+  declare(buffer, kCopyTo);
+  record([&](VkCommandBuffer commands) { vkCmdUpdateBuffer(commands, buffer.handle, 0, size, bytes); });
+}
 
 void Pass::fill(const Buffer& buffer, uint32_t word) {
   declare(buffer, kClear);
-  record([&](VkCommandBuffer commands) {
-    vkCmdFillBuffer(commands, buffer.handle, 0, (buffer.bytes + 3) / 4 * 4, word);
-  });
+  record(
+      [&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, buffer.handle, 0, (buffer.bytes + 3) / 4 * 4, word); });
 }
 
 void Pass::clear(const Image& image, ClearColor value) {
