@@ -23,7 +23,8 @@ void main() {
     triangleAxis = uvec2(triangle, d);
     plane = vec3(-t.normal[u] / t.normal[d], -t.normal[w] / t.normal[d], t.v[0][d]);
     corner = vec2(t.v[0][u], t.v[0][w]);
-    gl_Position = vec4(t.v[i][u] * scale - 1.0, t.v[i][w] * scale - 1.0, 0.0, 1.0);
+    // The viewport's y points up: negated here, so that the pixel's row is the voxel's.
+    gl_Position = vec4(t.v[i][u] * scale - 1.0, 1.0 - t.v[i][w] * scale, 0.0, 1.0);
     EmitVertex();
   }
   EndPrimitive();

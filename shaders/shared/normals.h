@@ -39,7 +39,7 @@ IRAD_FN uint encodeNormal(vec3 n, uint encoding) {
     vec3 a = abs(n);
     float hi = max(a.x, max(a.y, a.z));
     float lo = min(a.x, min(a.y, a.z));
-    float mid = a.x + a.y + a.z - hi - lo;
+    float mid = max(min(a.x, a.y), min(max(a.x, a.y), a.z));
     float d1 = hi;
     float d2 = (hi + mid) * 0.70710678f;
     float d3 = (hi + mid + lo) * 0.57735027f;
