@@ -1,0 +1,170 @@
+#include "app/arguments.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "app/camera_json.h"
+#include "gi/near_match.h"
+#include "renderer/error.h"
+
+namespace irad::app {
+namespace fs = std::filesystem;
+
+void SettingArguments::declare(Options& options) {
+  options.values("--set", "NAME=VALUE", set, "Set one setting (repeatable); `irad settings` lists them");
+  options.value("--preset", "NAME", preset, "thesis, fast, balanced or reference");
+  options.value("--config", "FILE", config, "Settings as JSON, or a manifest.json to replay");
+  options.value("--seed", "N", seed, "Seed of the random directions (matrix.seed)");
+}
+
+Config SettingArguments::readConfig() const {
+  return config ? readConfigFile(*config) : Config{};
+}
+
+Settings SettingArguments::resolve(const Config& from, bool cpuDevice) const {
+  Settings settings = defaultSettings(cpuDevice);
+  if (preset) applyPreset(settings, *preset, cpuDevice);
+  if (from.settings) try {
+      settingsFromJson(settings, *from.settings);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{}: {}", from.path.string(), error.what()));
+    }
+  for (const std::string& assignment : set) applySetting(settings, assignment);
+  if (seed) settings.matrix.gpu.seed = static_cast<uint32_t>(parseInteger("--seed", *seed, 0, UINT32_MAX));
+  return settings;
+}
+
+void DeviceArguments::declare(Options& options) {
+  options.value("--device", "NAME|INDEX", device, "Vulkan device, by index or part of its name");
+  options.flag("--validate", validate, "Run under the validation layers; any message is a failure");
+  options.flag("--list-devices", list, "Print the devices and what each lacks");
+}
+
+DeviceOptions DeviceArguments::options() const {
+  DeviceOptions out;
+  out.select = device.value_or("");
+  out.validate = validate;
+  return out;
+}
+
+void PictureArguments::declare(Options& options) {
+  options.value("--size", "WxH", size, "Size of the pictures in pixels (default 640x640)");
+  options.values("--camera", "NAME|JSON", cameras,
+                 "Camera of the scene, `all`, or JSON (repeatable; default: the first)");
+  options.value("--frames", "N", frames, "Frames to render");
+}
+
+glm::uvec2 PictureArguments::resolveSize(const Config& config) const {
+  if (size) return parseSize(*size);
+  return config.size.value_or(glm::uvec2(640, 640));
+}
+
+uint32_t PictureArguments::resolveFrames(const Config& config, uint32_t otherwise) const {
+  if (frames) return static_cast<uint32_t>(parseInteger("--frames", *frames, 1, 1'000'000));
+  return config.frames.value_or(otherwise);
+}
+
+void PictureArguments::check() const {
+  if (size) parseSize(*size);
+  resolveFrames({}, 1);
+  for (const std::string& camera : cameras)
+    if (camera.starts_with("{")) cameraFromJson(camera);
+}
+
+std::vector<Camera> PictureArguments::resolveCameras(const Config& config, const Scene& scene) const {
+  if (cameras.empty() && !config.cameras.empty()) return config.cameras;
+  if (cameras.empty()) return {scene.cameras.at(0)};
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  std::vector<Camera> out;
+  for (const std::string& wanted : cameras) {
+    if (wanted == "all") {
+      out.insert(out.end(), scene.cameras.begin(), scene.cameras.end());
+    } else if (wanted.starts_with("{")) {
+      out.push_back(cameraFromJson(wanted));
+    } else {
+      const auto found = std::find(names.begin(), names.end(), wanted);
+      if (found == names.end())
+        throw UsageError(fmt::format("unknown camera '{}'{}", wanted, suggestion(wanted, names)));
+      out.push_back(scene.cameras[static_cast<size_t>(found - names.begin())]);
+    }
+  }
+  return out;
+}
+
+uint64_t parseInteger(const std::string& option, const std::string& text, uint64_t min, uint64_t max) {
+  uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < min || value > max)
+    throw UsageError(fmt::format("{}: '{}' is not allowed; expected an integer, {} to {}", option, text, min, max));
+  return value;
+}
+
+glm::uvec2 parseSize(const std::string& text) {
+  const size_t x = text.find('x');
+  if (x == std::string::npos) throw UsageError(fmt::format("--size: '{}' is not WIDTHxHEIGHT", text));
+  return {parseInteger("--size", text.substr(0, x), 1, 16384), parseInteger("--size", text.substr(x + 1), 1, 16384)};
+}
+
+std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values) {
+  std::vector<std::string> out;
+  for (const std::string& value : values) {
+    size_t start = 0;
+    while (true) {
+      const size_t comma = value.find(',', start);
+      out.push_back(value.substr(start, comma - start));
+      if (out.back().empty()) throw UsageError(fmt::format("{}: an empty name in '{}'", option, value));
+      if (comma == std::string::npos) break;
+      start = comma + 1;
+    }
+  }
+  return out;
+}
+
+namespace {
+
+/// Where built-in scenes may lie: beside the executable (an unpacked binary), then in the source tree.
+std::vector<fs::path> assetFolders() {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  if (!error) folders.push_back(executable.parent_path() / "assets");
+  folders.emplace_back(IRAD_ASSETS);
+  return folders;
+}
+
+}  // namespace
+
+std::vector<std::string> builtInScenes() {
+  std::vector<std::string> names;
+  for (const fs::path& folder : assetFolders()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+fs::path findScene(const std::optional<std::string>& argument, const Config& config,
+                   const std::optional<std::string>& otherwise) {
+  std::optional<std::string> wanted = argument;
+  if (!wanted && config.scene) wanted = config.scene->string();
+  if (!wanted) wanted = otherwise;
+  if (!wanted)
+    throw UsageError(
+        fmt::format("no scene given: a .gltf or .glb file, or one of: {}", fmt::join(builtInScenes(), ", ")));
+  if (fs::exists(*wanted)) return *wanted;
+  if (fs::path(*wanted).filename() == *wanted && !fs::path(*wanted).has_extension())
+    for (const fs::path& folder : assetFolders())
+      if (const fs::path path = folder / (*wanted + ".glb"); fs::exists(path)) return path;
+  throw InputError(fmt::format("{}: no such file; built-in scenes{}", *wanted,
+                               builtInScenes().empty() ? ": none found" : suggestion(*wanted, builtInScenes())));
+}
+
+}  // namespace irad::app

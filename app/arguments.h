@@ -1,0 +1,59 @@
+// The options that subcommands share, and what they mean.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/manifest.h"
+#include "gi/settings.h"
+#include "renderer/device.h"
+#include "renderer/scene/scene.h"
+
+namespace irad::app {
+
+/// --set, --preset, --config, --seed. Later beats earlier: defaults of the device class, preset, config, set, seed.
+struct SettingArguments {
+  std::vector<std::string> set;
+  std::optional<std::string> preset, config, seed;
+  void declare(Options& options);
+  Config readConfig() const;
+  Settings resolve(const Config& config, bool cpuDevice) const;
+};
+
+/// --device, --validate, --list-devices.
+struct DeviceArguments {
+  std::optional<std::string> device;
+  bool validate = false, list = false;
+  void declare(Options& options);
+  DeviceOptions options() const;
+};
+
+/// --size, --camera, --frames.
+struct PictureArguments {
+  std::optional<std::string> size, frames;
+  std::vector<std::string> cameras;
+  void declare(Options& options);
+  glm::uvec2 resolveSize(const Config& config) const;  ///< default 640 x 640
+  uint32_t resolveFrames(const Config& config, uint32_t otherwise) const;
+  /// Named cameras of the scene, "all", or JSON; default: those of the config, else the scene's first.
+  std::vector<Camera> resolveCameras(const Config& config, const Scene& scene) const;
+  /// What can be checked before a scene is loaded.
+  void check() const;
+};
+
+/// A whole number of an option; UsageError names the option and the range.
+uint64_t parseInteger(const std::string& option, const std::string& text, uint64_t min, uint64_t max);
+/// "640x480".
+glm::uvec2 parseSize(const std::string& text);
+/// Elements of "a,b,c", empty ones refused.
+std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values);
+
+/// The path of a scene argument: a file, or the name of a built-in scene ("box"); absent: the config's, else
+/// `otherwise`, else a usage error.
+std::filesystem::path findScene(const std::optional<std::string>& argument, const Config& config,
+                                const std::optional<std::string>& otherwise);
+std::vector<std::string> builtInScenes();
+
+}  // namespace irad::app

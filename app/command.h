@@ -1,0 +1,38 @@
+// A subcommand: its options and its work. The command-line library is known to command_line.cpp alone.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace irad::app {
+
+/// Declares options; values arrive before Command::run is called.
+class Options {
+ public:
+  virtual ~Options() = default;
+  virtual void flag(const std::string& name, bool& value, const std::string& help) = 0;
+  /// An option given at most once.
+  virtual void value(const std::string& name, const std::string& placeholder, std::optional<std::string>& value,
+                     const std::string& help) = 0;
+  /// An option that may be repeated, one value each time.
+  virtual void values(const std::string& name, const std::string& placeholder, std::vector<std::string>& values,
+                      const std::string& help) = 0;
+  /// The bare argument, which may be absent.
+  virtual void argument(const std::string& name, std::optional<std::string>& value, const std::string& help) = 0;
+};
+
+struct Command {
+  std::string name, summary;
+  std::function<void(Options&)> declare;
+  std::function<void()> run;  ///< throws the errors of renderer/error.h
+};
+
+Command settingsCommand();
+
+/// Parses, runs, reports. The exit status of DESIGN.md: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
+/// suitable device or not enough memory.
+int runProgram(int argc, const char* const* argv, const std::vector<Command>& commands);
+
+}  // namespace irad::app

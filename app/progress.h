@@ -1,0 +1,25 @@
+// Progress on standard error: a bar on a terminal, a plain line per step otherwise.
+#pragma once
+
+#include <string>
+
+namespace irad::app {
+
+class ProgressReport {
+ public:
+  ProgressReport();
+  ~ProgressReport();  ///< ends the line of the bar
+  /// `fraction` 0..1 of `step`. Returns true: go on.
+  bool operator()(const char* step, float fraction);
+  /// A line of its own that does not tear the bar apart.
+  void note(const std::string& line);
+
+ private:
+  void clearBar();
+  bool terminal_;
+  std::string step_;
+  int percent_ = -1;
+  bool barShown_ = false;
+};
+
+}  // namespace irad::app
