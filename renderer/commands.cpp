@@ -64,4 +64,9 @@ void Commands::viewport(float x, float y, float width, float height) {
   vkCmdSetScissor(raw(), 0, 1, &scissor);
 }
 
+void Commands::scissor(uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
+  const VkRect2D area{{static_cast<int32_t>(x), static_cast<int32_t>(y)}, {width, height}};
+  vkCmdSetScissor(raw(), 0, 1, &area);
+}
+
 }  // namespace irad

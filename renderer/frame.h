@@ -61,6 +61,7 @@ class Commands {
   void cull(VkCullModeFlags mode);  ///< dynamic state; default VK_CULL_MODE_NONE, front is counter-clockwise
   /// Viewport and scissor in pixels from the top left; clip space has y up (a negative-height viewport). Default: all.
   void viewport(float x, float y, float width, float height);
+  void scissor(uint32_t x, uint32_t y, uint32_t width, uint32_t height);  ///< pixels, from the top left
   VkCommandBuffer raw() const;
 
  private:

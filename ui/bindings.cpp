@@ -1,0 +1,26 @@
+#include "ui/bindings.h"
+
+#include <GLFW/glfw3.h>
+
+namespace irad {
+
+std::span<const Binding> bindings() {
+  static constexpr Binding table[] = {
+      {0, Action::None, "W A S D", "fly forward, left, back, right"},
+      {0, Action::None, "Q  E", "fly down, up"},
+      {0, Action::None, "Right or left drag", "look around"},
+      {0, Action::None, "Shift  Ctrl", "fly 4 times faster, slower"},
+      {0, Action::None, "Wheel", "flying speed"},
+      {0, Action::None, "1 \u2026 9", "the first nine views"},
+      {GLFW_KEY_C, Action::NextCamera, "C", "the scene's next camera"},
+      {GLFW_KEY_SPACE, Action::Pause, "Space", "pause or resume the solver"},
+      {GLFW_KEY_F1, Action::Help, "F1", "this list"},
+      {GLFW_KEY_F2, Action::HideUi, "F2", "hide or show the panels"},
+      {GLFW_KEY_F5, Action::ReloadShaders, "F5", "compile the shaders again"},
+      {GLFW_KEY_F12, Action::Capture, "F12", "save this view as PNG and EXR"},
+      {GLFW_KEY_ESCAPE, Action::Quit, "Esc", "quit"},
+  };
+  return table;
+}
+
+}  // namespace irad

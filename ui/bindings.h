@@ -1,0 +1,18 @@
+// Every key of the window, once: what it does, and how the help overlay names it.
+#pragma once
+
+#include <span>
+
+namespace irad {
+
+enum class Action { None, Help, HideUi, ReloadShaders, Capture, Pause, Quit, NextCamera };
+
+struct Binding {
+  int key;  ///< GLFW key; 0: listed in the help only
+  Action action;
+  const char* keys;
+  const char* does;
+};
+std::span<const Binding> bindings();
+
+}  // namespace irad

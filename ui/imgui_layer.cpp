@@ -1,0 +1,125 @@
+#include "ui/imgui_layer.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/error.h"
+#include "shaders/shared/ui.h"
+#include "ui/theme.h"
+
+namespace irad {
+
+static_assert(sizeof(UiVertex) == sizeof(ImDrawVert));
+static_assert(sizeof(UiDraw) <= 128);
+
+ImGuiLayer::ImGuiLayer(Context& context, GLFWwindow* window) : context_(context) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // the layout is computed from the window's size, see ui/layout.h
+  io.BackendRendererName = "irad";
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  io.ConfigWindowsMoveFromTitleBarOnly = true;
+  ImGui_ImplGlfw_InitForOther(window, /*install_callbacks=*/true);
+}
+
+ImGuiLayer::~ImGuiLayer() {
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void ImGuiLayer::setScale(float scale) {
+  // Quarter steps: each step rasterizes the fonts anew.
+  scale = std::clamp(std::round(scale * 4.0f) / 4.0f, 0.75f, 4.0f);
+  if (scale == scale_) return;
+  scale_ = scale;
+  applyTheme(ImGui::GetStyle(), scale_);
+  buildFonts();
+}
+
+void ImGuiLayer::buildFonts() {
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  fonts.Clear();
+  addFonts(fonts, scale_);
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
+  atlas_ = Image(context_.device, ImageDesc{.name = "ui font atlas",
+                                            .subsystem = Subsystem::Ui,
+                                            .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                            .width = static_cast<uint32_t>(width),
+                                            .height = static_cast<uint32_t>(height),
+                                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+  const size_t bytes = static_cast<size_t>(width) * static_cast<size_t>(height) * 4;
+  upload(context_, atlas_, std::as_bytes(std::span(pixels, bytes)));
+  fonts.SetTexID(nullptr);  // slot 0
+}
+
+void ImGuiLayer::beginFrame() {
+  textures_.assign(1, &atlas_);
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void* ImGuiLayer::texture(const Image& image) {
+  IRAD_CHECK_OP(textures_.size(), <, size_t{UI_TEXTURES});
+  textures_.push_back(&image);
+  return reinterpret_cast<void*>(textures_.size() - 1);
+}
+
+void ImGuiLayer::draw(Frame& frame, const Image& target) {
+  ImGui::Render();
+  const ImDrawData& data = *ImGui::GetDrawData();
+
+  // All lists into one vertex and one index array; indices are made absolute on the way.
+  std::vector<ImDrawVert> vertices;
+  std::vector<uint32_t> indices;
+  struct Range {
+    uint32_t first, count, texture;
+    ImVec4 clip;
+  };
+  std::vector<Range> ranges;
+  for (int l = 0; l < data.CmdListsCount; ++l) {
+    const ImDrawList& list = *data.CmdLists[l];
+    const auto base = static_cast<uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      if (command.UserCallback) continue;  // none is installed
+      ranges.push_back({static_cast<uint32_t>(indices.size()), command.ElemCount,
+                        static_cast<uint32_t>(reinterpret_cast<uintptr_t>(command.TextureId)), command.ClipRect});
+      for (uint32_t i = 0; i < command.ElemCount; ++i)
+        indices.push_back(base + command.VtxOffset + list.IdxBuffer[static_cast<int>(command.IdxOffset + i)]);
+    }
+  }
+  vertices_ = Buffer(context_.device, "ui vertices", Subsystem::Ui, vertices.size() * sizeof(ImDrawVert), Access::Upload);
+  indices_ = Buffer(context_.device, "ui indices", Subsystem::Ui, indices.size() * sizeof(uint32_t), Access::Upload);
+  if (!vertices.empty()) std::memcpy(vertices_.mapped, vertices.data(), vertices.size() * sizeof(ImDrawVert));
+  if (!indices.empty()) std::memcpy(indices_.mapped, indices.data(), indices.size() * sizeof(uint32_t));
+
+  const glm::vec2 size(static_cast<float>(target.desc.width), static_cast<float>(target.desc.height));
+  const VkSampler linear = sampler(context_.device, {.u = Wrap::Clamp, .v = Wrap::Clamp, .mips = false});
+  const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+  Pass pass = frame.pass("UI");
+  pass.shaders({"ui/imgui.vert", "ui/imgui.frag"})
+      .color(target, ClearColor{background.x, background.y, background.z, 1.0f})
+      .alphaBlend()
+      .read(vertices_, indices_);
+  for (size_t slot = 0; slot < UI_TEXTURES; ++slot)
+    pass.sample(slot < textures_.size() ? *textures_[slot] : atlas_, linear);
+  pass.run([&](Commands& commands) {
+    for (const Range& range : ranges) {
+      const glm::vec2 low = glm::max(glm::floor(glm::vec2(range.clip.x, range.clip.y)), glm::vec2(0.0f));
+      const glm::vec2 high = glm::min(glm::ceil(glm::vec2(range.clip.z, range.clip.w)), size);
+      if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
+      commands.scissor(static_cast<uint32_t>(low.x), static_cast<uint32_t>(low.y), static_cast<uint32_t>(high.x - low.x),
+                       static_cast<uint32_t>(high.y - low.y));
+      commands.push(UiDraw{vertices_.address, indices_.address, 2.0f / size, range.texture});
+      commands.draw(range.count, range.first);
+    }
+  });
+}
+
+}  // namespace irad

@@ -1,0 +1,25 @@
+// One dark theme: colours, sizes and fonts. Colours are sRGB-encoded, as the window image is.
+#pragma once
+
+struct ImFontAtlas;
+struct ImGuiStyle;
+struct ImVec4;
+
+namespace irad {
+
+void applyTheme(ImGuiStyle& style, float scale);
+/// Body font first, then headings. Inter (package fonts-inter), else DejaVu Sans, else ImGui's built-in.
+void addFonts(ImFontAtlas& fonts, float scale);
+
+/// Pushes the heading font; pop with ImGui::PopFont().
+void pushHeadingFont();
+
+/// "→" and "↺", or what stands for them where the font has no such glyph.
+const char* arrowGlyph();
+const char* resetGlyph();
+
+namespace theme {
+extern const ImVec4 text, dim, accent, warning, error, good, plotFill, plotLine;
+}
+
+}  // namespace irad

@@ -1,0 +1,33 @@
+// Small pieces that panels share: setting rows generated from visit(), value tables, help tooltips.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gi/settings.h"
+
+namespace irad {
+
+/// One row per setting whose name `wanted` accepts (a prefix such as "camera."; empty: all, under group headers): label,
+/// widget by the member's type, unit, help as tooltip, and a reset button where it differs from `defaults`. True when
+/// something was edited.
+bool settingRows(Settings& settings, const Settings& defaults, std::string_view prefix = {});
+/// The one setting of that name.
+bool settingRow(Settings& settings, const Settings& defaults, std::string_view name);
+
+/// A label in the dim colour and a value at the column where values begin; a value too long is cut with an ellipsis and
+/// shown whole as a tooltip.
+void valueRow(const char* label, const std::string& value);
+
+void helpTooltip(const std::string& text);
+/// Text that ends in an ellipsis where the width does not suffice.
+void clippedText(const std::string& text, float width);
+/// Right-aligned in the current table cell or region.
+void rightText(const std::string& text);
+
+std::string mebibytes(uint64_t bytes);
+/// 3 significant digits, exponent where needed: "0.0123", "1.2e-06".
+std::string shortNumber(double value);
+std::string withThousands(uint64_t value);
+
+}  // namespace irad
