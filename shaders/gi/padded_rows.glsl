@@ -1,0 +1,49 @@
+// "GI BuildMatrix", thesis layout (T Fig. 7, T 5.4-5.6): one invocation per row traces its rays one after another and
+// appends every hit as (column, weight), unmerged, to the row's fixed stride.
+#include "shared/matrix_build.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { PaddedRowsPush p; };
+
+#include "gi/trace.glsl"
+
+void main() {
+  uint index = irad_index();
+  if (index >= p.rows) return;
+  uint row = p.firstRow + index;
+  FacetArrays facets = p.facets.at[0];
+  uint packedVoxel = facets.voxel.at[row];
+  uint shape = facets.shape.at[row];
+  uvec3 voxel = unpackVoxel(packedVoxel);
+  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+  uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
+  TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
+  uint base = (p.segmentRow + index) * p.rays;
+  uint weight = floatBitsToUint(1.0f / float(p.rays));
+  uint hits = 0u, escaped = 0u, invalid = 0u;
+  for (uint k = 0u; k < p.rays; ++k) {
+    vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), normal);
+    vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS
+                      ? vec3(voxel) + 0.5f + normal
+                      : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
+    uint met = traceRay(world, origin, direction, normal).facet;
+    if (met <= TRACE_LAST_FACET) {
+      p.segment.at[base + hits] = uvec2(met, weight);
+      ++hits;
+    } else if (met == TRACE_ESCAPED) {
+      ++escaped;
+    } else if (met == TRACE_INVALID) {
+      ++invalid;
+    }
+  }
+  // The robust rule weighs by the rays that count.
+  if (invalid > 0u) {
+    weight = floatBitsToUint(invalid < p.rays ? 1.0f / float(p.rays - invalid) : 0.0f);
+    for (uint i = 0u; i < hits; ++i) p.segment.at[base + i].y = weight;
+  }
+  p.rowInfo.at[row] = uvec2(hits | (invalid << 16), weight);
+  atomicAdd(p.sums.at[0].hits, hits);
+  atomicAdd(p.sums.at[0].escaped, escaped);
+  atomicAdd(p.sums.at[0].invalid, invalid);
+  atomicMax(p.sums.at[0].largestRow, hits);
+}

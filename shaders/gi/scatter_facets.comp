@@ -1,0 +1,59 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (METHOD section 7). Averages over the
+// facets of the 3 x 3 x 3 voxels around that face the same way and lie in the same plane, with tent weights, so that
+// neither a room behind the wall nor the next step of a stair comes in.
+#include "shared/grid.h"
+#include "shared/normals.h"
+#include "shared/solve.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
+layout(push_constant, scalar) uniform Push { ScatterFacetsPush p; };
+
+const float FACING = 0.5f;  // least cosine between the normals
+const float LEVEL = 1.5f;   // voxels: farthest from the own plane
+
+void main() {
+  uint facet = irad_index();
+  FacetArrays f = p.facets.at[0];
+  if (facet >= f.count) return;
+  vec3 h = p.indirect.at[facet].xyz;
+  vec3 e = p.emitted.at[facet].xyz;
+  if (p.blur != 0u) {
+    uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
+    uint shape = f.shape.at[facet];
+    vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
+    float offset = facetOffset(shape);
+    vec3 sumH = vec3(0.0f), sumE = vec3(0.0f);
+    float total = 0.0f;
+    for (int i = 0; i < 27; ++i) {
+      ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+      ivec3 at = ivec3(voxel) + step_;
+      if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(p.dims)))) continue;
+      uint entry = f.reverse.at[voxelIndex(uvec3(at), p.dims)];
+      if (entry == NO_FACET) continue;
+      float tent = (step_.x == 0 ? 2.0f : 1.0f) * (step_.y == 0 ? 2.0f : 1.0f) * (step_.z == 0 ? 2.0f : 1.0f);
+      uint first = entry & ~SECOND_FACET;
+      uint last = entry >= SECOND_FACET ? first + 1u : first;
+      for (uint other = first; other <= last; ++other) {
+        uint otherShape = f.shape.at[other];
+        vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
+        // Both ways: the other's plane point from the own plane, and the own point from the other plane.
+        float away = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape)) - offset;
+        float back = dot(otherNormal, normal * offset - vec3(step_)) - facetOffset(otherShape);
+        float facing = dot(normal, otherNormal);
+        if (facing <= FACING || max(abs(away), abs(back)) >= LEVEL) continue;
+        sumH += tent * p.indirect.at[other].xyz;
+        sumE += tent * p.emitted.at[other].xyz;
+        total += tent;
+      }
+    }
+    if (total > 0.0f) {  // the facet itself always agrees; 0 only with a normal that is not a number
+      h = sumH / total;
+      e = sumE / total;
+    }
+  }
+  p.shaded.at[facet] = vec4(h, 0.0f);
+  p.shadedEmitted.at[facet] = vec4(e, 0.0f);
+}

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "GI Scatter" (T 5.9): one value per solid voxel into the sampled volume, alpha 1 marks presence. H, or B; with edge
+// removal B - lambda (M + rho D) (T eq. 23). A voxel with two facets shows its first: that of the larger coverage.
+#include "shared/grid.h"
+#include "shared/solve.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ScatterVolumePush p; };
+layout(set = 0, binding = 0, rgba16f) uniform writeonly image3D volume;
+
+void main() {
+  uint facet = irad_index();
+  FacetArrays f = p.facets.at[0];
+  if (facet >= f.count) return;
+  uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
+  if ((f.reverse.at[voxelIndex(voxel, p.dims)] & ~SECOND_FACET) != facet) return;
+  vec3 value = p.value.at[facet].xyz;
+  if (p.removal > 0.0f) {
+    vec3 source = unpackAlbedo(f.albedo.at[facet]) * p.direct.at[facet].xyz;
+    if (f.hasEmission != 0u) source += f.emission.at[facet];
+    value -= p.removal * source;
+  }
+  imageStore(volume, ivec3(voxel), vec4(clamp(value, vec3(0.0f), vec3(65504.0f)), 1.0f));
+}

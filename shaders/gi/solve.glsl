@@ -1,0 +1,106 @@
+// One Jacobi sweep (METHOD section 1): H = F B, then B' = lambda (M + rho (D + H)), relaxed by omega. What the three
+// kernels share: reading a row's entries, and what follows a row's sum.
+#ifndef IRAD_SOLVE_GLSL
+#define IRAD_SOLVE_GLSL
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/solve.h"
+
+layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
+layout(constant_id = 1) const uint WORK = SOLVE_WATCH;
+layout(push_constant, scalar) uniform Push { SolvePush p; };
+
+struct Row {
+  UintArray entries;   ///< csr
+  Uvec2Array places;   ///< padded
+  uint start, count;
+  float weight;        ///< of one hit
+};
+
+Row openRow(MatrixArrays m, uint row) {
+  Row r;
+  UintArray segment = m.segments.at[row >> m.segmentShift];
+  uvec2 info = m.rowInfo.at[row];
+  r.entries = segment;
+  r.places = Uvec2Array(uint64_t(segment));
+  r.start = FORMAT == SOLVE_CSR ? m.rowStart.at[row] : (row & ((1u << m.segmentShift) - 1u)) * m.stride;
+  r.count = rowEntries(info);
+  r.weight = FORMAT == SOLVE_CSR ? uintBitsToFloat(info.y) : 1.0f;
+  return r;
+}
+
+/// Entry i's share of the row's sum: xyz = F_ij x_j over the row's weight, w = F_ij likewise.
+vec4 entryTerm(Row r, uint columnBits, Vec4Array x, uint i) {
+  if (FORMAT == SOLVE_CSR) {
+    uint e = r.entries.at[r.start + i];
+    float hits = float(e >> columnBits);
+    return vec4(x.at[e & ((1u << columnBits) - 1u)].xyz * hits, hits);
+  }
+  uvec2 place = r.places.at[r.start + i];
+  float weight = uintBitsToFloat(place.y);
+  return vec4(x.at[place.x].xyz * weight, weight);
+}
+
+/// What a row hands to the reductions.
+struct Watch {
+  float delta, h, gain, source;
+  uint nonFinite, negative;
+};
+
+float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+Watch finishRow(uint row, vec4 sum) {
+  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  if (WORK == SOLVE_PRODUCT) {
+    p.output_.at[row] = vec4(sum.xyz, 0.0f);
+    return w;
+  }
+  FacetArrays f = p.facets.at[0];
+  vec3 rho = unpackAlbedo(f.albedo.at[row]);
+  vec3 source = rho * p.direct.at[row].xyz;
+  if (f.hasEmission != 0u) source += f.emission.at[row];
+  vec3 h = sum.xyz;
+  h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
+  vec3 now = p.lambda * (source + rho * h);
+  vec3 old = vec3(0.0f);
+  if (p.omega != 1.0f || WORK == SOLVE_WATCH) old = p.input_.at[row].xyz;
+  if (p.omega != 1.0f) now = mix(old, now, p.omega);
+  now = mix(now, vec3(0.0f), lessThan(abs(now), vec3(p.flush)));
+  p.output_.at[row] = vec4(now, 0.0f);
+  p.indirect.at[row] = vec4(h, 0.0f);
+  if (WORK == SOLVE_WATCH) {
+    bvec3 bad = bvec3(isnan(now.x) || isinf(now.x), isnan(now.y) || isinf(now.y), isnan(now.z) || isinf(now.z));
+    bvec3 below = lessThan(now, vec3(0.0f));
+    w.nonFinite = uint(bad.x) + uint(bad.y) + uint(bad.z);
+    w.negative = uint(below.x) + uint(below.y) + uint(below.z);
+    // A maximum with NaN may be either; what is not finite is counted and left out.
+    if (w.nonFinite == 0u) {
+      w.delta = largest(abs(now - old));
+      w.h = largest(abs(h));
+      w.gain = p.lambda * largest(rho) * sum.w;
+      w.source = largest(abs(source));
+    }
+  }
+  return w;
+}
+
+/// All invocations of the subgroup that are still here call this once.
+void report(Watch w) {
+  if (WORK != SOLVE_WATCH) return;
+  float delta = subgroupMax(w.delta);
+  float h = subgroupMax(w.h);
+  float gain = subgroupMax(w.gain);
+  float source = subgroupMax(w.source);
+  uint nonFinite = subgroupAdd(w.nonFinite);
+  uint negative = subgroupAdd(w.negative);
+  if (!subgroupElect()) return;
+  // Most rows change nothing: look before locking.
+  ResidualArray r = p.residual;
+  if (floatBitsToUint(delta) > r.at[p.slot].maxDelta) atomicMax(r.at[p.slot].maxDelta, floatBitsToUint(delta));
+  if (floatBitsToUint(h) > r.at[p.slot].maxH) atomicMax(r.at[p.slot].maxH, floatBitsToUint(h));
+  if (floatBitsToUint(gain) > r.at[p.slot].maxGain) atomicMax(r.at[p.slot].maxGain, floatBitsToUint(gain));
+  if (floatBitsToUint(source) > r.at[p.slot].maxSource) atomicMax(r.at[p.slot].maxSource, floatBitsToUint(source));
+  if (nonFinite > 0u) atomicAdd(r.at[p.slot].nonFinite, nonFinite);
+  if (negative > 0u) atomicAdd(r.at[p.slot].negative, negative);
+}
+
+#endif

@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "GI Solve", one invocation per row: for devices whose subgroups are short and whose loads are scalar.
+#include "gi/solve.glsl"
+
+layout(local_size_x = 64) in;
+
+void main() {
+  MatrixArrays m = p.matrix.at[0];
+  uint row = irad_index();
+  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  if (row < m.rows) {
+    Row r = openRow(m, row);
+    vec4 sum = vec4(0.0f);
+    for (uint i = 0u; i < r.count; ++i) sum += entryTerm(r, m.columnBits, p.input_, i);
+    w = finishRow(row, sum * r.weight);
+  }
+  report(w);
+}

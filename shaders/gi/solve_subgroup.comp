@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "GI Solve", one subgroup per row, whatever its size.
+#include "gi/solve.glsl"
+
+layout(local_size_x = 128) in;
+
+void main() {
+  MatrixArrays m = p.matrix.at[0];
+  uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+  uint subgroups = gl_NumWorkGroups.x * gl_NumWorkGroups.y * gl_NumSubgroups;
+  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  for (uint row = group * gl_NumSubgroups + gl_SubgroupID; row < m.rows; row += subgroups) {
+    Row r = openRow(m, row);
+    vec4 sum = vec4(0.0f);
+    for (uint i = gl_SubgroupInvocationID; i < r.count; i += gl_SubgroupSize)
+      sum += entryTerm(r, m.columnBits, p.input_, i);
+    sum = subgroupAdd(sum);
+    if (subgroupElect()) {
+      Watch next = finishRow(row, sum * r.weight);
+      w.delta = max(w.delta, next.delta);
+      w.h = max(w.h, next.h);
+      w.gain = max(w.gain, next.gain);
+      w.source = max(w.source, next.source);
+      w.nonFinite += next.nonFinite;
+      w.negative += next.negative;
+    }
+  }
+  report(w);
+}

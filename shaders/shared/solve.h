@@ -1,0 +1,66 @@
+// The relight kernels' records (METHOD section 6).
+#ifndef IRAD_SHARED_SOLVE_H
+#define IRAD_SHARED_SOLVE_H
+#include "shared/facets.h"
+#include "shared/gi_params.h"
+#include "shared/matrix.h"
+IRAD_BEGIN
+
+/// What one sweep reduces. Floats >= 0 as bits, so that the largest is the same whatever the order; counts alike.
+struct SolveResidual {
+  uint maxDelta;   ///< max |B' - B|, W/m^2
+  uint maxH;       ///< W/m^2
+  uint maxGain;    ///< largest row gain lambda x max_c rho_c x sum_j F_ij
+  uint maxSource;  ///< max |M + rho D|, W/m^2
+  uint nonFinite;  ///< components of B' that are NaN or infinite
+  uint negative;   ///< components of B' below zero
+  uint pad0, pad1;
+};
+IRAD_ARRAY(ResidualArray, SolveResidual, 16)
+
+// Specialization constant 0 of gi/solve_*.comp.
+IRAD_CONST uint SOLVE_CSR = 0u;
+IRAD_CONST uint SOLVE_PADDED = 1u;
+// Specialization constant 1: what is computed.
+IRAD_CONST uint SOLVE_SWEEP = 0u;    ///< H = F B, then B'
+IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with the reductions of SolveResidual
+IRAD_CONST uint SOLVE_PRODUCT = 2u;  ///< output = F input alone
+
+struct SolvePush {
+  MatrixRecord matrix;
+  FacetRecord facets;
+  Vec4Array direct;    ///< D
+  Vec4Array input_;    ///< B (or any vector, SOLVE_PRODUCT)
+  Vec4Array output_;   ///< B' (or F input)
+  Vec4Array indirect;  ///< H
+  ResidualArray residual;
+  uint slot;           ///< of the residual array
+  float lambda, omega, flush;
+};
+
+/// gi/emission.comp: vec3 exitance -> vec4, gi/gather.comp: direct light.
+struct EmissionPush {
+  FacetRecord facets;
+  Vec4Array output_;
+};
+
+/// gi/scatter_facets.comp: H (and F M) as shading samples them.
+struct ScatterFacetsPush {
+  FacetRecord facets;
+  Vec4Array indirect, emitted;
+  Vec4Array shaded, shadedEmitted;
+  uvec3 dims;
+  uint blur;
+};
+
+/// gi/scatter_volume.comp (T 5.9): one facet per solid voxel into the sampled volume.
+struct ScatterVolumePush {
+  FacetRecord facets;
+  Vec4Array value;     ///< H or B
+  Vec4Array direct;    ///< D, read for edge removal
+  uvec3 dims;
+  float removal;       ///< lambda of T eq. 23, 0: nothing is subtracted
+};
+
+IRAD_END
+#endif
