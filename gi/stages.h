@@ -95,6 +95,7 @@ struct SolveReport {
   float largestGain = 0;  ///< rho-bar: largest row gain
   uint32_t nonFinite = 0, negative = 0;
   bool converged = false;
+  bool diverging = false;  ///< gain >= 1 and growing (solver.lambda too large): stopped early
 };
 /// Per-facet light, fp32 vec4 (xyz, w unused): W/m^2.
 struct Lighting {
@@ -107,13 +108,20 @@ struct Lighting {
   Image volume;     ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
   Buffer residual;  ///< solver's reductions, see shared/solve.h
   SolveReport report;
+  /// solve() computes `emitted` when this is not set, and sets it; clear it when the matrix or the emission changes.
+  bool emittedCurrent = false;
+  float litH = 0;  ///< largest H since a source last shone: with all sources dark, light below 1e-6 of it is put out
 };
+/// All zero. The volume exists when sampling is ungated; addVolume makes it otherwise (views, exports).
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
+void addVolume(Context& context, const FacetList& facets, Lighting& light);
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets, Lighting& light,
             const Settings& settings);
 /// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity. Blocking.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
                   const Settings& settings, uint32_t maxSweeps);
+/// `shaded` and `shadedEmitted`; and the volume where it exists: H, or B with ungated sampling (T 5.9), or B - lambda
+/// (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a voxel, alpha 1.
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
 
 }  // namespace irad

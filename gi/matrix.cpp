@@ -1,0 +1,238 @@
+// The form-factor matrix (METHOD section 5, T 5.4-5.6): F_ij = share of facet i's cosine-weighted rays that first meet
+// facet j, kept as integer hit counts (csr) or as one place per hit (padded).
+#include <algorithm>
+#include <bit>
+
+#include "gi/ray_kernel.h"
+#include "renderer/error.h"
+#include "shaders/shared/matrix_build.h"
+
+namespace irad {
+namespace {
+
+constexpr const char* kStage = "GI BuildMatrix";
+constexpr uint64_t kSegmentTable = 64;  ///< offset of the segments' addresses in the record, behind MatrixArrays
+static_assert(sizeof(MatrixArrays) <= kSegmentTable);
+
+/// Rays in one submission: short enough for watchdogs (and for cancelling), long enough to hide the round trip.
+uint64_t raysPerSubmission(const Device& device) { return device.isCpu ? uint64_t{1} << 18 : uint64_t{1} << 24; }
+
+double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
+
+void report(const std::function<bool(float)>& progress, uint64_t done, uint64_t all) {
+  if (progress && !progress(static_cast<float>(static_cast<double>(done) / static_cast<double>(all))))
+    throw WorkError("building the matrix: cancelled");
+}
+
+/// A group of dispatched workgroups, one per row, within the limit of 65,535 per axis.
+void dispatchRows(Pass& pass, uint32_t rows) {
+  const uint32_t x = std::min(rows, 32768u);
+  pass.dispatchGroups(x, (rows + x - 1) / x);
+}
+
+void addSums(MatrixStats& stats, const ChunkCounts& sums) {
+  stats.hits += sums.hits;
+  stats.escaped += sums.escaped;
+  stats.invalid += sums.invalid;
+  stats.largestRow = std::max(stats.largestRow, sums.largestRow);
+}
+
+void writeRecord(Context& context, FormFactors& matrix, const MatrixArrays& arrays) {
+  std::vector<std::byte> bytes(kSegmentTable + std::max<size_t>(1, matrix.segments.size()) * sizeof(uint64_t));
+  matrix.record = Buffer(context.device, "matrix record", Subsystem::Matrix, bytes.size());
+  MatrixArrays written = arrays;
+  written.segments = matrix.record.address + kSegmentTable;
+  written.rowStart = matrix.rowStart.address;
+  written.rowInfo = matrix.rowInfo.address;
+  written.rows = matrix.rows;
+  std::memcpy(bytes.data(), &written, sizeof(written));
+  for (size_t i = 0; i < matrix.segments.size(); ++i)
+    std::memcpy(bytes.data() + kSegmentTable + i * sizeof(uint64_t), &matrix.segments[i].address, sizeof(uint64_t));
+  upload(context, matrix.record, bytes);
+}
+
+/// csr: each chunk of rows is traced once into a scratch array, its rows sorted and merged there, counted, scanned, and
+/// packed into a segment of the exact size.
+void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
+              FormFactors& matrix, const std::function<bool(float)>& progress) {
+  const Device& device = context.device;
+  const uint32_t rows = matrix.rows, rays = params.rays;
+  MatrixArrays arrays{};
+  arrays.columnBits = std::max(1, static_cast<int>(std::bit_width(rows - 1)));
+  if (uint64_t{rays} >= uint64_t{1} << (32 - arrays.columnBits))
+    throw UsageError(
+        fmt::format("matrix.rays = {} with {} facets: a csr entry of 32 bits gives {} bits to the column and {} to the "
+                    "hit count, which holds at most {}; take fewer rays, a lower voxel.resolution or "
+                    "matrix.format=padded",
+                    rays, rows, arrays.columnBits, 32 - arrays.columnBits,
+                    (uint64_t{1} << (32 - arrays.columnBits)) - 1));
+  arrays.segmentShift = std::clamp(static_cast<int>(std::bit_width(raysPerSubmission(device) / rays)) - 1, 6, 20);
+  const uint32_t segmentRows = std::min(rows, 1u << arrays.segmentShift);
+  const uint64_t places = uint64_t{segmentRows} * rays;
+
+  matrix.rowStart = Buffer(device, "matrix row starts", Subsystem::Matrix, 4ull * rows);
+  Buffer hits(device, "matrix scratch: hits of a chunk", Subsystem::Matrix, 4 * places);
+  Buffer counts(device, "matrix scratch: row counts", Subsystem::Matrix, 4ull * segmentRows);
+  Buffer total(device, "matrix scratch: total", Subsystem::Matrix, 4);
+  Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
+  const RayKernel kernel = rayKernel(facets, field, params);
+  const uint32_t sorted = std::bit_ceil(std::max(2u, rays));
+  const uint32_t width = device.isCpu ? std::max(8u, device.subgroupSize) : std::clamp(sorted / 4, 32u, 256u);
+
+  for (uint32_t first = 0; first < rows; first += segmentRows) {
+    const uint32_t count = std::min(segmentRows, rows - first);
+    Frame frame = context.begin();
+    traceRows(frame, kernel, params, first, count, hits);
+    frame.pass(kStage).fill(sums, 0);
+    MergeRowsPush merge{};
+    merge.hits = hits.address;
+    merge.counts = counts.address;
+    merge.rowInfo = matrix.rowInfo.address;
+    merge.sums = sums.address;
+    merge.firstRow = first;
+    merge.rows = count;
+    merge.rays = rays;
+    merge.columnBits = arrays.columnBits;
+    Pass pass = frame.pass(kStage);
+    pass.shader("gi/merge_rows.comp")
+        .constant(0, width)
+        .constant(1, sorted)
+        .write(hits, counts, matrix.rowInfo, sums)
+        .push(merge);
+    dispatchRows(pass, count);
+    exclusiveScan(frame, kStage, counts, count, total);
+    ChunkCounts found{};
+    uint32_t entries = 0;
+    frame.readback(sums, 0, sizeof(found), [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
+    frame.readback(total, 0, 4, [&](std::span<const uint8_t> b) { std::memcpy(&entries, b.data(), b.size()); });
+    frame.submitAndWait();
+
+    addSums(matrix.stats, found);
+    matrix.stats.entries += entries;
+    // From the first chunk on the whole is known well enough to stop before memory runs out half-way.
+    const uint64_t expected =
+        static_cast<uint64_t>(4.0 * static_cast<double>(matrix.stats.entries) / (first + count) * (rows - first));
+    device.memory().check(fmt::format("matrix entries (csr, rows {} to {})", first, rows), expected);
+    matrix.segments.emplace_back(device, fmt::format("matrix entries {}", first >> arrays.segmentShift),
+                                 Subsystem::Matrix, 4ull * entries);
+    const Buffer& segment = matrix.segments.back();
+    PackRowsPush pack{};
+    pack.entries = hits.address;
+    pack.starts = counts.address;
+    pack.rowInfo = matrix.rowInfo.address;
+    pack.rowStart = matrix.rowStart.address;
+    pack.segment = segment.address;
+    pack.firstRow = first;
+    pack.rows = count;
+    pack.rays = rays;
+    Frame packing = context.begin();
+    packing.pass(kStage)
+        .shader("gi/pack_rows.comp")
+        .read(hits, counts, matrix.rowInfo)
+        .write(segment, matrix.rowStart)
+        .push(pack)
+        .dispatch(uint64_t{count} * rays);
+    packing.submit();
+    report(progress, uint64_t{first} + count, rows);
+  }
+  matrix.stats.bytesUsed = 4 * matrix.stats.entries;
+  writeRecord(context, matrix, arrays);
+}
+
+/// padded (T Fig. 7): a fixed stride of `rays` places of 8 bytes per row, for a power of two of rows, cleared, then
+/// filled by one invocation per row.
+void buildPadded(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
+                 FormFactors& matrix, const std::function<bool(float)>& progress) {
+  const Device& device = context.device;
+  const uint32_t rows = matrix.rows;
+  const uint64_t capacity = std::bit_ceil(rows);
+  const uint64_t rowBytes = 8ull * params.rays;
+  const std::string what = fmt::format("the padded matrix ({} rows x {} places x 8 B = {:.0f} MiB)", capacity,
+                                       params.rays, mebibytes(capacity * rowBytes));
+  try {
+    device.memory().check(what, capacity * rowBytes);
+  } catch (const DeviceError& error) {
+    throw DeviceError(fmt::format("{}; matrix.format=csr keeps only the entries that exist (about {:.0f} MiB at most)",
+                                  error.what(), mebibytes(4ull * rows * params.rays)));
+  }
+  MatrixArrays arrays{};
+  arrays.stride = params.rays;
+  // One array, unless the device cannot allocate (or a shader index) that much in one piece.
+  const uint64_t largest = std::min<uint64_t>({device.maxAllocation, (uint64_t{1} << 32) - rowBytes, 1ull << 32});
+  arrays.segmentShift = static_cast<uint32_t>(std::bit_width(std::min(capacity, std::bit_floor(largest / rowBytes)))) - 1;
+  const uint64_t segmentRows = uint64_t{1} << arrays.segmentShift;
+  matrix.rowStart = Buffer(device, "matrix row starts", Subsystem::Matrix, 0);
+  Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
+  for (uint64_t first = 0; first < capacity; first += segmentRows)
+    matrix.segments.emplace_back(device, fmt::format("matrix places {}", matrix.segments.size()), Subsystem::Matrix,
+                                 segmentRows * rowBytes);
+  {
+    Frame frame = context.begin();
+    for (const Buffer& segment : matrix.segments) frame.pass("GI BuildMatrix Clear").fill(segment, 0);
+    frame.submit();
+  }
+  const RayKernel kernel = rayKernel(facets, field, params);
+  const uint64_t chunk = std::clamp<uint64_t>(raysPerSubmission(device) * 4 / params.rays, 64, segmentRows);
+  for (uint32_t first = 0; first < rows;) {
+    const uint64_t segment = first >> arrays.segmentShift;
+    const uint64_t end = std::min<uint64_t>({rows, first + chunk, (segment + 1) << arrays.segmentShift});
+    PaddedRowsPush push{};
+    push.facets = facets.record.address;
+    push.chebyshev = kernel.chebyshev();
+    push.segment = matrix.segments[segment].address;
+    push.rowInfo = matrix.rowInfo.address;
+    push.sums = sums.address;
+    push.dims = facets.grid.dims;
+    push.jfaMax = field.jfaMax;
+    push.firstRow = first;
+    push.rows = static_cast<uint32_t>(end - first);
+    push.rays = params.rays;
+    push.jitter = params.jitter;
+    push.seed = params.seed;
+    push.segmentRow = static_cast<uint32_t>(first & (segmentRows - 1));
+    Frame frame = context.begin();
+    frame.pass(kStage).fill(sums, 0);
+    Pass pass = frame.pass(kStage);
+    kernel.configure(pass, device, "padded_rows")
+        .write(matrix.segments[segment], matrix.rowInfo, sums)
+        .push(push)
+        .dispatch(push.rows);
+    ChunkCounts found{};
+    frame.readback(sums, 0, sizeof(found), [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
+    frame.submitAndWait();
+    addSums(matrix.stats, found);
+    first = static_cast<uint32_t>(end);
+    report(progress, first, rows);
+  }
+  matrix.stats.entries = matrix.stats.hits;
+  matrix.stats.bytesUsed = 8 * matrix.stats.hits;
+  writeRecord(context, matrix, arrays);
+}
+
+}  // namespace
+
+FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
+                        const std::function<bool(float)>& progress) {
+  const MatrixParams& params = settings.matrix.gpu;
+  FormFactors matrix;
+  matrix.format = settings.matrix.format;
+  matrix.rows = facets.count;
+  matrix.rays = params.rays;
+  matrix.rowInfo = Buffer(context.device, "matrix row info", Subsystem::Matrix, 8ull * facets.count);
+  matrix.stats.rays = uint64_t{facets.count} * params.rays;
+  if (facets.count == 0) {
+    matrix.rowStart = Buffer(context.device, "matrix row starts", Subsystem::Matrix, 0);
+    writeRecord(context, matrix, MatrixArrays{});
+    return matrix;
+  }
+  report(progress, 0, 1);
+  if (matrix.format == MatrixFormat::csr)
+    buildCsr(context, facets, field, params, matrix, progress);
+  else
+    buildPadded(context, facets, field, params, matrix, progress);
+  for (const Buffer& segment : matrix.segments) matrix.stats.bytesAllocated += segment.bytes;
+  matrix.stats.bytesAllocated += matrix.rowStart.bytes + matrix.rowInfo.bytes + matrix.record.bytes;
+  return matrix;
+}
+
+}  // namespace irad

@@ -1,0 +1,78 @@
+// The per-facet light buffers, and what shading samples of them (METHOD sections 6 and 7, T 5.9).
+#include "gi/stages.h"
+#include "shaders/shared/solve.h"
+
+namespace irad {
+
+Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings) {
+  const uint64_t bytes = 16ull * facets.count;
+  const Device& device = context.device;
+  Lighting light;
+  light.direct = Buffer(device, "direct irradiance D", Subsystem::Solver, bytes);
+  light.emitted = Buffer(device, "emitted share F M", Subsystem::Solver, bytes);
+  light.indirect = Buffer(device, "indirect irradiance H", Subsystem::Solver, bytes);
+  light.radiosity = Buffer(device, "radiosity B (a)", Subsystem::Solver, bytes);
+  light.radiosityNext = Buffer(device, "radiosity B (b)", Subsystem::Solver, bytes);
+  light.shaded = Buffer(device, "shaded H", Subsystem::Solver, bytes);
+  light.shadedEmitted = Buffer(device, "shaded F M", Subsystem::Solver, bytes);
+  light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual));
+  Frame frame = context.begin();
+  for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
+                          &light.shaded, &light.shadedEmitted, &light.residual})
+    frame.pass("GI Solve").fill(*b, 0);
+  frame.submit();
+  if (settings.sample.gpu.gated == 0) addVolume(context, facets, light);
+  return light;
+}
+
+void addVolume(Context& context, const FacetList& facets, Lighting& light) {
+  if (light.volume) return;
+  light.volume = Image(context.device, {.name = "radiance volume",
+                                        .subsystem = Subsystem::Volumes,
+                                        .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                        .width = facets.grid.dims.x,
+                                        .height = facets.grid.dims.y,
+                                        .depth = facets.grid.dims.z,
+                                        .volume = true});
+}
+
+void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
+  constexpr const char* kStage = "GI Scatter";
+  const SampleParams& sample = settings.sample.gpu;
+  if (sample.gated != 0 && facets.count > 0) {
+    ScatterFacetsPush push{};
+    push.facets = facets.record.address;
+    push.indirect = light.indirect.address;
+    push.emitted = light.emitted.address;
+    push.shaded = light.shaded.address;
+    push.shadedEmitted = light.shadedEmitted.address;
+    push.dims = facets.grid.dims;
+    push.blur = sample.filter_ == FILTER_BLUR;
+    frame.pass(kStage)
+        .shader("gi/scatter_facets.comp")
+        .constant(0, static_cast<uint32_t>(facets.encoding))
+        .read(facets.record, facets.voxel, facets.shape, facets.reverse, light.indirect, light.emitted)
+        .write(light.shaded, light.shadedEmitted)
+        .push(push)
+        .dispatch(facets.count);
+  }
+  if (!light.volume) return;
+  frame.pass("GI Scatter Clear").clear(light.volume, ClearColor{});
+  if (facets.count == 0) return;
+  const bool holdsRadiosity = sample.gated == 0 || settings.scatter.edgeRemoval;
+  const Buffer& value = holdsRadiosity ? light.radiosity : light.indirect;
+  ScatterVolumePush push{};
+  push.facets = facets.record.address;
+  push.value = value.address;
+  push.direct = light.direct.address;
+  push.dims = facets.grid.dims;
+  push.removal = settings.scatter.edgeRemoval ? settings.solver.gpu.lambda : 0.0f;
+  frame.pass(kStage)
+      .shader("gi/scatter_volume.comp")
+      .read(facets.record, facets.voxel, facets.albedo, facets.emission, facets.reverse, value, light.direct)
+      .write(light.volume)
+      .push(push)
+      .dispatch(facets.count);
+}
+
+}  // namespace irad

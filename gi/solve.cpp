@@ -1,0 +1,148 @@
+// Jacobi (METHOD sections 1 and 6, T 5.8): H <- F B, then B <- lambda (M + rho (D + H)).
+#include "shaders/shared/solve.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "gi/stages.h"
+#include "renderer/error.h"
+
+namespace irad {
+namespace {
+
+constexpr const char* kStage = "GI Solve";
+constexpr uint32_t kBatch = 16;          ///< sweeps per submission at most; one residual record each
+constexpr float kDark = 1e-6f;           ///< share of the last lit H below which an unlit scene is put out
+constexpr uint32_t kPatience = 3;        ///< growing batches in a row that count as divergence
+
+SolverKernel chooseKernel(const Device& device, SolverKernel asked) {
+  if (asked != SolverKernel::automatic) return asked;
+  // lavapipe loads lane by lane: reductions across lanes only add to it. GPUs want consecutive entries per subgroup.
+  return device.isCpu ? SolverKernel::row : SolverKernel::subgroup;
+}
+
+struct Sweep {
+  const FacetList& facets;
+  const FormFactors& matrix;
+  SolverKernel kernel;
+  SolvePush push{};
+
+  void record(Frame& frame, uint32_t work, const Buffer& input, const Buffer& output, const Lighting& light) {
+    push.input_ = input.address;
+    push.output_ = output.address;
+    Pass pass = frame.pass(kStage);
+    pass.constant(0, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
+        .constant(1, work)
+        .read(matrix.record, matrix.rowStart, matrix.rowInfo, facets.record, facets.albedo, facets.emission,
+              light.direct, input)
+        .write(output)
+        .push(push);
+    for (const Buffer& segment : matrix.segments) pass.read(segment);
+    if (work != SOLVE_PRODUCT) pass.write(light.indirect);
+    if (work == SOLVE_WATCH) pass.write(light.residual);
+    switch (kernel) {
+      case SolverKernel::row: pass.shader("gi/solve_row.comp").dispatch(matrix.rows); break;
+      case SolverKernel::tree: {
+        const uint32_t x = std::min(matrix.rows, 32768u);
+        pass.shader("gi/solve_tree.comp").dispatchGroups(x, (matrix.rows + x - 1) / x);
+        break;
+      }
+      default:
+        pass.shader("gi/solve_subgroup.comp")
+            .dispatch(uint64_t{matrix.rows} * frame.context().device.subgroupSize);
+    }
+  }
+};
+
+/// How far B may still be from its fixed point, and H from F times that: q contraction, |dB| the last change.
+void judge(SolveReport& report, const SolveResidual& r, const SolverParams& params, float tolerance) {
+  report.residual = std::bit_cast<float>(r.maxDelta);
+  report.largestH = std::bit_cast<float>(r.maxH);
+  report.largestGain = std::bit_cast<float>(r.maxGain);
+  report.nonFinite = r.nonFinite;
+  report.negative = r.negative;
+  const float q = (1 - params.omega) + params.omega * report.largestGain;
+  const float reach = q < 1 ? report.residual / (1 - q) : std::numeric_limits<float>::infinity();
+  report.bound = report.residual == 0 ? 0 : q * reach;
+  // H is one product behind B: its error is bounded by |dB| / (1 - q), row sums being <= 1.
+  report.converged =
+      report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
+}
+
+}  // namespace
+
+SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
+                  const Settings& settings, uint32_t maxSweeps) {
+  IRAD_CHECK_OP(matrix.rows, ==, facets.count);
+  SolveReport report;
+  if (facets.count == 0) {
+    report.converged = true;
+    return light.report = report;
+  }
+  const SolverParams& params = settings.solver.gpu;
+  Sweep sweep{facets, matrix, chooseKernel(context.device, settings.solver.kernel)};
+  sweep.push.matrix = matrix.record.address;
+  sweep.push.facets = facets.record.address;
+  sweep.push.direct = light.direct.address;
+  sweep.push.indirect = light.indirect.address;
+  sweep.push.residual = light.residual.address;
+  sweep.push.lambda = params.lambda;
+  sweep.push.omega = params.omega;
+  sweep.push.flush = params.flush;
+
+  if (!light.emittedCurrent) {
+    Frame frame = context.begin();
+    if (facets.hasEmission) {
+      // M as a vector, in the spare half of B's double buffer; then one product.
+      frame.pass(kStage)
+          .shader("gi/emission.comp")
+          .read(facets.record, facets.emission)
+          .write(light.radiosityNext)
+          .push(EmissionPush{facets.record.address, light.radiosityNext.address})
+          .dispatch(facets.count);
+      sweep.record(frame, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
+    } else {
+      frame.pass(kStage).fill(light.emitted, 0);
+    }
+    frame.submit();
+    light.emittedCurrent = true;
+  }
+
+  // A CPU device sweeps slowly: short submissions. The first is short too, a warm start is often at its goal.
+  const uint32_t longest = context.device.isCpu ? 4 : kBatch;
+  uint32_t batch = std::min(2u, longest), growing = 0;
+  float previous = std::numeric_limits<float>::infinity();
+  while (report.sweeps < maxSweeps && !report.converged && report.nonFinite == 0 && !report.diverging) {
+    const uint32_t count = std::min(batch, maxSweeps - report.sweeps);
+    Frame frame = context.begin();
+    frame.pass(kStage).fill(light.residual, 0);
+    for (uint32_t i = 0; i < count; ++i) {
+      sweep.record(frame, i + 1 == count ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext, light);
+      std::swap(light.radiosity, light.radiosityNext);
+    }
+    SolveResidual residual{};
+    frame.readback(light.residual, 0, sizeof(residual),
+                   [&](std::span<const uint8_t> b) { std::memcpy(&residual, b.data(), b.size()); });
+    frame.submitAndWait();
+    report.sweeps += count;
+    judge(report, residual, params, settings.solver.tolerance);
+    batch = longest;
+
+    if (residual.maxSource != 0) {
+      light.litH = report.largestH;
+      sweep.push.flush = params.flush;
+    } else {
+      // Lights off: light decays by rho per sweep, and ends in exact zero once it is below what fp32 kept of it.
+      light.litH = std::max(light.litH, report.largestH);
+      sweep.push.flush = std::max(params.flush, kDark * light.litH);
+    }
+    const float q = (1 - params.omega) + params.omega * report.largestGain;
+    growing = q >= 1 && report.residual > previous ? growing + 1 : 0;
+    report.diverging = growing >= kPatience;
+    previous = report.residual;
+  }
+  return light.report = report;
+}
+
+}  // namespace irad
