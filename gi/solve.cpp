@@ -12,7 +12,7 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "GI Solve";
-constexpr uint32_t kBatch = 16;          ///< sweeps per submission at most; one residual record each
+constexpr uint32_t kBatch = 16;          ///< sweeps per submission at most; the last one is watched
 constexpr float kDark = 1e-6f;           ///< share of the last lit H below which an unlit scene is put out
 constexpr uint32_t kPatience = 3;        ///< growing batches in a row that count as divergence
 

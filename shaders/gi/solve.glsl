@@ -95,12 +95,12 @@ void report(Watch w) {
   if (!subgroupElect()) return;
   // Most rows change nothing: look before locking.
   ResidualArray r = p.residual;
-  if (floatBitsToUint(delta) > r.at[p.slot].maxDelta) atomicMax(r.at[p.slot].maxDelta, floatBitsToUint(delta));
-  if (floatBitsToUint(h) > r.at[p.slot].maxH) atomicMax(r.at[p.slot].maxH, floatBitsToUint(h));
-  if (floatBitsToUint(gain) > r.at[p.slot].maxGain) atomicMax(r.at[p.slot].maxGain, floatBitsToUint(gain));
-  if (floatBitsToUint(source) > r.at[p.slot].maxSource) atomicMax(r.at[p.slot].maxSource, floatBitsToUint(source));
-  if (nonFinite > 0u) atomicAdd(r.at[p.slot].nonFinite, nonFinite);
-  if (negative > 0u) atomicAdd(r.at[p.slot].negative, negative);
+  if (floatBitsToUint(delta) > r.at[0].maxDelta) atomicMax(r.at[0].maxDelta, floatBitsToUint(delta));
+  if (floatBitsToUint(h) > r.at[0].maxH) atomicMax(r.at[0].maxH, floatBitsToUint(h));
+  if (floatBitsToUint(gain) > r.at[0].maxGain) atomicMax(r.at[0].maxGain, floatBitsToUint(gain));
+  if (floatBitsToUint(source) > r.at[0].maxSource) atomicMax(r.at[0].maxSource, floatBitsToUint(source));
+  if (nonFinite > 0u) atomicAdd(r.at[0].nonFinite, nonFinite);
+  if (negative > 0u) atomicAdd(r.at[0].negative, negative);
 }
 
 #endif

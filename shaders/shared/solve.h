@@ -4,6 +4,7 @@
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/matrix.h"
+#include "shared/scene_gpu.h"
 IRAD_BEGIN
 
 /// What one sweep reduces. Floats >= 0 as bits, so that the largest is the same whatever the order; counts alike.
@@ -34,11 +35,24 @@ struct SolvePush {
   Vec4Array output_;   ///< B' (or F input)
   Vec4Array indirect;  ///< H
   ResidualArray residual;
-  uint slot;           ///< of the residual array
   float lambda, omega, flush;
+  uint pad;
 };
 
-/// gi/emission.comp: vec3 exitance -> vec4, gi/gather.comp: direct light.
+/// gi/gather.comp: D per facet.
+struct GatherPush {
+  SceneArray scene;
+  FacetRecord facets;
+  Vec4Array direct;
+  vec3 origin;  ///< of the grid, local
+  float edge;
+  uint samples;
+  float shadowBias;  ///< texels
+  uint pcf;
+  uint pad;
+};
+
+/// gi/emission.comp: vec3 exitance -> vec4.
 struct EmissionPush {
   FacetRecord facets;
   Vec4Array output_;
