@@ -1,0 +1,178 @@
+#include "gi/check_scenes.h"
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "renderer/error.h"
+
+namespace irad {
+
+uint32_t SceneBuilder::material(glm::vec3 albedo, glm::vec3 exitance, bool doubleSided) {
+  Material m;
+  m.name = fmt::format("material {}", scene_.materials.size());
+  m.baseColor = glm::vec4(albedo, 1.0f);
+  m.metallic = 0.0f;
+  m.emission = exitance / std::numbers::pi_v<float>;
+  m.doubleSided = doubleSided;
+  scene_.materials.push_back(m);
+  corners_.emplace_back();
+  return static_cast<uint32_t>(scene_.materials.size() - 1);
+}
+
+void SceneBuilder::triangle(uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  IRAD_CHECK_OP(material, <, corners_.size());
+  corners_[material].insert(corners_[material].end(), {a, b, c});
+}
+
+void SceneBuilder::quad(uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, uint32_t n) {
+  const auto at = [&](uint32_t i, uint32_t j) {
+    const float u = static_cast<float>(i) / static_cast<float>(n), v = static_cast<float>(j) / static_cast<float>(n);
+    return glm::mix(glm::mix(a, b, u), glm::mix(d, c, u), v);
+  };
+  for (uint32_t j = 0; j < n; ++j)
+    for (uint32_t i = 0; i < n; ++i) {
+      triangle(material, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      triangle(material, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+}
+
+void SceneBuilder::box(const std::vector<uint32_t>& materials, glm::vec3 lo, glm::vec3 hi, bool inward,
+                       const glm::mat3& rotation) {
+  IRAD_CHECK_OP(materials.size(), ==, 6u);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const auto corner = [&](int i, int j) {
+        glm::vec3 p;
+        p[axis] = side ? hi[axis] : lo[axis];
+        p[u] = i ? hi[u] : lo[u];
+        p[v] = j ? hi[v] : lo[v];
+        return rotation * p;
+      };
+      // (0,0) (1,0) (1,1) (0,1) turns counter-clockwise about +axis: outward on the upper side.
+      const bool turn = (side == 1) == inward;
+      if (turn)
+        quad(materials[2 * axis + side], corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0));
+      else
+        quad(materials[2 * axis + side], corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1));
+    }
+}
+
+void SceneBuilder::sphere(uint32_t material, glm::vec3 centre, float radius, bool inward, uint32_t rings) {
+  const uint32_t sectors = 2 * rings;
+  const auto at = [&](uint32_t i, uint32_t j) {
+    const double theta = std::numbers::pi * j / rings, phi = 2 * std::numbers::pi * (i % sectors) / sectors;
+    return centre + radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+  };
+  for (uint32_t j = 0; j < rings; ++j)
+    for (uint32_t i = 0; i < sectors; ++i) {
+      std::array<glm::vec3, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};  // outward
+      if (inward) std::swap(q[1], q[3]);
+      if (j > 0 || inward) triangle(material, q[0], q[1], q[2]);
+      if (j > 0 || !inward) triangle(material, q[0], q[2], q[3]);
+    }
+}
+
+void SceneBuilder::sun(glm::vec3 direction, float lux) {
+  scene_.lights.push_back({.name = "sun", .type = LightType::Sun, .direction = glm::normalize(direction), .intensity = lux});
+}
+
+void SceneBuilder::point(glm::dvec3 position, float candela) {
+  scene_.lights.push_back({.name = "point", .type = LightType::Point, .position = position, .intensity = candela});
+}
+
+Scene SceneBuilder::finish(std::string name) {
+  Scene scene = std::move(scene_);
+  scene_ = Scene{};
+  scene.path = name;
+  scene.boundsMin = glm::vec3(std::numeric_limits<float>::max());
+  scene.boundsMax = -scene.boundsMin;
+  for (uint32_t m = 0; m < corners_.size(); ++m) {
+    if (corners_[m].empty()) continue;
+    const auto first = static_cast<uint32_t>(scene.positions.size());
+    for (size_t i = 0; i < corners_[m].size(); i += 3) {
+      const glm::vec3 &a = corners_[m][i], &b = corners_[m][i + 1], &c = corners_[m][i + 2];
+      const glm::vec3 n = glm::normalize(glm::cross(b - a, c - a));
+      const glm::vec3 t = glm::normalize(b - a);
+      for (const glm::vec3& p : {a, b, c}) {
+        scene.indices.push_back(static_cast<uint32_t>(scene.positions.size()));
+        scene.positions.push_back(p);
+        scene.normals.push_back(n);
+        scene.tangents.emplace_back(t, 1.0f);
+        scene.uv0.emplace_back(0.0f);
+        scene.uv1.emplace_back(0.0f);
+        scene.colors.emplace_back(1.0f);
+        scene.boundsMin = glm::min(scene.boundsMin, p);
+        scene.boundsMax = glm::max(scene.boundsMax, p);
+      }
+    }
+    scene.draws.push_back({m, first, static_cast<uint32_t>(scene.positions.size()) - first});
+  }
+  corners_.clear();
+  const glm::vec3 centre = 0.5f * (scene.boundsMin + scene.boundsMax);
+  scene.cameras.push_back({.name = "front", .position = glm::dvec3(centre)});
+  return scene;
+}
+
+Scene furnaceBox(float rho) {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(rho), glm::vec3(1.0f));
+  b.box({m, m, m, m, m, m}, glm::vec3(-0.5f), glm::vec3(0.5f), /*inward=*/true);
+  return b.finish("furnace-box");
+}
+
+Scene furnaceTilted(float rho) {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(rho), glm::vec3(1.0f));
+  const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), glm::radians(31.0f), glm::normalize(glm::vec3(1, 2, 3))));
+  b.box({m, m, m, m, m, m}, glm::vec3(-0.5f), glm::vec3(0.5f), /*inward=*/true, turn);
+  return b.finish("furnace-tilted");
+}
+
+Scene furnaceSphere(float rho) {
+  SceneBuilder b;
+  b.sphere(b.material(glm::vec3(rho), glm::vec3(1.0f)), glm::vec3(0.0f), 1.0f, /*inward=*/true);
+  return b.finish("furnace-sphere");
+}
+
+Scene unitCube(float rho) {
+  SceneBuilder b;
+  std::vector<uint32_t> walls;
+  for (int i = 0; i < 6; ++i) walls.push_back(b.material(glm::vec3(rho)));
+  b.box(walls, glm::vec3(-0.5f), glm::vec3(0.5f), /*inward=*/true);
+  return b.finish("unit-cube");
+}
+
+namespace {
+Scene facingSquares(const char* name, float distance, float rho0, float rho1) {
+  SceneBuilder b;
+  const uint32_t floor = b.material(glm::vec3(rho0), glm::vec3(1.0f));
+  const uint32_t ceiling = b.material(glm::vec3(rho1));
+  const float h = 0.5f, y = distance / 2;
+  b.quad(floor, {-h, -y, h}, {h, -y, h}, {h, -y, -h}, {-h, -y, -h});
+  b.quad(ceiling, {-h, y, -h}, {h, y, -h}, {h, y, h}, {-h, y, h});
+  return b.finish(name);
+}
+}  // namespace
+
+Scene parallelSquares(float distance) { return facingSquares("parallel-squares", distance, 0.0f, 0.0f); }
+Scene plates(float gap, float rho0, float rho1) { return facingSquares("plates", gap, rho0, rho1); }
+
+double formFactorParallelSquares(double d) {
+  const double x = 1 / d, x2 = 1 + x * x;
+  return 2 / (std::numbers::pi * x * x) *
+         (0.5 * std::log(x2 * x2 / (1 + 2 * x * x)) + 2 * x * std::sqrt(x2) * std::atan(x / std::sqrt(x2)) -
+          2 * x * std::atan(x));
+}
+
+double formFactorPerpendicularSquares() {
+  // Howell C-14 with H = W = 1.
+  const double atan1 = std::atan(1.0);
+  return (2 * atan1 - std::sqrt(2.0) * std::atan(1 / std::sqrt(2.0)) +
+          0.25 * std::log(4.0 / 3.0 * (3.0 / 4.0) * (3.0 / 4.0))) /
+         std::numbers::pi;
+}
+
+}  // namespace irad

@@ -1,0 +1,53 @@
+// Small scenes whose light is known in closed form (HARD_CASES), built in code: for `irad check` and the test suites.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace irad {
+
+/// A scene put together from quads and spheres; the result is what loadScene would give.
+class SceneBuilder {
+ public:
+  /// A Lambertian material: diffuse albedo and exitance M (W/m^2, = pi x emitted radiance). Returns its index.
+  uint32_t material(glm::vec3 albedo, glm::vec3 exitance = glm::vec3(0.0f), bool doubleSided = false);
+  /// Corners counter-clockwise seen from the front, cut into n x n squares of two triangles.
+  void quad(uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, uint32_t n = 1);
+  /// Six walls; `inward`: seen from inside. `materials`: -x +x -y +y -z +z. Points are turned by `rotation` about 0.
+  void box(const std::vector<uint32_t>& materials, glm::vec3 lo, glm::vec3 hi, bool inward,
+           const glm::mat3& rotation = glm::mat3(1.0f));
+  /// Latitude-longitude sphere with `rings` rings.
+  void sphere(uint32_t material, glm::vec3 centre, float radius, bool inward, uint32_t rings = 64);
+  void sun(glm::vec3 direction, float lux);
+  void point(glm::dvec3 position, float candela);
+  /// Groups the triangles by material, sets bounds and a camera. The builder is empty afterwards.
+  Scene finish(std::string name);
+
+ private:
+  void triangle(uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  Scene scene_;
+  std::vector<std::vector<glm::vec3>> corners_;  ///< three per triangle, per material
+};
+
+/// Closed unit box, every wall albedo rho and exitance M = 1: B = 1 / (1 - rho) everywhere.
+Scene furnaceBox(float rho);
+/// The same turned by 31 degrees about (1, 2, 3).
+Scene furnaceTilted(float rho);
+/// Closed sphere of radius 1.
+Scene furnaceSphere(float rho);
+/// Closed unit cube, rho 0, one material per wall (-x +x -y +y -z +z), so that walls can be told apart.
+Scene unitCube(float rho = 0.0f);
+/// Two unit squares facing each other across `distance`: floor (material 0, emits 1) and ceiling (material 1).
+Scene parallelSquares(float distance);
+/// Two square plates of side 1, `gap` apart, facing each other: albedos .9 and .3, the first emits M = 1.
+Scene plates(float gap, float rho0 = 0.9f, float rho1 = 0.3f);
+
+/// Form factor between two parallel, aligned, unit squares at distance d (Howell's catalogue, C-11).
+double formFactorParallelSquares(double d);
+/// Form factor between two perpendicular unit squares with a common edge (C-14).
+double formFactorPerpendicularSquares();
+
+}  // namespace irad
