@@ -4,6 +4,7 @@
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/grid.h"
+#include "shared/matrix.h"
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
@@ -35,6 +36,25 @@ struct ForwardPush {
   float shadowBias;
   uint pcf;
   uint specularDirect;
+};
+
+/// Views over the targets (view/debug_view.comp) and over the voxels (view/voxel_view.comp).
+struct ViewPush {
+  CameraArray camera;
+  GridArray grid;
+  FacetRecord facets;
+  MatrixRecord matrix;
+  Vec4Array values;     ///< per facet: H or B, as the view has it; 0: none
+  UintArray chebyshev;  ///< 4 voxels per uint; 0: the volume is bound instead, or there is no field
+  uint view;
+  uint kind;
+  float low, high;  ///< range of a scalar view
+  float exposure;
+  uint toneCurve;
+  uint normalEncoding;
+  uint rays;      ///< of a matrix row
+  uint padded;    ///< 1: matrix.format padded
+  float jfaMax;   ///< voxels that 1.0 of the bound volume stands for; 0: none bound
 };
 
 IRAD_END

@@ -1,0 +1,69 @@
+// Views composed from the targets of the forward pass (METHOD section 1: radiance = albedo (D + H) / pi + ...).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/passes.h"
+#include "view/finish.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform sampler2D depthTarget;
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
+layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D albedoTarget;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D directTarget;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D highlightTarget;
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D indirectTarget;
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D emittedTarget;
+layout(set = 0, binding = 8, rgba32f) uniform readonly image2D specularTarget;
+layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D linearTarget;
+layout(set = 0, binding = 10, rgba8) uniform writeonly image2D displayTarget;
+layout(push_constant, scalar) uniform PushBlock { ViewPush push; };
+
+void main() {
+  GpuCamera camera = push.camera.at[0];
+  if (any(greaterThanEqual(gl_GlobalInvocationID.xy, camera.size))) return;
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  float depth = texelFetch(depthTarget, pixel, 0).r;
+  bool drawn = depth < 1.0;
+  vec4 albedo = imageLoad(albedoTarget, pixel);
+  vec3 direct = imageLoad(directTarget, pixel).rgb;
+  vec3 highlight = imageLoad(highlightTarget, pixel).rgb;
+  vec3 indirect = imageLoad(indirectTarget, pixel).rgb;
+
+  vec3 value = vec3(0.0);
+  float high = push.high;
+  switch (push.view) {
+    case VIEW_LIT:
+      value = albedo.rgb * (direct + albedo.a * indirect) * (1.0 / IRAD_PI) + highlight +
+              albedo.a * imageLoad(specularTarget, pixel).rgb;
+      break;
+    case VIEW_NO_GI:
+    case VIEW_DIRECT: value = albedo.rgb * direct * (1.0 / IRAD_PI) + highlight; break;
+    case VIEW_INDIRECT: value = albedo.rgb * indirect * (albedo.a / IRAD_PI); break;
+    case VIEW_SPECULAR: value = albedo.a * imageLoad(specularTarget, pixel).rgb; break;
+    case VIEW_ALBEDO: value = albedo.rgb; break;
+    case VIEW_NORMAL: value = imageLoad(normalTarget, pixel).xyz; break;
+    case VIEW_ROUGHNESS_METALLIC:
+      value = vec3(imageLoad(normalTarget, pixel).w, imageLoad(geometricTarget, pixel).w, 0.0);
+      break;
+    case VIEW_DEPTH: {
+      // Distance along the view direction.
+      value = vec3(camera.orthographic != 0u
+                       ? mix(camera.znear, camera.zfar, depth)
+                       : camera.znear * camera.zfar / (camera.zfar - depth * (camera.zfar - camera.znear)));
+      if (high <= push.low) high = camera.zfar;
+      if (!drawn) value = vec3(0.0);
+      break;
+    }
+    case VIEW_DIRECT_IRRADIANCE: value = direct + imageLoad(emittedTarget, pixel).rgb; break;
+    case VIEW_IRRADIANCE: value = indirect; break;
+    default: {
+      // A view that nobody wrote: magenta.
+      imageStore(linearTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));
+      imageStore(displayTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));
+      return;
+    }
+  }
+  imageStore(linearTarget, pixel, vec4(value, drawn ? 1.0 : 0.0));
+  vec3 shown = displayColor(value, drawn, 1.0, push.kind, push.low, high, push.exposure, push.toneCurve);
+  imageStore(displayTarget, pixel, vec4(shown, 1.0));
+}
