@@ -91,6 +91,26 @@ Indirect facetIndirect(FacetArrays facets, Grid grid, uint encoding, Vec4Array s
   return Indirect(shaded.at[facet].xyz, facets.hasEmission != 0u ? shadedEmitted.at[facet].xyz : vec3(0.0));
 }
 
+/// One per-facet quantity around `p` on a surface with normal `n`, as facetIndirect; `facet` where nothing else agrees.
+vec3 facetValueAround(FacetArrays facets, Grid grid, uint encoding, Vec4Array values, uint facet, vec3 p, vec3 n) {
+  vec3 q = p - 0.5;
+  vec3 base = floor(q);
+  vec3 f = q - base;
+  vec3 sum = vec3(0.0);
+  float total = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+    vec3 w = mix(1.0 - f, f, vec3(corner));
+    float agreement;
+    uint tap = bestFacet(facets, grid, encoding, ivec3(base) + corner, p, n, agreement);
+    if (tap == NO_FACET) continue;
+    float weight = w.x * w.y * w.z * agreement;
+    total += weight;
+    sum += weight * values.at[tap].xyz;
+  }
+  return total >= 1.0 / 256.0 ? sum / total : values.at[facet].xyz;
+}
+
 #ifdef IRAD_VOLUME
 /// The thesis's lookups in the RGBA16F volume at `p` (voxel units): the texel, the hardware's trilinear filter, or 3 x 3
 /// x 3 trilinear taps half a voxel apart. Where presence is below 1/256 the nearest solid texel of the 3 x 3 x 3 around

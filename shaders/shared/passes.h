@@ -6,6 +6,7 @@
 #include "shared/grid.h"
 #include "shared/matrix.h"
 #include "shared/scene_gpu.h"
+#include "shared/trace.h"
 IRAD_BEGIN
 
 struct Projection {
@@ -36,6 +37,20 @@ struct ForwardPush {
   float shadowBias;
   uint pcf;
   uint specularDirect;
+};
+
+/// "RE Specular": tracing and filtering.
+struct SpecularPush {
+  CameraArray camera;
+  GridArray grid;
+  FacetRecord facets;
+  Vec4Array radiosity;
+  ByteArray chebyshev;
+  SpecularParams params;
+  float jfaMax;
+  uint step_;     ///< filter: pixels between taps; 0: none
+  uint resolve;   ///< filter: 1: multiply by the lobe's reflectance and blend with the diffuse irradiance
+  float leastRoughness;  ///< filter: smoother surfaces are left alone
 };
 
 /// Views over the targets (view/debug_view.comp) and over the voxels (view/voxel_view.comp).

@@ -36,10 +36,10 @@ float rowSum(MatrixArrays m, uint row) {
   return float(hits) * uintBitsToFloat(info.y);
 }
 
-/// What the view shows for one facet; `facing` is the visible cell face's cosine cue for colours.
-vec3 facetValue(FacetArrays facets, uint facet, uint count, float cue) {
+/// What the view shows for one facet of a voxel that holds `count`.
+vec3 facetValue(FacetArrays facets, uint facet, uint count) {
   switch (push.view) {
-    case VIEW_VOXEL_ALBEDO: return unpackAlbedo(facets.albedo.at[facet]) * cue;
+    case VIEW_VOXEL_ALBEDO: return unpackAlbedo(facets.albedo.at[facet]);
     case VIEW_VOXEL_NORMAL: return decodeNormal(facets.shape.at[facet] & 0xFFFFu, push.normalEncoding);
     case VIEW_VOXEL_EMISSION: return facets.hasEmission != 0u ? facets.emission.at[facet] : vec3(0.0);
     case VIEW_VOXEL_IRRADIANCE:
@@ -105,7 +105,7 @@ void main() {
             float b = dot(decodeNormal(facets.shape.at[facet + 1u] & 0xFFFFu, push.normalEncoding), towards);
             if (b > a) ++facet;
           }
-          value = facetValue(facets, facet, count, axis == 1 ? 1.0 : (axis == 0 ? 0.85 : 0.92));
+          value = facetValue(facets, facet, count);
           drawn = true;
           // Thin lines along the cell's edges, in the display picture only; none where cells are a few pixels wide.
           vec3 f = origin + direction * t - vec3(cell);
@@ -115,6 +115,7 @@ void main() {
           float width = 0.05;
           float edge = smoothstep(0.5 * width, width, min(rim.x, min(rim.y, rim.z)));
           ink = mix(mix(0.7, 1.0, edge), 1.0, clamp(footprint / width * 0.5, 0.0, 1.0));
+          if (push.view == VIEW_VOXEL_ALBEDO) ink *= axis == 1 ? 1.0 : (axis == 0 ? 0.85 : 0.92);
           break;
         }
       }

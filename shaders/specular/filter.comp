@@ -1,0 +1,63 @@
+// "RE Specular": one step of an edge-aware a-trous filter over the traced radiance (Dammertz et al. 2010): 3 x 3 taps
+// `step` pixels apart, weighted by plane, normal and roughness. The last step (`resolve`) multiplies by the lobe's
+// reflectance and blends with the diffuse irradiance that rough surfaces take.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "specular/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform sampler2D depthTarget;
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
+layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
+layout(set = 0, binding = 5, rgba32f) uniform readonly image2D from;
+layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D to;
+
+void main() {
+  GpuCamera camera = push.camera.at[0];
+  if (any(greaterThanEqual(gl_GlobalInvocationID.xy, camera.size))) return;
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  vec4 centre = imageLoad(from, pixel);
+  vec4 normal = imageLoad(normalTarget, pixel);
+  vec3 axis = viewAxis(camera);
+  vec4 result = centre;
+  if (centre.w >= 0.0 && push.step_ > 0u && normal.w > push.leastRoughness) {
+    vec3 position = pixelPosition(camera, pixel, centre.w, axis);
+    vec3 face = imageLoad(geometricTarget, pixel).xyz;
+    // Length of a pixel at this distance: what a tap may lie off the plane.
+    float footprint = 2.0 * length(camera.inverseViewProjection[1].xyz) / float(camera.size.y) *
+                      (camera.orthographic != 0u ? 1.0 : centre.w);
+    float tolerance = 1.0 / (footprint * float(push.step_));
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    for (int i = 0; i < 9; ++i) {
+      ivec2 offset = ivec2(i % 3, i / 3) - 1;
+      ivec2 at = pixel + offset * int(push.step_);
+      if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(camera.size)))) continue;
+      vec4 tap = imageLoad(from, at);
+      if (tap.w < 0.0) continue;
+      vec4 other = imageLoad(normalTarget, at);
+      float facing = max(dot(normal.xyz, other.xyz), 0.0);
+      facing *= facing;
+      facing *= facing;
+      float plane = abs(dot(face, pixelPosition(camera, at, tap.w, axis) - position)) * tolerance;
+      float weight = (offset.x == 0 ? 2.0 : 1.0) * (offset.y == 0 ? 2.0 : 1.0) * facing * facing * facing *
+                     clamp(2.0 - plane, 0.0, 1.0) * clamp(1.0 - 8.0 * abs(other.w - normal.w), 0.0, 1.0);
+      sum += weight * tap.rgb;
+      total += weight;
+    }
+    result.rgb = total > 0.0 ? sum / total : centre.rgb;
+  }
+  if (push.resolve != 0u) {
+    vec4 f0 = imageLoad(f0Target, pixel);
+    float depth = texelFetch(depthTarget, pixel, 0).r;
+    vec3 radiance = imageLoad(indirectTarget, pixel).rgb * (1.0 / IRAD_PI);
+    if (centre.w >= 0.0) radiance = mix(radiance, result.rgb, tracedShare(normal.w));
+    vec3 view = towardsViewer(camera, pixelPosition(camera, pixel, viewDepth(camera, depth), axis), axis);
+    float nv = max(dot(normalize(normal.xyz), view), 1e-3);
+    bool lobe = depth < 1.0 && f0.w != 0.0;
+    result = vec4(lobe ? radiance * environmentBrdf(f0.rgb, normal.w, nv) : vec3(0.0), 1.0);
+  }
+  imageStore(to, pixel, result);
+}
