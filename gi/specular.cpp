@@ -39,11 +39,9 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   nearest.linearMips = false;
   const VkSampler point = sampler(frame.context().device, nearest);
 
-  const Buffer grid =
-      makeBuffer(frame.context(), "specular grid", Subsystem::Specular, std::span<const Grid>(&facets.grid, 1));
   SpecularPush push{};
   push.camera = camera.address;
-  push.grid = grid.address;
+  push.grid = facets.grid;
   push.facets = facets.record.address;
   push.radiosity = lighting.radiosity.address;
   push.chebyshev = field.chebyshev.address;
@@ -62,7 +60,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   trace.constant(0, method)
       .constant(1, settings.matrix.gpu.hitRule)
       .constant(2, static_cast<uint32_t>(facets.encoding))
-      .read(camera, grid, facets.record, facets.shape, facets.reverse, lighting.radiosity)
+      .read(camera, facets.record, facets.shape, facets.reverse, lighting.radiosity)
       .sample(targets.depth, point)
       .read(targets.normal, targets.geometric, targets.f0, targets.indirect);
   if (field.chebyshev) trace.read(field.chebyshev);

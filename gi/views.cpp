@@ -91,15 +91,13 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
     return;
   }
   const FacetList& facets = *inputs.facets;
-  const Buffer grid =
-      makeBuffer(frame.context(), "view grid", Subsystem::Targets, std::span<const Grid>(&facets.grid, 1));
-  push.grid = grid.address;
+  push.grid = facets.grid;
   push.facets = facets.record.address;
   push.normalEncoding = static_cast<uint32_t>(facets.encoding);
   push.rays = settings.matrix.gpu.rays;
   Pass pass = frame.pass("View");
   pass.shader(fromVolume ? "view/voxel_view_volume.comp" : "view/voxel_view.comp")
-      .read(camera, grid, facets.record, facets.shape, facets.albedo, facets.emission, facets.reverse)
+      .read(camera, facets.record, facets.shape, facets.albedo, facets.emission, facets.reverse)
       .write(targets.linear, targets.display);
   if (fromVolume) {
     push.jfaMax = inputs.field->jfaMax;

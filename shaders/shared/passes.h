@@ -42,7 +42,7 @@ struct ForwardPush {
 /// "RE Specular": tracing and filtering.
 struct SpecularPush {
   CameraArray camera;
-  GridArray grid;
+  Grid grid;
   FacetRecord facets;
   Vec4Array radiosity;
   ByteArray chebyshev;
@@ -56,7 +56,7 @@ struct SpecularPush {
 /// Views over the targets (view/debug_view.comp) and over the voxels (view/voxel_view.comp).
 struct ViewPush {
   CameraArray camera;
-  GridArray grid;
+  Grid grid;
   FacetRecord facets;
   MatrixRecord matrix;
   Vec4Array values;     ///< per facet: H or B, as the view has it; 0: none

@@ -19,7 +19,7 @@ void main() {
   vec4 f0 = imageLoad(f0Target, pixel);
   vec4 traced = vec4(0.0, 0.0, 0.0, -1.0);
   if (depth < 1.0 && !tracesNothing(f0, normal.w, imageLoad(indirectTarget, pixel).rgb)) {
-    Grid grid = push.grid.at[0];
+    Grid grid = push.grid;
     vec3 axis = viewAxis(camera);
     float z = viewDepth(camera, depth);
     vec3 local = pixelPosition(camera, pixel, z, axis);

@@ -18,7 +18,7 @@ void main() {
   vec3 irradiance = imageLoad(indirectTarget, pixel).rgb;
   outSpecular = vec4(0.0, 0.0, 0.0, 1.0);
   if (depth >= 1.0 || f0.w == 0.0) return;
-  Grid grid = push.grid.at[0];
+  Grid grid = push.grid;
   vec3 axis = viewAxis(camera);
   vec3 local = pixelPosition(camera, pixel, viewDepth(camera, depth), axis);
   Surface s;

@@ -61,7 +61,7 @@ void main() {
   GpuCamera camera = push.camera.at[0];
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, camera.size))) return;
-  Grid grid = push.grid.at[0];
+  Grid grid = push.grid;
   FacetArrays facets = push.facets.at[0];
 
   // Enter the grid.

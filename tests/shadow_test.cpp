@@ -1,0 +1,156 @@
+// Shadow maps: pictures of shadows against rays cast on the CPU, contacts, acne, layers.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/forward_support.h"
+
+namespace irad::test {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+class Shadow : public GpuTest {};
+
+/// Slab test: does the segment from `p` towards the light meet the box?
+bool blocked(glm::vec3 p, glm::vec3 towards, glm::vec3 lo, glm::vec3 hi) {
+  float t0 = 1e-4f, t1 = 1;
+  for (int a = 0; a < 3; ++a) {
+    if (towards[a] == 0) {
+      if (p[a] < lo[a] || p[a] > hi[a]) return false;
+      continue;
+    }
+    const float u = (lo[a] - p[a]) / towards[a], v = (hi[a] - p[a]) / towards[a];
+    t0 = std::max(t0, std::min(u, v));
+    t1 = std::min(t1, std::max(u, v));
+  }
+  return t0 < t1;
+}
+
+constexpr glm::vec3 kLo(-0.6f, 0.4f, -0.5f), kHi(0.5f, 1.1f, 0.4f);
+
+SceneBuilder occluderScene() {
+  SceneBuilder b;
+  b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+  b.addBox(kLo, kHi);
+  // From the far side of the light, low enough to see the floor around the box.
+  b.addCamera({0, 6, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
+  return b;
+}
+
+/// Compares the floor's pixels with cast rays: none may differ beyond a rim of `rim` metres around the shadow's edge.
+void expectTruth(const Picture& lit, const Camera& camera, const std::function<glm::vec3(glm::vec3)>& towards, float rim) {
+  uint32_t compared = 0, dark = 0;
+  for (uint32_t y = 0; y < lit.size.y; ++y)
+    for (uint32_t x = 0; x < lit.size.x; ++x) {
+      const float k = std::tan(camera.yfov / 2) * 2 / static_cast<float>(lit.size.y);
+      const glm::vec3 eye(camera.position);
+      const glm::vec3 ray((x + 0.5f - lit.size.x / 2.0f) * k, -1, (y + 0.5f - lit.size.y / 2.0f) * k);
+      if (blocked(eye, ray * eye.y, kLo, kHi)) continue;  // sees the box, not the floor
+      const glm::vec3 p = eye + ray * eye.y;
+      int hits = 0;
+      for (const float dx : {-rim, 0.0f, rim})
+        for (const float dz : {-rim, 0.0f, rim}) {
+          const glm::vec3 q = p + glm::vec3(dx, 0, dz);
+          hits += blocked(q, towards(q), kLo, kHi) ? 1 : 0;
+        }
+      if (hits != 0 && hits != 9) continue;  // at the edge
+      ++compared;
+      dark += hits == 9 ? 1 : 0;
+      const float value = lit.at(x, y).x;
+      if (hits == 9) {
+        ASSERT_EQ(value, 0) << x << " " << y;
+      } else {
+        ASSERT_GT(value, 0) << x << " " << y;
+      }
+    }
+  EXPECT_GT(compared, lit.size.x * lit.size.y / 2);
+  EXPECT_GT(dark, 50u);
+}
+
+TEST_F(Shadow, SunAgainstRays) {
+  SceneBuilder b = occluderScene();
+  const glm::vec3 d = glm::normalize(glm::vec3(0.7f, -1, 0.4f));
+  b.addLight(LightType::Sun, 10).direction = d;
+  Stage stage(context(), b.finish());
+  expectTruth(stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
+}
+
+TEST_F(Shadow, SpotAndPointAgainstRays) {
+  for (const LightType type : {LightType::Spot, LightType::Point}) {
+    SceneBuilder b = occluderScene();
+    Light& light = b.addLight(type, 50);
+    light.position = {1.6, 3, -1.1};
+    light.direction = glm::normalize(glm::vec3(-1.6f, -3, 1.1f));
+    light.outerCos = std::cos(1.15f);
+    light.innerCos = std::cos(1.14f);
+    const glm::vec3 at(light.position);
+    Stage stage(context(), b.finish());
+    expectTruth(stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, 0.03f);
+  }
+}
+
+TEST_F(Shadow, WideSpotUsesACube) {
+  SceneBuilder b = occluderScene();
+  Light& light = b.addLight(LightType::Spot, 50);
+  light.position = {1.6, 3, -1.1};
+  light.direction = {0, -1, 0};
+  light.outerCos = std::cos(1.5f);
+  light.innerCos = std::cos(1.4f);
+  const glm::vec3 at(light.position);
+  Stage stage(context(), b.finish());
+  EXPECT_EQ(stage.shadows.cubes.desc.layers, 6u);
+  expectTruth(stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, 0.03f);
+}
+
+TEST_F(Shadow, NoAcneAtAnyAngle) {
+  // A floor and a far, lower one that stretches the map: the sun from steep to grazing, all of the floor stays lit.
+  for (const float degrees : {0.0f, 20.0f, 45.0f, 70.0f, 85.0f})
+    for (const uint32_t pcf : {1u, 3u, 5u}) {
+      SceneBuilder b;
+      b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+      b.addQuad({-20, -2, 20}, {40, 0, 0}, {0, 0, -40});
+      b.addCamera({0, 5, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
+      const float a = glm::radians(degrees);
+      b.addLight(LightType::Sun, kPi).direction = {std::sin(a) * 0.8f, -std::cos(a), std::sin(a) * 0.6f};
+      Settings settings;
+      settings.light.shadowResolution = 512;
+      settings.camera.gpu.pcf = pcf;
+      Stage stage(context(), b.finish(), settings);
+      const Picture p = stage.draw(VIEW_DIRECT, {64, 64});
+      for (const glm::vec4& c : p.linear) ASSERT_NEAR(c.x, std::cos(a), 1e-4) << degrees << " pcf " << pcf;
+    }
+}
+
+TEST_F(Shadow, ContactStaysDark) {
+  // A box on the floor, the sun at 45 degrees: the floor just behind it is dark up to the wall.
+  SceneBuilder b;
+  b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+  b.addBox({-1, 0, -1}, {0, 1, 1});
+  b.addLight(LightType::Sun, kPi).direction = glm::normalize(glm::vec3(1, -1, 0));
+  b.addCamera({0.5, 4, 0}, {0.5, 0, 0}, 0.5f, {0, 0, -1});
+  Stage stage(context(), b.finish());
+  const Picture p = stage.draw(VIEW_DIRECT, {201, 201});
+  // The box's top ends at x = 0, seen at height 1; the shadow spans 0 < x < 1 on the floor.
+  const float k = 100.5f / std::tan(0.25f);
+  const auto column = [&](float x, float height) { return 100.5f + (x - 0.5f) / (4 - height) * k; };
+  const auto first = static_cast<uint32_t>(column(0, 0) + 2), last = static_cast<uint32_t>(column(1, 0) - 3);
+  for (uint32_t x = first; x <= last; ++x) ASSERT_EQ(p.at(x, 100).x, 0) << x;
+  EXPECT_NEAR(p.at(static_cast<uint32_t>(column(1, 0) + 4), 100).x, std::sqrt(0.5f), 1e-3);
+}
+
+TEST_F(Shadow, LightsOfNoIntensityGetNoMap) {
+  SceneBuilder b = occluderScene();
+  b.addLight(LightType::Sun, 0);
+  b.addLight(LightType::Sun, 1);
+  b.addLight(LightType::Point, 1).position = {0, 3, 0};
+  Stage stage(context(), b.finish());
+  EXPECT_EQ(stage.device.lightValues[0].shadowLayer, -1);
+  EXPECT_EQ(stage.device.lightValues[1].shadowLayer, 0);
+  EXPECT_EQ(stage.device.lightValues[2].shadowLayer, 0);
+  EXPECT_EQ(stage.shadows.flat.desc.layers, 1u);
+  EXPECT_EQ(stage.shadows.cubes.desc.layers, 6u);
+}
+
+}  // namespace
+}  // namespace irad::test
