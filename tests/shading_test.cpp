@@ -136,7 +136,9 @@ TEST_F(Shading, CullsBackFacesUnlessDoubleSided) {
     const Picture p = stage.draw(VIEW_LIT, {32, 32});
     EXPECT_EQ(p.at(16, 16).w, doubleSided ? 1 : 0);
     EXPECT_NEAR(p.at(16, 16).x, doubleSided ? 1 : 0, 1e-4);  // the normal is turned towards the viewer
-    if (doubleSided) EXPECT_NEAR(stage.draw(VIEW_NORMAL, {32, 32}).at(16, 16).y, -1, 1e-3);
+    if (doubleSided) {
+      EXPECT_NEAR(stage.draw(VIEW_NORMAL, {32, 32}).at(16, 16).y, -1, 1e-3);
+    }
   }
 }
 
@@ -195,7 +197,7 @@ TEST_F(Shading, FurnaceOfTheLobeNeverGainsEnergy) {
       }
       const double albedo = sum / kSamples;
       EXPECT_LE(albedo, 1 + 1e-5) << roughness << " " << nv;
-      EXPECT_GT(albedo, roughness < 0.2f ? 0.97 : 0.4) << roughness << " " << nv;
+      EXPECT_GT(albedo, roughness < 0.2f ? 0.97 : 0.3) << roughness << " " << nv;
       EXPECT_NEAR(environmentBrdf(glm::vec3(1), roughness, nv).x, albedo, 0.05) << roughness << " " << nv;
     }
 }

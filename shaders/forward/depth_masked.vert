@@ -1,18 +1,19 @@
 // Depth only, for alpha-masked materials: texture coordinates and the vertex's alpha as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "forward/project.glsl"
 #include "shared/passes.h"
 
 layout(push_constant, scalar) uniform PushBlock { DepthPush push; };
 
 layout(location = 0) out vec4 uv;
 layout(location = 1) out float alpha;
-invariant gl_Position;
 
 void main() {
   GpuScene scene = push.scene.at[0];
   uint vertex = scene.indices.at[gl_VertexIndex];
   uv = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
   alpha = scene.colors.at[vertex].w;
-  gl_Position = push.projection.at[0].matrix * vec4(scene.positions.at[vertex], 1.0);
+  precise vec4 clip = project(push.projection.at[0].matrix, scene.positions.at[vertex]);
+  gl_Position = clip;
 }

@@ -1,6 +1,7 @@
-// "RE Forward": the same positions as the depth prepass, bit for bit (invariant), and everything that shading reads.
+// "RE Forward": the same positions as the depth prepass, bit for bit, and everything that shading reads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "forward/project.glsl"
 #include "shared/passes.h"
 
 layout(push_constant, scalar) uniform PushBlock { ForwardPush push; };
@@ -9,7 +10,6 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uv;
 layout(location = 4) out vec4 tint;
-invariant gl_Position;
 
 void main() {
   GpuScene scene = push.scene.at[0];
@@ -19,5 +19,6 @@ void main() {
   tangent = scene.tangents.at[vertex];
   uv = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
   tint = scene.colors.at[vertex];
-  gl_Position = push.camera.at[0].viewProjection * vec4(local, 1.0);
+  precise vec4 clip = project(push.camera.at[0].viewProjection, local);
+  gl_Position = clip;
 }
