@@ -116,7 +116,8 @@ struct Stage {
     frame.submitAndWait();
     Picture picture;
     picture.size = size;
-    const std::vector<std::byte> linear = download(context, targets.linear), display = download(context, targets.display);
+    const std::vector<std::byte> linear = download(context, targets.linear),
+                                 display = download(context, targets.display);
     picture.linear.resize(linear.size() / sizeof(glm::vec4));
     std::memcpy(picture.linear.data(), linear.data(), linear.size());
     picture.display.resize(display.size());

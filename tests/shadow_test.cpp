@@ -39,7 +39,8 @@ SceneBuilder occluderScene() {
 }
 
 /// Compares the floor's pixels with cast rays: none may differ beyond a rim of `rim` metres around the shadow's edge.
-void expectTruth(const Picture& lit, const Camera& camera, const std::function<glm::vec3(glm::vec3)>& towards, float rim) {
+void expectTruth(const Picture& lit, const Camera& camera, const std::function<glm::vec3(glm::vec3)>& towards,
+                 float rim) {
   uint32_t compared = 0, dark = 0;
   for (uint32_t y = 0; y < lit.size.y; ++y)
     for (uint32_t x = 0; x < lit.size.x; ++x) {
@@ -73,7 +74,8 @@ TEST_F(Shadow, SunAgainstRays) {
   const glm::vec3 d = glm::normalize(glm::vec3(0.7f, -1, 0.4f));
   b.addLight(LightType::Sun, 10).direction = d;
   Stage stage(context(), b.finish());
-  expectTruth(stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
+  expectTruth(
+      stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
 }
 
 TEST_F(Shadow, SpotAndPointAgainstRays) {
@@ -82,11 +84,12 @@ TEST_F(Shadow, SpotAndPointAgainstRays) {
     Light& light = b.addLight(type, 50);
     light.position = {1.6, 3, -1.1};
     light.direction = glm::normalize(glm::vec3(-1.6f, -3, 1.1f));
-    light.outerCos = std::cos(1.15f);
-    light.innerCos = std::cos(1.14f);
+    light.outerCos = std::cos(1.21f);
+    light.innerCos = std::cos(1.2f);
     const glm::vec3 at(light.position);
     Stage stage(context(), b.finish());
-    expectTruth(stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, 0.03f);
+    expectTruth(
+        stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, 0.03f);
   }
 }
 
@@ -100,7 +103,8 @@ TEST_F(Shadow, WideSpotUsesACube) {
   const glm::vec3 at(light.position);
   Stage stage(context(), b.finish());
   EXPECT_EQ(stage.shadows.cubes.desc.layers, 6u);
-  expectTruth(stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, 0.03f);
+  expectTruth(
+      stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, 0.03f);
 }
 
 TEST_F(Shadow, NoAcneAtAnyAngle) {
@@ -118,7 +122,8 @@ TEST_F(Shadow, NoAcneAtAnyAngle) {
       settings.camera.gpu.pcf = pcf;
       Stage stage(context(), b.finish(), settings);
       const Picture p = stage.draw(VIEW_DIRECT, {64, 64});
-      for (const glm::vec4& c : p.linear) ASSERT_NEAR(c.x, std::cos(a), 1e-4) << degrees << " pcf " << pcf;
+      // Relative to one step of the albedo target's fp16, which some devices round down.
+      for (const glm::vec4& c : p.linear) ASSERT_NEAR(c.x / std::cos(a), 1, 1.0 / 1024) << degrees << " pcf " << pcf;
     }
 }
 
