@@ -1,0 +1,38 @@
+// METHOD section 10: every resource's size as the allocator measured it, beside what its formula predicts, per
+// subsystem; and T eq. 29-31 for the same grid.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gi/stages.h"
+
+namespace irad {
+
+struct MemoryReportRow {
+  std::string name, subsystem, format;
+  std::optional<uint64_t> measured, predicted;  ///< bytes
+};
+
+/// Bytes that the formulas give for the stages' resources, by resource name. Units: s facets, V voxels (padding
+/// included), R rays, E matrix entries.
+std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& facets, const Field& field,
+                                                            const FormFactors& matrix, const Lighting& lighting);
+
+/// T eq. 29-31, bytes: volumes of V voxels, matrix of a capacity M_s (the power of two at or above the solid voxels)
+/// with R entries per row.
+struct ThesisMemory {
+  uint64_t volumes, matrix, total;
+};
+ThesisMemory thesisMemory(uint64_t voxels, uint64_t solidVoxels, uint64_t rays);
+
+/// Resources (the matrix's segments as one row), subtotals per subsystem, the total, and T eq. 29-31 beside what the GI
+/// subsystems take.
+std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const FacetList& facets,
+                                          const Field& field, const FormFactors& matrix, const Lighting& lighting);
+
+/// name,subsystem,format,measured_bytes,predicted_bytes
+std::string memoryCsv(const std::vector<MemoryReportRow>& rows);
+
+}  // namespace irad
