@@ -14,7 +14,9 @@ bool covers(const Use& a, const Use& b) {
 
 }  // namespace
 
-bool Use::writes() const { return (access & kWrites) != 0; }
+bool Use::writes() const {
+  return (access & kWrites) != 0;
+}
 
 Dependency dependency(const ResourceState& state, const Use& next) {
   const Use& written = state.lastWrite;

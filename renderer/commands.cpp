@@ -5,7 +5,9 @@
 
 namespace irad {
 
-VkCommandBuffer Commands::raw() const { return frame_->commands(); }
+VkCommandBuffer Commands::raw() const {
+  return frame_->commands();
+}
 
 void Commands::bindMaterial(VkDescriptorSet set) {
   IRAD_CHECK(pipeline_->material, "{} declares no set 1", pipeline_->name);
@@ -53,7 +55,9 @@ void Commands::draw(uint32_t vertexCount, uint32_t firstVertex, uint32_t instanc
   ++frame_->context().device.counters.draws;
 }
 
-void Commands::cull(VkCullModeFlags mode) { vkCmdSetCullMode(raw(), mode); }
+void Commands::cull(VkCullModeFlags mode) {
+  vkCmdSetCullMode(raw(), mode);
+}
 
 void Commands::viewport(float x, float y, float width, float height) {
   // y up: clip space as glTF and OpenGL have it, so counter-clockwise stays counter-clockwise.

@@ -30,7 +30,9 @@ Context::Impl::~Impl() {
     device.retire([device = device.handle, pool] { vkDestroyDescriptorPool(device, pool, nullptr); });
 }
 
-VkDescriptorSetLayout Context::materialLayout() const { return impl->pipelines.materialLayout(); }
+VkDescriptorSetLayout Context::materialLayout() const {
+  return impl->pipelines.materialLayout();
+}
 
 VkDescriptorSet Context::materialSet(std::span<const VkImageView> views, std::span<const VkSampler> samplers) {
   IRAD_CHECK_OP(views.size(), ==, size_t{kMaterialTextures});
@@ -108,10 +110,10 @@ void Context::Impl::deliver(FrameSlot& slot, Timings& timings) {
     for (size_t i = 0; i < timers.size(); ++i) {
       uint64_t ticks[2] = {};
       const uint32_t first = 2 * static_cast<uint32_t>(i % FrameSlot::kTimersPerPool);
-      vkCheck(vkGetQueryPoolResults(device.handle, slot.queryPools[i / FrameSlot::kTimersPerPool], first, 2,
-                                    sizeof(ticks), ticks, sizeof(uint64_t),
-                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-              "reading timestamps");
+      vkCheck(
+          vkGetQueryPoolResults(device.handle, slot.queryPools[i / FrameSlot::kTimersPerPool], first, 2, sizeof(ticks),
+                                ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "reading timestamps");
       const uint64_t elapsed = ((ticks[1] & mask) - (ticks[0] & mask)) & mask;  // wraps around once at most
       timings.add(timers[i], static_cast<double>(elapsed) * device.limits.timestampPeriod * 1e-6);  // ns -> ms
     }
@@ -138,12 +140,12 @@ void Context::Impl::reset(FrameSlot& slot) {
 
 void Context::Impl::destroy(FrameSlot& slot) {
   slot.staging.clear();
-  device.retire([device = device.handle, pool = slot.pool, descriptorPools = slot.descriptorPools,
-                 queryPools = slot.queryPools] {
-    for (const VkDescriptorPool p : descriptorPools) vkDestroyDescriptorPool(device, p, nullptr);
-    for (const VkQueryPool p : queryPools) vkDestroyQueryPool(device, p, nullptr);
-    vkDestroyCommandPool(device, pool, nullptr);
-  });
+  device.retire(
+      [device = device.handle, pool = slot.pool, descriptorPools = slot.descriptorPools, queryPools = slot.queryPools] {
+        for (const VkDescriptorPool p : descriptorPools) vkDestroyDescriptorPool(device, p, nullptr);
+        for (const VkQueryPool p : queryPools) vkDestroyQueryPool(device, p, nullptr);
+        vkDestroyCommandPool(device, pool, nullptr);
+      });
 }
 
 Frame Context::begin(uint64_t frameIndex) {

@@ -32,7 +32,8 @@ uint32_t choose(const std::vector<DeviceInfo>& devices, const std::string& selec
   }
   const bool isIndex = std::all_of(select.begin(), select.end(), [](unsigned char c) { return std::isdigit(c); });
   for (const DeviceInfo& d : devices) {
-    const bool named = isIndex ? select == std::to_string(d.index) : lower(d.name).find(lower(select)) != std::string::npos;
+    const bool named =
+        isIndex ? select == std::to_string(d.index) : lower(d.name).find(lower(select)) != std::string::npos;
     if (!named) continue;
     if (!suitable(d)) throw DeviceError(fmt::format("--device {}: not suitable:\n{}", select, toText({d})));
     return d.index;
@@ -75,8 +76,8 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
   device->queueFamily = graphicsComputeFamily(device->physical);
 
   // What it can do.
-  VkPhysicalDeviceMaintenance3Properties allocation{
-      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+  VkPhysicalDeviceMaintenance3Properties allocation{.sType =
+                                                        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
   VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
                                               .pNext = &allocation};
   VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};

@@ -55,11 +55,11 @@ class Device {
   VkPhysicalDeviceLimits limits{};
   VkDeviceSize maxAllocation = 0;  ///< maxMemoryAllocationSize
   uint32_t subgroupSize = 0;
-  uint32_t timestampBits = 0;   ///< 0: the queue has no timestamps
-  bool debugUtils = false;      ///< object names and labels reach a debugger
-  bool anisotropy = false;      ///< samplers may be anisotropic
-  bool memoryBudget = false;    ///< VK_EXT_memory_budget
-  bool isCpu = false;  ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
+  uint32_t timestampBits = 0;  ///< 0: the queue has no timestamps
+  bool debugUtils = false;     ///< object names and labels reach a debugger
+  bool anisotropy = false;     ///< samplers may be anisotropic
+  bool memoryBudget = false;   ///< VK_EXT_memory_budget
+  bool isCpu = false;          ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
   mutable DeviceCounters counters;
 
   Allocator& memory() const { return *allocator_; }

@@ -15,8 +15,10 @@ struct Feature {
 };
 
 // One row per feature; needed ones make a device unsuitable when absent, the others are enabled when present.
-#define ROW(part, member, needed) \
-  Feature { #member, [](FeatureChain& c) { return &c.part.member; }, needed }
+#define ROW(part, member, needed)                                    \
+  Feature {                                                          \
+#member, [](FeatureChain & c) { return &c.part.member; }, needed \
+  }
 constexpr bool kNeed = true, kWish = false;
 const Feature kFeatures[] = {
     ROW(core.features, geometryShader, kNeed),
@@ -67,11 +69,16 @@ const Feature kFeatures[] = {
 
 const char* typeName(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
   }
 }
 
@@ -130,8 +137,8 @@ std::vector<std::string> missingNeeds(VkPhysicalDevice device, bool presentable)
       !(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT))
     missing.emplace_back("subgroup arithmetic, ballot and shuffle in compute shaders");
   if (properties.limits.maxComputeWorkGroupInvocations < 256)
-    missing.push_back(fmt::format("workgroups of 256 invocations (it has {})",
-                                  properties.limits.maxComputeWorkGroupInvocations));
+    missing.push_back(
+        fmt::format("workgroups of 256 invocations (it has {})", properties.limits.maxComputeWorkGroupInvocations));
   if (presentable && !hasExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
     missing.emplace_back("presentation to a window (VK_KHR_swapchain)");
   return missing;
@@ -156,8 +163,7 @@ DeviceInfo describe(VkPhysicalDevice device, uint32_t index, bool presentable) {
   info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
   info.type = typeName(properties.properties.deviceType);
   const uint32_t v = properties.properties.apiVersion;
-  info.apiVersion =
-      fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(v), VK_API_VERSION_MINOR(v), VK_API_VERSION_PATCH(v));
+  info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(v), VK_API_VERSION_MINOR(v), VK_API_VERSION_PATCH(v));
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
       info.memoryBytes = std::max<uint64_t>(info.memoryBytes, memory.memoryHeaps[i].size);

@@ -32,15 +32,15 @@ struct DeviceError : Error {
 [[noreturn]] void invariantFailed(const char* file, int line, const std::string& message);
 
 /// Asserts in release builds too; prints both values.
-#define IRAD_CHECK_OP(a, op, b)                                                                               \
-  do {                                                                                                        \
-    const auto irad_a = (a);                                                                                  \
-    const auto irad_b = (b);                                                                                  \
-    if (!(irad_a op irad_b))                                                                                  \
+#define IRAD_CHECK_OP(a, op, b)                                                                                     \
+  do {                                                                                                              \
+    const auto irad_a = (a);                                                                                        \
+    const auto irad_b = (b);                                                                                        \
+    if (!(irad_a op irad_b))                                                                                        \
       ::irad::invariantFailed(__FILE__, __LINE__, fmt::format("{} ({} vs {})", #a " " #op " " #b, irad_a, irad_b)); \
   } while (false)
-#define IRAD_CHECK(condition, ...)                                                                    \
-  do {                                                                                                \
+#define IRAD_CHECK(condition, ...)                                                                             \
+  do {                                                                                                         \
     if (!(condition)) ::irad::invariantFailed(__FILE__, __LINE__, #condition ": " + fmt::format(__VA_ARGS__)); \
   } while (false)
 

@@ -16,9 +16,8 @@ void everythingBarrier(VkCommandBuffer commands) {
                                  .srcAccessMask = kAll,
                                  .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                  .dstAccessMask = kAll};
-  const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                              .memoryBarrierCount = 1,
-                              .pMemoryBarriers = &barrier};
+  const VkDependencyInfo info{
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
   vkCmdPipelineBarrier2(commands, &info);
 }
 
@@ -37,7 +36,9 @@ Frame::~Frame() {
   }
 }
 
-Context& Frame::context() const { return *impl_->context; }
+Context& Frame::context() const {
+  return *impl_->context;
+}
 
 VkCommandBuffer Frame::commands() const {
   IRAD_CHECK(impl_ && impl_->slot, "the frame has been submitted");
@@ -82,9 +83,8 @@ void Frame::Impl::submit(VkSemaphore presentWait, VkSemaphore presentSignal, boo
                                    .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                    .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
                                    .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(finished->commands, &info);
   }
   const auto discard = [&] {

@@ -1,7 +1,7 @@
 // GLSL -> SPIR-V at run time, with the options of shaders/CMakeLists.txt.
-#include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <fstream>
 #include <optional>

@@ -83,8 +83,7 @@ struct Pass::State {
   }
 };
 
-// --- Declarations
-// -----------------------------------------------------------------------------------------------------
+// --- Declarations ---
 
 Pass Frame::pass(std::string_view stage) {
   IRAD_CHECK(impl_ && impl_->slot, "pass {} after the frame was submitted", stage);
@@ -171,8 +170,7 @@ Pass& Pass::alphaBlend() {
   return *this;
 }
 
-// --- Recording
-// --------------------------------------------------------------------------------------------------------
+// --- Recording ---
 
 namespace {
 
@@ -366,8 +364,7 @@ void Pass::draw(uint32_t vertexCount, uint32_t instances) {
   run([&](Commands& commands) { commands.draw(vertexCount, 0, instances); });
 }
 
-// --- Transfers
-// --------------------------------------------------------------------------------------------------------
+// --- Transfers ---
 
 void Pass::updateBytes(const Buffer& buffer, const void* bytes, size_t size) {
   IRAD_CHECK_OP(size, <=, buffer.bytes);

@@ -81,18 +81,16 @@ VkPipeline buildRaster(const Device& device, VkPipelineCache cache, const Pipeli
   const VkPipelineInputAssemblyStateCreateInfo assembly{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
       .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-  const VkPipelineViewportStateCreateInfo viewport{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                   .viewportCount = 1,
-                                                   .scissorCount = 1};
+  const VkPipelineViewportStateCreateInfo viewport{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
   const VkPipelineRasterizationStateCreateInfo rasterization{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
       .polygonMode = VK_POLYGON_MODE_FILL,
       .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
       .depthBiasEnable = raster.depthBias ? VK_TRUE : VK_FALSE,
       .lineWidth = 1.0f};
-  const VkPipelineMultisampleStateCreateInfo samples{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-      .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+  const VkPipelineMultisampleStateCreateInfo samples{.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+                                                     .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
   const VkPipelineDepthStencilStateCreateInfo depth{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
       .depthTestEnable = raster.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE,
@@ -153,13 +151,15 @@ PipelineCache::~PipelineCache() {
 
 void PipelineCache::dropPipelines() {
   for (const auto& [key, pipeline] : pipelines_)
-    device_.retire([device = device_.handle, handle = pipeline->handle] { vkDestroyPipeline(device, handle, nullptr); });
+    device_.retire(
+        [device = device_.handle, handle = pipeline->handle] { vkDestroyPipeline(device, handle, nullptr); });
   pipelines_.clear();
 }
 
 VkDescriptorSetLayout PipelineCache::setLayout(const std::vector<ShaderBinding>& bindings) {
   std::string key;
-  for (const ShaderBinding& b : bindings) key += fmt::format("{}{}x{} ", b.storageImage ? "i" : "s", b.binding, b.count);
+  for (const ShaderBinding& b : bindings)
+    key += fmt::format("{}{}x{} ", b.storageImage ? "i" : "s", b.binding, b.count);
   if (const auto it = setLayouts_.find(key); it != setLayouts_.end()) return it->second;
   std::vector<VkDescriptorSetLayoutBinding> entries;
   for (const ShaderBinding& b : bindings)
@@ -254,9 +254,8 @@ std::unique_ptr<Pipeline> PipelineCache::build(const std::vector<std::string>& s
                         .pSpecializationInfo = values.empty() ? nullptr : &specialization});
     }
     if (compute) {
-      const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                             .stage = stages.front(),
-                                             .layout = pipeline->layout};
+      const VkComputePipelineCreateInfo info{
+          .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = stages.front(), .layout = pipeline->layout};
       vkCheck(vkCreateComputePipelines(device_.handle, cache_, 1, &info, nullptr, &pipeline->handle),
               fmt::format("creating pipeline {}", pipeline->name));
     } else {

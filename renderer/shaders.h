@@ -22,7 +22,7 @@ struct ShaderBinding {
 struct ShaderModule {
   std::string name;
   std::vector<uint32_t> spirv;
-  std::vector<ShaderBinding> bindings;      ///< sorted by set, binding
+  std::vector<ShaderBinding> bindings;  ///< sorted by set, binding
   std::array<uint32_t, 3> localSize{1, 1, 1};
   /// The specialization constants that set localSize (local_size_x_id); UINT32_MAX: fixed.
   std::array<uint32_t, 3> localSizeId{UINT32_MAX, UINT32_MAX, UINT32_MAX};
@@ -40,7 +40,7 @@ ShaderModule reflect(std::string name, std::vector<uint32_t> spirv);
 
 class ShaderLibrary {
  public:
-  ShaderLibrary();  ///< the embedded modules
+  ShaderLibrary();                                       ///< the embedded modules
   const ShaderModule& get(std::string_view name) const;  ///< unknown name: broken invariant, near names printed
   std::vector<std::string> names() const;
   /// Adds or replaces a module from outside the program (tests).

@@ -98,8 +98,12 @@ Parsed parse(std::span<const uint32_t> spirv) {
     const std::span<const uint32_t> w = spirv.subspan(at + 1, length - 1);
     at += length;
     switch (op) {
-      case OpName: p.ids[w[0]].name = text(w.subspan(1)); break;
-      case OpMemberName: p.ids[w[0]].member(w[1]).name = text(w.subspan(2)); break;
+      case OpName:
+        p.ids[w[0]].name = text(w.subspan(1));
+        break;
+      case OpMemberName:
+        p.ids[w[0]].member(w[1]).name = text(w.subspan(2));
+        break;
       case OpExecutionMode:
         if (w[1] == kLocalSize) p.localSize.assign(w.begin() + 2, w.end());
         break;
@@ -118,7 +122,9 @@ Parsed parse(std::span<const uint32_t> spirv) {
         if (w[2] == Offset) p.ids[w[0]].member(w[1]).offset = w[3];
         if (w[2] == MatrixStride) p.ids[w[0]].member(w[1]).matrixStride = w[3];
         break;
-      case OpTypeStruct: p.structs.push_back(w[0]); [[fallthrough]];
+      case OpTypeStruct:
+        p.structs.push_back(w[0]);
+        [[fallthrough]];
       case OpTypeInt:
       case OpTypeFloat:
       case OpTypeVector:
@@ -127,13 +133,22 @@ Parsed parse(std::span<const uint32_t> spirv) {
       case OpTypeSampledImage:
       case OpTypeArray:
       case OpTypeRuntimeArray:
-      case OpTypePointer: p.types[w[0]] = {op, {w.begin() + 1, w.end()}}; break;
+      case OpTypePointer:
+        p.types[w[0]] = {op, {w.begin() + 1, w.end()}};
+        break;
       case OpConstant:
-      case OpSpecConstant: p.constants[w[1]] = w[2]; break;
+      case OpSpecConstant:
+        p.constants[w[1]] = w[2];
+        break;
       case OpConstantComposite:
-      case OpSpecConstantComposite: p.composites[w[1]].assign(w.begin() + 2, w.end()); break;
-      case OpVariable: p.variables.push_back({w[1], w[0], w[2]}); break;
-      default: break;
+      case OpSpecConstantComposite:
+        p.composites[w[1]].assign(w.begin() + 2, w.end());
+        break;
+      case OpVariable:
+        p.variables.push_back({w[1], w[0], w[2]});
+        break;
+      default:
+        break;
     }
   }
   return p;
@@ -145,18 +160,24 @@ uint32_t Parsed::size(uint32_t id, uint32_t matrixStride) const {
   const Type& t = it->second;
   switch (t.op) {
     case OpTypeInt:
-    case OpTypeFloat: return t.operands[0] / 8;
-    case OpTypeVector: return t.operands[1] * size(t.operands[0]);
-    case OpTypeMatrix: return t.operands[1] * (matrixStride ? matrixStride : size(t.operands[0]));
+    case OpTypeFloat:
+      return t.operands[0] / 8;
+    case OpTypeVector:
+      return t.operands[1] * size(t.operands[0]);
+    case OpTypeMatrix:
+      return t.operands[1] * (matrixStride ? matrixStride : size(t.operands[0]));
     case OpTypeArray: {
       const auto decorated = ids.find(id);
       const uint32_t stride = decorated != ids.end() ? decorated->second.arrayStride : 0;
       const auto count = constants.find(t.operands[1]);
       return (count == constants.end() ? 0 : count->second) * (stride ? stride : size(t.operands[0], matrixStride));
     }
-    case OpTypeStruct: return structSize(id);
-    case OpTypePointer: return 8;  // a device address
-    default: return 0;
+    case OpTypeStruct:
+      return structSize(id);
+    case OpTypePointer:
+      return 8;  // a device address
+    default:
+      return 0;
   }
 }
 
@@ -184,8 +205,10 @@ ShaderBinding binding(const Parsed& p, const Variable& variable, const Id& id, c
   }
   const uint32_t op = p.types.at(type).op;
   if (op != OpTypeImage && op != OpTypeSampledImage)
-    throw WorkError(fmt::format("{}: set {} binding {} ({}) is neither image nor combined sampler; buffers travel by "
-                                "address", module, b.set, b.binding, b.name));
+    throw WorkError(
+        fmt::format("{}: set {} binding {} ({}) is neither image nor combined sampler; buffers travel by "
+                    "address",
+                    module, b.set, b.binding, b.name));
   b.storageImage = op == OpTypeImage;
   return b;
 }

@@ -93,7 +93,8 @@ std::vector<std::byte> download(Context& context, const Buffer& buffer) {
     const uint64_t size = std::min<uint64_t>(kChunk, bytes.size() - at);
     Frame frame = context.beginUntimed();
     frame.pass("Download").copy(buffer, staging, size, at, 0);
-    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {});
+    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {
+    });
     finish(frame, buffer.state);
     std::memcpy(bytes.data() + at, staging.mapped, size);
   }
@@ -113,7 +114,8 @@ std::vector<std::byte> download(Context& context, const Image& image) {
         .record([&](VkCommandBuffer commands) {
           vkCmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, staging.handle, 1, &piece);
         });
-    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {});
+    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {
+    });
     finish(frame, image.state);
     std::memcpy(bytes.data() + at, staging.mapped, size);
   });
@@ -128,8 +130,8 @@ void generateMips(Context& context, const Image& image) {
   constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
                                            VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
   if ((properties.optimalTilingFeatures & kNeeded) != kNeeded)
-    throw DeviceError(fmt::format("{}: the device cannot make mip levels of {} by linear blits", d.name,
-                                  formatInfo(d.format).name));
+    throw DeviceError(
+        fmt::format("{}: the device cannot make mip levels of {} by linear blits", d.name, formatInfo(d.format).name));
   Frame frame = context.beginUntimed();
   const auto extent = [&](uint32_t mip) {
     return VkOffset3D{static_cast<int32_t>(std::max(1u, d.width >> mip)),

@@ -21,7 +21,9 @@ ResourceState after(std::vector<Use> uses) {
   for (const Use& use : uses) state = advance(state, use);
   return state;
 }
-void expectNone(const Dependency& d) { EXPECT_FALSE(d.needed()) << "source stages " << d.source.stages; }
+void expectNone(const Dependency& d) {
+  EXPECT_FALSE(d.needed()) << "source stages " << d.source.stages;
+}
 void expectIs(const Dependency& d, const Use& source, const Use& destination) {
   EXPECT_EQ(d.source.stages, source.stages);
   EXPECT_EQ(d.source.access, source.access);
@@ -57,7 +59,9 @@ TEST(Barrier, ReadAfterWriteMakesTheWriteVisible) {
   expectIs(dependency(after({kReadWrite}), kRead), kWrite, kRead);
 }
 
-TEST(Barrier, SecondReaderOfTheSameKindNeedsNothing) { expectNone(dependency(after({kWrite, kRead}), kRead)); }
+TEST(Barrier, SecondReaderOfTheSameKindNeedsNothing) {
+  expectNone(dependency(after({kWrite, kRead}), kRead));
+}
 
 TEST(Barrier, SecondReaderElsewhereWaitsToo) {
   // The union covers every pair (stage, access), so that later readers of any pair need nothing.

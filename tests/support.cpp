@@ -40,7 +40,9 @@ Gpu& gpu() {
   return shared;
 }
 
-void GpuTest::SetUp() { messagesBefore_ = gpu().device->validationMessages().size(); }
+void GpuTest::SetUp() {
+  messagesBefore_ = gpu().device->validationMessages().size();
+}
 
 void GpuTest::TearDown() {
   gpu().device->waitIdle();
@@ -57,7 +59,9 @@ std::optional<std::filesystem::path> sharedScenes() {
   return shared / "scenes";
 }
 
-std::filesystem::path assets() { return std::filesystem::path(IRAD_SOURCE_DIR) / "assets"; }
+std::filesystem::path assets() {
+  return std::filesystem::path(IRAD_SOURCE_DIR) / "assets";
+}
 
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "irad-test-XXXXXX").string();

@@ -14,8 +14,12 @@ constexpr uint64_t kBlock = 64 * kMiB;
 /// Share of a heap left to the driver and to others; a CPU device shares its memory with the whole machine.
 constexpr double kUsableHeap = 0.95, kUsableRam = 0.6;
 
-double mib(uint64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(kMiB); }
-uint64_t alignUp(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
+double mib(uint64_t bytes) {
+  return static_cast<double>(bytes) / static_cast<double>(kMiB);
+}
+uint64_t alignUp(uint64_t value, uint64_t alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
 
 }  // namespace
 
@@ -194,8 +198,8 @@ uint64_t Allocator::Impl::budget() const {
   if (device.isCpu) return std::min(heap, static_cast<uint64_t>(kUsableRam * static_cast<double>(physicalBytes)));
   const auto usable = static_cast<uint64_t>(kUsableHeap * static_cast<double>(heap));
   if (!device.memoryBudget) return usable;
-  VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{
-      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
+  VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
   VkPhysicalDeviceMemoryProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
                                                .pNext = &budget};
   vkGetPhysicalDeviceMemoryProperties2(device.physical, &properties);
@@ -251,7 +255,9 @@ uint64_t Allocator::peak() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->peak;
 }
-uint64_t Allocator::budget() const { return impl_->budget(); }
+uint64_t Allocator::budget() const {
+  return impl_->budget();
+}
 void Allocator::check(const std::string& name, uint64_t bytes) const {
   const std::lock_guard lock(impl_->mutex);
   impl_->check(name, bytes);

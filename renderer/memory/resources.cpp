@@ -27,16 +27,16 @@ void fullBarrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags ima
                                 .srcAccessMask = kEverything.access,
                                 .dstStageMask = kEverything.stages,
                                 .dstAccessMask = kEverything.access};
-  const VkImageMemoryBarrier2 transition{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                         .dstStageMask = kEverything.stages,
-                                         .dstAccessMask = kEverything.access,
-                                         .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                         .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-                                         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                         .image = image,
-                                         .subresourceRange = {imageAspect, 0, VK_REMAINING_MIP_LEVELS, 0,
-                                                              VK_REMAINING_ARRAY_LAYERS}};
+  const VkImageMemoryBarrier2 transition{
+      .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+      .dstStageMask = kEverything.stages,
+      .dstAccessMask = kEverything.access,
+      .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+      .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+      .image = image,
+      .subresourceRange = {imageAspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
   const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                               .memoryBarrierCount = 1,
                               .pMemoryBarriers = &memory,
@@ -49,23 +49,35 @@ void fullBarrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags ima
 
 const char* toString(Subsystem subsystem) {
   switch (subsystem) {
-    case Subsystem::Scene: return "scene";
-    case Subsystem::Shadow: return "shadow";
-    case Subsystem::Targets: return "targets";
-    case Subsystem::Voxels: return "voxels";
-    case Subsystem::Field: return "field";
-    case Subsystem::Facets: return "facets";
-    case Subsystem::Matrix: return "matrix";
-    case Subsystem::Solver: return "solver";
-    case Subsystem::Volumes: return "volumes";
-    case Subsystem::Specular: return "specular";
-    case Subsystem::Staging: return "staging";
-    case Subsystem::Ui: return "ui";
+    case Subsystem::Scene:
+      return "scene";
+    case Subsystem::Shadow:
+      return "shadow";
+    case Subsystem::Targets:
+      return "targets";
+    case Subsystem::Voxels:
+      return "voxels";
+    case Subsystem::Field:
+      return "field";
+    case Subsystem::Facets:
+      return "facets";
+    case Subsystem::Matrix:
+      return "matrix";
+    case Subsystem::Solver:
+      return "solver";
+    case Subsystem::Volumes:
+      return "volumes";
+    case Subsystem::Specular:
+      return "specular";
+    case Subsystem::Staging:
+      return "staging";
+    case Subsystem::Ui:
+      return "ui";
   }
   return "?";
 }
 
-// --- Buffer -----------------------------------------------------------------------------------------------------------
+// --- Buffer ---
 
 Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsystem, uint64_t size, Access access)
     : bytes(size == 0 ? 16 : size), name(std::move(resourceName)), device_(&device) {
@@ -76,8 +88,7 @@ Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsyst
                                 .size = allocated,
                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT};
+                                         VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT};
   vkCheck(vkCreateBuffer(device.handle, &info, nullptr, &handle), fmt::format("creating buffer {}", name));
   try {
     VkMemoryRequirements needs;
@@ -107,14 +118,16 @@ Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsyst
 
 Buffer::~Buffer() {
   if (!handle) return;
-  device_->retire([device = device_->handle, allocator = device_->memory().impl_.get(), handle = handle,
-                   allocation = allocation_] {
-    vkDestroyBuffer(device, handle, nullptr);
-    allocator->free(allocation);
-  });
+  device_->retire(
+      [device = device_->handle, allocator = device_->memory().impl_.get(), handle = handle, allocation = allocation_] {
+        vkDestroyBuffer(device, handle, nullptr);
+        allocator->free(allocation);
+      });
 }
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+  *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
   if (this == &other) return *this;
@@ -134,7 +147,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   return *this;
 }
 
-// --- Image ------------------------------------------------------------------------------------------------------------
+// --- Image ---
 
 namespace {
 
@@ -181,8 +194,8 @@ void checkLimits(const Device& device, const VkImageCreateInfo& info, const Imag
   const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical, info.format, info.imageType,
                                                                    info.tiling, info.usage, info.flags, &can);
   if (result == VK_ERROR_FORMAT_NOT_SUPPORTED)
-    throw DeviceError(fmt::format("{}: the device has no {} image with usage {:#x}", d.name, formatInfo(d.format).name,
-                                  info.usage));
+    throw DeviceError(
+        fmt::format("{}: the device has no {} image with usage {:#x}", d.name, formatInfo(d.format).name, info.usage));
   vkCheck(result, fmt::format("asking for the limits of {}", d.name));
   if (d.width > can.maxExtent.width || d.height > can.maxExtent.height || info.extent.depth > can.maxExtent.depth ||
       d.layers > can.maxArrayLayers)
@@ -291,7 +304,9 @@ Image::~Image() {
   });
 }
 
-Image::Image(Image&& other) noexcept { *this = std::move(other); }
+Image::Image(Image&& other) noexcept {
+  *this = std::move(other);
+}
 
 Image& Image::operator=(Image&& other) noexcept {
   if (this == &other) return *this;
@@ -311,6 +326,8 @@ Image& Image::operator=(Image&& other) noexcept {
   return *this;
 }
 
-uint64_t Image::bytes() const { return handle ? device_->memory().impl_->bytes(allocation_) : 0; }
+uint64_t Image::bytes() const {
+  return handle ? device_->memory().impl_->bytes(allocation_) : 0;
+}
 
 }  // namespace irad

@@ -8,12 +8,17 @@ namespace {
 
 VkSamplerAddressMode address(Wrap wrap) {
   switch (wrap) {
-    case Wrap::Mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case Wrap::Clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case Wrap::Mirror:
+      return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case Wrap::Clamp:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    default:
+      return VK_SAMPLER_ADDRESS_MODE_REPEAT;
   }
 }
-VkFilter filter(bool linear) { return linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST; }
+VkFilter filter(bool linear) {
+  return linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+}
 
 }  // namespace
 
@@ -30,8 +35,8 @@ VkSampler sampler(const Device& device, const SamplerDesc& desc) {
       .mipmapMode = desc.linearMips ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
       .addressModeU = address(desc.u),
       .addressModeV = address(desc.v),
-      .addressModeW = desc.u == Wrap::Clamp && desc.v == Wrap::Clamp ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE
-                                                                    : address(desc.u),
+      .addressModeW =
+          desc.u == Wrap::Clamp && desc.v == Wrap::Clamp ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : address(desc.u),
       .anisotropyEnable = anisotropic ? VK_TRUE : VK_FALSE,
       .maxAnisotropy = anisotropic ? std::min(8.0f, device.limits.maxSamplerAnisotropy) : 1.0f,
       .compareEnable = desc.compare ? VK_TRUE : VK_FALSE,

@@ -1,0 +1,140 @@
+// SPIR-V reflection, run-time compilation and reload.
+#include <fstream>
+
+#include "renderer/error.h"
+#include "renderer/frame.h"
+#include "tests/support.h"
+
+namespace irad::test {
+namespace {
+
+const std::filesystem::path kRoot = IRAD_SOURCE_DIR;
+
+std::vector<uint32_t> compileTest(const char* name) {
+  return compileGlsl(kRoot / "shaders", (kRoot / "tests/shaders" / name).string());
+}
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path) << text;
+}
+
+TEST(Reflection, LayoutBindingsAndWorkgroup) {
+  const ShaderModule layout = reflect("layout.comp", compileTest("layout.comp"));
+  EXPECT_EQ(layout.pushBytes, 80u);
+  EXPECT_EQ(layout.localSize[1], 2u);
+  EXPECT_EQ(layout.localSizeId[0], 3u);
+  EXPECT_EQ(layout.localSizeId[1], UINT32_MAX);
+  EXPECT_TRUE(layout.bindings.empty());
+  bool push = false, inner = false;
+  for (const ReflectedStruct& s : reflectStructs(layout.spirv)) {
+    using Members = std::vector<std::pair<std::string, uint32_t>>;
+    if (s.name == "Push") {
+      push = true;
+      EXPECT_EQ(s.members, (Members{{"direction", 0}, {"address", 16}, {"inner", 24}, {"matrix", 40}, {"last", 76}}));
+      EXPECT_EQ(s.bytes, 80u);
+    }
+    if (s.name == "Inner") {
+      inner = true;
+      EXPECT_EQ(s.members, (Members{{"small", 0}, {"medium", 2}, {"value", 4}}));
+      EXPECT_EQ(s.bytes, 8u);
+    }
+  }
+  EXPECT_TRUE(push && inner);
+
+  const ShaderModule image = reflect("image.comp", compileTest("image.comp"));
+  EXPECT_EQ(image.localSize, (std::array<uint32_t, 3>{8, 8, 1}));
+  ASSERT_EQ(image.bindings.size(), 2u);
+  EXPECT_TRUE(image.bindings[0].storageImage);
+  EXPECT_FALSE(image.bindings[1].storageImage);
+  EXPECT_EQ(image.bindings[1].name, "source");
+}
+
+TEST(Reflection, EveryEmbeddedShaderIsReadable) {
+  const ShaderLibrary library;
+  for (const std::string& name : library.names()) EXPECT_LE(library.get(name).pushBytes, 128u) << name;
+}
+
+TEST(Reflection, UnknownShaderNamesNearOnes) {
+  ShaderLibrary library;
+  library.add("gi/test_solve.comp", compileTest("square.comp"));
+  EXPECT_DEATH(library.get("gi/test_solv.comp"), "no shader 'gi/test_solv.comp'; near: gi/test_solve.comp");
+}
+
+TEST(Compile, EmbeddedAndRunTimeAgreeOnTheInterface) {
+  // The same options on both paths: what F5 loads is what the build embedded.
+  const ShaderLibrary library;
+  int compared = 0;
+  for (const std::string& name : library.names()) {
+    if (++compared > 3) break;
+    const ShaderModule fresh = reflect(name, compileGlsl(kRoot / "shaders", name));
+    const ShaderModule& embedded = library.get(name);
+    EXPECT_EQ(fresh.pushBytes, embedded.pushBytes) << name;
+    EXPECT_EQ(fresh.localSize, embedded.localSize) << name;
+    ASSERT_EQ(fresh.bindings.size(), embedded.bindings.size()) << name;
+  }
+}
+
+TEST(Compile, MessagesNameFileAndLine) {
+  const TemporaryFolder folder;
+  write(folder.path / "a.comp", "#version 460\nvoid main() {\n  undeclared = 1;\n}\n");
+  try {
+    compileGlsl(folder.path, "a.comp");
+    FAIL();
+  } catch (const WorkError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.comp:3"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("undeclared"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(compileGlsl(folder.path, "missing.comp"), WorkError);
+}
+
+using Reload = GpuTest;
+
+TEST_F(Reload, BrokenShaderKeepsTheOldOnes) {
+  const TemporaryFolder folder;
+  const auto source = [](const char* value) {
+    return fmt::format(
+        "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"lib/value.glsl\"\n"
+        "layout(local_size_x = 1) in;\nlayout(set = 0, binding = 0, r32ui) uniform uimage2D result;\n"
+        "void main() {{ imageStore(result, ivec2(0), uvec4(VALUE + {})); }}\n",
+        value);
+  };
+  write(folder.path / "lib/value.glsl", "#define VALUE 40\n");
+  write(folder.path / "t/a.comp", source("1"));
+  write(folder.path / "t/b.comp", source("2"));
+  ShaderLibrary library;
+  library.add("t/a.comp", compileGlsl(folder.path, "t/a.comp"));
+  library.add("t/b.comp", compileGlsl(folder.path, "t/b.comp"));
+  Timings timings;
+  Context own(*gpu().device, library, timings);
+  const Image result(own.device, {.name = "result", .format = VK_FORMAT_R32_UINT});
+  const auto run = [&](const char* name) {
+    Frame frame = own.begin();
+    frame.pass("Run").shader(name).write(result).dispatchGroups(1);
+    frame.submitAndWait();
+    return static_cast<int>(download(own, result)[0]);
+  };
+  EXPECT_EQ(run("t/a.comp"), 41);
+  EXPECT_EQ(run("t/b.comp"), 42);
+
+  // One good change and one mistake: neither is taken.
+  const uint64_t generation = library.generation();
+  write(folder.path / "t/a.comp", source("10"));
+  write(folder.path / "t/b.comp", source("syntax error"));
+  EXPECT_NE(library.reload(folder.path).find("t/b.comp"), std::string::npos);
+  EXPECT_EQ(library.generation(), generation);
+  EXPECT_EQ(run("t/a.comp"), 41);
+  EXPECT_EQ(run("t/b.comp"), 42);
+
+  // Mended, with a changed header: both are taken.
+  write(folder.path / "t/b.comp", source("20"));
+  write(folder.path / "lib/value.glsl", "#define VALUE 100\n");
+  EXPECT_EQ(library.reload(folder.path), "");
+  EXPECT_GT(library.generation(), generation);
+  EXPECT_EQ(run("t/a.comp"), 110);
+  EXPECT_EQ(run("t/b.comp"), 120);
+
+  EXPECT_NE(library.reload(folder.path / "nowhere"), "");
+}
+
+}  // namespace
+}  // namespace irad::test
