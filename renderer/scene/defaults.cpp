@@ -1,0 +1,48 @@
+// What a file leaves open: a camera that sees everything, and a sun where nothing shines.
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace irad {
+namespace {
+
+bool emits(const Scene& scene) {
+  for (const Draw& draw : scene.draws)
+    if (const glm::vec3& e = scene.materials[draw.material].emission; std::max({e.x, e.y, e.z}) > 0.0f) return true;
+  return false;
+}
+
+}  // namespace
+
+void addDefaults(Scene& scene) {
+  const std::string file = scene.path.filename().string();
+  if (scene.cameras.empty()) {
+    // Around the bounding sphere, from above along a diagonal; the sphere fits the smaller side of any landscape view.
+    const double radius = std::max(0.5 * glm::length(glm::dvec3(scene.boundsMax - scene.boundsMin)), 1e-6);
+    Camera camera;
+    camera.name = "fitted";
+    camera.yfov = static_cast<float>(std::numbers::pi / 4.0);
+    const double distance = 1.02 * radius / std::sin(0.5 * camera.yfov);
+    const glm::dvec3 back = glm::normalize(glm::dvec3(0.6, 0.45, 0.8));
+    camera.position = scene.origin + 0.5 * glm::dvec3(scene.boundsMin + scene.boundsMax) + back * distance;
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
+    camera.orientation = glm::quat(glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back)));
+    camera.znear = static_cast<float>(std::max(0.01 * radius, distance - 1.5 * radius));
+    scene.cameras.push_back(camera);
+    scene.defaultCamera = true;
+    scene.warnings.push_back(fmt::format("no camera in {}: a fitted one is used", file));
+  }
+  if (scene.lights.empty() && !emits(scene)) {
+    Light sun;
+    sun.name = "default sun";
+    sun.direction = glm::normalize(glm::vec3(-0.35f, -0.85f, -0.4f));
+    sun.intensity = std::numbers::pi_v<float>;  // lux: a white surface facing it has radiance 1
+    scene.lights.push_back(sun);
+    scene.defaultLight = true;
+    scene.warnings.push_back(fmt::format("no light in {} and nothing that emits: a default sun is used", file));
+  }
+}
+
+}  // namespace irad

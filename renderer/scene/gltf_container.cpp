@@ -1,0 +1,156 @@
+// The file and its container. GLB: glTF 2.0 specification, section 4 (binary glTF layout).
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace irad::gltf {
+namespace {
+
+constexpr uint64_t kMaxJsonBytes = 64ull << 20;
+constexpr uint64_t kMaxJsonTokens = 4'000'000;
+constexpr int kMaxJsonDepth = 128;
+constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
+
+uint32_t readU32(ByteSpan bytes, size_t at) {
+  uint32_t value;
+  std::memcpy(&value, bytes.data() + at, 4);
+  return value;
+}
+
+void readGlb(Document& doc) {
+  const ByteSpan all = doc.file;
+  if (all.size() < 20) doc.fail("GLB header", fmt::format("the file ends after {} bytes", all.size()));
+  const uint32_t version = readU32(all, 4), length = readU32(all, 8);
+  if (version != 2) doc.fail("GLB header", fmt::format("version {} is not 2", version));
+  if (length > all.size() || length < 20)
+    doc.fail("GLB header", fmt::format("states {} bytes, the file has {}", length, all.size()));
+  uint64_t at = 12;
+  bool first = true;
+  while (at < length) {
+    if (at + 8 > length) doc.fail("GLB chunk", fmt::format("its header at byte {} is truncated", at));
+    const uint32_t size = readU32(all, at), type = readU32(all, at + 4);
+    if (at + 8 + size > length)
+      doc.fail("GLB chunk", fmt::format("at byte {} states {} bytes, {} are left", at, size, length - at - 8));
+    if (size % 4 != 0) doc.fail("GLB chunk", fmt::format("at byte {}: length {} is not a multiple of 4", at, size));
+    const ByteSpan body = all.subspan(at + 8, size);
+    if (first && type != kJsonChunk) doc.fail("GLB chunk", "the first chunk is not JSON");
+    if (!first && type == kJsonChunk) doc.fail("GLB chunk", "a second JSON chunk");
+    if (type == kBinChunk) {
+      if (doc.hasBin) doc.fail("GLB chunk", "a second BIN chunk");
+      doc.bin = body;
+      doc.hasBin = true;
+    } else if (type == kJsonChunk) {
+      doc.json = body;
+    }
+    first = false;
+    at += 8 + uint64_t{size};
+  }
+}
+
+/// Depth and size of the JSON before any parser sees it: deep nesting overflows recursive parsers' stacks.
+void scanJson(const Document& doc) {
+  if (doc.json.size() > kMaxJsonBytes)
+    doc.fail("JSON", fmt::format("{} bytes, at most {} are accepted", doc.json.size(), kMaxJsonBytes));
+  int depth = 0;
+  uint64_t tokens = 0;
+  bool inString = false;
+  for (size_t i = 0; i < doc.json.size(); ++i) {
+    const uint8_t c = doc.json[i];
+    if (inString) {
+      if (c == '\\') {
+        ++i;
+      } else if (c == '"') {
+        inString = false;
+      }
+      continue;
+    }
+    if (c == '"') inString = true;
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (c == ',' || c == ':' || c == '{' || c == '[') ++tokens;
+    if (depth > kMaxJsonDepth)
+      doc.fail("JSON", fmt::format("nested deeper than {} levels at byte {}", kMaxJsonDepth, i));
+    if (tokens > kMaxJsonTokens) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonTokens));
+  }
+}
+
+}  // namespace
+
+Document::Document() = default;
+Document::~Document() = default;
+
+void Document::fail(const std::string& object, const std::string& text) const {
+  throw InputError(fmt::format("{}: {}: {}", path.string(), object, text));
+}
+
+void Document::warn(const std::string& text) {
+  constexpr size_t kMaxWarnings = 200;
+  if (std::find(warnings.begin(), warnings.end(), text) != warnings.end()) return;
+  if (warnings.size() < kMaxWarnings) warnings.push_back(text);
+  if (warnings.size() == kMaxWarnings) warnings.push_back("further warnings are left out");
+}
+
+void Document::take(uint64_t bytes, const std::string& object) {
+  if (bytes > kMemoryBudget || used_ + bytes > kMemoryBudget)
+    fail(object, fmt::format("needs {} MiB beside {} MiB in use; a scene may hold {} MiB", bytes >> 20, used_ >> 20,
+                             kMemoryBudget >> 20));
+  used_ += bytes;
+}
+
+Bytes readFile(const std::filesystem::path& path, uint64_t maxBytes, std::string& why) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    why = "no such file";
+    return {};
+  }
+  const uint64_t size = std::filesystem::file_size(path, error);
+  if (error || size > maxBytes) {
+    why = error ? error.message() : fmt::format("{} bytes, at most {} are accepted", size, maxBytes);
+    return {};
+  }
+  Bytes bytes(size);
+  std::ifstream in(path, std::ios::binary);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (!in || static_cast<uint64_t>(in.gcount()) != size) {
+    why = "cannot be read";
+    return {};
+  }
+  return bytes;
+}
+
+void readContainer(Document& doc) {
+  std::string why;
+  doc.file = readFile(doc.path, kMemoryBudget, why);
+  if (!why.empty()) throw InputError(fmt::format("{}: {}", doc.path.string(), why));
+  doc.take(doc.file.size(), "file");
+  if (doc.file.empty()) doc.fail("file", "is empty");
+  if (doc.file.size() >= 4 && readU32(doc.file, 0) == kMagic) {
+    readGlb(doc);
+  } else if (doc.path.extension() == ".glb" || doc.path.extension() == ".GLB") {
+    doc.fail("GLB header", "does not begin with 'glTF'");
+  } else {
+    doc.json = doc.file;
+  }
+  scanJson(doc);
+  // Parse; duplicate keys would make two readers see two scenes, the specification forbids them.
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) keys.emplace_back();
+    if (event == Event::object_end) keys.pop_back();
+    if (event == Event::key && !keys.back().insert(value.get<std::string>()).second)
+      doc.fail("JSON", fmt::format("duplicate key \"{}\"", value.get<std::string>()));
+    return true;
+  };
+  try {
+    doc.root = std::make_unique<nlohmann::json>(nlohmann::json::parse(doc.json.begin(), doc.json.end(), watch));
+  } catch (const nlohmann::json::exception& error) {
+    doc.fail("JSON", error.what());
+  }
+  if (!doc.root->is_object()) doc.fail("JSON", "the root is not an object");
+}
+
+}  // namespace irad::gltf

@@ -1,0 +1,111 @@
+// Images: found, read, decoded in parallel. What cannot be had becomes pink, with a warning that names it.
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace irad::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Job {
+  std::string name, problem;
+  Bytes data;
+  ByteSpan bytes;
+  SceneImage image;
+};
+
+/// The encoded bytes of an image: bufferView, data URI or a file beside the scene.
+void locate(Document& doc, int source, Job& job) {
+  if (source < 0) {
+    job.problem = "its texture names no image that can be read";
+    return;
+  }
+  const Json& json = doc.root->at("images")[static_cast<size_t>(source)];
+  job.name = json.value("name", std::string());
+  if (json.contains("bufferView")) {
+    const View& view = doc.views[json.at("bufferView").get<size_t>()];
+    if (!view.present) job.problem = "its bufferView has no data";
+    job.bytes = view.bytes;
+  } else if (json.contains("uri")) {
+    const std::string uri = json.at("uri").get<std::string>();
+    if (isDataUri(uri)) {
+      std::string mime;
+      if (!decodeDataUri(uri, job.data, mime)) job.problem = "its data URI is malformed";
+    } else {
+      if (job.name.empty()) job.name = uri;
+      const std::filesystem::path path = resolveUri(doc, uri, job.problem);
+      if (job.problem.empty()) job.data = readFile(path, kMemoryBudget / 4, job.problem);
+      if (!job.problem.empty()) job.problem = fmt::format("\"{}\": {}", uri.substr(0, 200), job.problem);
+    }
+    doc.take(job.data.size(), fmt::format("images[{}]", source));
+    job.bytes = job.data;
+  } else {
+    job.problem = "has neither uri nor bufferView";
+  }
+  if (job.name.empty()) job.name = fmt::format("image {}", source);
+}
+
+SceneImage pink() {
+  SceneImage image;
+  image.width = image.height = 8;
+  for (int i = 0; i < 64; ++i) image.rgba.insert(image.rgba.end(), {255, 0, 255, 255});
+  return image;
+}
+
+}  // namespace
+
+void loadImages(Document& doc, const std::vector<ImageRequest>& requests, const LoadOptions& options, Scene& scene) {
+  // One job per image of the file; requests in another colour space share it.
+  std::vector<int> sources;
+  std::vector<size_t> jobOf;
+  for (const ImageRequest& request : requests) {
+    const auto found = std::find(sources.begin(), sources.end(), request.source);
+    jobOf.push_back(static_cast<size_t>(found - sources.begin()));
+    if (found == sources.end()) sources.push_back(request.source);
+  }
+  std::vector<Job> jobs(sources.size());
+  for (size_t j = 0; j < jobs.size(); ++j) locate(doc, sources[j], jobs[j]);
+
+  std::atomic<size_t> next = 0;
+  std::atomic<uint64_t> decoded = 0;
+  const auto work = [&] {
+    for (size_t j = next++; j < jobs.size(); j = next++) {
+      if (!jobs[j].problem.empty()) continue;
+      try {
+        const uint64_t used = decoded;
+        const DecodeResult result =
+            decodeImage(jobs[j].bytes, used < kMaxImageBytes ? kMaxImageBytes - used : 0, jobs[j].image);
+        if (!result.ok) jobs[j].problem = result.why;
+        decoded += jobs[j].image.rgba.size();
+      } catch (const std::exception& error) {
+        jobs[j].problem = error.what();
+      }
+    }
+  };
+  const size_t threadCount = std::min<size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
+  {
+    std::vector<std::jthread> threads;
+    for (size_t t = 1; t < threadCount; ++t) threads.emplace_back(work);
+    work();
+  }
+  if (options.progress) options.progress(0.8f, "images");
+
+  std::vector<size_t> uses(jobs.size(), 0);
+  for (const size_t j : jobOf) ++uses[j];
+  for (size_t i = 0; i < requests.size(); ++i) {
+    Job& job = jobs[jobOf[i]];
+    if (!job.problem.empty())
+      doc.warn(fmt::format("{}: {}{}; pink stands in for it", requests[i].user,
+                           job.name.empty() ? "" : "image \"" + job.name + "\" ", job.problem));
+    SceneImage image = !job.problem.empty() ? pink() : --uses[jobOf[i]] == 0 ? std::move(job.image) : job.image;
+    image.name = job.name;
+    image.srgb = requests[i].srgb;
+    doc.take(image.rgba.size(), "images");
+    scene.images.push_back(std::move(image));
+  }
+}
+
+}  // namespace irad::gltf

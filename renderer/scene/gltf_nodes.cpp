@@ -1,0 +1,218 @@
+// The node tree: world transforms in double precision, mesh instances, lights and cameras.
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace irad::gltf {
+namespace {
+
+glm::dmat4 compose(const glm::dvec3& t, const glm::dquat& r, const glm::dvec3& s) {
+  glm::dmat4 m(glm::mat3_cast(r));
+  m[0] *= s.x, m[1] *= s.y, m[2] *= s.z;
+  m[3] = glm::dvec4(t, 1.0);
+  return m;
+}
+
+glm::dquat rotation(double x, double y, double z, double w) {
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  return length > 0.0 && std::isfinite(length) ? glm::dquat(w / length, x / length, y / length, z / length)
+                                               : glm::dquat(1, 0, 0, 0);
+}
+
+glm::dmat4 localTransform(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) {
+    glm::dmat4 m;
+    for (int c = 0; c < 4; ++c)
+      for (int r = 0; r < 4; ++r) m[c][r] = node.matrix[static_cast<size_t>(c * 4 + r)];
+    return m;
+  }
+  const auto vector = [](const std::vector<double>& v, double otherwise) {
+    return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
+  };
+  const auto& q = node.rotation;
+  return compose(vector(node.translation, 0.0),
+                 q.size() == 4 ? rotation(q[0], q[1], q[2], q[3]) : glm::dquat(1, 0, 0, 0), vector(node.scale, 1.0));
+}
+
+bool finite(const glm::dmat4& m) {
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r)
+      if (!std::isfinite(m[c][r])) return false;
+  return true;
+}
+
+/// The rotation in a transform that may also scale, shear or mirror: Gram-Schmidt from -Z, then Y.
+glm::dmat3 orthonormal(const glm::dmat4& m) {
+  const auto unit = [](glm::dvec3 v, glm::dvec3 otherwise) {
+    const double length = glm::length(v);
+    return length > 1e-300 && std::isfinite(length) ? v / length : otherwise;
+  };
+  const glm::dvec3 z = unit(glm::dvec3(m[2]), {0, 0, 1});
+  const glm::dvec3 fallback =
+      unit(glm::cross(z, std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)), {0, 1, 0});
+  const glm::dvec3 up = glm::dvec3(m[1]);
+  const glm::dvec3 y = unit(up - z * glm::dot(up, z), fallback);
+  return {glm::cross(y, z), y, z};
+}
+
+void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world, Scene& scene) {
+  const auto extension = node.extensions.find("KHR_lights_punctual");
+  if (extension == node.extensions.end()) return;
+  const size_t index = static_cast<size_t>(extension->second.Get("light").GetNumberAsInt());
+  if (index >= doc.model.lights.size())
+    doc.fail(fmt::format("node \"{}\"", node.name), fmt::format("light {} is unknown", index));
+  const tinygltf::Light& in = doc.model.lights[index];
+  const std::string where = fmt::format("lights[{}]", index);
+  Light light;
+  light.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("light {}", index);
+  light.type = in.type == "directional" ? LightType::Sun : in.type == "point" ? LightType::Point : LightType::Spot;
+  light.position = glm::dvec3(world[3]);
+  light.direction = glm::vec3(-orthonormal(world)[2]);
+  const auto limited = [&](double value, const char* what) {
+    if (value >= 0.0 && value <= kMaxLightOrEmission) return static_cast<float>(value);
+    const double to = std::clamp(value, 0.0, kMaxLightOrEmission);
+    doc.warn(fmt::format("{}.{}: {} is clamped to {}", where, what, value, to));
+    return static_cast<float>(to);
+  };
+  for (size_t c = 0; c < in.color.size() && c < 3; ++c)
+    light.color[static_cast<int>(c)] = limited(in.color[c], "color");
+  light.intensity = limited(in.intensity, "intensity");
+  light.range = light.type == LightType::Sun ? 0.0f : static_cast<float>(in.range);
+  if (light.type == LightType::Spot) {
+    light.innerCos = static_cast<float>(std::cos(in.spot.innerConeAngle));
+    light.outerCos = static_cast<float>(std::cos(in.spot.outerConeAngle));
+  }
+  scene.lights.push_back(light);
+}
+
+void addCamera(Document& doc, const tinygltf::Node& node, const glm::dmat4& world, Scene& scene) {
+  if (node.camera < 0) return;
+  const tinygltf::Camera& in = doc.model.cameras[static_cast<size_t>(node.camera)];
+  Camera camera;
+  camera.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("camera {}", node.camera);
+  camera.position = glm::dvec3(world[3]);
+  camera.orientation = glm::quat(glm::quat_cast(orthonormal(world)));
+  camera.orthographic = in.type == "orthographic";
+  if (camera.orthographic) {
+    camera.ymag = static_cast<float>(std::abs(in.orthographic.ymag));
+    camera.aspect = static_cast<float>(std::abs(in.orthographic.xmag / in.orthographic.ymag));
+    camera.znear = static_cast<float>(in.orthographic.znear);
+    camera.zfar = static_cast<float>(in.orthographic.zfar);
+  } else {
+    camera.yfov = static_cast<float>(in.perspective.yfov);
+    camera.aspect = static_cast<float>(in.perspective.aspectRatio);
+    camera.znear = static_cast<float>(in.perspective.znear);
+    camera.zfar = static_cast<float>(in.perspective.zfar);
+  }
+  scene.cameras.push_back(camera);
+}
+
+/// EXT_mesh_gpu_instancing: one transform per instance, relative to the node.
+std::vector<glm::dmat4> instanceTransforms(Document& doc, const tinygltf::Node& node, size_t index) {
+  const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
+  if (extension == node.extensions.end()) return {glm::dmat4(1.0)};
+  const tinygltf::Value& attributes = extension->second.Get("attributes");
+  const std::string where = fmt::format("nodes[{}].EXT_mesh_gpu_instancing", index);
+  Elements t, r, s;
+  for (const std::string& name : attributes.Keys()) {
+    const int accessor = attributes.Get(name).GetNumberAsInt();
+    if (name == "TRANSLATION") t = readFloats(doc, accessor, 3, where);
+    if (name == "ROTATION") r = readFloats(doc, accessor, 4, where);
+    if (name == "SCALE") s = readFloats(doc, accessor, 3, where);
+  }
+  const size_t count = std::max({t.count, r.count, s.count});
+  for (const Elements* e : {&t, &r, &s})
+    if (e->count != 0 && e->count != count)
+      doc.fail(where, fmt::format("attributes of {} and {} instances", e->count, count));
+  doc.take(count * sizeof(Instance), where);
+  std::vector<glm::dmat4> out(count);
+  for (size_t i = 0; i < count; ++i) {
+    const auto vector = [&](const Elements& e, double otherwise) {
+      return e.count != 0 ? glm::dvec3(e.values[3 * i], e.values[3 * i + 1], e.values[3 * i + 2])
+                          : glm::dvec3(otherwise);
+    };
+    const glm::dquat q = r.count == 0
+                             ? glm::dquat(1, 0, 0, 0)
+                             : rotation(r.values[4 * i], r.values[4 * i + 1], r.values[4 * i + 2], r.values[4 * i + 3]);
+    out[i] = compose(vector(t, 0.0), q, vector(s, 1.0));
+  }
+  return out;
+}
+
+std::vector<int> rootNodes(const Document& doc) {
+  const tinygltf::Model& model = doc.model;
+  if (!model.scenes.empty())
+    return model.scenes[model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0].nodes;
+  // Without scenes every root node is shown.
+  std::vector<bool> child(model.nodes.size(), false);
+  for (const tinygltf::Node& node : model.nodes)
+    for (const int c : node.children) child[static_cast<size_t>(c)] = true;
+  std::vector<int> roots;
+  for (size_t i = 0; i < child.size(); ++i)
+    if (!child[i]) roots.push_back(static_cast<int>(i));
+  return roots;
+}
+
+}  // namespace
+
+Flattened flattenNodes(Document& doc, Scene& scene) {
+  Flattened out;
+  out.nodeWorld.assign(doc.model.nodes.size(), glm::dmat4(1.0));
+  // World transforms of all nodes (skins may use joints outside the scene); the tree was checked, the stack is ours.
+  std::vector<bool> child(doc.model.nodes.size(), false), shown(doc.model.nodes.size(), false);
+  for (const tinygltf::Node& node : doc.model.nodes)
+    for (const int c : node.children) child[static_cast<size_t>(c)] = true;
+  std::vector<int> stack;
+  for (size_t i = child.size(); i-- > 0;)
+    if (!child[i]) stack.push_back(static_cast<int>(i));
+  for (const int root : stack)
+    out.nodeWorld[static_cast<size_t>(root)] = localTransform(doc.model.nodes[static_cast<size_t>(root)]);
+  while (!stack.empty()) {
+    const size_t n = static_cast<size_t>(stack.back());
+    stack.pop_back();
+    for (const int c : doc.model.nodes[n].children) {
+      out.nodeWorld[static_cast<size_t>(c)] =
+          out.nodeWorld[n] * localTransform(doc.model.nodes[static_cast<size_t>(c)]);
+      stack.push_back(c);
+    }
+  }
+  const std::vector<int> roots = rootNodes(doc);
+  stack.assign(roots.rbegin(), roots.rend());
+  while (!stack.empty()) {
+    const size_t n = static_cast<size_t>(stack.back());
+    stack.pop_back();
+    const tinygltf::Node& node = doc.model.nodes[n];
+    const glm::dmat4& world = out.nodeWorld[n];
+    if (!finite(world)) doc.fail(fmt::format("nodes[{}]", n), "its world transform is not finite");
+    if (node.mesh >= 0)
+      for (const glm::dmat4& instance : instanceTransforms(doc, node, n))
+        out.instances.push_back({node.mesh, static_cast<int>(n), node.skin, world * instance});
+    addLight(doc, node, world, scene);
+    addCamera(doc, node, world, scene);
+    for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) stack.push_back(*it);
+  }
+  return out;
+}
+
+std::vector<glm::dmat4> jointMatrices(Document& doc, int index, const std::vector<glm::dmat4>& nodeWorld) {
+  const tinygltf::Skin& skin = doc.model.skins[static_cast<size_t>(index)];
+  const std::string where = fmt::format("skins[{}].inverseBindMatrices", index);
+  Elements inverse;
+  if (skin.inverseBindMatrices >= 0) {
+    inverse = readFloats(doc, skin.inverseBindMatrices, 16, where);
+    if (inverse.count < skin.joints.size())
+      doc.fail(where, fmt::format("{} matrices for {} joints", inverse.count, skin.joints.size()));
+  }
+  std::vector<glm::dmat4> out;
+  for (size_t j = 0; j < skin.joints.size(); ++j) {
+    glm::dmat4 bind(1.0);
+    if (inverse.count != 0)
+      for (int c = 0; c < 16; ++c) bind[c / 4][c % 4] = inverse.values[j * 16 + static_cast<size_t>(c)];
+    out.push_back(nodeWorld[static_cast<size_t>(skin.joints[j])] * bind);
+    if (!finite(out.back())) doc.fail(where, fmt::format("joint {} has no finite transform", j));
+  }
+  return out;
+}
+
+}  // namespace irad::gltf

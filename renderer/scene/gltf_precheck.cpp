@@ -1,0 +1,373 @@
+// What must hold before tinygltf reads the JSON: it takes wrong types, indices and counts silently. A table says what
+// each property is (glTF 2.0 schema, as far as the loader reads it); the rest are relations between properties.
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace irad::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+enum class Kind { Object, Array, String, Bool, UInt, Number, Numbers, Index, Indices, IndexMap };
+struct Rule {
+  std::string path;  ///< segments by '/', "[]": every element
+  Kind kind;
+  double lo = 0, hi = 0;  ///< UInt, Number: range; Numbers: permitted lengths
+  std::string target;     ///< Index kinds: the array pointed into
+  bool required = false;
+};
+
+constexpr double kHuge = 1e30, kMaxOffset = 1099511627776.0 /* 2^40 */, kMaxCount = 4294967295.0;
+
+class Checker {
+ public:
+  explicit Checker(Document& doc) : doc_(doc), root_(*doc.root) {}
+  void apply(const Rule& rule) { walk(root_, rule, 0, ""); }
+
+ private:
+  Document& doc_;
+  Json& root_;
+
+  void walk(Json& value, const Rule& rule, size_t at, const std::string& where) {
+    if (at > rule.path.size()) return leaf(value, rule, where);
+    const size_t end = std::min(rule.path.find('/', at), rule.path.size());
+    const std::string segment = rule.path.substr(at, end - at);
+    if (segment == "[]") {
+      if (!value.is_array()) doc_.fail(where, "is not an array");
+      for (size_t i = 0; i < value.size(); ++i) walk(value[i], rule, end + 1, fmt::format("{}[{}]", where, i));
+      return;
+    }
+    if (!value.is_object()) doc_.fail(where.empty() ? "root" : where, "is not an object");
+    const auto found = value.find(segment);
+    const std::string name = where.empty() ? segment : where + "." + segment;
+    if (found != value.end()) return walk(*found, rule, end + 1, name);
+    if (rule.required && end == rule.path.size()) doc_.fail(name, "is missing");
+  }
+
+  size_t targetSize(const std::string& path) const {
+    const auto pointer = Json::json_pointer("/" + path);
+    return root_.contains(pointer) && root_.at(pointer).is_array() ? root_.at(pointer).size() : 0;
+  }
+
+  /// Integers may be written as 1.0 (the specification says so); tinygltf then wants them rewritten.
+  void integer(Json& value, double lo, double hi, const std::string& where) const {
+    if (!value.is_number()) doc_.fail(where, fmt::format("is not an integer ({})", value.dump().substr(0, 40)));
+    const double number = value.get<double>();
+    if (number != std::floor(number) || number < lo || number > hi)
+      doc_.fail(where, fmt::format("{} is not an integer from {} to {}", value.dump(), lo, hi));
+    value = static_cast<uint64_t>(number);
+  }
+
+  void index(Json& value, const std::string& target, const std::string& where) const {
+    const size_t size = targetSize(target);
+    integer(value, 0, kMaxCount, where);
+    if (value.get<uint64_t>() >= size)
+      doc_.fail(where, fmt::format("{} points past \"{}\", which has {}", value.dump(), target, size));
+  }
+
+  void number(const Json& value, double lo, double hi, const std::string& where) const {
+    if (!value.is_number()) doc_.fail(where, fmt::format("is not a number ({})", value.dump().substr(0, 40)));
+    const double n = value.get<double>();
+    if (!(n >= lo && n <= hi)) doc_.fail(where, fmt::format("{} is out of range ({} to {})", value.dump(), lo, hi));
+  }
+
+  void leaf(Json& value, const Rule& rule, const std::string& where) {
+    switch (rule.kind) {
+      case Kind::Object:
+        if (!value.is_object()) doc_.fail(where, "is not an object");
+        break;
+      case Kind::Array:
+        if (!value.is_array()) doc_.fail(where, "is not an array");
+        break;
+      case Kind::String:
+        if (!value.is_string()) doc_.fail(where, "is not a string");
+        break;
+      case Kind::Bool:
+        if (!value.is_boolean()) doc_.fail(where, "is neither true nor false");
+        break;
+      case Kind::UInt:
+        integer(value, rule.lo, rule.hi, where);
+        break;
+      case Kind::Number:
+        number(value, rule.lo, rule.hi, where);
+        break;
+      case Kind::Numbers:
+        if (!value.is_array() || value.size() < rule.lo || value.size() > rule.hi)
+          doc_.fail(where, rule.lo == rule.hi ? fmt::format("is not an array of {} numbers", rule.lo)
+                                              : "is not an array of numbers");
+        for (size_t i = 0; i < value.size(); ++i) number(value[i], -kHuge, kHuge, fmt::format("{}[{}]", where, i));
+        break;
+      case Kind::Index:
+        index(value, rule.target, where);
+        break;
+      case Kind::Indices:
+        if (!value.is_array()) doc_.fail(where, "is not an array");
+        for (size_t i = 0; i < value.size(); ++i) index(value[i], rule.target, fmt::format("{}[{}]", where, i));
+        break;
+      case Kind::IndexMap:
+        if (!value.is_object()) doc_.fail(where, "is not an object");
+        for (auto& [key, element] : value.items()) index(element, rule.target, where + "." + key);
+        break;
+    }
+  }
+};
+
+std::vector<Rule> rules() {
+  using enum Kind;
+  std::vector<Rule> r;
+  const auto add = [&](const char* path, Kind kind, double lo = 0, double hi = 0, bool required = false) {
+    r.push_back({path, kind, lo, hi, "", required});
+  };
+  const auto ref = [&](const char* path, const char* target, Kind kind = Index, bool required = false) {
+    r.push_back({path, kind, 0, 0, target, required});
+  };
+  add("asset", Object, 0, 0, true), add("asset/version", String, 0, 0, true), add("asset/minVersion", String);
+  add("extensionsUsed/[]", String), add("extensionsRequired/[]", String), add("extensions", Object);
+  ref("scene", "scenes"), add("scenes/[]", Object), ref("scenes/[]/nodes", "nodes", Indices);
+
+  add("nodes/[]", Object), add("nodes/[]/name", String), add("nodes/[]/extensions", Object);
+  ref("nodes/[]/children", "nodes", Indices), ref("nodes/[]/mesh", "meshes"), ref("nodes/[]/skin", "skins");
+  ref("nodes/[]/camera", "cameras"), add("nodes/[]/matrix", Numbers, 16, 16), add("nodes/[]/rotation", Numbers, 4, 4);
+  add("nodes/[]/scale", Numbers, 3, 3), add("nodes/[]/translation", Numbers, 3, 3),
+      add("nodes/[]/weights", Numbers, 1, 1e6);
+  ref("nodes/[]/extensions/KHR_lights_punctual/light", "extensions/KHR_lights_punctual/lights", Index, true);
+  ref("nodes/[]/extensions/EXT_mesh_gpu_instancing/attributes", "accessors", IndexMap, true);
+
+  add("meshes/[]", Object), add("meshes/[]/name", String), add("meshes/[]/primitives", Array, 0, 0, true);
+  add("meshes/[]/weights", Numbers, 1, 1e6), add("meshes/[]/primitives/[]", Object);
+  ref("meshes/[]/primitives/[]/attributes", "accessors", IndexMap, true);
+  ref("meshes/[]/primitives/[]/indices", "accessors"), ref("meshes/[]/primitives/[]/material", "materials");
+  add("meshes/[]/primitives/[]/mode", UInt, 0, 6), ref("meshes/[]/primitives/[]/targets/[]", "accessors", IndexMap);
+  const char* draco = "meshes/[]/primitives/[]/extensions/KHR_draco_mesh_compression";
+  r.push_back({std::string(draco) + "/bufferView", Index, 0, 0, "bufferViews", true});
+  r.push_back({std::string(draco) + "/attributes", Object, 0, 0, "", true});
+
+  add("accessors/[]", Object), ref("accessors/[]/bufferView", "bufferViews");
+  add("accessors/[]/byteOffset", UInt, 0, kMaxOffset), add("accessors/[]/componentType", UInt, 5120, 5126, true);
+  add("accessors/[]/normalized", Bool), add("accessors/[]/count", UInt, 1, kMaxCount, true);
+  add("accessors/[]/type", String, 0, 0, true), add("accessors/[]/sparse", Object);
+  add("accessors/[]/min", Numbers, 1, 16), add("accessors/[]/max", Numbers, 1, 16);
+  // tinygltf keeps these offsets and counts as int.
+  add("accessors/[]/sparse/count", UInt, 1, 2147483647, true), add("accessors/[]/sparse/indices", Object, 0, 0, true);
+  ref("accessors/[]/sparse/indices/bufferView", "bufferViews", Index, true);
+  add("accessors/[]/sparse/indices/byteOffset", UInt, 0, 2147483647);
+  add("accessors/[]/sparse/indices/componentType", UInt, 5121, 5125, true);
+  add("accessors/[]/sparse/values", Object, 0, 0, true);
+  ref("accessors/[]/sparse/values/bufferView", "bufferViews", Index, true);
+  add("accessors/[]/sparse/values/byteOffset", UInt, 0, 2147483647);
+
+  add("bufferViews/[]", Object), ref("bufferViews/[]/buffer", "buffers", Index, true);
+  add("bufferViews/[]/byteOffset", UInt, 0, kMaxOffset), add("bufferViews/[]/byteLength", UInt, 1, kMaxOffset, true);
+  add("bufferViews/[]/byteStride", UInt, 4, 252), add("bufferViews/[]/target", UInt, 34962, 34963);
+  for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    const std::string base = "bufferViews/[]/extensions/" + name;
+    r.push_back({base + "/buffer", Index, 0, 0, "buffers", true});
+    r.push_back({base + "/byteOffset", UInt, 0, kMaxOffset, "", false});
+    r.push_back({base + "/byteLength", UInt, 1, kMaxOffset, "", true});
+    r.push_back({base + "/byteStride", UInt, 1, 256, "", true});
+    r.push_back({base + "/count", UInt, 1, kMaxCount, "", true});
+    r.push_back({base + "/mode", String, 0, 0, "", true});
+    r.push_back({base + "/filter", String, 0, 0, "", false});
+  }
+  add("buffers/[]", Object), add("buffers/[]/uri", String), add("buffers/[]/byteLength", UInt, 1, kMaxOffset, true);
+  add("buffers/[]/extensions", Object);
+
+  add("images/[]", Object), add("images/[]/uri", String), add("images/[]/mimeType", String),
+      add("images/[]/name", String);
+  ref("images/[]/bufferView", "bufferViews");
+  add("textures/[]", Object), ref("textures/[]/source", "images"), ref("textures/[]/sampler", "samplers");
+  ref("textures/[]/extensions/EXT_texture_webp/source", "images");
+  add("samplers/[]", Object), add("samplers/[]/magFilter", UInt, 9728, 9729),
+      add("samplers/[]/minFilter", UInt, 9728, 9987);
+  add("samplers/[]/wrapS", UInt, 10497, 33648), add("samplers/[]/wrapT", UInt, 10497, 33648);
+
+  add("materials/[]", Object), add("materials/[]/name", String), add("materials/[]/extensions", Object);
+  add("materials/[]/doubleSided", Bool), add("materials/[]/alphaMode", String);
+  add("materials/[]/alphaCutoff", Number, -kHuge, kHuge), add("materials/[]/emissiveFactor", Numbers, 3, 3);
+  add("materials/[]/pbrMetallicRoughness/baseColorFactor", Numbers, 4, 4);
+  add("materials/[]/pbrMetallicRoughness/metallicFactor", Number, -kHuge, kHuge);
+  add("materials/[]/pbrMetallicRoughness/roughnessFactor", Number, -kHuge, kHuge);
+  add("materials/[]/extensions/KHR_materials_emissive_strength/emissiveStrength", Number, 0, 1e38);
+  add("materials/[]/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Numbers, 4, 4);
+  add("materials/[]/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Number, -kHuge, kHuge);
+  for (const std::string texture :
+       {"pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture", "normalTexture",
+        "occlusionTexture", "emissiveTexture", "extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
+        "extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture"}) {
+    const std::string base = "materials/[]/" + texture;
+    r.push_back({base + "/index", Index, 0, 0, "textures", true});
+    r.push_back({base + "/texCoord", UInt, 0, 255, "", false});
+    r.push_back({base + "/scale", Number, -kHuge, kHuge, "", false});
+    r.push_back({base + "/strength", Number, -kHuge, kHuge, "", false});
+    const std::string transform = base + "/extensions/KHR_texture_transform";
+    r.push_back({transform + "/offset", Numbers, 2, 2, "", false});
+    r.push_back({transform + "/scale", Numbers, 2, 2, "", false});
+    r.push_back({transform + "/rotation", Number, -kHuge, kHuge, "", false});
+    r.push_back({transform + "/texCoord", UInt, 0, 255, "", false});
+  }
+
+  add("skins/[]", Object), ref("skins/[]/joints", "nodes", Indices, true), ref("skins/[]/skeleton", "nodes");
+  ref("skins/[]/inverseBindMatrices", "accessors");
+  add("cameras/[]", Object), add("cameras/[]/name", String), add("cameras/[]/type", String, 0, 0, true);
+  add("cameras/[]/perspective/yfov", Number, 1e-4, 3.1415, true),
+      add("cameras/[]/perspective/aspectRatio", Number, 1e-4, 1e4);
+  add("cameras/[]/perspective/znear", Number, 1e-30, kHuge, true),
+      add("cameras/[]/perspective/zfar", Number, 1e-30, kHuge);
+  add("cameras/[]/orthographic/xmag", Number, -kHuge, kHuge, true),
+      add("cameras/[]/orthographic/ymag", Number, -kHuge, kHuge, true);
+  add("cameras/[]/orthographic/znear", Number, 0, kHuge, true),
+      add("cameras/[]/orthographic/zfar", Number, 0, kHuge, true);
+  const std::string light = "extensions/KHR_lights_punctual/lights/[]";
+  r.push_back({"extensions/KHR_lights_punctual/lights", Array, 0, 0, "", true});
+  r.push_back({light, Object, 0, 0, "", false});
+  r.push_back({light + "/type", String, 0, 0, "", true});
+  r.push_back({light + "/name", String, 0, 0, "", false});
+  r.push_back({light + "/color", Numbers, 3, 3, "", false});
+  r.push_back({light + "/intensity", Number, 0, 1e39, "", false});
+  r.push_back({light + "/range", Number, 0, kHuge, "", false});
+  r.push_back({light + "/spot", Object, 0, 0, "", false});
+  r.push_back({light + "/spot/innerConeAngle", Number, 0, 1.5707964, "", false});
+  r.push_back({light + "/spot/outerConeAngle", Number, 0, 1.5707964, "", false});
+  return r;
+}
+
+/// "2.0" or "2.5"; a file that needs more than 2.0 says so in minVersion.
+void checkVersion(const Document& doc) {
+  const Json& asset = doc.root->at("asset");
+  const auto parse = [&](const char* key) {
+    int major = -1, minor = -1, read = 0;
+    const std::string text = asset.at(key).get<std::string>();
+    if (text.size() > 10 || std::sscanf(text.c_str(), "%3d.%3d%n", &major, &minor, &read) != 2 ||
+        read != static_cast<int>(text.size()) || major < 0 || minor < 0)
+      doc.fail(fmt::format("asset.{}", key), fmt::format("\"{}\" is not a version", text.substr(0, 40)));
+    return std::pair(major, minor);
+  };
+  if (const auto v = parse("version"); v.first != 2)
+    doc.fail("asset.version", fmt::format("{}.{} is not 2.x", v.first, v.second));
+  if (asset.contains("minVersion"))
+    if (const auto v = parse("minVersion"); v > std::pair(2, 0))
+      doc.fail("asset.minVersion", fmt::format("{}.{} is newer than 2.0", v.first, v.second));
+}
+
+void checkExtensions(Document& doc) {
+  static const std::set<std::string> kSupported = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
+                                                   "KHR_texture_transform",      "KHR_mesh_quantization",
+                                                   "EXT_texture_webp",           "EXT_mesh_gpu_instancing",
+                                                   "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                   "KHR_meshopt_compression"};
+  // Effects the renderer has no term for: the core material stands in, and a warning says so.
+  static const std::set<std::string> kApproximated = {"KHR_materials_unlit",      "KHR_materials_pbrSpecularGlossiness",
+                                                      "KHR_materials_variants",   "KHR_materials_ior",
+                                                      "KHR_materials_specular",   "KHR_materials_clearcoat",
+                                                      "KHR_materials_sheen",      "KHR_materials_transmission",
+                                                      "KHR_materials_volume",     "KHR_materials_iridescence",
+                                                      "KHR_materials_anisotropy", "KHR_materials_dispersion",
+                                                      "KHR_techniques_webgl",     "KHR_technique_webgl"};
+  for (const char* list : {"extensionsRequired", "extensionsUsed"}) {
+    if (!doc.root->contains(list)) continue;
+    for (const Json& entry : doc.root->at(list)) {
+      const std::string name = entry.get<std::string>();
+      if (kSupported.contains(name)) continue;
+      if (kApproximated.contains(name)) {
+        doc.warn(fmt::format("{} is not rendered: the plain material stands in for it", name));
+      } else if (std::string_view(list) == "extensionsRequired") {
+        doc.fail(list, fmt::format("\"{}\" is not supported", name));
+      } else {
+        doc.warn(fmt::format("extension {} is not known and ignored", name));
+      }
+    }
+  }
+}
+
+/// Every node has one parent and no node is its own ancestor: then the nodes are trees and can be walked.
+void checkNodeTree(const Document& doc) {
+  if (!doc.root->contains("nodes")) return;
+  const Json& nodes = doc.root->at("nodes");
+  std::vector<int64_t> parent(nodes.size(), -1);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].contains("matrix") &&
+        (nodes[i].contains("translation") || nodes[i].contains("rotation") || nodes[i].contains("scale")))
+      doc.fail(fmt::format("nodes[{}]", i), "has both a matrix and translation, rotation or scale");
+    if (!nodes[i].contains("children")) continue;
+    for (const Json& child : nodes[i].at("children")) {
+      const size_t c = child.get<size_t>();
+      if (parent[c] >= 0 || c == i)
+        doc.fail(fmt::format("nodes[{}]", c),
+                 c == i ? "is its own child" : fmt::format("is a child of nodes {} and {}", parent[c], i));
+      parent[c] = static_cast<int64_t>(i);
+    }
+  }
+  // Colour the paths to the root: a node met again on the path that is being walked closes a cycle.
+  std::vector<uint32_t> visited(nodes.size(), 0);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const uint32_t mark = static_cast<uint32_t>(i + 1);
+    for (int64_t n = static_cast<int64_t>(i); n >= 0 && visited[n] != mark; n = parent[n]) {
+      if (visited[n] != 0) break;
+      visited[n] = mark;
+      if (parent[n] >= 0 && visited[parent[n]] == mark) doc.fail(fmt::format("nodes[{}]", n), "is part of a cycle");
+    }
+  }
+  if (!doc.root->contains("scenes")) return;
+  const Json& scenes = doc.root->at("scenes");
+  for (size_t s = 0; s < scenes.size(); ++s) {
+    if (!scenes[s].contains("nodes")) continue;
+    std::set<size_t> seen;
+    for (const Json& node : scenes[s].at("nodes")) {
+      const size_t n = node.get<size_t>();
+      if (parent[n] >= 0)
+        doc.fail(fmt::format("scenes[{}]", s), fmt::format("lists node {}, which is a child of node {}", n, parent[n]));
+      if (!seen.insert(n).second) doc.fail(fmt::format("scenes[{}]", s), fmt::format("lists node {} twice", n));
+    }
+  }
+}
+
+void checkLightsAndCameras(const Document& doc) {
+  const Json::json_pointer lightsPath("/extensions/KHR_lights_punctual/lights");
+  if (doc.root->contains(lightsPath)) {
+    const Json& lights = doc.root->at(lightsPath);
+    for (size_t i = 0; i < lights.size(); ++i) {
+      const std::string where = fmt::format("lights[{}]", i), type = lights[i].at("type").get<std::string>();
+      if (type != "directional" && type != "point" && type != "spot")
+        doc.fail(where + ".type", fmt::format("\"{}\" is not directional, point or spot", type.substr(0, 40)));
+      if (type != "spot") continue;
+      if (!lights[i].contains("spot")) doc.fail(where, "a spot light without \"spot\"");
+      const Json& spot = lights[i].at("spot");
+      const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", 0.7853981633974483);
+      if (!(inner < outer))
+        doc.fail(where + ".spot", fmt::format("innerConeAngle {} is not below outerConeAngle {}", inner, outer));
+    }
+  }
+  if (!doc.root->contains("cameras")) return;
+  const Json& cameras = doc.root->at("cameras");
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const std::string where = fmt::format("cameras[{}]", i), type = cameras[i].at("type").get<std::string>();
+    if (type != "perspective" && type != "orthographic")
+      doc.fail(where + ".type", fmt::format("\"{}\" is neither perspective nor orthographic", type.substr(0, 40)));
+    if (!cameras[i].contains(type)) doc.fail(where, fmt::format("has no \"{}\"", type));
+    const Json& lens = cameras[i].at(type);
+    if (type == "orthographic" && (lens.at("xmag") == 0.0 || lens.at("ymag") == 0.0))
+      doc.fail(where, "xmag or ymag is 0");
+    if (lens.contains("zfar") && lens.at("zfar").get<double>() <= lens.at("znear").get<double>())
+      doc.fail(where, fmt::format("zfar {} is not beyond znear {}", lens.at("zfar").dump(), lens.at("znear").dump()));
+  }
+}
+
+}  // namespace
+
+void precheck(Document& doc) {
+  for (const char* name : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "images", "textures",
+                           "samplers", "materials", "skins", "cameras", "extensionsUsed", "extensionsRequired"})
+    if (doc.root->contains(name) && !doc.root->at(name).is_array()) doc.fail(name, "is not an array");
+  Checker checker(doc);
+  for (const Rule& rule : rules()) checker.apply(rule);
+  checkVersion(doc);
+  checkExtensions(doc);
+  checkNodeTree(doc);
+  checkLightsAndCameras(doc);
+}
+
+}  // namespace irad::gltf

@@ -1,0 +1,12 @@
+// Without OpenImageIO no image format is read: scenes come as .irscene caches, whose images are decoded already.
+#include "renderer/scene/gltf_document.h"
+
+#ifndef IRAD_OIIO
+namespace irad {
+
+DecodeResult decodeImage(std::span<const uint8_t>, uint64_t, SceneImage&) {
+  return {false, "this build has no image decoder (use an .irscene cache written by the full build)"};
+}
+
+}  // namespace irad
+#endif
