@@ -1,0 +1,190 @@
+#include "gi/pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace irad {
+
+namespace {
+
+/// Wall-clock milliseconds since `start`.
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+struct Pipeline::Impl {
+  Impl(Context& c, Scene s, const Settings& wanted) : context(c), scene(std::move(s)), settings(wanted), onDevice(c, scene) {}
+
+  Context& context;
+  Scene scene;
+  Settings settings;
+  SceneOnDevice onDevice;
+  Buffer camera;
+  uint64_t frameIndex = 0;
+
+  /// The first stage that the next prepare() has to run. Later stages follow it.
+  Redo dirty = Redo::Voxels;
+  bool shadowsDirty = true;
+
+  // One member per stage's product. Each is replaced only once its successor is complete.
+  std::optional<ShadowMaps> shadows;
+  std::optional<FacetList> facets;
+  std::optional<Field> field;
+  std::optional<FormFactors> matrix;
+  std::optional<Lighting> light;
+
+  /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
+  void build(Redo first, const Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto report = [&](const char* stage, float fraction) {
+      if (progress && !progress(stage, fraction)) throw WorkError("cancelled");
+    };
+
+    // 2. Voxels: which triangle fills which voxel, with what albedo, normal and emission.  4. Facets: the solid ones,
+    // compacted in Morton order, with the map back from voxels.
+    std::optional<FacetList> newFacets;
+    if (first <= Redo::Voxels) {
+      report("GI Voxelization", 0);
+      Voxels voxels = voxelize(context, onDevice, settings);
+      report("GI CompactList", 0);
+      newFacets = compactFacets(context, voxels, settings);
+    }
+    const FacetList& list = newFacets ? *newFacets : *facets;
+
+    // 3. Distance to the nearest solid voxel, for every voxel.
+    std::optional<Field> newField;
+    if (first <= Redo::Field) {
+      report("GI SDF", 0);
+      newField = buildField(context, list, settings);
+    }
+    const Field& distance = newField ? *newField : *field;
+
+    // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
+    report("GI BuildMatrix", 0);
+    // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first.
+    if (newFacets) matrix.reset();
+    FormFactors newMatrix = buildMatrix(context, list, distance, settings, [&](float fraction) {
+      return !progress || progress("GI BuildMatrix", fraction);
+    });
+
+    if (newFacets) {
+      facets = std::move(newFacets);
+      light.reset();  // belongs to the old list
+    }
+    if (newField) field = std::move(newField);
+    matrix = std::move(newMatrix);
+    context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
+  }
+
+  /// T's "per-frame" set, on the lights as they are: D, then H <- F B and B <- M + rho (D + H) until the error bound
+  /// holds, then H to where shading reads it.
+  void relight(Redo first, uint32_t maxSweeps, const Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
+    if (!light) light = makeLighting(context, *facets, settings);
+    if (first <= Redo::Gather) {
+      Frame frame = context.begin(frameIndex);
+      gather(frame, onDevice, *shadows, *facets, *light, settings);
+      frame.submitAndWait();
+    }
+    if (first <= Redo::Solve) light->report = solve(context, *facets, *matrix, *light, settings, maxSweeps);
+    Frame frame = context.begin(frameIndex);
+    scatter(frame, *facets, *light, settings);
+    frame.submitAndWait();
+    context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
+  }
+
+  IndirectInputs indirectInputs() const {
+    IndirectInputs in;
+    if (!facets || facets->count == 0 || !light) return in;
+    in.grid = &gridRecord;
+    in.facets = &facets->record;
+    in.shape = &facets->shape;
+    in.reverse = &facets->reverse;
+    in.shaded = &light->shaded;
+    in.shadedEmitted = &light->shadedEmitted;
+    in.volume = light->volume ? &light->volume : nullptr;
+    in.normalEncoding = static_cast<uint32_t>(facets->encoding);
+    in.sample = settings.sample.gpu;
+    return in;
+  }
+  Buffer gridRecord;
+};
+
+Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings)
+    : impl_(std::make_unique<Impl>(context, std::move(scene), settings)) {
+  impl_->camera = Buffer(context.device, "Camera", Subsystem::Targets, sizeof(GpuCamera));
+}
+Pipeline::~Pipeline() = default;
+
+const Scene& Pipeline::scene() const { return impl_->scene; }
+SceneOnDevice& Pipeline::device() { return impl_->onDevice; }
+const Settings& Pipeline::settings() const { return impl_->settings; }
+
+Redo Pipeline::set(const Settings& settings) {
+  const Redo first = difference(impl_->settings, settings);
+  if (impl_->settings.light.shadowResolution != settings.light.shadowResolution) impl_->shadowsDirty = true;
+  impl_->settings = settings;
+  impl_->dirty = std::min(impl_->dirty, first);
+  return impl_->dirty;
+}
+
+void Pipeline::lightsChanged() {
+  impl_->shadowsDirty = true;
+  impl_->dirty = std::min(impl_->dirty, Redo::Gather);
+}
+
+void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
+  Impl& p = *impl_;
+  const uint32_t sweeps = maxSweeps != 0 ? maxSweeps : p.settings.solver.maxSweeps;
+  if (p.shadowsDirty) {
+    const auto start = std::chrono::steady_clock::now();
+    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution);
+    p.shadowsDirty = false;
+    p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
+  }
+  if (p.dirty <= Redo::Matrix) {
+    p.build(p.dirty, progress);
+    p.dirty = Redo::Gather;
+    p.gridRecord = makeBuffer<Grid>(p.context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
+  }
+  if (p.dirty <= Redo::Scatter || !p.light->report.converged) {
+    p.relight(p.dirty <= Redo::Scatter ? p.dirty : Redo::Solve, sweeps, progress);
+    p.dirty = Redo::Nothing;
+  }
+}
+
+bool Pipeline::asleep() const {
+  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->light && impl_->light->report.converged;
+}
+
+void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets) {
+  Impl& p = *impl_;
+  const GpuCamera gpu = makeGpuCamera(p.scene, camera, targets.size);
+  frame.pass("Camera").update(p.camera, gpu);
+
+  ShadeParams shade = p.settings.camera.gpu;
+  shade.exposure = std::exp2(p.settings.camera.exposureEv);
+  const IndirectInputs indirect = p.indirectInputs();
+  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets);
+
+  ViewInputs inputs;
+  inputs.scene = &p.onDevice;
+  if (p.facets) inputs.facets = &*p.facets;
+  if (p.field) inputs.field = &*p.field;
+  if (p.matrix) inputs.matrix = &*p.matrix;
+  if (p.light) inputs.lighting = &*p.light;
+  if (p.settings.specular.mode == SpecularMode::compute) traceSpecular(frame, inputs, p.camera, p.settings, targets);
+  drawView(frame, view, inputs, p.camera, p.settings, targets);
+}
+
+const FacetList& Pipeline::facets() const { return *impl_->facets; }
+const Field& Pipeline::field() const { return *impl_->field; }
+const FormFactors& Pipeline::matrix() const { return *impl_->matrix; }
+const Lighting& Pipeline::lighting() const { return *impl_->light; }
+const ShadowMaps& Pipeline::shadows() const { return *impl_->shadows; }
+
+}  // namespace irad
