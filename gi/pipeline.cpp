@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
+
+#include "renderer/error.h"
 
 namespace irad {
 
@@ -16,7 +19,8 @@ double since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 struct Pipeline::Impl {
-  Impl(Context& c, Scene s, const Settings& wanted) : context(c), scene(std::move(s)), settings(wanted), onDevice(c, scene) {}
+  Impl(Context& c, Scene s, const Settings& wanted)
+      : context(c), scene(std::move(s)), settings(wanted), onDevice(c, scene) {}
 
   Context& context;
   Scene scene;
@@ -120,9 +124,15 @@ Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings)
 }
 Pipeline::~Pipeline() = default;
 
-const Scene& Pipeline::scene() const { return impl_->scene; }
-SceneOnDevice& Pipeline::device() { return impl_->onDevice; }
-const Settings& Pipeline::settings() const { return impl_->settings; }
+const Scene& Pipeline::scene() const {
+  return impl_->scene;
+}
+SceneOnDevice& Pipeline::device() {
+  return impl_->onDevice;
+}
+const Settings& Pipeline::settings() const {
+  return impl_->settings;
+}
 
 Redo Pipeline::set(const Settings& settings) {
   const Redo first = difference(impl_->settings, settings);
@@ -181,10 +191,20 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   drawView(frame, view, inputs, p.camera, p.settings, targets);
 }
 
-const FacetList& Pipeline::facets() const { return *impl_->facets; }
-const Field& Pipeline::field() const { return *impl_->field; }
-const FormFactors& Pipeline::matrix() const { return *impl_->matrix; }
-const Lighting& Pipeline::lighting() const { return *impl_->light; }
-const ShadowMaps& Pipeline::shadows() const { return *impl_->shadows; }
+const FacetList& Pipeline::facets() const {
+  return *impl_->facets;
+}
+const Field& Pipeline::field() const {
+  return *impl_->field;
+}
+const FormFactors& Pipeline::matrix() const {
+  return *impl_->matrix;
+}
+const Lighting& Pipeline::lighting() const {
+  return *impl_->light;
+}
+const ShadowMaps& Pipeline::shadows() const {
+  return *impl_->shadows;
+}
 
 }  // namespace irad

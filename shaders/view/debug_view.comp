@@ -56,6 +56,7 @@ void main() {
     }
     case VIEW_DIRECT_IRRADIANCE: value = direct + imageLoad(emittedTarget, pixel).rgb; break;
     case VIEW_IRRADIANCE: value = indirect; break;
+    case VIEW_EMITTER_IRRADIANCE: value = imageLoad(emittedTarget, pixel).rgb; break;
     default: {
       // A view that nobody wrote: magenta.
       imageStore(linearTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));
