@@ -1,0 +1,86 @@
+// What a pass gathers before it is recorded. Private to renderer/.
+#pragma once
+
+#include "renderer/format.h"
+#include "renderer/frame_impl.h"
+
+namespace irad {
+
+inline constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+inline constexpr VkAccessFlags2 kStorageWrite =
+    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+inline constexpr Use kColorTarget{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                  VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+inline constexpr VkPipelineStageFlags2 kDepthStages =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+inline constexpr Use kDepthRead{kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
+inline constexpr Use kDepthWrite{
+    kDepthStages, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+/// Fills, updates and clears; layers and drivers differ on which of the two stages a fill belongs to.
+inline constexpr Use kClear{VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                            VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr Use kCopyFrom{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+inline constexpr Use kCopyTo{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr Use kIndirect{VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+
+inline VkImageAspectFlags aspect(const Image& image) {
+  return formatInfo(image.desc.format).kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+struct Pass::State {
+  std::vector<std::string> shaders;
+  std::map<uint32_t, uint32_t> constants;
+
+  struct BufferUse {
+    const Buffer* buffer;
+    bool write;
+  };
+  struct ImageUse {
+    const Image* image;
+    bool write, alias;
+    VkSampler sampler;  ///< null: a storage image
+  };
+  struct Declared {
+    ResourceState* state;
+    const Image* image;  ///< null: a buffer
+    Use use;
+  };
+  std::vector<BufferUse> buffers;
+  std::vector<ImageUse> images;  ///< binding 0, 1, 2 ... of set 0
+  std::vector<Declared> declared;
+
+  struct Color {
+    const Image* image;
+    std::optional<ClearColor> clear;
+  };
+  std::vector<Color> colors;
+  const Image* depth = nullptr;
+  std::optional<float> depthClear;
+  int depthLayer = 0;
+  uint32_t width = 0, height = 0;
+  float biasConstant = 0, biasSlope = 0;
+  RasterState raster;
+
+  /// Adds a use, merged with earlier ones of the same resource.
+  void add(ResourceState& state, const Image* image, const Use& use) {
+    for (Declared& d : declared)
+      if (d.state == &state) {
+        d.use.stages |= use.stages;
+        d.use.access |= use.access;
+        return;
+      }
+    declared.push_back({&state, image, use});
+  }
+  /// read() and write() turned into uses at these stages.
+  void resolveUses(VkPipelineStageFlags2 stages) {
+    for (const BufferUse& b : buffers) add(b.buffer->state, nullptr, {stages, b.write ? kStorageWrite : kStorageRead});
+    for (const ImageUse& i : images) {
+      const VkAccessFlags2 storage = i.write ? kStorageWrite : kStorageRead;
+      add(i.image->state, i.image, {stages, i.sampler ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : storage});
+    }
+    for (const Color& c : colors) add(c.image->state, c.image, kColorTarget);
+    if (depth) add(depth->state, depth, raster.depthWrite || depthClear ? kDepthWrite : kDepthRead);
+  }
+};
+
+}  // namespace irad
