@@ -10,6 +10,7 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "GI CompactList";
+constexpr uint32_t kSamplesTextures = 0;  // specialization constant of shaders/gi/voxel_material.glsl
 
 void allocate(const Device& device, FacetList& list) {
   const uint64_t n = list.count;
@@ -50,19 +51,24 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
   std::set<uint32_t> groups;
   for (const Draw& draw : scene.scene.draws)
     groups.insert((scene.materialValues.at(draw.material).flags & kSampled) != 0 ? draw.material : UNTEXTURED);
-  frame.pass("GI Voxelization")
-      .shader("gi/facet_shade.comp")
-      .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-            scene.uv1, scene.colors, scene.normals, voxels.gridRecord, list.voxel, triangles)
-      .write(list.shape, list.albedo, list.emission, clamped)
-      .run([&](Commands& commands) {
-        for (const uint32_t material : groups) {
-          commands.bindMaterial(scene.materialSets.at(material == UNTEXTURED ? 0 : material));
-          push.material = material;
-          commands.push(push);
-          commands.dispatch(list.count);
-        }
-      });
+  for (const bool textured : {false, true}) {
+    if (textured ? *groups.begin() == UNTEXTURED : groups.count(UNTEXTURED) == 0) continue;
+    frame.pass("GI Voxelization")
+        .shader("gi/facet_shade.comp")
+        .constant(kSamplesTextures, textured)
+        .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+              scene.uv1, scene.colors, scene.normals, voxels.gridRecord, list.voxel, triangles)
+        .write(list.shape, list.albedo, list.emission, clamped)
+        .run([&](Commands& commands) {
+          for (const uint32_t material : groups) {
+            if ((material != UNTEXTURED) != textured) continue;
+            commands.bindMaterial(scene.materialSets.at(textured ? material : 0));
+            push.material = material;
+            commands.push(push);
+            commands.dispatch(list.count);
+          }
+        });
+  }
   frame.submitAndWait();
   return downloadAs<uint32_t>(context, clamped).at(0);
 }

@@ -9,11 +9,13 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "GI Voxelization";
+constexpr uint32_t kSamplesTextures = 0;  // specialization constant of shaders/gi/voxel_material.glsl
 
 /// Triangles that one dispatch or draw takes: a masked material by itself, with its textures; all between together.
 struct Range {
   uint32_t first, end;  // triangles
   uint32_t material;    // whose set is bound
+  bool masked;          // its alpha decides
   uint32_t firstTile = 0, tiles = 0;
 };
 
@@ -21,8 +23,8 @@ std::vector<Range> triangleRanges(const SceneOnDevice& scene) {
   std::vector<Range> ranges;
   bool open = false;  // the last range may grow
   for (const Draw& draw : scene.scene.draws) {
-    const Range range{draw.firstIndex / 3, (draw.firstIndex + draw.indexCount) / 3, draw.material};
     const bool masked = (scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
+    const Range range{draw.firstIndex / 3, (draw.firstIndex + draw.indexCount) / 3, draw.material, masked};
     if (open && !masked && ranges.back().end == range.first)
       ranges.back().end = range.end;
     else
@@ -88,33 +90,36 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
 
   Frame frame = context.begin();
   frame.pass(kStage).fill(voxels.keys, 0);
-  for (push.slot = 0; push.slot < voxels.slots && !ranges.empty(); ++push.slot) {
-    Pass pass = frame.pass(kStage);
-    pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-              scene.uv1, scene.colors, voxels.gridRecord);
-    if (!raster) pass.read(tileStarts);
-    pass.write(voxels.keys);
-    if (raster) {
-      const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
-      pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.geom", "gi/voxel_raster.frag"}).extent(size, size);
-    } else {
-      pass.shader("gi/voxelize.comp");
-    }
-    pass.run([&](Commands& commands) {
-      for (const Range& range : ranges) {
-        commands.bindMaterial(scene.materialSets.at(range.material));
-        push.firstTriangle = range.first;
-        push.endTriangle = range.end;
-        push.firstTile = range.firstTile;
-        push.tileCount = range.tiles;
-        commands.push(push);
-        if (raster)
-          commands.draw(3 * (range.end - range.first), 3 * range.first);
-        else if (range.tiles > 0)
-          commands.dispatch(range.tiles);
+  for (push.slot = 0; push.slot < voxels.slots; ++push.slot)
+    for (const bool masked : {false, true}) {
+      if (std::none_of(ranges.begin(), ranges.end(), [=](const Range& r) { return r.masked == masked; })) continue;
+      Pass pass = frame.pass(kStage);
+      pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+                scene.uv1, scene.colors, voxels.gridRecord);
+      if (!raster) pass.read(tileStarts);
+      pass.write(voxels.keys).constant(kSamplesTextures, masked);
+      if (raster) {
+        const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
+        pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.geom", "gi/voxel_raster.frag"}).extent(size, size);
+      } else {
+        pass.shader("gi/voxelize.comp");
       }
-    });
-  }
+      pass.run([&](Commands& commands) {
+        for (const Range& range : ranges) {
+          if (range.masked != masked) continue;
+          commands.bindMaterial(scene.materialSets.at(range.material));
+          push.firstTriangle = range.first;
+          push.endTriangle = range.end;
+          push.firstTile = range.firstTile;
+          push.tileCount = range.tiles;
+          commands.push(push);
+          if (raster)
+            commands.draw(3 * (range.end - range.first), 3 * range.first);
+          else if (range.tiles > 0)
+            commands.dispatch(range.tiles);
+        }
+      });
+    }
   frame.submitAndWait();
   return voxels;
 }

@@ -14,7 +14,8 @@ namespace {
 class Facets : public GpuTest {};
 
 TEST_F(Facets, PrefixSumIsExact) {
-  for (const uint32_t count : {0u, 1u, 2u, 63u, 64u, 2047u, 2048u, 2049u, 100'000u, 2048u * 2048u, 2048u * 2048u + 1u}) {
+  for (const uint32_t count :
+       {0u, 1u, 2u, 63u, 64u, 2047u, 2048u, 2049u, 100'000u, 2048u * 2048u, 2048u * 2048u + 1u}) {
     std::vector<uint32_t> values(count);
     for (uint32_t i = 0; i < count; ++i) values[i] = i * 2654435761u >> 28;
     std::vector<uint32_t> expected(count);
@@ -111,8 +112,8 @@ TEST_F(Facets, UploadedListHasItsReverseMap) {
   const std::vector<uint32_t> voxel{packVoxel({1, 2, 3}), packVoxel({1, 2, 3}), packVoxel({4, 4, 4})};
   const std::vector<uint32_t> shape{1, 2, 3};
   const std::vector<glm::uvec2> albedo(3, packAlbedo(glm::vec3(0.5f)));
-  const FacetList list =
-      uploadFacets(context(), grid, voxel, shape, albedo, {glm::vec3(0), glm::vec3(1), glm::vec3(0)}, NormalEncoding::oct16);
+  const FacetList list = uploadFacets(context(), grid, voxel, shape, albedo, {glm::vec3(0), glm::vec3(1), glm::vec3(0)},
+                                      NormalEncoding::oct16);
   EXPECT_EQ(list.count, 3u);
   EXPECT_EQ(list.solidVoxels, 2u);
   EXPECT_TRUE(list.hasEmission);

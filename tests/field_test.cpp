@@ -137,8 +137,8 @@ TEST_F(FieldTest, JumpFloodAgainstBruteForce) {
     ASSERT_EQ(field.jfaPasses.size(), static_cast<size_t>(std::log2(largest)) + 1);
     EXPECT_EQ(words(download(context(), field.jfaPasses.back())), seeds);
   }
-  std::printf("jump flood: at most %.4f %% of the voxels have a farther seed, by at most %.3f voxels\n", 100 * worstShare,
-              worstError);
+  std::printf("jump flood: at most %.4f %% of the voxels have a farther seed, by at most %.3f voxels\n",
+              100 * worstShare, worstError);
   EXPECT_LT(worstShare, 0.002);
   EXPECT_LT(worstError, 1.0);
 }

@@ -10,7 +10,9 @@
 namespace irad {
 namespace {
 
-glm::vec3 voxelCoordinates(const Grid& grid, glm::vec3 p) { return (p - grid.origin) * grid.inverseEdge; }
+glm::vec3 voxelCoordinates(const Grid& grid, glm::vec3 p) {
+  return (p - grid.origin) * grid.inverseEdge;
+}
 
 TEST(Grid, CubeHasNVoxelsAndOneOfPadding) {
   for (const uint32_t n : {1u, 8u, 9u, 64u, 65u, 256u, 1022u}) {

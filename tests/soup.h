@@ -71,7 +71,8 @@ class Soup {
   void sphere(uint32_t material, glm::vec3 centre, float radius, int rings, bool inwards) {
     const auto at = [&](int ring, int sector) {
       const double theta = glm::radians(180.0) * ring / rings, phi = glm::radians(180.0) * sector / rings;
-      return centre + radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+      return centre +
+             radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
     };
     for (int r = 0; r < rings; ++r)
       for (int s = 0; s < 2 * rings; ++s) {

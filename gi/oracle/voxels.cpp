@@ -10,7 +10,9 @@ Triangle toVoxels(const Grid& grid, const glm::vec3& a, const glm::vec3& b, cons
   return {convert(a), convert(b), convert(c)};
 }
 
-double coverBand(const Grid& grid) { return std::max({grid.dims.x, grid.dims.y, grid.dims.z}) * std::ldexp(1.0, -20); }
+double coverBand(const Grid& grid) {
+  return std::max({grid.dims.x, grid.dims.y, grid.dims.z}) * std::ldexp(1.0, -20);
+}
 
 Cover cover(const Triangle& triangle, glm::ivec3 cell, double band) {
   // Box axes, half-open: [cell, cell + 1).
@@ -67,8 +69,7 @@ double areaInside(const Triangle& triangle, glm::ivec3 cell) {
       if (polygon.empty()) return 0;
     }
   glm::dvec3 sum(0.0);
-  for (size_t i = 2; i < polygon.size(); ++i)
-    sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  for (size_t i = 2; i < polygon.size(); ++i) sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
   return 0.5 * glm::length(sum);
 }
 

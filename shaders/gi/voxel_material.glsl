@@ -1,5 +1,7 @@
 // Material lookups of the voxelizers: base colour, alpha, metalness, emission at a point of a triangle, filtered over the
 // texels that one voxel covers. Set 1 is the material's.
+// A pipeline for geometry that samples none leaves the lookups out (constant 0): they are most of what there is to compile.
+layout(constant_id = 0) const uint SAMPLES_TEXTURES = 1u;
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
 layout(set = 1, binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 4) uniform sampler2D emissiveTexture;
@@ -51,14 +53,19 @@ vec3 textureCoordinates(SceneArray scenes, MaterialPoint p, uint slot, ivec2 siz
   return vec3(at, texels > 1.0 ? 0.5 * log2(texels) : 0.0);
 }
 
+bool samples(SceneArray scenes, MaterialPoint p, uint flag) {
+  return SAMPLES_TEXTURES != 0u && (scenes.at[0].materials.at[p.material].flags & flag) != 0u;
+}
+
 vec4 vertexColor(SceneArray scenes, MaterialPoint p) {
   Vec4Array colors = scenes.at[0].colors;
-  return colors.at[p.vertex.x] * p.weight.x + colors.at[p.vertex.y] * p.weight.y + colors.at[p.vertex.z] * p.weight.z;
+  vec4 first = colors.at[p.vertex.x];  // by differences: exact where the three are equal
+  return first + (colors.at[p.vertex.y] - first) * p.weight.y + (colors.at[p.vertex.z] - first) * p.weight.z;
 }
 
 vec4 baseColorAt(SceneArray scenes, MaterialPoint p) {
   vec4 color = scenes.at[0].materials.at[p.material].baseColor * vertexColor(scenes, p);
-  if ((scenes.at[0].materials.at[p.material].flags & MATERIAL_BASE_COLOR_TEXTURE) != 0u) {
+  if (samples(scenes, p, MATERIAL_BASE_COLOR_TEXTURE)) {
     vec3 uvl = textureCoordinates(scenes, p, TEXTURE_BASE_COLOR, textureSize(baseColorTexture, 0));
     color *= textureLod(baseColorTexture, uvl.xy, uvl.z);
   }
@@ -67,7 +74,7 @@ vec4 baseColorAt(SceneArray scenes, MaterialPoint p) {
 
 float metallicAt(SceneArray scenes, MaterialPoint p) {
   float metallic = scenes.at[0].materials.at[p.material].metallic;
-  if ((scenes.at[0].materials.at[p.material].flags & MATERIAL_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
+  if (samples(scenes, p, MATERIAL_METALLIC_ROUGHNESS_TEXTURE)) {
     vec3 uvl = textureCoordinates(scenes, p, TEXTURE_METALLIC_ROUGHNESS, textureSize(metallicRoughnessTexture, 0));
     metallic *= textureLod(metallicRoughnessTexture, uvl.xy, uvl.z).b;
   }
@@ -76,7 +83,7 @@ float metallicAt(SceneArray scenes, MaterialPoint p) {
 
 vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
   vec3 emission = scenes.at[0].materials.at[p.material].emission;
-  if ((scenes.at[0].materials.at[p.material].flags & MATERIAL_EMISSIVE_TEXTURE) != 0u) {
+  if (samples(scenes, p, MATERIAL_EMISSIVE_TEXTURE)) {
     vec3 uvl = textureCoordinates(scenes, p, TEXTURE_EMISSIVE, textureSize(emissiveTexture, 0));
     emission *= textureLod(emissiveTexture, uvl.xy, uvl.z).rgb;
   }
@@ -85,7 +92,7 @@ vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
 
 /// Whether the material's alpha mask cuts the triangle away at `point`.
 bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
-  if ((flags & MATERIAL_ALPHA_MASK) == 0u) return false;
+  if (SAMPLES_TEXTURES == 0u || (flags & MATERIAL_ALPHA_MASK) == 0u) return false;
   MaterialPoint p = materialPoint(scenes, t, triangle, point);
   return baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
 }

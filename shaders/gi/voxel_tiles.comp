@@ -12,10 +12,9 @@ void main() {
   uint count = 0u;
   ivec3 lo, hi;
   if (!degenerate(t) && cellBounds(t, push.grid.at[0].dims, lo, hi)) {
-    uint u = (t.axis + 1u) % 3u;
-    uint w = (t.axis + 2u) % 3u;
+    ivec3 size = dominantLast(hi - lo + 1, t.axis);
     uvec2 tiles;
-    tileEdge(uvec2(hi[u] - lo[u] + 1, hi[w] - lo[w] + 1), tiles);
+    tileEdge(uvec2(size.xy), tiles);
     count = tiles.x * tiles.y;
   }
   push.tileStart.at[triangle] = count;

@@ -62,6 +62,12 @@ bool cellBounds(VoxelTriangle t, uvec3 dims, out ivec3 lo, out ivec3 hi) {
   return all(lessThanEqual(lo, hi));
 }
 
+/// Axes rotated so that `axis` becomes z (the other two follow in cyclic order), and back.
+vec3 dominantLast(vec3 v, uint axis) { return axis == 0u ? v.yzx : (axis == 1u ? v.zxy : v); }
+ivec3 dominantLast(ivec3 v, uint axis) { return axis == 0u ? v.yzx : (axis == 1u ? v.zxy : v); }
+vec3 originalAxes(vec3 v, uint axis) { return axis == 0u ? v.zxy : (axis == 1u ? v.yzx : v); }
+ivec3 originalAxes(ivec3 v, uint axis) { return axis == 0u ? v.zxy : (axis == 1u ? v.yzx : v); }
+
 /// Tiles of a triangle: their edge in columns and how many there are along the two other axes.
 uint tileEdge(uvec2 columns, out uvec2 tiles) {
   uint edge = TILE_COLUMNS;

@@ -31,72 +31,68 @@ void main() {
   uint voxels = push.grid.at[0].voxels;
   ivec3 lo, hi;
   cellBounds(t, dims, lo, hi);
-  uint d = t.axis;
-  uint u = (d + 1u) % 3u;
-  uint w = (d + 2u) % 3u;
-  uvec2 tiles;
-  int edge = int(tileEdge(uvec2(hi[u] - lo[u] + 1, hi[w] - lo[w] + 1), tiles));
-  uint local = tile - push.tileStart.at[triangle];
-  ivec2 first = ivec2(lo[u], lo[w]) + ivec2(local % tiles.x, local / tiles.x) * edge;
-  ivec2 last = min(first + edge - 1, ivec2(hi[u], hi[w]));
-
-  // Edge functions e(p) = n . (p - v), >= 0 inside; the plane as depth over the projection.
-  float orientation = t.normal[d] >= 0.0 ? 1.0 : -1.0;
-  vec2 corner[3];
-  vec2 inward[3];
-  for (int i = 0; i < 3; ++i) corner[i] = vec2(t.v[i][u], t.v[i][w]);
+  // From here on the dominant axis is z.
+  vec3 normal = dominantLast(t.normal, t.axis);
+  lo = dominantLast(lo, t.axis);
+  hi = dominantLast(hi, t.axis);
+  vec3 corner[3];
+  vec2 inward[3];  // edge functions e(p) = inward . (p - corner), >= 0 inside
+  for (int i = 0; i < 3; ++i) corner[i] = dominantLast(t.v[i], t.axis);
+  float orientation = normal.z >= 0.0 ? 1.0 : -1.0;
   for (int i = 0; i < 3; ++i) {
-    vec2 e = corner[(i + 1) % 3] - corner[i];
+    vec2 e = corner[(i + 1) % 3].xy - corner[i].xy;
     inward[i] = vec2(-e.y, e.x) * orientation;
   }
-  vec2 slope = -vec2(t.normal[u], t.normal[w]) / t.normal[d];
-  float depth0 = t.v[0][d];
-  float faceArea = length(t.normal) / abs(t.normal[d]);  // of the plane over one whole column
-  float wholeArea = 0.5 * length(t.normal);
+  // The plane as depth over the projection: depth(p) = corner[0].z + slope . (p - corner[0]).
+  vec2 slope = -normal.xy / normal.z;
+  float depthLow = min(slope.x, 0.0) + min(slope.y, 0.0);  // over a column, from that of its corner
+  float depthHigh = max(slope.x, 0.0) + max(slope.y, 0.0);
+  float wholeArea = 0.5 * length(normal);
+  float columnArea = length(normal) / abs(normal.z);
   bool oneCell = lo == hi;
 
+  uvec2 tiles;
+  int edge = int(tileEdge(uvec2(hi.xy - lo.xy + 1), tiles));
+  uint local = tile - push.tileStart.at[triangle];
+  ivec2 first = lo.xy + ivec2(local % tiles.x, local / tiles.x) * edge;
+  ivec2 last = min(first + edge - 1, hi.xy);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       vec2 c = vec2(x, y);
       bool touches = true;
       bool covers = true;
       for (int i = 0; i < 3; ++i) {
-        float e = dot(inward[i], c - corner[i]);
+        float e = dot(inward[i], c - corner[i].xy);
         float slack = SLACK * (abs(inward[i].x) + abs(inward[i].y));
         touches = touches && e + max(inward[i].x, 0.0) + max(inward[i].y, 0.0) >= -slack;
         covers = covers && e + min(inward[i].x, 0.0) + min(inward[i].y, 0.0) >= slack;
       }
       if (!touches) continue;
-      float depth = depth0 + dot(slope, c - corner[0]);
-      float nearest = depth + min(slope.x, 0.0) + min(slope.y, 0.0);
-      float farthest = depth + max(slope.x, 0.0) + max(slope.y, 0.0);
-      int z0 = max(lo[d], int(floor(nearest - SLACK)));
-      int z1 = min(hi[d], int(floor(farthest + SLACK)));
+      float depth = corner[0].z + dot(slope, c - corner[0].xy);
+      int z0 = max(lo.z, int(floor(depth + depthLow - SLACK)));
+      int z1 = min(hi.z, int(floor(depth + depthHigh + SLACK)));
       for (int z = z0; z <= z1; ++z) {
-        ivec3 cell;
-        cell[d] = z;
-        cell[u] = x;
-        cell[w] = y;
-        uint voxel = voxelIndex(uvec3(cell), dims);
+        vec3 base = vec3(x, y, z);
+        uvec3 cell = uvec3(originalAxes(ivec3(x, y, z), t.axis));
+        uint voxel = voxelIndex(cell, dims);
         if (push.slot == 1u) {
           uint winner = push.keys.at[voxel];
           if (winner == 0u) continue;  // cut away by its alpha mask
           if (!opposes(t.normal, flags, triangleNormal(push.scene, push.grid, keyTriangle(winner)))) continue;
         }
-        vec3 corner3 = vec3(cell);
-        vec3 centre = vec3(0.5);
+        vec3 centre;
         float area;
         if (oneCell) {
           area = wholeArea;
-          centre = (t.v[0] + t.v[1] + t.v[2]) * (1.0 / 3.0) - corner3;
-        } else if (covers && nearest >= float(z) && farthest <= float(z) + 1.0) {
-          area = faceArea;
-          centre[d] = 0.5 * (nearest + farthest) - float(z);
+          centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
+        } else if (covers && depth + depthLow >= base.z && depth + depthHigh <= base.z + 1.0) {
+          area = columnArea;
+          centre = vec3(0.5, 0.5, depth + 0.5 * (slope.x + slope.y) - base.z);
         } else {
-          area = clipToCell(t.v[0] - corner3, t.v[1] - corner3, t.v[2] - corner3, centre);
+          area = clipToCell(corner[0] - base, corner[1] - base, corner[2] - base, centre);
           if (area < 0.0) continue;
         }
-        if (masked(push.scene, t, triangle, flags, centre + corner3)) continue;
+        if (masked(push.scene, t, triangle, flags, originalAxes(centre + base, t.axis))) continue;
         atomicMax(push.keys.at[push.slot * voxels + voxel], voxelKey(area, triangle));
       }
     }
