@@ -24,13 +24,14 @@ float fieldAt(ivec3 cell, uint index) {
 float rowSum(MatrixArrays m, uint row) {
   uvec2 info = m.rowInfo.at[row];
   UintArray entries = m.segments.at[row >> m.segmentShift];
-  uint start = m.rowStart.at[row];
   uint count = rowEntries(info);
-  float sum = 0.0;
   if (push.padded != 0u) {
-    for (uint i = 0u; i < count; ++i) sum += uintBitsToFloat(entries.at[start + 2u * i + 1u]);
+    float sum = 0.0;
+    uint place = (row & ((1u << m.segmentShift) - 1u)) * m.stride;
+    for (uint i = 0u; i < count; ++i) sum += uintBitsToFloat(entries.at[2u * (place + i) + 1u]);
     return sum;
   }
+  uint start = m.rowStart.at[row];
   uint hits = 0u;
   for (uint i = 0u; i < count; ++i) hits += entries.at[start + i] >> m.columnBits;
   return float(hits) * uintBitsToFloat(info.y);
