@@ -1,5 +1,8 @@
 // tinygltf, header-only, in this one translation unit. It gets the approved JSON without buffers, images, animations,
 // extras and extensions that nobody reads, so that it touches no file and copies no data.
+// Before tinygltf, which would include it with hidden visibility.
+#include <nlohmann/json.hpp>
+
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
@@ -8,7 +11,6 @@
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"
 #include <tiny_gltf.h>
-#include <nlohmann/json.hpp>
 #pragma GCC diagnostic pop
 #undef TINYGLTF_IMPLEMENTATION  // that part of the header has no include guard
 
