@@ -10,6 +10,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"
+#include <nlohmann/json.hpp>  // first: tinygltf includes it with hidden visibility
 #include <tiny_gltf.h>
 #pragma GCC diagnostic pop
 #undef TINYGLTF_IMPLEMENTATION  // that part of the header has no include guard
