@@ -223,7 +223,7 @@ std::string shortNumber(double value) { return fmt::format("{:.3g}", value); }
 
 std::string withThousands(uint64_t value) {
   std::string digits = fmt::format("{}", value);
-  for (auto i = static_cast<ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) digits.insert(static_cast<size_t>(i), ",");
+  for (auto i = static_cast<ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) digits.insert(static_cast<size_t>(i), 1, ',');
   return digits;
 }
 
