@@ -29,7 +29,11 @@ struct Command {
   std::function<void()> run;  ///< throws the errors of renderer/error.h
 };
 
+Command renderCommand();
+Command benchCommand();
+Command exportCommand();
 Command settingsCommand();
+Command viewsCommand();
 
 /// Parses, runs, reports. The exit status of DESIGN.md: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
 /// suitable device or not enough memory.

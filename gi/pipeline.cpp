@@ -147,6 +147,8 @@ void Pipeline::lightsChanged() {
   impl_->dirty = std::min(impl_->dirty, Redo::Gather);
 }
 
+void Pipeline::invalidate(Redo from) { impl_->dirty = std::min(impl_->dirty, from); }
+
 void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
   const uint32_t sweeps = maxSweeps != 0 ? maxSweeps : p.settings.solver.maxSweeps;

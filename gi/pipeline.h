@@ -27,6 +27,9 @@ class Pipeline {
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
 
+  /// `from` and the stages after it run again at the next prepare(): repeated measurements.
+  void invalidate(Redo from);
+
   /// Runs what is dirty up to the scatter: blocking. The old state stays usable when it throws or is cancelled.
   /// `maxSweeps` 0: settings.solver.maxSweeps.
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);

@@ -51,18 +51,18 @@ struct CompactPush {
   uint slots;
 };
 
+IRAD_CONST uint UNTEXTURED = 0xFFFFFFFFu;
 struct ShadeFacetsPush {
   SceneArray scene;
   GridArray grid;
-  UintArray order;  ///< facets grouped by material; all that sample no texture are one group
   UintArray voxel;
   UintArray triangle;
   UintArray shape;
   Uvec2Array albedo;
   Vec3Array emission;
   UintArray clamped;  ///< [0]: facets whose albedo had to be clamped
-  uint first;         ///< this group, within `order`
   uint count;
+  uint material;  ///< facets of this material, or of all that read no texture (UNTEXTURED)
   uint encoding;
   uint hasEmission;
   uint literal;

@@ -1,0 +1,153 @@
+#include "app/bench.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "renderer/error.h"
+
+namespace irad::app {
+namespace {
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+const char* toString(WorkKind kind) {
+  switch (kind) {
+    case WorkKind::Setup:
+      return "setup";
+    case WorkKind::Cold:
+      return "cold";
+    case WorkKind::Relight:
+      return "relight";
+    case WorkKind::Camera:
+      return "camera";
+  }
+  return "";
+}
+
+Bench::Bench(Context& context, Scene scene, const Settings& settings, glm::uvec2 size, View view, const Camera& camera)
+    : context_(context),
+      pipeline_(context, std::move(scene), settings),
+      targets_(context, size),
+      view_(view),
+      camera_(camera) {}
+
+StageSamples& Bench::slot(WorkKind kind, const std::string& stage) {
+  const auto found = std::find_if(samples_.begin(), samples_.end(),
+                                  [&](const StageSamples& s) { return s.kind == kind && s.stage == stage; });
+  if (found != samples_.end()) return *found;
+  samples_.push_back({kind, stage, {}});
+  return samples_.back();
+}
+
+void Bench::collect(WorkKind kind, double wallMs) {
+  // One sample per stage and call: a stage that ran in several submissions counts once, with their sum.
+  std::map<std::pair<WorkKind, std::string>, double> sums;
+  std::vector<std::pair<WorkKind, std::string>> order;
+  for (const Timings::FrameSample& group : context_.timings.frames())
+    for (const auto& [stage, ms] : group.stages) {
+      // A rebuild ends with the relight that it makes necessary; the pipeline marks which is which.
+      const WorkKind own = kind == WorkKind::Setup && !group.setup ? WorkKind::Cold : kind;
+      const auto [entry, fresh] = sums.try_emplace({own, stage}, 0.0);
+      entry->second += ms;
+      if (fresh) order.emplace_back(own, stage);
+    }
+  for (const auto& key : order) slot(key.first, key.second).ms.push_back(sums[key]);
+  slot(kind, "wall").ms.push_back(wallMs);
+  const WorkKind solved = kind == WorkKind::Setup ? WorkKind::Cold : kind;
+  if (const auto solve = sums.find({solved, "GI Solve"}); solve != sums.end()) {
+    solveMs_ += solve->second;
+    sweeps_ += pipeline_.lighting().report.sweeps;
+  }
+  context_.timings.reset();
+}
+
+void Bench::prepare(const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  pipeline_.prepare(progress);
+  collect(WorkKind::Setup, since(start));
+}
+
+void Bench::rebuild() {
+  const auto start = std::chrono::steady_clock::now();
+  pipeline_.invalidate(Redo::Voxels);
+  pipeline_.prepare();
+  collect(WorkKind::Setup, since(start));
+}
+
+void Bench::relight() {
+  // Up and down in turn, so that the solver always has the same way to go.
+  const float factor = relights_++ % 2 == 0 ? 1.02f : 1.0f / 1.02f;
+  for (GpuLight& light : pipeline_.device().lightValues) light.intensity *= factor;
+  const auto start = std::chrono::steady_clock::now();
+  pipeline_.lightsChanged();
+  pipeline_.prepare();
+  collect(WorkKind::Relight, since(start));
+}
+
+void Bench::cameraFrame() {
+  const auto start = std::chrono::steady_clock::now();
+  Frame frame = context_.begin(frame_);
+  pipeline_.render(frame, camera_, view_, targets_);
+  frame.submitAndWait();
+  const double wall = since(start);
+  context_.timings.endFrame(frame_++, /*setup=*/false, wall);
+  collect(WorkKind::Camera, wall);
+}
+
+void Bench::forget() {
+  samples_.clear();
+  solveMs_ = 0;
+  sweeps_ = 0;
+}
+
+double Bench::megaRaysPerSecond() const {
+  double ms = 0;
+  for (const StageSamples& s : samples_)
+    if (s.kind == WorkKind::Setup && s.stage.starts_with("GI BuildMatrix")) ms += statistics(s.ms).p50;
+  return ms > 0 ? static_cast<double>(pipeline_.matrix().stats.rays) * 1e-3 / ms : 0;
+}
+
+uint64_t Bench::sweepBytes() const {
+  const FormFactors& matrix = pipeline_.matrix();
+  const uint64_t entry = matrix.format == MatrixFormat::csr ? 4 : 8, gathered = 16;
+  const uint64_t row =
+      (matrix.format == MatrixFormat::csr ? 4 : 0) + 8 + 8 + 16 + (pipeline_.facets().hasEmission ? 12 : 0) + 16 + 32;
+  // A padded row holds one entry per hit, unmerged.
+  const uint64_t entries = matrix.format == MatrixFormat::csr ? matrix.stats.entries : matrix.stats.hits;
+  return entries * (entry + gathered) + matrix.rows * row;
+}
+
+double Bench::sweepGigabytesPerSecond() const {
+  return sweepMilliseconds() > 0 ? static_cast<double>(sweepBytes()) * 1e-6 / sweepMilliseconds() : 0;
+}
+
+double copyBandwidth(Context& context) {
+  const Allocator& memory = context.device.memory();
+  const uint64_t available = memory.budget() > memory.used() ? memory.budget() - memory.used() : 0;
+  uint64_t bytes = context.device.isCpu ? uint64_t{256} << 20 : uint64_t{1} << 30;
+  if (context.device.maxAllocation) bytes = std::min<uint64_t>(bytes, context.device.maxAllocation / 2);
+  while (bytes > (1 << 20) && 2 * bytes > available / 2) bytes /= 2;
+  const Buffer from(context.device, "copy source", Subsystem::Staging, bytes);
+  const Buffer to(context.device, "copy target", Subsystem::Staging, bytes);
+  context.timings.reset();
+  std::vector<double> ms;
+  for (int i = 0; i < 6; ++i) {
+    Frame frame = context.begin(0);
+    if (i == 0) frame.pass("Fill").fill(from, 0x3F800000u);
+    frame.pass("Copy").copy(from, to, bytes);
+    frame.submitAndWait();
+    context.timings.endFrame(0, /*setup=*/true, 0);
+    if (i == 0) continue;  // first touch of the pages
+    for (const auto& [stage, time] : context.timings.frames().back().stages)
+      if (stage == "Copy") ms.push_back(time);
+  }
+  context.timings.reset();
+  const double median = statistics(ms).p50;
+  return median > 0 ? 2.0 * static_cast<double>(bytes) * 1e-6 / median : 0;
+}
+
+}  // namespace irad::app

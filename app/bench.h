@@ -1,0 +1,63 @@
+// Measuring: one pipeline's stages, several times over, and the machine's copy bandwidth beside it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gi/pipeline.h"
+#include "renderer/timings.h"
+
+namespace irad::app {
+
+/// Which work a sample comes from. Cold: the relight that follows a rebuild, whose solver starts from nothing.
+enum class WorkKind { Setup, Cold, Relight, Camera };
+const char* toString(WorkKind);
+
+/// All samples of one stage, ms, in the order of measurement.
+struct StageSamples {
+  WorkKind kind;
+  std::string stage;  ///< a name of METHOD section 11, or "wall": from submission to completion, on the CPU's clock
+  std::vector<double> ms;
+};
+
+/// One settings set under measurement. Each call runs its work once and keeps the samples.
+class Bench {
+ public:
+  Bench(Context& context, Scene scene, const Settings& settings, glm::uvec2 size, View view, const Camera& camera);
+  void prepare(const Progress& progress);
+  void rebuild();      ///< voxels to matrix anew (Setup), and the relight that follows (Cold)
+  void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
+  void cameraFrame();  ///< one picture, nothing else dirty
+  void forget();       ///< drops the samples so far: the warm-up
+
+  const std::vector<StageSamples>& samples() const { return samples_; }
+  const Pipeline& pipeline() const { return pipeline_; }
+  /// Rays of the build over the median build time; 0 when not measured.
+  double megaRaysPerSecond() const;
+  /// Bytes that one Jacobi sweep has to move: every matrix entry (csr 4 B, padded 8 B) and the fp32 vec4 of B that it
+  /// gathers (16 B); per row its start (csr 4 B), info (8 B), albedo (8 B), D (16 B), M (12 B, where anything emits),
+  /// the old B (16 B), H and B written (32 B).
+  uint64_t sweepBytes() const;
+  /// Time of "GI Solve" over its sweeps, summed over all relights; 0 when not measured.
+  double sweepMilliseconds() const { return sweeps_ > 0 ? solveMs_ / static_cast<double>(sweeps_) : 0; }
+  double sweepGigabytesPerSecond() const;
+
+ private:
+  void collect(WorkKind kind, double wallMs);
+  StageSamples& slot(WorkKind kind, const std::string& stage);
+  Context& context_;
+  Pipeline pipeline_;
+  Targets targets_;
+  View view_;
+  Camera camera_;
+  uint64_t frame_ = 0, relights_ = 0, sweeps_ = 0;
+  double solveMs_ = 0;
+  std::vector<StageSamples> samples_;
+};
+
+/// Median GB/s of a device buffer copy, bytes read plus bytes written: 256 MiB on a CPU device, 1 GiB on a GPU, less
+/// where memory is short.
+double copyBandwidth(Context& context);
+
+}  // namespace irad::app

@@ -1,0 +1,217 @@
+// `irad bench`: a table of times per stage, rates beside the machine's own copy bandwidth, and ratios of two settings
+// sets measured in turn.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/bench.h"
+#include "app/devices.h"
+#include "app/session.h"
+#include "app/table.h"
+#include "app/views.h"
+#include "gi/near_match.h"
+#include "renderer/error.h"
+#include "renderer/output_file.h"
+
+namespace irad::app {
+namespace {
+
+struct Arguments {
+  std::optional<std::string> scene, csv, warmup, rebuilds, view;
+  std::vector<std::string> versus;
+  SettingArguments settings;
+  DeviceArguments device;
+  PictureArguments picture;
+  bool json = false;
+};
+
+const std::vector<std::string> columns{"subsystem", "kind",   "mean_ms", "min_ms", "max_ms",
+                                       "std_ms",    "p50_ms", "p95_ms",  "p99_ms", "samples"};
+
+/// The rows of one settings set: stage, kind, then the statistics.
+std::vector<std::vector<std::string>> statisticRows(const Bench& bench) {
+  std::vector<std::vector<std::string>> rows;
+  for (const WorkKind kind : {WorkKind::Setup, WorkKind::Cold, WorkKind::Relight, WorkKind::Camera})
+    for (const StageSamples& s : bench.samples()) {
+      if (s.kind != kind) continue;
+      const TimingStats t = statistics(s.ms);
+      std::vector<std::string> row{s.stage, toString(kind)};
+      for (const double value : {t.mean, t.min, t.max, t.std, t.p50, t.p95, t.p99})
+        row.push_back(fmt::format("{:.4f}", value));
+      row.push_back(std::to_string(t.samples));
+      rows.push_back(row);
+    }
+  return rows;
+}
+
+/// Stage by stage, the second set's time over the first's, sample by sample: both were measured in turn.
+std::vector<std::vector<std::string>> ratioRows(const Bench& a, const Bench& b) {
+  std::vector<std::vector<std::string>> rows{
+      {"subsystem", "kind", "p50_ms", "versus_p50_ms", "ratio_p50", "ratio_min", "ratio_max", "samples"}};
+  for (const StageSamples& first : a.samples())
+    for (const StageSamples& second : b.samples()) {
+      if (first.kind != second.kind || first.stage != second.stage) continue;
+      std::vector<double> ratios;
+      for (size_t i = 0; i < std::min(first.ms.size(), second.ms.size()); ++i)
+        if (first.ms[i] > 0) ratios.push_back(second.ms[i] / first.ms[i]);
+      const TimingStats r = statistics(ratios);
+      rows.push_back({first.stage, toString(first.kind), fmt::format("{:.4f}", statistics(first.ms).p50),
+                      fmt::format("{:.4f}", statistics(second.ms).p50), fmt::format("{:.3f}", r.p50),
+                      fmt::format("{:.3f}", r.min), fmt::format("{:.3f}", r.max), std::to_string(r.samples)});
+    }
+  return rows;
+}
+
+/// --versus name=value ..., and preset=NAME.
+Settings versusSettings(const std::vector<std::string>& assignments, Settings settings, bool cpuDevice) {
+  for (const std::string& assignment : assignments) {
+    if (assignment.starts_with("preset="))
+      applyPreset(settings, assignment.substr(7), cpuDevice);
+    else
+      applySetting(settings, assignment);
+  }
+  return settings;
+}
+
+std::string rates(const Bench& bench, double copy) {
+  const MatrixStats& matrix = bench.pipeline().matrix().stats;
+  std::string out;
+  if (bench.megaRaysPerSecond() > 0)
+    out += fmt::format("build       {:.2f} Mrays/s ({} rays)\n", bench.megaRaysPerSecond(), matrix.rays);
+  if (bench.sweepMilliseconds() > 0)
+    out += fmt::format("sweep       {:.4f} ms, {:.1f} MB: {:.2f} GB/s; copy bandwidth {:.2f} GB/s\n",
+                       bench.sweepMilliseconds(), static_cast<double>(bench.sweepBytes()) * 1e-6,
+                       bench.sweepGigabytesPerSecond(), copy);
+  out += fmt::format("matrix      {} facets, {} entries, {:.1f} MiB used, {:.1f} MiB allocated\n",
+                     bench.pipeline().facets().count, matrix.entries, static_cast<double>(matrix.bytesUsed) / (1 << 20),
+                     static_cast<double>(matrix.bytesAllocated) / (1 << 20));
+  return out;
+}
+
+nlohmann::ordered_json toJson(const Bench& bench, double copy) {
+  nlohmann::ordered_json json;
+  json["stages"] = nlohmann::ordered_json::array();
+  for (const StageSamples& s : bench.samples())
+    json["stages"].push_back({{"stage", s.stage}, {"kind", toString(s.kind)}, {"ms", s.ms}});
+  json["mrays_per_s"] = bench.megaRaysPerSecond();
+  json["sweep_ms"] = bench.sweepMilliseconds();
+  json["sweep_gb_per_s"] = bench.sweepGigabytesPerSecond();
+  json["sweep_bytes"] = bench.sweepBytes();
+  json["copy_gb_per_s"] = copy;
+  json["facets"] = bench.pipeline().facets().count;
+  json["matrix_entries"] = bench.pipeline().matrix().stats.entries;
+  json["matrix_bytes_used"] = bench.pipeline().matrix().stats.bytesUsed;
+  json["matrix_bytes_allocated"] = bench.pipeline().matrix().stats.bytesAllocated;
+  json["settings"] = nlohmann::ordered_json::parse(settingsToJson(bench.pipeline().settings()));
+  return json;
+}
+
+std::string toCsv(const std::vector<std::vector<std::string>>& rows) {
+  std::string out;
+  for (const auto& row : rows) out += fmt::format("{}\n", fmt::join(row, ","));
+  return out;
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.device.list) return printDevices(arguments.json);
+  arguments.picture.check();
+  const Config early = arguments.settings.readConfig();
+  const uint32_t frames = arguments.picture.resolveFrames({}, 20);
+  const auto count = [](const char* option, const std::optional<std::string>& text, uint64_t otherwise) {
+    return text ? parseInteger(option, *text, 0, 100'000) : otherwise;
+  };
+  const uint64_t warmup = count("--warmup", arguments.warmup, 3), rebuilds = count("--rebuilds", arguments.rebuilds, 3);
+  const ViewInfo view = findViews({arguments.view.value_or("lit")}).at(0);
+  (void)versusSettings(arguments.versus, defaultSettings(true), /*cpuDevice=*/true);
+  const glm::uvec2 size = arguments.picture.resolveSize(early);
+  const auto scenePath = findScene(arguments.scene, early, "box");
+
+  Session session(arguments.settings, arguments.device);
+  Scene scene = session.load(scenePath);
+  const Camera camera = arguments.picture.resolveCameras(session.config, scene).at(0);
+  std::vector<std::unique_ptr<Bench>> sets;
+  if (!arguments.versus.empty()) {
+    const Settings other = versusSettings(arguments.versus, session.settings, session.device->isCpu);
+    sets.push_back(std::make_unique<Bench>(*session.context, scene, session.settings, size, view.view, camera));
+    sets.push_back(std::make_unique<Bench>(*session.context, std::move(scene), other, size, view.view, camera));
+  } else {
+    sets.push_back(
+        std::make_unique<Bench>(*session.context, std::move(scene), session.settings, size, view.view, camera));
+  }
+
+  // Warm-up: compiles kernels, touches pages. Then every kind of work, the settings sets in turn.
+  const Progress progress = [&](const char* stage, float fraction) { return session.progress(stage, fraction); };
+  for (const auto& bench : sets) {
+    bench->prepare(progress);
+    bench->relight();
+    for (uint64_t i = 0; i < warmup; ++i) bench->cameraFrame();
+    bench->forget();
+  }
+  const auto repeat = [&](const char* what, uint64_t times, auto act) {
+    for (uint64_t i = 0; i < times; ++i) {
+      session.progress(what, static_cast<float>(i) / static_cast<float>(times));
+      for (const auto& bench : sets) act(*bench);
+    }
+  };
+  repeat("rebuilds", rebuilds, [](Bench& bench) { bench.rebuild(); });
+  repeat("relights", frames, [](Bench& bench) { bench.relight(); });
+  repeat("camera frames", frames, [](Bench& bench) { bench.cameraFrame(); });
+  const double copy = copyBandwidth(*session.context);
+  session.progress.note("");
+
+  if (arguments.json) {
+    nlohmann::ordered_json out = toJson(*sets[0], copy);
+    out["device"] = session.device->info.name;
+    if (sets.size() > 1) out["versus"] = toJson(*sets[1], copy);
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{}, {} x {}, view {}\n", session.device->info.name, size.x, size.y, view.name);
+    for (size_t i = 0; i < sets.size(); ++i) {
+      if (sets.size() > 1) fmt::print("\n{}:\n", i == 0 ? "settings" : "versus");
+      std::vector<std::vector<std::string>> rows = statisticRows(*sets[i]);
+      rows.insert(rows.begin(), columns);
+      fmt::print("{}{}", formatTable(rows, {false, false, true, true, true, true, true, true, true, true}),
+                 rates(*sets[i], copy));
+    }
+    if (sets.size() > 1)
+      fmt::print("\nversus / settings:\n{}",
+                 formatTable(ratioRows(*sets[0], *sets[1]), {false, false, true, true, true, true, true, true}));
+  }
+  if (arguments.csv) {
+    std::vector<std::vector<std::string>> rows{columns};
+    rows[0].insert(rows[0].begin(), "set");
+    for (size_t i = 0; i < sets.size(); ++i)
+      for (std::vector<std::string> row : statisticRows(*sets[i])) {
+        row.insert(row.begin(), i == 0 ? "settings" : "versus");
+        rows.push_back(row);
+      }
+    writeFile(*arguments.csv, toCsv(rows));
+  }
+  session.checkValidation();
+}
+
+}  // namespace
+
+Command benchCommand() {
+  const auto arguments = std::make_shared<Arguments>();
+  return {
+      "bench", "Time every stage: set-up, relight, camera frames",
+      [arguments](Options& options) {
+        options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or a built-in scene (default: box)");
+        options.value("--csv", "FILE", arguments->csv, "Write the table as CSV too");
+        options.flag("--json", arguments->json, "Print all samples as JSON instead of the table");
+        options.value("--warmup", "N", arguments->warmup, "Frames before the measurement (default 3)");
+        options.value("--rebuilds", "N", arguments->rebuilds, "Times that voxels to matrix are rebuilt (default 3)");
+        options.values("--versus", "NAME=VALUE", arguments->versus,
+                       "A second settings set, the first with these changes (repeatable; preset=NAME too): measured "
+                       "in turn with the first, with the ratio per stage");
+        options.value("--view", "NAME", arguments->view, "View of the camera frames (default: lit)");
+        arguments->picture.declare(options);
+        arguments->settings.declare(options);
+        arguments->device.declare(options);
+      },
+      [arguments] { run(*arguments); }};
+}
+
+}  // namespace irad::app

@@ -1,0 +1,138 @@
+// `irad export`: volumes, matrix and facets as .npy, with a manifest; or a scene with its images decoded.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/devices.h"
+#include "app/manifest.h"
+#include "app/session.h"
+#include "gi/export.h"
+#include "gi/near_match.h"
+#include "gi/pipeline.h"
+#include "renderer/error.h"
+#include "renderer/output_file.h"
+
+namespace irad::app {
+namespace fs = std::filesystem;
+namespace {
+
+struct Arguments {
+  std::optional<std::string> scene, out, cache;
+  std::vector<std::string> volumes;
+  bool matrix = false, facets = false;
+  SettingArguments settings;
+  DeviceArguments device;
+};
+
+std::vector<Volume> parseVolumes(const std::vector<std::string>& names) {
+  const auto& all = EnumNames<Volume>::names;
+  std::vector<std::string> known(all.begin(), all.end());
+  known.emplace_back("all");
+  std::vector<Volume> out;
+  const auto add = [&](size_t i) {
+    const auto volume = static_cast<Volume>(i);
+    if (std::find(out.begin(), out.end(), volume) == out.end()) out.push_back(volume);
+  };
+  for (const std::string& name : splitList("--volume", names)) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) throw UsageError(fmt::format("unknown volume '{}'{}", name, suggestion(name, known)));
+    const auto index = static_cast<size_t>(found - known.begin());
+    if (index < all.size()) {
+      add(index);
+    } else {
+      for (size_t i = 0; i < all.size(); ++i) add(i);
+    }
+  }
+  return out;
+}
+
+/// Where the arrays lie in the world: [z, y, x] is the voxel at world position origin + edge (x, y, z).
+std::string gridJson(const Scene& scene, const Grid& grid) {
+  const glm::dvec3 corner = scene.origin + glm::dvec3(grid.origin);
+  nlohmann::ordered_json json;
+  json["dims"] = {grid.dims.x, grid.dims.y, grid.dims.z};
+  json["edge"] = static_cast<double>(grid.edge);
+  json["origin"] = {corner.x, corner.y, corner.z};
+  json["scene_origin"] = {scene.origin.x, scene.origin.y, scene.origin.z};
+  return json.dump();
+}
+
+void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes, const fs::path& scenePath) {
+  Session session(arguments.settings, arguments.device);
+  Scene scene = session.load(scenePath);
+  const fs::path out = arguments.out.value_or("out");
+  makeFolder(out);
+  Pipeline pipeline(*session.context, std::move(scene), session.settings);
+  pipeline.prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
+
+  std::vector<fs::path> written;
+  for (const Volume volume : volumes)
+    written.push_back(
+        exportVolume(*session.context, volume, pipeline.facets(), pipeline.field(), pipeline.lighting(), out));
+  const auto append = [&](const std::vector<fs::path>& files) {
+    written.insert(written.end(), files.begin(), files.end());
+  };
+  if (arguments.matrix) append(exportMatrix(*session.context, pipeline.matrix(), out));
+  if (arguments.facets) append(exportFacets(*session.context, pipeline.facets(), pipeline.lighting(), out));
+
+  Manifest manifest;
+  manifest.subcommand = "export";
+  manifest.device = &session.device->info;
+  manifest.scene = &pipeline.scene();
+  manifest.settings = &session.settings;
+  manifest.cpuDevice = session.device->isCpu;
+  for (const Volume volume : volumes) {
+    manifest.arguments.emplace_back("--volume");
+    manifest.arguments.emplace_back(EnumNames<Volume>::names.at(static_cast<size_t>(volume)));
+  }
+  if (arguments.matrix) manifest.arguments.emplace_back("--matrix");
+  if (arguments.facets) manifest.arguments.emplace_back("--facets");
+  manifest.details.emplace_back("grid", gridJson(pipeline.scene(), pipeline.facets().grid));
+  for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
+  writeFile(out / "manifest.json", manifest.toJson());
+  written.push_back(out / "manifest.json");
+  session.progress.note("");
+  for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
+  session.checkValidation();
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.device.list) return printDevices(/*json=*/false);
+  const std::vector<Volume> volumes = parseVolumes(arguments.volumes);
+  const bool arrays = !volumes.empty() || arguments.matrix || arguments.facets;
+  if (!arrays && !arguments.cache) throw UsageError("nothing to export: give --volume, --matrix, --facets or --cache");
+  const Config config = arguments.settings.readConfig();
+  const fs::path scenePath = findScene(arguments.scene, config, std::nullopt);
+  if (arguments.cache) {
+    const Settings settings = arguments.settings.resolve(config, /*cpuDevice=*/true);
+    LoadOptions options;
+    options.lambertian = settings.lambertian;
+    writeSceneCache(loadScene(scenePath, options), *arguments.cache);
+    fmt::print("wrote       {}\n", *arguments.cache);
+  }
+  if (arrays) exportArrays(arguments, volumes, scenePath);
+}
+
+}  // namespace
+
+Command exportCommand() {
+  const auto arguments = std::make_shared<Arguments>();
+  return {"export", "Write volumes, the matrix or facets as .npy",
+          [arguments](Options& options) {
+            options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");
+            options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
+            options.values("--volume", "NAME[,NAME...]", arguments->volumes,
+                           "radiosity, irradiance, albedo, normal, emission, distance, or all (repeatable): NAME.npy, "
+                           "float32 [z, y, x(, 3)]");
+            options.flag("--matrix", arguments->matrix,
+                         "indptr.npy, indices.npy, data.npy: what scipy.sparse.csr_matrix takes");
+            options.flag("--facets", arguments->facets, "facet_NAME.npy: one row per facet, in matrix order");
+            options.value("--cache", "FILE", arguments->cache,
+                          "The scene with its images decoded (.irscene), for builds without image decoders");
+            arguments->settings.declare(options);
+            arguments->device.declare(options);
+          },
+          [arguments] { run(*arguments); }};
+}
+
+}  // namespace irad::app

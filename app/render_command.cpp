@@ -1,0 +1,174 @@
+// `irad render`: pictures, timings.csv, memory.csv, manifest.json.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <sstream>
+
+#include "app/devices.h"
+#include "app/manifest.h"
+#include "app/session.h"
+#include "app/views.h"
+#include "gi/memory_report.h"
+#include "gi/pipeline.h"
+#include "renderer/error.h"
+#include "renderer/image_io.h"
+#include "renderer/output_file.h"
+
+namespace irad::app {
+namespace fs = std::filesystem;
+namespace {
+
+struct Arguments {
+  std::optional<std::string> scene, out;
+  SettingArguments settings;
+  DeviceArguments device;
+  PictureArguments picture;
+  std::vector<std::string> views;
+};
+
+/// A camera's name as part of a file name, unlike those before it.
+std::string fileName(const Camera& camera, size_t index, std::set<std::string>& used) {
+  std::string name;
+  for (const char c : camera.name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    name += plain ? c : '_';
+  }
+  if (name.empty()) name = fmt::format("camera{}", index);
+  std::string unique = name;
+  for (int n = 2; !used.insert(unique).second; ++n) unique = fmt::format("{}-{}", name, n);
+  return unique;
+}
+
+/// Renders `frames` frames and writes the last.
+void renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, View view, uint32_t frames,
+                   Targets& targets, const fs::path& stem, std::vector<fs::path>& written) {
+  for (uint32_t i = 0; i < frames; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    Frame frame = session.context->begin(i);
+    pipeline.render(frame, camera, view, targets);
+    frame.submitAndWait();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    session.timings.endFrame(i, /*setup=*/false, elapsed.count());
+  }
+  const std::vector<std::byte> linear = download(*session.context, targets.linear);
+  const std::vector<std::byte> display = download(*session.context, targets.display);
+  const size_t pixels = size_t{targets.size.x} * targets.size.y;
+  IRAD_CHECK_OP(linear.size(), ==, pixels * sizeof(glm::vec4));
+  IRAD_CHECK_OP(display.size(), ==, pixels * sizeof(glm::u8vec4));
+  written.push_back(writeDisplay(stem, targets.size, {reinterpret_cast<const glm::u8vec4*>(display.data()), pixels}));
+  written.push_back(writeLinear(stem, targets.size, {reinterpret_cast<const glm::vec4*>(linear.data()), pixels}));
+}
+
+double meanSetup(const Timings& timings, std::string_view stage) {
+  double ms = 0;
+  for (const Timings::Row& row : timings.rows())
+    if (row.setup && row.stage.starts_with(stage)) ms += row.stats.mean;
+  return ms;
+}
+
+void summarize(const Session& session, const Pipeline& pipeline) {
+  const FacetList& facets = pipeline.facets();
+  const MatrixStats& matrix = pipeline.matrix().stats;
+  const SolveReport& solve = pipeline.lighting().report;
+  const glm::uvec3 dims = facets.grid.dims;
+  fmt::print("grid        {} x {} x {} voxels, edge {:.6g}\n", dims.x, dims.y, dims.z, facets.grid.edge);
+  fmt::print("facets      {} in {} solid voxels\n", facets.count, facets.solidVoxels);
+  fmt::print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
+             static_cast<double>(matrix.bytesUsed) / (1 << 20), static_cast<double>(matrix.bytesAllocated) / (1 << 20),
+             matrix.largestRow);
+  const double buildMs = meanSetup(session.timings, "GI BuildMatrix");
+  if (buildMs > 0)
+    fmt::print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
+               static_cast<double>(matrix.rays) * 1e-3 / buildMs);
+  fmt::print("solve       {} sweeps, bound {:.3g} W/m^2 of largest H {:.4g} W/m^2{}\n", solve.sweeps, solve.bound,
+             solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);  // ru_maxrss: KiB
+  fmt::print("memory      {:.1f} MiB on the device, {:.1f} MiB at the process's peak\n",
+             static_cast<double>(session.device->memory().used()) / (1 << 20),
+             static_cast<double>(usage.ru_maxrss) / 1024);
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.device.list) return printDevices(/*json=*/false);
+  arguments.picture.check();
+  const Config early = arguments.settings.readConfig();
+  const std::vector<std::string> wanted = !arguments.views.empty() ? splitList("--view", arguments.views)
+                                          : !early.views.empty()   ? early.views
+                                                                   : std::vector<std::string>{"lit"};
+  const std::vector<ViewInfo> chosen = findViews(wanted);
+  const glm::uvec2 size = arguments.picture.resolveSize(early);
+  const uint32_t frames = arguments.picture.resolveFrames(early, 1);
+  const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
+
+  Session session(arguments.settings, arguments.device);
+  Scene scene = session.load(scenePath);
+  const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
+  const fs::path out = arguments.out.value_or("out");
+  makeFolder(out);
+
+  Pipeline pipeline(*session.context, std::move(scene), session.settings);
+  pipeline.prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
+  Targets targets(*session.context, size);
+
+  std::vector<fs::path> written;
+  std::set<std::string> used;
+  for (size_t c = 0; c < cameras.size(); ++c) {
+    const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
+    for (const ViewInfo& view : chosen) {
+      session.progress(view.name, 0);
+      renderPicture(session, pipeline, cameras[c], view.view, frames, targets, out / (prefix + view.name), written);
+    }
+  }
+
+  std::ostringstream timings;
+  writeCsv(timings, session.timings);
+  writeFile(out / "timings.csv", timings.str());
+  written.push_back(out / "timings.csv");
+  writeFile(out / "memory.csv", memoryCsv(memoryReport(session.device->memory().rows(), pipeline.facets(),
+                                                       pipeline.field(), pipeline.matrix(), pipeline.lighting())));
+  written.push_back(out / "memory.csv");
+
+  Manifest manifest;
+  manifest.subcommand = "render";
+  manifest.device = &session.device->info;
+  manifest.scene = &pipeline.scene();
+  manifest.settings = &session.settings;
+  manifest.cpuDevice = session.device->isCpu;
+  manifest.size = size;
+  manifest.frames = frames;
+  manifest.cameras = cameras;
+  for (const ViewInfo& view : chosen) manifest.views.emplace_back(view.name);
+  for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
+  writeFile(out / "manifest.json", manifest.toJson());
+  written.push_back(out / "manifest.json");
+
+  session.progress.note("");
+  summarize(session, pipeline);
+  for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
+  session.checkValidation();
+}
+
+}  // namespace
+
+Command renderCommand() {
+  const auto arguments = std::make_shared<Arguments>();
+  return {"render", "Render pictures of a scene, with timings, memory table and manifest",
+          [arguments](Options& options) {
+            options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");
+            options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
+            options.values("--view", "NAME[,NAME...]", arguments->views,
+                           "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
+            arguments->picture.declare(options);
+            arguments->settings.declare(options);
+            arguments->device.declare(options);
+          },
+          [arguments] { run(*arguments); }};
+}
+
+}  // namespace irad::app

@@ -1,0 +1,37 @@
+#include "app/session.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "renderer/error.h"
+
+namespace irad::app {
+
+Session::Session(const SettingArguments& arguments, const DeviceArguments& deviceArguments)
+    : config(arguments.readConfig()) {
+  (void)arguments.resolve(config, /*cpuDevice=*/true);
+  device = Device::create(deviceArguments.options());
+  context = std::make_unique<Context>(*device, shaders, timings);
+  settings = arguments.resolve(config, device->isCpu);
+}
+
+Scene Session::load(const std::filesystem::path& path) {
+  LoadOptions options;
+  options.lambertian = settings.lambertian;
+  options.progress = [this](float fraction, const char* step) { progress(step, fraction); };
+  Scene scene = loadScene(path, options);
+  for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
+  if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
+    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
+                              config.path.string(), scene.sha256, *config.sceneSha256));
+  return scene;
+}
+
+void Session::checkValidation() const {
+  if (!device->options.validate) return;
+  const std::vector<std::string> messages = device->validationMessages();
+  if (!messages.empty())
+    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
+
+}  // namespace irad::app

@@ -1,0 +1,31 @@
+// What every subcommand that computes needs: device, shaders, timings, context, settings, in this order.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/arguments.h"
+#include "app/progress.h"
+#include "renderer/frame.h"
+
+namespace irad::app {
+
+struct Session {
+  /// Checks the settings first (so that a slip is told before a device is opened), then opens the device.
+  Session(const SettingArguments& settings, const DeviceArguments& device);
+
+  Config config;
+  std::unique_ptr<Device> device;
+  ShaderLibrary shaders;
+  Timings timings;
+  std::unique_ptr<Context> context;
+  Settings settings;
+  ProgressReport progress;
+
+  /// Loads the scene and says what is odd about it, on standard error.
+  Scene load(const std::filesystem::path& path);
+  /// After --validate: WorkError with the messages, if there were any.
+  void checkValidation() const;
+};
+
+}  // namespace irad::app

@@ -1,0 +1,43 @@
+// `irad views`: the registry of views, as a table or JSON.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/table.h"
+#include "gi/views.h"
+
+namespace irad::app {
+namespace {
+
+void run(bool json) {
+  if (json) {
+    nlohmann::ordered_json out = nlohmann::ordered_json::array();
+    for (const ViewInfo& view : views())
+      out.push_back({{"name", view.name},
+                     {"label", view.label},
+                     {"unit", view.unit},
+                     {"scalar", view.scalar},
+                     {"min", view.rangeMin},
+                     {"max", view.rangeMax},
+                     {"tone_mapped", view.toneMapped}});
+    fmt::print("{}\n", out.dump(2));
+    return;
+  }
+  std::vector<std::vector<std::string>> rows{{"name", "label", "unit", "range"}};
+  for (const ViewInfo& view : views())
+    rows.push_back(
+        {view.name, view.label, view.unit, view.scalar ? fmt::format("{} to {}", view.rangeMin, view.rangeMax) : ""});
+  fmt::print("{}", formatTable(rows));
+}
+
+}  // namespace
+
+Command viewsCommand() {
+  const auto json = std::make_shared<bool>(false);
+  return {"views", "List the views that render and view can show",
+          [json](Options& options) { options.flag("--json", *json, "The registry as JSON"); }, [json] { run(*json); }};
+}
+
+}  // namespace irad::app

@@ -1,0 +1,354 @@
+// The irad program from outside: exit statuses and messages of DESIGN.md, files of render and export, replay to the
+// same bits.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/support.h"
+
+namespace irad {
+namespace {
+
+namespace fs = std::filesystem;
+using test::runIrad;
+using test::RunResult;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Name -> bytes of every file in a folder.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : fs::directory_iterator(folder)) out[entry.path().filename().string()] = slurp(entry.path());
+  return out;
+}
+
+std::vector<std::string> names(const std::map<std::string, std::string>& files) {
+  std::vector<std::string> out;
+  for (const auto& [name, bytes] : files) out.push_back(name);
+  return out;
+}
+
+struct UsageCase {
+  std::vector<std::string> arguments;
+  std::string expected;  ///< part of the message on standard error
+};
+
+TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
+  const std::vector<UsageCase> cases{
+      {{}, "no command given"},
+      {{"rendr", "box"}, "unknown command 'rendr' (did you mean render?)"},
+      {{"--versoin"}, "did you mean --version"},
+      {{"render", "box", "--ste", "matrix.rays=4"}, "unknown option '--ste' (did you mean --set"},
+      {{"render", "box", "--outt=x"}, "did you mean --out"},
+      {{"render"}, "no scene given"},
+      {{"render", "box", "second"}, "unexpected argument 'second'"},
+      {{"render", "box", "--set"}, "--set"},
+      {{"render", "box", "--set", "matrix.rayz=4"}, "did you mean matrix.rays"},
+      {{"render", "box", "--set", "matrix.rays=0"}, "1 to 4096 rays"},
+      {{"render", "box", "--set", "matrix.rays"}, "expected name=value"},
+      {{"render", "box", "--set", "sample.filter=blurr"}, "did you mean blur"},
+      {{"render", "box", "--preset", "thesys"}, "did you mean thesis"},
+      {{"render", "box", "--view", "litt"}, "did you mean lit"},
+      {{"render", "box", "--view", "lit,,direct"}, "an empty name"},
+      {{"render", "box", "--size", "640"}, "'640' is not WIDTHxHEIGHT"},
+      {{"render", "box", "--size", "0x10"}, "1 to 16384"},
+      {{"render", "box", "--size", "10x99999"}, "1 to 16384"},
+      {{"render", "box", "--size", "1x1", "--size", "2x2"}, "--size"},
+      {{"render", "box", "--frames", "0"}, "--frames: '0' is not allowed"},
+      {{"render", "box", "--frames", "many"}, "--frames: 'many'"},
+      {{"render", "box", "--seed", "-1"}, "--seed: '-1' is not allowed; expected an integer, 0 to 4294967295"},
+      {{"render", "box", "--camera", "{\"position\": [0, 1]}"}, "position: expected 3 numbers"},
+      {{"render", "box", "--camera", "{\"position\": [0, 1, 2], \"targett\": [0, 0, 0]}"}, "did you mean target"},
+      {{"render", "box", "--camera", "{"}, "not JSON"},
+      {{"export", "box"}, "nothing to export"},
+      {{"export", "box", "--volume", "radiosty"}, "did you mean radiosity"},
+      {{"bench", "box", "--versus", "matrix.fromat=csr"}, "did you mean matrix.format"},
+      {{"bench", "box", "--rebuilds", "x"}, "--rebuilds: 'x'"},
+      {{"settings", "--bogus"}, "unknown option '--bogus'"},
+      {{"views", "extra"}, "unexpected argument 'extra'"},
+  };
+  for (const UsageCase& c : cases) {
+    const RunResult result = runIrad(c.arguments, 60);
+    std::string line;
+    for (const std::string& a : c.arguments) line += a + " ";
+    EXPECT_EQ(result.status, 2) << line << result.err;
+    EXPECT_TRUE(contains(result.err, c.expected)) << line << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, "irad: error:")) << line;
+    EXPECT_EQ(result.out, "") << line;
+  }
+}
+
+TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
+  test::TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder.path / name) << text;
+    return (folder.path / name).string();
+  };
+  const std::string notJson = write("a.json", "{\"voxel.resolution\": "), array = write("b.json", "[1, 2]"),
+                    notGltf = write("c.gltf", "this is not glTF"),
+                    sizes = write("d.json", R"({"settings": {}, "size": [0, 10]})"),
+                    cameras = write("e.json", R"({"settings": {}, "cameras": [{"position": 3}]})");
+  const std::vector<UsageCase> cases{
+      {{"render", "absent.glb"}, "absent.glb: no such file"},
+      {{"render", "boks"}, "did you mean box"},
+      {{"settings", "--config", notJson}, "a.json: not JSON"},
+      {{"settings", "--config", array}, "b.json: expected a JSON object"},
+      {{"settings", "--config", (folder.path / "none.json").string()}, "none.json: cannot be read"},
+      {{"settings", "--config", folder.path.string()}, "cannot be read"},
+      {{"render", "box", "--config", sizes}, "size: expected [width, height]"},
+      {{"render", "box", "--config", cameras}, "e.json: cameras: camera: position"},
+      {{"render", notGltf, "--out", folder.path.string()}, "c.gltf"},
+  };
+  for (const UsageCase& c : cases) {
+    const RunResult result = runIrad(c.arguments, 60);
+    EXPECT_EQ(result.status, 3) << c.expected << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, c.expected)) << result.err;
+  }
+  // A settings file with an unknown name is bad usage, and names the file as well.
+  const RunResult unknown = runIrad({"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")}, 60);
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(contains(unknown.err, "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays")) << unknown.err;
+}
+
+TEST(Cli, NoSuchDeviceIsStatus4) {
+  const RunResult result = runIrad({"render", "box", "--device", "no such device"}, 60);
+  EXPECT_EQ(result.status, 4) << result.err;
+  EXPECT_TRUE(contains(result.err, "no such device")) << result.err;
+}
+
+TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
+  test::TemporaryFolder folder;
+  std::ofstream(folder.path / "plain") << "x";
+  const std::string out = (folder.path / "plain").string();
+  const RunResult result = runIrad({"render", "box", "--out", out, "--set", "voxel.resolution=8"}, 120);
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, out)) << result.err;
+  EXPECT_EQ(slurp(folder.path / "plain"), "x");
+}
+
+TEST(Cli, HelpVersionAndDevicesAreStatus0) {
+  const RunResult help = runIrad({"--help"}, 60);
+  EXPECT_EQ(help.status, 0);
+  for (const char* command : {"render", "bench", "export", "settings", "views", "Exit status"})
+    EXPECT_TRUE(contains(help.out, command)) << command;
+  for (const char* command : {"render", "bench", "export", "settings", "views"})
+    EXPECT_EQ(runIrad({command, "--help"}, 60).status, 0) << command;
+  const RunResult version = runIrad({"--version"}, 60);
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(version.out.starts_with("irad ")) << version.out;
+  const RunResult devices = runIrad({"--list-devices"}, 60);
+  EXPECT_EQ(devices.status, 0) << devices.err;
+  EXPECT_TRUE(contains(devices.out, "suitable")) << devices.out;
+}
+
+TEST(Cli, RegistriesAsTableAndJson) {
+  const RunResult table = runIrad({"settings"}, 60);
+  EXPECT_EQ(table.status, 0);
+  EXPECT_TRUE(contains(table.out, "voxel.resolution")) << table.out;
+  const auto settings = nlohmann::json::parse(runIrad({"settings", "--json", "--set", "matrix.rays=77"}, 60).out);
+  const auto rays =
+      std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s["name"] == "matrix.rays"; });
+  ASSERT_NE(rays, settings.end());
+  EXPECT_EQ((*rays)["value"], 77);
+  EXPECT_EQ((*rays)["default"], 384);
+  EXPECT_EQ((*rays)["default_cpu"], 128);
+  EXPECT_EQ((*rays)["unit"], "rays");
+  const auto views = nlohmann::json::parse(runIrad({"views", "--json"}, 60).out);
+  for (const char* name : {"lit", "no-gi", "direct", "indirect", "specular", "voxel-albedo", "voxel-normal", "distance",
+                           "irradiance", "radiosity", "row-occupancy"})
+    EXPECT_TRUE(std::any_of(views.begin(), views.end(), [&](const auto& v) { return v["name"] == name; })) << name;
+}
+
+TEST(Cli, ValuesRoundTripThroughAFile) {
+  test::TemporaryFolder folder;
+  const RunResult first = runIrad({"settings", "--values", "--preset", "thesis", "--set", "solver.omega=0.7"}, 60);
+  std::ofstream(folder.path / "s.json") << first.out;
+  const RunResult second = runIrad({"settings", "--values", "--config", (folder.path / "s.json").string()}, 60);
+  EXPECT_EQ(second.out, first.out);
+  EXPECT_TRUE(contains(second.out, "\"solver.omega\": 0.7")) << second.out;
+  // Later beats earlier: preset, config, set, seed.
+  const auto last =
+      nlohmann::json::parse(runIrad({"settings", "--values", "--preset", "fast", "--config",
+                                     (folder.path / "s.json").string(), "--set", "matrix.rays=5", "--seed", "9"},
+                                    60)
+                                .out);
+  EXPECT_EQ(last["voxel.normals"], "axis26");
+  EXPECT_EQ(last["matrix.rays"], 5);
+  EXPECT_EQ(last["matrix.seed"], 9);
+}
+
+/// Small enough for a second or two on a CPU device.
+std::vector<std::string> smallRender(const fs::path& out, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"render", "box",
+                                     "--out",  out.string(),
+                                     "--size", "64x48",
+                                     "--view", "lit,irradiance",
+                                     "--set",  "voxel.resolution=24",
+                                     "--set",  "matrix.rays=32",
+                                     "--set",  "light.shadow_resolution=256"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+#ifdef IRAD_OIIO
+constexpr const char *kDisplay = ".png", *kLinear = ".exr";
+#else
+constexpr const char *kDisplay = ".npy", *kLinear = ".pfm";
+#endif
+
+TEST(Render, WritesPicturesTablesAndAManifestThatReplaysToTheSameBits) {
+  test::TemporaryFolder folder;
+  const fs::path first = folder.path / "first", second = folder.path / "second", third = folder.path / "third";
+  const RunResult run = runIrad(smallRender(first, {"--seed", "3", "--validate"}));
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* part : {"facets", "Mrays/s", "sweeps", "bound", "wrote"})
+    EXPECT_TRUE(contains(run.out, part)) << part;
+  EXPECT_TRUE(contains(run.err, "GI BuildMatrix")) << run.err;  // progress, as plain lines
+
+  const auto files = contents(first);
+  std::vector<std::string> expected{"irradiance",    "irradiance", "lit",        "lit",
+                                    "manifest.json", "memory.csv", "timings.csv"};
+  expected[0] += kDisplay;
+  expected[1] += kLinear;
+  expected[2] += kDisplay;
+  expected[3] += kLinear;
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(names(files), expected);
+  EXPECT_TRUE(
+      files.at("timings.csv").starts_with("subsystem,kind,mean_ms,min_ms,max_ms,std_ms,p50_ms,p95_ms,p99_ms,samples"));
+  for (const char* stage :
+       {"GI Voxelization,setup,", "GI CompactList,setup,", "GI SDF,setup,", "GI BuildMatrix,setup,", "GI Gather,frame,",
+        "GI Solve,frame,", "GI Scatter,frame,", "RE Shadow,frame,", "RE Depth,frame,", "RE Forward,frame,"})
+    EXPECT_TRUE(contains(files.at("timings.csv"), stage)) << stage << "\n" << files.at("timings.csv");
+  EXPECT_TRUE(contains(files.at("memory.csv"), "matrix entries,matrix,")) << files.at("memory.csv");
+  EXPECT_TRUE(contains(files.at("memory.csv"), "gi against T eq. 31,gi,,"));
+
+  const auto manifest = nlohmann::json::parse(files.at("manifest.json"));
+  EXPECT_EQ(manifest["seed"], 3);
+  EXPECT_EQ(manifest["settings"]["voxel.resolution"], 24);
+  EXPECT_EQ(manifest["size"], (nlohmann::json{64, 48}));
+  EXPECT_EQ(manifest["views"], (nlohmann::json{"lit", "irradiance"}));
+  EXPECT_EQ(manifest["scene"]["sha256"].get<std::string>().size(), 64u);
+  EXPECT_EQ(manifest["cameras"].size(), 1u);
+  EXPECT_FALSE(manifest["device"]["name"].get<std::string>().empty());
+  EXPECT_FALSE(manifest["program"]["commit"].get<std::string>().empty());
+
+  // Replay from the manifest alone.
+  const std::string path = (first / "manifest.json").string();
+  ASSERT_EQ(runIrad({"render", "--config", path, "--out", second.string()}).status, 0);
+  auto replay = contents(second);
+  EXPECT_EQ(names(replay), names(files));
+  for (const auto& [name, bytes] : files) {
+    if (name == "timings.csv") continue;
+    EXPECT_TRUE(replay[name] == bytes) << name;
+  }
+
+  // And from the command line it states, as a shell reads it.
+  const std::string command = manifest["command"];
+  ASSERT_TRUE(command.starts_with("irad render ")) << command;
+  const std::string shell =
+      std::string("'") + IRAD_BINARY + "'" + command.substr(4) + " --out '" + third.string() + "' >/dev/null 2>&1";
+  ASSERT_EQ(std::system(shell.c_str()), 0) << shell;
+  auto typed = contents(third);
+  for (const auto& [name, bytes] : files) {
+    if (name == "timings.csv") continue;
+    EXPECT_TRUE(typed[name] == bytes) << name;
+  }
+}
+
+TEST(Render, AnotherSeedGivesOtherBits) {
+  test::TemporaryFolder folder;
+  ASSERT_EQ(runIrad(smallRender(folder.path / "a", {"--seed", "1"})).status, 0);
+  ASSERT_EQ(runIrad(smallRender(folder.path / "b", {"--seed", "2"})).status, 0);
+  const std::string exr = std::string("lit") + kLinear;
+  EXPECT_FALSE(slurp(folder.path / "a" / exr) == slurp(folder.path / "b" / exr));
+}
+
+TEST(Render, FramesAreSamplesAndTheLastIsThePicture) {
+  test::TemporaryFolder folder;
+  ASSERT_EQ(runIrad(smallRender(folder.path / "one", {"--view", "lit"})).status, 0);
+  ASSERT_EQ(runIrad(smallRender(folder.path / "many", {"--frames", "4"})).status, 0);
+  const std::string csv = slurp(folder.path / "many" / "timings.csv");
+  const size_t row = csv.find("RE Forward,frame,");
+  ASSERT_NE(row, std::string::npos);
+  const std::string line = csv.substr(row, csv.find('\n', row) - row);
+  EXPECT_EQ(line.substr(line.rfind(',') + 1), "8");  // two views, four frames each
+  const std::string exr = std::string("lit") + kLinear;
+  EXPECT_TRUE(slurp(folder.path / "one" / exr) == slurp(folder.path / "many" / exr));
+}
+
+TEST(Render, SeveralCamerasArePartOfTheNames) {
+  test::TemporaryFolder folder;
+  const std::string json = R"({"name": "above", "position": [0, 4, 9], "target": [0, 4, 0], "yfov": 0.8})";
+  const RunResult run = runIrad(smallRender(folder.path, {"--view", "no-gi", "--camera", json, "--camera", json}));
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* stem : {"above.lit", "above-2.lit", "above.no-gi", "above-2.irradiance"})
+    EXPECT_TRUE(fs::exists(folder.path / (std::string(stem) + kLinear))) << stem;
+  EXPECT_TRUE(slurp(folder.path / (std::string("above.lit") + kLinear)) ==
+              slurp(folder.path / (std::string("above-2.lit") + kLinear)));
+  const RunResult wrong = runIrad(smallRender(folder.path / "x", {"--camera", "no such camera"}));
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(contains(wrong.err, "unknown camera 'no such camera'")) << wrong.err;
+}
+
+TEST(ExportCommand, ArraysAndTheirPlaceInTheWorld) {
+  test::TemporaryFolder folder;
+  const RunResult run = runIrad({"export", "box", "--out", folder.path.string(), "--volume", "all", "--matrix",
+                                 "--facets", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* name : {"radiosity", "irradiance", "albedo", "normal", "emission", "distance", "indptr", "indices",
+                           "data", "facet_position", "facet_radiosity"})
+    EXPECT_TRUE(fs::exists(folder.path / (std::string(name) + ".npy"))) << name;
+  const auto manifest = nlohmann::json::parse(slurp(folder.path / "manifest.json"));
+  EXPECT_EQ(manifest["files"].size(), 17u);
+  const auto dims = manifest["grid"]["dims"];
+  EXPECT_EQ(std::max({dims[0].get<int>(), dims[1].get<int>(), dims[2].get<int>()}),
+            18);  // 16 and one of padding per side
+  EXPECT_TRUE(contains(slurp(folder.path / "distance.npy"), fmt::format("'shape': ({}, {}, {})", dims[2].get<int>(),
+                                                                        dims[1].get<int>(), dims[0].get<int>())));
+}
+
+TEST(BenchCommand, TableCsvAndRatios) {
+  test::TemporaryFolder folder;
+  const std::string csv = (folder.path / "bench.csv").string();
+  const RunResult run = runIrad({"bench",      "box",
+                                 "--size",     "64x48",
+                                 "--set",      "voxel.resolution=16",
+                                 "--set",      "matrix.rays=16",
+                                 "--frames",   "3",
+                                 "--rebuilds", "2",
+                                 "--warmup",   "1",
+                                 "--csv",      csv,
+                                 "--versus",   "matrix.format=padded",
+                                 "--versus",   "matrix.traversal=dda"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* part : {"GI BuildMatrix", "RE Forward", "Mrays/s", "GB/s", "copy bandwidth", "versus / settings"})
+    EXPECT_TRUE(contains(run.out, part)) << part << "\n" << run.out;
+  const std::string rows = slurp(csv);
+  EXPECT_TRUE(rows.starts_with("set,subsystem,kind,mean_ms,min_ms,max_ms,std_ms,p50_ms,p95_ms,p99_ms,samples\n"));
+  EXPECT_TRUE(contains(rows, "\nversus,GI BuildMatrix,setup,"));
+  const auto samples = [&](const std::string& start) {
+    const size_t row = rows.find(start);
+    if (row == std::string::npos) return "no row " + start;
+    const std::string line = rows.substr(row, rows.find('\n', row) - row);
+    return line.substr(line.rfind(',') + 1);
+  };
+  EXPECT_EQ(samples("settings,GI BuildMatrix,setup,"), "2");
+  EXPECT_EQ(samples("versus,GI Voxelization,setup,"), "2");
+  EXPECT_EQ(samples("settings,GI Solve,cold,"), "2");
+  EXPECT_EQ(samples("settings,GI Solve,relight,"), "3");
+  EXPECT_EQ(samples("versus,RE Forward,camera,"), "3");
+  EXPECT_EQ(samples("settings,wall,camera,"), "3");
+}
+
+}  // namespace
+}  // namespace irad
