@@ -28,7 +28,7 @@ inline Picture readExr(const std::filesystem::path& path, const std::string& lay
   if (!in) throw std::runtime_error("cannot read " + path.string() + ": " + OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
   std::vector<float> all(static_cast<size_t>(spec.width) * spec.height * spec.nchannels);
-  in->read_image(OIIO::TypeDesc::FLOAT, all.data());
+  in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, all.data());
   int channel[3] = {0, 1, 2};
   if (!layer.empty())
     for (int c = 0; c < 3; ++c) {
