@@ -43,7 +43,7 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     Scene scene = cache ? readSceneCache(path) : loadGltf(path, options);
     if (options.lambertian)
       for (Material& material : scene.materials) {
-        material.metallic = 0.0f, material.roughness = 1.0f;
+        material.metallic = 0.0f, material.roughness = 1.0f, material.lambertian = true;
         material.metallicRoughnessTexture = {};
       }
     if (!cache) addDefaults(scene);

@@ -155,9 +155,11 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
         TracePlane p = tracePlane(world, w, at, shape);
         float enterS = p.start + p.slope * w.t;
         float leaveS = p.start + p.slope * leave;
-        bool own = dot(p.normal, ownNormal) > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
+        float alike = dot(p.normal, ownNormal);
+        bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
         bool recorded = asked == 0u;
-        if (p.slope < 0.0f && p.start > -TRACE_BEHIND) {
+        // The own sheet's other side, whose plane this is too, cannot be met from here.
+        if (p.slope < 0.0f && p.start > (alike < -TRACE_OWN_NORMAL ? TRACE_ON_PLANE : -TRACE_BEHIND)) {
           float cross = -p.start / p.slope;
           if (leaveS <= TRACE_ON_PLANE && (recorded || enterS >= -TRACE_ON_PLANE)) {
             cross = max(cross, w.t);

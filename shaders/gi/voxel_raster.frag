@@ -23,16 +23,20 @@ void main() {
   if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(dims)))) return;
   uint voxel = voxelIndex(uvec3(cell), dims);
   uint flags = triangleFlags(push.scene, triangle);
-  // Only masked materials and second facets need the triangle itself.
-  if (push.slot == 1u || (flags & MATERIAL_ALPHA_MASK) != 0u) {
-    VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-    if (push.slot == 1u) {
-      uint winner = push.keys.at[voxel];
-      if (winner == 0u) return;
-      if (!opposes(t.normal, flags, triangleNormal(push.scene, push.grid, keyTriangle(winner)))) return;
-    }
-    if (masked(push.scene, t, triangle, flags, point)) return;
+  // The point's distance in front of the voxel's centre along the triangle's facing.
+  vec3 offset = point - vec3(cell) - 0.5;
+  float depth = offset[d] - dot(plane.xy, vec2(offset[(d + 1u) % 3u], offset[(d + 2u) % 3u]));
+  float columnArea = sqrt(1.0 + dot(plane.xy, plane.xy));
+  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  float side = t.normal[d] >= 0.0 ? 1.0 : -1.0;
+  if (push.slot == 1u) {
+    uint winner = push.keys.at[voxel];
+    if (winner == 0u) return;
+    vec3 winnerNormal = triangleNormal(push.scene, push.grid, keyTriangle(winner));
+    if (!opposes(t.normal, flags, winnerNormal)) return;
+    if (dot(t.normal, winnerNormal) > 0.0) side = -side;
   }
-  float area = sqrt(1.0 + dot(plane.xy, plane.xy));
-  atomicMax(push.keys.at[push.slot * push.grid.at[0].voxels + voxel], voxelKey(area, triangle));
+  if (masked(push.scene, t, triangle, flags, point)) return;
+  atomicMax(push.keys.at[push.slot * push.grid.at[0].voxels + voxel],
+            voxelKey(columnArea, side * depth / columnArea, triangle));
 }

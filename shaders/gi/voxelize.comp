@@ -75,10 +75,13 @@ void main() {
         vec3 base = vec3(x, y, z);
         uvec3 cell = uvec3(originalAxes(ivec3(x, y, z), t.axis));
         uint voxel = voxelIndex(cell, dims);
+        float side = 1.0;  // -1: the triangle's back is the candidate
         if (push.slot == 1u) {
           uint winner = push.keys.at[voxel];
           if (winner == 0u) continue;  // cut away by its alpha mask
-          if (!opposes(t.normal, flags, triangleNormal(push.scene, push.grid, keyTriangle(winner)))) continue;
+          vec3 winnerNormal = triangleNormal(push.scene, push.grid, keyTriangle(winner));
+          if (!opposes(t.normal, flags, winnerNormal)) continue;
+          if (dot(t.normal, winnerNormal) > 0.0) side = -1.0;
         }
         vec3 centre;
         float area;
@@ -93,7 +96,9 @@ void main() {
           if (area < 0.0) continue;
         }
         if (masked(push.scene, t, triangle, flags, originalAxes(centre + base, t.axis))) continue;
-        atomicMax(push.keys.at[push.slot * voxels + voxel], voxelKey(area, triangle));
+        vec3 offset = centre - 0.5;
+        float front = side * orientation * (offset.z - dot(slope, offset.xy)) / columnArea;
+        atomicMax(push.keys.at[push.slot * voxels + voxel], voxelKey(area, front, triangle));
       }
     }
   }

@@ -6,13 +6,17 @@
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
-/// Ordered key of a triangle in a voxel, resolved by atomicMax: bits 24-31 the area of the triangle inside the voxel in
-/// 1/170 voxel faces (a plane cuts a unit cube in at most sqrt 2), bits 0-23 the triangle's complement, so that equal
-/// areas go to the lower triangle. 0 is empty: the lower bits are never 0.
+/// Ordered key of a triangle in a voxel, resolved by atomicMax: bits 27-31 the area inside the voxel, up to half a face
+/// (more counts the same); bits 24-26 how far in front it lies along its own facing; bits 0-23 the triangle's complement,
+/// so that equals go to the lower triangle. Of two faces that both fill a voxel, such as a lamp just below a ceiling, the
+/// visible one wins; a sliver of the front one does not. 0 is empty: the lower bits are never 0.
+/// `area`: voxel faces, [0, sqrt 2]; `front`: (centre of the part - centre of the voxel) . unit facing, voxels.
 IRAD_CONST uint MAX_TRIANGLES = 0xFFFFFEu;
-IRAD_FN uint voxelKey(float area, uint triangle) {
-  float q = floor(area * 170.0f + 0.5f);
-  return (uint(q < 255.0f ? q : 255.0f) << 24) | (0xFFFFFFu - triangle);
+IRAD_FN uint voxelKey(float area, float front, uint triangle) {
+  float a = floor(area * 62.0f + 0.5f);
+  float f = floor((front + 0.875f) * (8.0f / 1.75f));
+  f = f < 0.0f ? 0.0f : (f > 7.0f ? 7.0f : f);
+  return (uint(a < 31.0f ? a : 31.0f) << 27) | (uint(f) << 24) | (0xFFFFFFu - triangle);
 }
 IRAD_FN uint keyTriangle(uint key) {
   return 0xFFFFFFu - (key & 0xFFFFFFu);
