@@ -99,9 +99,12 @@ class BarrierBuilder {
  public:
   void add(ResourceState& state, const Image* image, const Use& use) {
     if (image && !state.defined) {
-      // To GENERAL for good. The destination is everything, so that later readers at other stages need no barrier.
+      // To GENERAL for good. The source is everything, because the memory may have been another image's; so is the
+      // destination, so that later readers at other stages need no barrier.
       transitions_.push_back(
           {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+           .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+           .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
            .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
            .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
            .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
