@@ -135,10 +135,8 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
       .write(list.voxel, triangles, list.reverse)
       .push(push)
       .dispatch(push.blocks);
-  if (list.count > 0)
-    list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, frame, settings);
-  else
-    frame.submitAndWait();
+  frame.submitAndWait();
+  if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, settings);
   makeRecord(context, list);
   voxels.keys = Buffer();
   return list;
