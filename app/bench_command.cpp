@@ -158,7 +158,7 @@ void run(const Arguments& arguments) {
   repeat("relights", frames, [](Bench& bench) { bench.relight(); });
   repeat("camera frames", frames, [](Bench& bench) { bench.cameraFrame(); });
   const double copy = copyBandwidth(*session.context);
-  session.progress.note("");
+  session.progress.finish();
 
   if (arguments.json) {
     nlohmann::ordered_json out = toJson(*sets[0], copy);

@@ -91,7 +91,7 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
   writeFile(out / "manifest.json", manifest.toJson());
   written.push_back(out / "manifest.json");
-  session.progress.note("");
+  session.progress.finish();
   for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
   session.checkValidation();
 }

@@ -9,11 +9,8 @@
 namespace irad::app {
 
 ProgressReport::ProgressReport() : terminal_(::isatty(STDERR_FILENO) == 1) {}
-ProgressReport::~ProgressReport() {
-  clearBar();
-}
 
-void ProgressReport::clearBar() {
+void ProgressReport::finish() {
   if (barShown_) fmt::print(stderr, "\r\x1b[K");
   barShown_ = false;
 }
@@ -36,7 +33,7 @@ bool ProgressReport::operator()(const char* step, float fraction) {
 }
 
 void ProgressReport::note(const std::string& line) {
-  clearBar();
+  finish();
   fmt::print(stderr, "{}\n", line);
 }
 

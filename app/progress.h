@@ -8,14 +8,14 @@ namespace irad::app {
 class ProgressReport {
  public:
   ProgressReport();
-  ~ProgressReport();  ///< ends the line of the bar
+  ~ProgressReport() { finish(); }
   /// `fraction` 0..1 of `step`. Returns true: go on.
   bool operator()(const char* step, float fraction);
   /// A line of its own that does not tear the bar apart.
   void note(const std::string& line);
+  void finish();  ///< takes the bar away, before results are printed
 
  private:
-  void clearBar();
   bool terminal_;
   std::string step_;
   int percent_ = -1;

@@ -148,7 +148,7 @@ void run(const Arguments& arguments) {
   writeFile(out / "manifest.json", manifest.toJson());
   written.push_back(out / "manifest.json");
 
-  session.progress.note("");
+  session.progress.finish();
   summarize(session, pipeline);
   for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
   session.checkValidation();

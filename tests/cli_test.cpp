@@ -1,5 +1,7 @@
 // The irad program from outside: exit statuses and messages of DESIGN.md, files of render and export, replay to the
 // same bits.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
