@@ -189,7 +189,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   if (p.field) inputs.field = &*p.field;
   if (p.matrix) inputs.matrix = &*p.matrix;
   if (p.light) inputs.lighting = &*p.light;
-  if (p.settings.specular.mode == SpecularMode::compute) traceSpecular(frame, inputs, p.camera, p.settings, targets);
+  traceSpecular(frame, inputs, p.camera, p.settings, targets);
   drawView(frame, view, inputs, p.camera, p.settings, targets);
 }
 

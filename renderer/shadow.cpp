@@ -48,14 +48,13 @@ glm::mat4 fromRows(const std::array<glm::dvec4, 4>& rows) {
   return m;
 }
 
-glm::mat4 perspective(const Basis& basis, const glm::dvec3& eye, double tangent, double nearPlane, double farPlane) {
+/// Depth is near / distance: reversed, so that fp32 keeps its relative precision at any distance.
+glm::mat4 perspective(const Basis& basis, const glm::dvec3& eye, double tangent, double nearPlane) {
   const auto row = [&](const glm::dvec3& axis, double scale) {
     return glm::dvec4(axis * scale, -glm::dot(axis, eye) * scale);
   };
-  const double depthScale = farPlane / (farPlane - nearPlane);
-  glm::dvec4 depth = row(basis[2], depthScale);
-  depth.w -= nearPlane * depthScale;
-  return fromRows({row(basis[0], 1.0 / tangent), row(basis[1], 1.0 / tangent), depth, row(basis[2], 1.0)});
+  return fromRows(
+      {row(basis[0], 1.0 / tangent), row(basis[1], 1.0 / tangent), glm::dvec4(0, 0, 0, nearPlane), row(basis[2], 1.0)});
 }
 
 /// Near and far planes of a light at `eye`: from the scene's bounds (and the light's range), so that they scale with
@@ -99,7 +98,7 @@ void fitSun(const Scene& scene, GpuLight& light, uint32_t resolution) {
   light.shadowFar = static_cast<float>(2.0 * depth);
   light.shadowMatrix =
       fromRows({glm::dvec4(basis[0] / side, -centre.x / side), glm::dvec4(basis[1] / side, -centre.y / side),
-                glm::dvec4(basis[2] / (2.0 * depth), 0.5 - centre.z / (2.0 * depth)), glm::dvec4(0, 0, 0, 1)});
+                glm::dvec4(-basis[2] / (2.0 * depth), 0.5 + centre.z / (2.0 * depth)), glm::dvec4(0, 0, 0, 1)});
 }
 
 /// A spot's map covers its outer cone and the filter's rim.
@@ -108,8 +107,7 @@ void fitSpot(const Scene& scene, GpuLight& light, uint32_t resolution) {
   const double cosine = std::clamp(static_cast<double>(light.outerCos), 0.05, 0.99999);
   const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine * resolution / (resolution - 8.0);
   light.shadowTexel = static_cast<float>(2.0 * tangent / resolution);
-  light.shadowMatrix =
-      perspective(basisAbout(light.direction), light.position, tangent, light.shadowNear, light.shadowFar);
+  light.shadowMatrix = perspective(basisAbout(light.direction), light.position, tangent, light.shadowNear);
 }
 
 Image depthArray(const Device& device, const char* name, uint32_t size, uint32_t layers, bool cube) {
@@ -165,8 +163,8 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
       light.shadowTexel = 2.0f / static_cast<float>(cubeSize);
       for (int f = 0; f < 6; ++f) {
         const Basis basis{kCubeFaces[f][0], kCubeFaces[f][1], kCubeFaces[f][2]};
-        faces.push_back({true, light.shadowLayer * 6 + f,
-                         perspective(basis, light.position, /*tangent*/ 1.0, light.shadowNear, light.shadowFar)});
+        faces.push_back(
+            {true, light.shadowLayer * 6 + f, perspective(basis, light.position, /*tangent*/ 1.0, light.shadowNear)});
       }
       continue;
     }
@@ -201,7 +199,8 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
     frame.pass("RE Shadow")
         .shaders({"forward/depth.vert", "forward/depth.frag"})
         .read(scene.record, scene.positions, scene.indices, projections)
-        .depth(target, /*write*/ true, 1.0f, face.layer)
+        .depth(target, /*write*/ true, 0.0f, face.layer)
+        .depthCompare(VK_COMPARE_OP_GREATER_OR_EQUAL)
         .run(drawAll(false));
     if (!scene.anyAlphaMask) continue;
     frame.pass("RE Shadow")
@@ -209,15 +208,16 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
         .read(scene.record, scene.positions, scene.indices, scene.uv0, scene.uv1, scene.colors, scene.materials,
               projections)
         .depth(target, /*write*/ true, {}, face.layer)
+        .depthCompare(VK_COMPARE_OP_GREATER_OR_EQUAL)
         .run(drawAll(true));
   }
-  // Placeholders are cleared, so that a lookup would find no blocker.
+  // Placeholders are cleared to the far end.
   for (const Image* unused : {flats == 0 ? &maps.flat : nullptr, cubes == 0 ? &maps.cubes : nullptr}) {
     if (unused == nullptr) continue;
     for (uint32_t layer = 0; layer < unused->desc.layers; ++layer)
       frame.pass("RE Shadow")
           .shaders({"forward/depth.vert", "forward/depth.frag"})
-          .depth(*unused, /*write*/ true, 1.0f, static_cast<int>(layer))
+          .depth(*unused, /*write*/ true, 0.0f, static_cast<int>(layer))
           .run([](Commands&) {});
   }
   frame.submitAndWait();

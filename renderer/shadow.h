@@ -8,7 +8,7 @@
 namespace irad {
 
 struct ShadowMaps {
-  Image flat;   ///< D32, layers: sun and spot lights (at least one layer, so that it can always be bound)
+  Image flat;   ///< D32, reversed (1 near, 0 far), layers: sun and spot lights (at least one layer, so that it can always be bound)
   Image cubes;  ///< D32, cube array: point lights (at least one)
   VkSampler sampler = VK_NULL_HANDLE;  ///< compare, linear
 };

@@ -49,6 +49,9 @@ vec3 lightIrradiance(GpuLight light, vec3 position, vec3 normal) {
   return cosine > 0.0 ? lightIntensity(light, position) * cosine : vec3(0.0);
 }
 
+/// Depths are reversed (1 near, 0 far; near / distance in perspective), so that fp32 is precise everywhere; the samplers
+/// compare `reference <= stored`, which therefore gives the share that is blocked.
+
 /// The flat maps. Every tap compares with the depth that the receiver's own plane has at the tap (the plane's depth is
 /// affine in the map for both projections), so that the normal offset need only cover one bilinear footprint.
 float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset, float texel, uint pcf) {
@@ -78,14 +81,9 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
     for (uint x = 0u; x < pcf; ++x) {
       vec2 tap = (vec2(x, y) + first) / size;
       float depth = ndc.z + dot(slope, tap * vec2(2.0, -2.0));
-      sum += texture(shadowFlat, vec4(uv + tap, float(light.shadowLayer), min(depth, 1.0)));
+      sum += texture(shadowFlat, vec4(uv + tap, float(light.shadowLayer), clamp(depth, 1e-30, 1.0)));
     }
-  return sum / float(pcf * pcf);
-}
-
-/// Depth stored in a cube face at distance z along its axis.
-float cubeDepth(GpuLight light, float z) {
-  return light.shadowFar * (z - light.shadowNear) / ((light.shadowFar - light.shadowNear) * z);
+  return 1.0 - sum / float(pcf * pcf);
 }
 
 float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
@@ -106,10 +104,10 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
       float along = dot(n, tap);
       float ratio = height < 0.0 && along < 0.0 ? clamp(height / along, 0.8, 1.25) : 1.0;
       vec3 at = abs(tap) * ratio;
-      float depth = cubeDepth(light, max(at.x, max(at.y, at.z)));
-      sum += texture(shadowCubes, vec4(tap, float(light.shadowLayer)), min(depth, 1.0));
+      float depth = light.shadowNear / max(at.x, max(at.y, at.z));
+      sum += texture(shadowCubes, vec4(tap, float(light.shadowLayer)), clamp(depth, 1e-30, 1.0));
     }
-  return sum / float(pcf * pcf);
+  return 1.0 - sum / float(pcf * pcf);
 }
 
 /// Share of the light that reaches a point of a surface, 0..1: pcf x pcf bilinear comparisons one texel apart. The point

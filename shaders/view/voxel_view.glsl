@@ -81,50 +81,53 @@ void main() {
   bool drawn = false;
   float ink = 1.0;
   if (leave > enter) {
-    ivec3 cell = clamp(ivec3(floor(origin + direction * enter)), ivec3(0), ivec3(grid.dims) - 1);
-    ivec3 way = ivec3(sign(direction));
-    vec3 next = (vec3(cell) + step(vec3(0.0), direction) - origin) * inverse;  // per axis: where the cell is left
+    // March from cell to cell; `side` tells through which faces the present one was entered.
+    vec3 way = sign(direction);
     vec3 perCell = abs(inverse);
+    vec3 cell = clamp(floor(origin + direction * enter), vec3(0.0), vec3(grid.dims) - 1.0);
+    vec3 next = (cell + step(vec3(0.0), direction) - origin) * inverse;
+    vec3 side = vec3(equal(lo, vec3(enter)));
     float t = enter;
-    int axis = lo.x == enter ? 0 : (lo.y == enter ? 1 : 2);
-    for (uint n = 0u; n < grid.dims.x + grid.dims.y + grid.dims.z; ++n) {
+    float sum = 0.0;
+    uint entry = NO_FACET;
+    while (all(greaterThanEqual(cell, vec3(0.0))) && all(lessThan(cell, vec3(grid.dims)))) {
       uint index = voxelIndex(uvec3(cell), grid.dims);
       float until = min(next.x, min(next.y, next.z));
       if (push.view == VIEW_DISTANCE) {
         // T Fig. 5c: the inverse of the field, summed along the whole ray; a solid cell counts as half a voxel away.
-        value += (until - t) / max(fieldAt(cell, index), 0.5);
-        drawn = true;
+        sum += (until - t) / max(fieldAt(ivec3(cell), index), 0.5);
       } else {
-        uint entry = facets.reverse.at[index];
-        if (entry != NO_FACET) {
-          // The facet that faces the viewer most; the same facet over the whole cell.
-          uint facet = entry & ~SECOND_FACET;
-          uint count = (entry & SECOND_FACET) != 0u ? 2u : 1u;
-          if (count == 2u) {
-            vec3 towards = normalize(origin - (vec3(cell) + 0.5));
-            float a = dot(decodeNormal(facets.shape.at[facet] & 0xFFFFu, push.normalEncoding), towards);
-            float b = dot(decodeNormal(facets.shape.at[facet + 1u] & 0xFFFFu, push.normalEncoding), towards);
-            if (b > a) ++facet;
-          }
-          value = facetValue(facets, facet, count);
-          drawn = true;
-          // Thin lines along the cell's edges, in the display picture only; none where cells are a few pixels wide.
-          vec3 f = origin + direction * t - vec3(cell);
-          vec3 rim = min(f, 1.0 - f);
-          rim[axis] = 1.0;
-          float footprint = t / float(camera.size.y);
-          float width = 0.05;
-          float edge = smoothstep(0.5 * width, width, min(rim.x, min(rim.y, rim.z)));
-          ink = mix(mix(0.7, 1.0, edge), 1.0, clamp(footprint / width * 0.5, 0.0, 1.0));
-          if (push.view == VIEW_VOXEL_ALBEDO) ink *= axis == 1 ? 1.0 : (axis == 0 ? 0.85 : 0.92);
-          break;
-        }
+        entry = facets.reverse.at[index];
+        if (entry != NO_FACET) break;
       }
-      axis = next.x == until ? 0 : (next.y == until ? 1 : 2);
+      side = vec3(lessThanEqual(next, vec3(until)));
       t = until;
-      cell[axis] += way[axis];
-      next[axis] += perCell[axis];
-      if (cell[axis] < 0 || cell[axis] >= int(grid.dims[axis])) break;
+      cell += way * side;
+      next += perCell * side;
+    }
+    if (push.view == VIEW_DISTANCE) {
+      value = vec3(sum);
+      drawn = true;
+    } else if (entry != NO_FACET) {
+      // The facet that faces the viewer most; the same facet over the whole cell.
+      uint facet = entry & ~SECOND_FACET;
+      uint count = (entry & SECOND_FACET) != 0u ? 2u : 1u;
+      if (count == 2u) {
+        vec3 towards = origin - (cell + 0.5);
+        float a = dot(decodeNormal(facets.shape.at[facet] & 0xFFFFu, push.normalEncoding), towards);
+        float b = dot(decodeNormal(facets.shape.at[facet + 1u] & 0xFFFFu, push.normalEncoding), towards);
+        if (b > a) ++facet;
+      }
+      value = facetValue(facets, facet, count);
+      drawn = true;
+      // Thin lines along the cell's edges, in the display picture only; none where cells are a few pixels wide.
+      vec3 f = origin + direction * t - cell;
+      vec3 rim = min(f, 1.0 - f) + side;
+      float pixelSize = 2.0 * length(camera.inverseViewProjection[1].xyz) / float(camera.size.y);
+      pixelSize *= camera.orthographic != 0u ? grid.inverseEdge : t;
+      float line = 1.0 - smoothstep(0.6, 1.4, min(rim.x, min(rim.y, rim.z)) / max(0.03, 0.5 * pixelSize));
+      ink = 1.0 - 0.3 * line * clamp(2.0 - pixelSize * 10.0, 0.0, 1.0);
+      if (push.view == VIEW_VOXEL_ALBEDO) ink *= 1.0 - 0.15 * side.x - 0.08 * side.z;
     }
   }
   imageStore(linearTarget, ivec2(pixel), vec4(value, drawn ? 1.0 : 0.0));

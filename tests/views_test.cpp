@@ -1,0 +1,230 @@
+// The registry of views and what each draws: composition, colour map, voxels, odd values.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "tests/forward_support.h"
+
+namespace irad::test {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+class Views : public GpuTest {};
+
+/// A closed-looking corner: floor and back wall of albedo .5 and (.2, .4, .8), one sun.
+Scene cornerScene(float emission = 0) {
+  SceneBuilder b;
+  b.scene.materials[0].baseColor = {0.5f, 0.5f, 0.5f, 1};
+  b.addQuad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+  Material& wall = b.newMaterial();
+  wall.baseColor = {0.2f, 0.4f, 0.8f, 1};
+  wall.emission = glm::vec3(emission);
+  b.addQuad({-2, 0, -2}, {4, 0, 0}, {0, 4, 0});
+  b.addLight(LightType::Sun, kPi).direction = glm::normalize(glm::vec3(0.2f, -1, -0.6f));
+  b.addCamera({0, 2, 8}, {0, 1.5, 0}, 0.6f);
+  return b.finish();
+}
+
+/// The corner's facets and the light on them.
+struct Lit {
+  Stage stage;
+  FacetList facets;
+  Field field;
+  FormFactors matrix;
+  Lighting light;
+  Buffer grid;
+  Lit(Context& context, Scene scene, Settings settings) : stage(context, std::move(scene), settings) {
+    Voxels voxels = voxelize(context, stage.device, settings);
+    facets = compactFacets(context, voxels, settings);
+    field = buildField(context, facets, settings);
+    matrix = buildMatrix(context, facets, field, settings);
+    light = makeLighting(context, facets, settings);
+    Frame direct = context.begin();
+    gather(direct, stage.device, stage.shadows, facets, light, settings);
+    direct.submitAndWait();
+    solve(context, facets, matrix, light, settings, settings.solver.maxSweeps);
+    Frame frame = context.begin();
+    scatter(frame, facets, light, settings);
+    frame.submitAndWait();
+    grid = makeBuffer(context, "grid", Subsystem::Voxels, std::span<const Grid>(&facets.grid, 1));
+  }
+  ViewInputs inputs() const { return {&stage.device, &facets, &field, &matrix, &light}; }
+  IndirectInputs indirect() const {
+    IndirectInputs in;
+    in.grid = &grid;
+    in.facets = &facets.record;
+    in.shape = &facets.shape;
+    in.reverse = &facets.reverse;
+    in.shaded = &light.shaded;
+    in.shadedEmitted = &light.shadedEmitted;
+    in.volume = light.volume ? &light.volume : nullptr;
+    in.normalEncoding = static_cast<uint32_t>(facets.encoding);
+    in.sample = stage.settings.sample.gpu;
+    return in;
+  }
+  Picture draw(View view, glm::uvec2 size = {64, 64}) { return stage.draw(view, size, 0, inputs(), indirect()); }
+};
+
+Settings smallSettings() {
+  Settings s;
+  s.voxel.resolution = 16;
+  s.matrix.gpu.rays = 64;
+  return s;
+}
+
+TEST(ViewRegistry, EnumeratesWhatTheIssueAsksFor) {
+  std::set<std::string> names;
+  for (size_t i = 0; i < views().size(); ++i) {
+    const ViewInfo& info = views()[i];
+    EXPECT_EQ(info.view, i) << info.name;  // identifiers are the rows' numbers
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(findView(info.name), info.view);
+    EXPECT_FALSE(std::string(info.label).empty());
+    if (info.scalar) EXPECT_LE(info.rangeMin, info.rangeMax);
+  }
+  for (const char* name : {"lit", "no-gi", "direct", "indirect", "specular", "voxel-albedo", "voxel-normal", "distance",
+                           "irradiance", "radiosity", "row-occupancy"})
+    EXPECT_TRUE(findView(name)) << name;
+  EXPECT_FALSE(findView("lot"));
+}
+
+TEST_F(Views, UnknownIsMagenta) {
+  Stage stage(context(), cornerScene());
+  const Picture p = stage.draw(9999, {16, 16});
+  for (size_t i = 0; i < p.linear.size(); ++i) {
+    ASSERT_EQ(p.linear[i], glm::vec4(1, 0, 1, 1));
+    ASSERT_EQ(p.display[4 * i], 255);
+    ASSERT_EQ(p.display[4 * i + 1], 0);
+    ASSERT_EQ(p.display[4 * i + 2], 255);
+  }
+}
+
+TEST_F(Views, EveryOneDrawsSomethingFinite) {
+  Lit lit(context(), cornerScene(0.5f), smallSettings());
+  for (const ViewInfo& info : views()) {
+    const Picture p = lit.draw(info.view);
+    double sum = 0;
+    for (const glm::vec4& c : p.linear) {
+      ASSERT_TRUE(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)) << info.name;
+      sum += std::abs(c.x) + std::abs(c.y) + std::abs(c.z);
+    }
+    // The corner's materials are Lambertian, and no ray of it starts behind a surface.
+    if (info.view != VIEW_SPECULAR && info.view != VIEW_INVALID_RAYS) EXPECT_GT(sum, 0) << info.name;
+  }
+}
+
+TEST_F(Views, LitIsTheSumOfItsParts) {
+  Lit lit(context(), cornerScene(), smallSettings());
+  const Picture all = lit.draw(VIEW_LIT), direct = lit.draw(VIEW_DIRECT), indirect = lit.draw(VIEW_INDIRECT),
+                specular = lit.draw(VIEW_SPECULAR), h = lit.draw(VIEW_IRRADIANCE), albedo = lit.draw(VIEW_ALBEDO);
+  double brightest = 0;
+  for (size_t i = 0; i < all.linear.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_NEAR(all.linear[i][c], direct.linear[i][c] + indirect.linear[i][c] + specular.linear[i][c], 1e-5);
+      ASSERT_NEAR(indirect.linear[i][c], albedo.linear[i][c] * h.linear[i][c] / kPi, 1e-5);
+      brightest = std::max<double>(brightest, indirect.linear[i][c]);
+    }
+  EXPECT_GT(brightest, 0.01);  // light does go from floor to wall
+  EXPECT_EQ(lit.draw(VIEW_NO_GI).linear, direct.linear);
+}
+
+TEST_F(Views, RepeatIsBitEqual) {
+  Settings settings = smallSettings();
+  Lit lit(context(), cornerScene(), settings);
+  for (const View view : {VIEW_LIT, VIEW_SPECULAR, VIEW_RADIOSITY, VIEW_DISTANCE}) {
+    const Picture a = lit.draw(view), b = lit.draw(view);
+    EXPECT_TRUE(a.linear == b.linear);
+    EXPECT_EQ(a.display, b.display);
+  }
+}
+
+TEST_F(Views, VoxelsShowTheFacets) {
+  // The wall's cells show its albedo, its normal +Z, and (emission .5) M = .5 pi; the picture's middle column meets it.
+  Lit lit(context(), cornerScene(0.5f), smallSettings());
+  const auto middle = [&](View view) { return lit.draw(view).at(32, 8); };
+  const glm::vec4 albedo = middle(VIEW_VOXEL_ALBEDO);
+  EXPECT_NEAR(albedo.x, 0.2, 1e-3);
+  EXPECT_NEAR(albedo.y, 0.4, 1e-3);
+  EXPECT_NEAR(albedo.z, 0.8, 1e-3);
+  EXPECT_NEAR(middle(VIEW_VOXEL_NORMAL).z, 1, 1e-4);
+  EXPECT_NEAR(middle(VIEW_VOXEL_EMISSION).x, 0.5 * kPi, 1e-3);
+  EXPECT_GE(middle(VIEW_FACET_COUNT).x, 1);
+  // B = M + rho (D + H): at least M.
+  EXPECT_GE(middle(VIEW_RADIOSITY).z, 0.5 * kPi);
+  const float sum = middle(VIEW_ROW_SUM).x, occupancy = middle(VIEW_ROW_OCCUPANCY).x;
+  EXPECT_GE(sum, 0);
+  EXPECT_LE(sum, 1 + 4e-6);
+  EXPECT_LE(occupancy, sum + 1e-5);  // merged columns: never more entries than hits
+}
+
+TEST_F(Views, RowSumsAgreeBetweenFormats) {
+  Settings csr = smallSettings(), padded = csr;
+  padded.matrix.format = MatrixFormat::padded;
+  Lit a(context(), cornerScene(), csr), b(context(), cornerScene(), padded);
+  const Picture p = a.draw(VIEW_ROW_SUM), q = b.draw(VIEW_ROW_SUM);
+  double largest = 0;
+  for (size_t i = 0; i < p.linear.size(); ++i) {
+    ASSERT_NEAR(p.linear[i].x, q.linear[i].x, 1e-4) << i;
+    largest = std::max<double>(largest, p.linear[i].x);
+  }
+  EXPECT_GT(largest, 0.1);
+}
+
+TEST_F(Views, OddValuesAreColoured) {
+  // H of NaN, infinity and below zero on the voxels: red, green, blue.
+  Lit lit(context(), cornerScene(), smallSettings());
+  const float values[] = {std::nanf(""), INFINITY, -1.0f};
+  const uint8_t expected[3][3] = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<glm::vec4> h(lit.facets.count, glm::vec4(values[k]));
+    upload(context(), lit.light.indirect, std::as_bytes(std::span(h)));
+    const Picture p = lit.draw(VIEW_VOXEL_IRRADIANCE);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(p.display[4 * (8 * 64 + 32) + c], expected[k][c]) << k;
+  }
+}
+
+TEST_F(Views, MirrorShowsTheWall) {
+  // A mirror floor of fp32 H = 0 before a wall of constant radiosity: the reflection is B / pi, in compute and
+  // fragment.
+  for (const SpecularMode mode : {SpecularMode::compute, SpecularMode::fragment}) {
+    Scene scene = cornerScene();
+    Material& floor = scene.materials[0];
+    floor.lambertian = false;
+    floor.metallic = 1;
+    floor.roughness = 0;
+    floor.baseColor = {1, 1, 1, 1};
+    Settings settings = smallSettings();
+    settings.specular.mode = mode;
+    settings.specular.gpu.threshold = 0;
+    Lit lit(context(), std::move(scene), settings);
+    const std::vector<glm::vec4> b(lit.facets.count, glm::vec4(kPi));
+    upload(context(), lit.light.radiosity, std::as_bytes(std::span(b)));
+    const Picture p = lit.draw(VIEW_SPECULAR, {65, 65});
+    // The floor one metre before the wall, seen from the front: its mirror ray meets the wall.
+    const glm::dvec3 eye(0, 2, 8), at(0, 1.5, 0), target(0, 0, -1);
+    const glm::dvec3 forward = glm::normalize(at - eye), right(1, 0, 0), up = glm::cross(right, forward);
+    const glm::dvec3 d = target - eye;
+    const double y = glm::dot(d, up) / glm::dot(d, forward) / std::tan(0.3);
+    const auto row = static_cast<uint32_t>((0.5 - 0.5 * y) * 65);
+    EXPECT_NEAR(p.at(32, row).x, 1, 0.02) << static_cast<int>(mode);
+  }
+}
+
+TEST_F(Views, LambertianSceneHasNoSpecularAtAll) {
+  Lit lit(context(), cornerScene(), smallSettings());
+  for (const glm::vec4& c : lit.draw(VIEW_SPECULAR).linear) ASSERT_EQ(glm::vec3(c), glm::vec3(0));
+}
+
+TEST_F(Views, DistanceFollowsEitherField) {
+  Settings chebyshev = smallSettings(), jfa = chebyshev;
+  jfa.field.method = FieldMethod::jfa;
+  Lit a(context(), cornerScene(), chebyshev), b(context(), cornerScene(), jfa);
+  const Picture p = a.draw(VIEW_DISTANCE), q = b.draw(VIEW_DISTANCE);
+  // Chebyshev distances are never above Euclidean ones, so their inverses are never below.
+  for (size_t i = 0; i < p.linear.size(); ++i) ASSERT_GE(p.linear[i].x * 1.02f + 1e-3f, q.linear[i].x) << i;
+}
+
+}  // namespace
+}  // namespace irad::test
