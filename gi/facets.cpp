@@ -135,8 +135,10 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
       .write(list.voxel, triangles, list.reverse)
       .push(push)
       .dispatch(push.blocks);
-  frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, settings);
+  if (list.count > 0)
+    list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, frame, settings);
+  else
+    frame.submitAndWait();
   makeRecord(context, list);
   voxels.keys = Buffer();
   return list;
