@@ -81,7 +81,6 @@ std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const st
   shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
-  shader.setDebugInfo(true);
   const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgDebugInfo);
   Includer includer(sources);
   const auto fail = [&](const char* what, const char* log) {
