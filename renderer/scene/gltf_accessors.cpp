@@ -43,6 +43,14 @@ uint32_t elementSize(const tinygltf::Accessor& a) {
   }
 }
 
+/// What of the last element must exist: the padding after its last column need not.
+uint32_t lastElementSize(const tinygltf::Accessor& a) {
+  const uint32_t size = componentSize(a.componentType);
+  if (a.type == TINYGLTF_TYPE_MAT2) return elementSize(a) / 2 + 2 * size;
+  if (a.type == TINYGLTF_TYPE_MAT3) return elementSize(a) / 3 * 2 + 3 * size;
+  return elementSize(a);
+}
+
 void checkRange(const Document& doc, int view, uint64_t offset, uint64_t stride, uint64_t size, uint64_t count,
                 const std::string& where) {
   const tinygltf::BufferView& v = doc.model.bufferViews[static_cast<size_t>(view)];
@@ -158,7 +166,7 @@ void verifyAccessors(const Document& doc) {
       const uint64_t stride = doc.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
       if (stride != 0 && stride < elementSize(a))
         doc.fail(where, fmt::format("elements of {} bytes at a stride of {}", elementSize(a), stride));
-      checkRange(doc, a.bufferView, a.byteOffset, stride != 0 ? stride : elementSize(a), elementSize(a), a.count,
+      checkRange(doc, a.bufferView, a.byteOffset, stride != 0 ? stride : elementSize(a), lastElementSize(a), a.count,
                  where);
     }
     if (!a.sparse.isSparse) continue;
@@ -172,7 +180,7 @@ void verifyAccessors(const Document& doc) {
     const uint64_t count = static_cast<uint64_t>(s.count);
     checkRange(doc, s.indices.bufferView, static_cast<uint64_t>(s.indices.byteOffset), componentSize(type),
                componentSize(type), count, where + ".sparse.indices");
-    checkRange(doc, s.values.bufferView, static_cast<uint64_t>(s.values.byteOffset), elementSize(a), elementSize(a),
+    checkRange(doc, s.values.bufferView, static_cast<uint64_t>(s.values.byteOffset), elementSize(a), lastElementSize(a),
                count, where + ".sparse.values");
   }
 }

@@ -155,7 +155,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
       triangles += primitive->indices.size() / 3;
       if (triangles > kMaxTriangles)
         doc.fail("meshes", fmt::format("more than {} triangles with all instances", kMaxTriangles));
-      doc.take(sizeof(Placed) + primitive->indices.size() / 24, "meshes");
+      doc.take(3 * sizeof(Placed) + primitive->indices.size() / 24, "meshes");
       placed.push_back(std::move(place));
     }
   }

@@ -70,7 +70,7 @@ void loadBuffer(Document& doc, const Json& buffer, size_t index) {
     Bytes data;
     if (isDataUri(uri)) {
       std::string mime;
-      doc.take(uri.size() / 4 * 3, where);
+      doc.take(uri.size(), where);
       if (!decodeDataUri(uri, data, mime)) doc.fail(where + ".uri", "is a malformed data URI");
     } else {
       std::string why;
@@ -104,13 +104,17 @@ bool isDataUri(const std::string& uri) {
 }
 
 bool decodeDataUri(const std::string& uri, Bytes& out, std::string& mime) {
+  // RFC 2397: data:[type][;base64],data; without base64 the data is percent-encoded text.
   const size_t comma = uri.find(',');
   if (comma == std::string::npos) return false;
   const std::string header = uri.substr(5, comma - 5);
-  const size_t semicolon = header.rfind(';');
-  if (semicolon == std::string::npos || header.substr(semicolon) != ";base64") return false;
   mime = header.substr(0, header.find(';'));
-  return decodeBase64(std::string_view(uri).substr(comma + 1), out);
+  const size_t semicolon = header.rfind(';');
+  if (semicolon != std::string::npos && header.substr(semicolon) == ";base64")
+    return decodeBase64(std::string_view(uri).substr(comma + 1), out);
+  const std::string text = percentDecode(uri.substr(comma + 1));
+  out.assign(text.begin(), text.end());
+  return true;
 }
 
 std::filesystem::path resolveUri(const Document& doc, const std::string& uri, std::string& why) {

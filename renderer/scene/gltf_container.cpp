@@ -10,7 +10,7 @@ namespace irad::gltf {
 namespace {
 
 constexpr uint64_t kMaxJsonBytes = 64ull << 20;
-constexpr uint64_t kMaxJsonTokens = 4'000'000;
+constexpr uint64_t kMaxJsonTokens = 2'500'000;
 constexpr int kMaxJsonDepth = 128;
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 

@@ -24,7 +24,7 @@ using Bytes = std::vector<uint8_t>;
 using ByteSpan = std::span<const uint8_t>;
 
 constexpr uint64_t kMaxTriangles = 1u << 24;
-constexpr uint64_t kMemoryBudget = 1600ull << 20;  ///< bytes of all that one load holds at a time
+constexpr uint64_t kMemoryBudget = 1400ull << 20;  ///< bytes of all that one load holds at a time
 constexpr uint64_t kMaxImageBytes = 1ull << 30;    ///< decoded, all images together
 constexpr uint32_t kMaxImageExtent = 16384;        ///< pixels per side
 constexpr double kMaxCoordinate = 1e15;            ///< beyond it squares of fp32 overflow
@@ -79,7 +79,7 @@ void loadBuffers(Document&);
 /// A file named by a relative URI, never outside the scene's folder; nullopt-like empty path and `why` when refused.
 std::filesystem::path resolveUri(const Document&, const std::string& uri, std::string& why);
 bool isDataUri(const std::string& uri);
-/// Decodes a base64 data URI; false when malformed.
+/// Decodes a data URI; false when malformed.
 bool decodeDataUri(const std::string& uri, Bytes& out, std::string& mime);
 Bytes readFile(const std::filesystem::path& path, uint64_t maxBytes, std::string& why);
 

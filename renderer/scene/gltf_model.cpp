@@ -10,8 +10,8 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"
-#include <nlohmann/json.hpp>  // first: tinygltf includes it with hidden visibility
 #include <tiny_gltf.h>
+#include <nlohmann/json.hpp>  // first: tinygltf includes it with hidden visibility
 #pragma GCC diagnostic pop
 #undef TINYGLTF_IMPLEMENTATION  // that part of the header has no include guard
 
@@ -53,6 +53,10 @@ void parseModel(Document& doc) {
   Json json = *doc.root;
   for (const char* name : {"buffers", "images", "animations"}) json.erase(name);
   strip(json);
+  // Bounds may lie or be infinite; the data itself is measured.
+  if (json.contains("accessors"))
+    for (Json& accessor : json.at("accessors"))
+      if (accessor.is_object()) accessor.erase("min"), accessor.erase("max");
   // tinygltf refuses index accessors without a bufferView, which Draco meshes have by design: put them back afterwards.
   std::vector<std::vector<int>> indices;
   if (json.contains("meshes"))

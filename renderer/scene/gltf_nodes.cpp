@@ -125,7 +125,7 @@ std::vector<glm::dmat4> instanceTransforms(Document& doc, const tinygltf::Node& 
   for (const Elements* e : {&t, &r, &s})
     if (e->count != 0 && e->count != count)
       doc.fail(where, fmt::format("attributes of {} and {} instances", e->count, count));
-  doc.take(count * sizeof(Instance), where);
+  doc.take(count * 4 * sizeof(Instance), where);  // the transforms, and the instances as their array grows
   std::vector<glm::dmat4> out(count);
   for (size_t i = 0; i < count; ++i) {
     const auto vector = [&](const Elements& e, double otherwise) {

@@ -150,7 +150,6 @@ std::vector<Rule> rules() {
   add("accessors/[]/byteOffset", UInt, 0, kMaxOffset), add("accessors/[]/componentType", UInt, 5120, 5126, true);
   add("accessors/[]/normalized", Bool), add("accessors/[]/count", UInt, 1, kMaxCount, true);
   add("accessors/[]/type", String, 0, 0, true), add("accessors/[]/sparse", Object);
-  add("accessors/[]/min", Numbers, 1, 16), add("accessors/[]/max", Numbers, 1, 16);
   // tinygltf keeps these offsets and counts as int.
   add("accessors/[]/sparse/count", UInt, 1, 2147483647, true), add("accessors/[]/sparse/indices", Object, 0, 0, true);
   ref("accessors/[]/sparse/indices/bufferView", "bufferViews", Index, true);

@@ -55,7 +55,11 @@ class AttributeReader {
 };
 
 /// glTF 3.7.2.1: triangle lists, strips and fans as lists, with their winding.
-std::vector<uint32_t> triangulate(const std::vector<uint32_t>& in, int mode) {
+std::vector<uint32_t> triangulate(const Document& doc, const std::vector<uint32_t>& in, int mode,
+                                  const std::string& where) {
+  const uint64_t triangles = mode == TINYGLTF_MODE_TRIANGLES ? in.size() / 3 : in.size() < 3 ? 0 : in.size() - 2;
+  if (triangles > kMaxTriangles)
+    doc.fail(where, fmt::format("{} triangles, at most {} are accepted", triangles, kMaxTriangles));
   if (mode == TINYGLTF_MODE_TRIANGLES) return {in.begin(), in.begin() + static_cast<int64_t>(in.size() / 3 * 3)};
   std::vector<uint32_t> out;
   for (size_t i = 0; i + 2 < in.size(); ++i) {
@@ -243,6 +247,7 @@ void readSkin(Document& doc, AttributeReader& reader, const std::string& where, 
     }
   }
   out.influences = static_cast<uint32_t>(4 * joints.size());
+  doc.take(uint64_t{out.influences} * out.positions.size() * 8, where);
   for (size_t v = 0; v < out.positions.size() && out.influences > 0; ++v)
     for (size_t set = 0; set < joints.size(); ++set)
       for (size_t c = 0; c < 4; ++c) {
@@ -306,8 +311,8 @@ bool loadPrimitive(Document& doc, const tinygltf::Mesh& mesh, uint32_t meshIndex
   applyMorphTargets(doc, reader, in, morphWeights, where, out);
   readSkin(doc, reader, where, out);
 
-  out.indices =
-      triangulate(reader.packed() ? reader.packedIndices() : readIndexList(doc, in, positions.count, where), mode);
+  out.indices = triangulate(
+      doc, reader.packed() ? reader.packedIndices() : readIndexList(doc, in, positions.count, where), mode, where);
   for (const uint32_t index : out.indices)
     if (index >= positions.count)
       doc.fail(where + ".indices", fmt::format("{} is past the {} vertices", index, positions.count));

@@ -1,0 +1,462 @@
+// The loader on small files with known answers.
+#include "renderer/scene/sha256.h"
+#include "tests/scene_files.h"
+
+namespace irad::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kU8 = 5121, kI16 = 5122, kU16 = 5123, kU32 = 5125, kFloat = 5126;
+
+class SceneLoading : public ::testing::Test {
+ protected:
+  Scene load(GltfFile& file, const LoadOptions& options = {}) {
+    Scene scene = loadScene(file.write(folder.path), options);
+    EXPECT_EQ(unsound(scene), "");
+    return scene;
+  }
+  void refuse(GltfFile& file, const std::string& text) { expectRefused(file.write(folder.path), text); }
+  TemporaryFolder folder;
+};
+
+glm::dvec3 world(const Scene& s, size_t corner) {
+  return s.origin + glm::dvec3(s.positions[s.indices[corner]]);
+}
+
+void expectCorners(const Scene& s, const std::vector<glm::dvec3>& want) {
+  ASSERT_EQ(s.indices.size(), want.size());
+  for (size_t i = 0; i < want.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(world(s, i)[c], want[i][c], 1e-6) << "corner " << i << " component " << c;
+}
+
+// FIPS 180-4 example vectors.
+TEST(Sha256, KnownVectors) {
+  const auto of = [](const std::string& text) {
+    return sha256(std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+  };
+  EXPECT_EQ(of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  const std::string million(1000000, 'a'), want = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
+  EXPECT_EQ(of(million), want);
+  TemporaryFolder folder;
+  std::ofstream(folder.path / "a") << million;
+  EXPECT_EQ(sha256File(folder.path / "a"), want);
+  EXPECT_THROW(sha256File(folder.path / "missing"), InputError);
+}
+
+TEST_F(SceneLoading, IndexTypesAndNone) {
+  const std::vector<glm::dvec3> want = {{0, 1, 0}, {0, 0, 0}, {1, 0, 0}};
+  const auto check = [&](auto example, int type) {
+    GltfFile file = triangleFile();
+    file.primitive()["indices"] = file.data(std::vector<decltype(example)>{2, 0, 1}, "SCALAR", type, 1);
+    expectCorners(load(file), want);
+  };
+  check(uint8_t{}, kU8), check(uint16_t{}, kU16), check(uint32_t{}, kU32);
+  GltfFile file = triangleFile();
+  const Scene s = load(file);
+  expectCorners(s, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  for (const glm::vec3& n : s.normals) EXPECT_EQ(n, glm::vec3(0, 0, 1));  // flat, generated
+  EXPECT_EQ(s.origin, glm::dvec3(0.5, 0.5, 0.0));
+  EXPECT_EQ(s.boundsMax, glm::vec3(0.5f, 0.5f, 0.0f));
+  EXPECT_EQ(s.sha256, sha256File(folder.path / "scene.gltf"));
+}
+
+TEST_F(SceneLoading, StripsFansAndPoints) {
+  GltfFile file;
+  file.attributes()["POSITION"] = file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+  file.primitive()["mode"] = 5;
+  expectCorners(load(file), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  file.attributes()["POSITION"] = file.vec3({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+  file.json.erase("buffers");
+  file.primitive()["mode"] = 6;
+  expectCorners(load(file), {{1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}});
+  file.primitive()["mode"] = 0;
+  const Scene points = load(file);
+  EXPECT_EQ(points.triangleCount(), 0u);
+  EXPECT_TRUE(warns(points, "points or lines"));
+  EXPECT_TRUE(warns(points, "no triangles"));
+}
+
+TEST_F(SceneLoading, InterleavedNormalizedAndQuantized) {
+  GltfFile file;
+  // Per vertex: three 16-bit positions, two bytes of padding, four colour bytes.
+  struct Vertex {
+    int16_t position[4];
+    uint8_t color[4];
+  };
+  const int view = file.view(std::vector<Vertex>{{{0, 0, 0, 0}, {0, 51, 255, 255}},
+                                                 {{32767, 0, 0, 0}, {0, 51, 255, 255}},
+                                                 {{0, -32768, 0, 0}, {0, 51, 255, 255}}},
+                             sizeof(Vertex));
+  file.attributes()["POSITION"] = file.accessor(
+      {{"bufferView", view}, {"componentType", kI16}, {"normalized", true}, {"type", "VEC3"}, {"count", 3}});
+  file.attributes()["COLOR_0"] = file.accessor({{"bufferView", view},
+                                                {"byteOffset", 8},
+                                                {"componentType", kU8},
+                                                {"normalized", true},
+                                                {"type", "VEC4"},
+                                                {"count", 3}});
+  const Scene s = load(file);
+  expectCorners(s, {{0, 0, 0}, {1, 0, 0}, {0, -1, 0}});  // -32768 means -1 too
+  for (const glm::vec4& c : s.colors) EXPECT_EQ(c, glm::vec4(0.0f, 0.2f, 1.0f, 1.0f));
+}
+
+TEST_F(SceneLoading, SparseWithAndWithoutAView) {
+  for (const bool withView : {true, false}) {
+    GltfFile file;
+    json a = {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 3}};
+    if (withView) a["bufferView"] = file.view(std::vector<float>{0, 0, 0, 9, 9, 9, 9, 9, 9});
+    a["sparse"] = {{"count", 2},
+                   {"indices", {{"bufferView", file.view(std::vector<uint16_t>{1, 2})}, {"componentType", kU16}}},
+                   {"values", {{"bufferView", file.view(std::vector<float>{3, 0, 0, 0, 4, 0})}}}};
+    file.attributes()["POSITION"] = file.accessor(a);
+    expectCorners(load(file), {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}});
+    file.json["accessors"][0]["sparse"]["indices"]["bufferView"] = file.view(std::vector<uint16_t>{2, 1});
+    file.json.erase("buffers");
+    refuse(file, "sparse");  // indices must increase
+  }
+}
+
+TEST_F(SceneLoading, TransformsMirrorsAndInstances) {
+  GltfFile file = triangleFile();
+  file.json["nodes"] = {{{"children", {1}}, {"translation", {10, 0, 0}}}, {{"mesh", 0}, {"scale", {-2, 1, 1}}}};
+  const Scene mirrored = load(file);
+  // Rewound, so that it still faces +z.
+  expectCorners(mirrored, {{10, 0, 0}, {10, 1, 0}, {8, 0, 0}});
+  EXPECT_EQ(mirrored.normals[0], glm::vec3(0, 0, 1));
+  file.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      file.vec3({0, 0, 0, 0, 0, 5});
+  file.json["extensionsRequired"] = file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  file.json.erase("buffers");
+  const Scene two = load(file);
+  EXPECT_EQ(two.triangleCount(), 2u);
+  EXPECT_DOUBLE_EQ(world(two, 3).z, 5.0);
+}
+
+TEST_F(SceneLoading, SingularTransformsDropTheirTriangles) {
+  GltfFile file = triangleFile();
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"scale", {1, 0, 1}}, {"translation", {100, 0, 0}}}};
+  const Scene s = load(file);
+  expectCorners(s, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_EQ(s.origin, glm::dvec3(0.5, 0.5, 0.0));  // the dropped one is not in the bounds
+  EXPECT_TRUE(warns(s, "1 triangles without area"));
+}
+
+TEST_F(SceneLoading, NonFiniteAndDegenerateTrianglesLeaveNothingBehind) {
+  GltfFile clean = triangleFile();
+  const Scene want = load(clean);
+  GltfFile file;
+  const float nan = std::nanf(""), inf = INFINITY;
+  file.attributes()["POSITION"] = file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0, inf, 5, 5, 50, 50, 50, 3e38f, 0, 0});
+  file.primitive()["indices"] =
+      file.data(std::vector<uint16_t>{0, 1, 3, 0, 1, 4, 0, 1, 6, 5, 5, 0, 0, 1, 2}, "SCALAR", kU16, 1);
+  const Scene s = load(file);
+  EXPECT_TRUE(warns(s, "3 triangles with non-finite"));
+  EXPECT_TRUE(warns(s, "1 triangles without area"));
+  EXPECT_EQ(s.positions, want.positions);
+  EXPECT_EQ(s.indices, want.indices);
+  EXPECT_EQ(s.origin, want.origin);
+}
+
+TEST_F(SceneLoading, ZeroNormalsBecomeTheFacesOwn) {
+  GltfFile file = triangleFile();
+  file.attributes()["NORMAL"] = file.vec3({0, 0, 0, 0, 0, 2, 0, 0, 1});
+  const Scene s = load(file);
+  for (const glm::vec3& n : s.normals) EXPECT_EQ(n, glm::vec3(0, 0, 1));
+  EXPECT_TRUE(warns(s, "1 normals of length 0"));
+}
+
+TEST_F(SceneLoading, FarAwayEqualsTheRecentredScene) {
+  GltfFile near = triangleFile();
+  near.json["nodes"][0]["scale"] = {10, 10, 10};
+  GltfFile far = near;
+  far.json["nodes"][0]["translation"] = {1e6, -1e6, 1e6};
+  const Scene a = load(near), b = load(far);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(b.origin, glm::dvec3(1e6 + 5, -1e6 + 5, 1e6));
+}
+
+constexpr const char* kPng2x1 =  // RGBA (255,0,0,128), (10,20,30,255)
+    "data:image/"
+    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAEUlEQVR4nGP4z8DQwCUi9x8ADCACu8ZPihQAAAAASUVORK5CYII=";
+
+GltfFile texturedQuad() {
+  GltfFile file;
+  file.attributes()["POSITION"] = file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+  file.attributes()["NORMAL"] = file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  file.attributes()["TEXCOORD_0"] = file.vec2({0, 1, 1, 1, 0, 0, 1, 0});  // v down, as glTF has it
+  file.primitive()["indices"] = file.data(std::vector<uint16_t>{0, 1, 2, 2, 1, 3}, "SCALAR", kU16, 1);
+  file.primitive()["material"] = 0;
+  file.json["images"] = {{{"uri", kPng2x1}}};
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+  return file;
+}
+
+TEST_F(SceneLoading, TangentsOfAQuad) {
+  GltfFile file = texturedQuad();
+  const Scene s = load(file);
+  ASSERT_EQ(s.tangents.size(), 4u);
+  for (const glm::vec4& t : s.tangents) {
+    EXPECT_NEAR(t.x, 1.0f, 1e-6f);
+    EXPECT_EQ(t.w, 1.0f);  // bitangent cross(z, x) = +y, where v falls
+  }
+  file.attributes()["TEXCOORD_0"] = file.vec2({1, 1, 0, 1, 1, 0, 0, 0});
+  file.json.erase("buffers");
+  for (const glm::vec4& t : load(file).tangents) {
+    EXPECT_NEAR(t.x, -1.0f, 1e-6f);
+    EXPECT_EQ(t.w, -1.0f);
+  }
+  // u mirrored about the diagonal's shared vertices: both keep their handedness, so vertices are split.
+  file.attributes()["TEXCOORD_0"] = file.vec2({0, 1, 1, 1, 1, 0, 0, 1});
+  file.json.erase("buffers");
+  const Scene split = load(file);
+  EXPECT_GT(split.positions.size(), 4u);
+}
+
+TEST_F(SceneLoading, TangentsFollowMirroredNodes) {
+  GltfFile file = texturedQuad();
+  file.json["nodes"][0]["scale"] = {-1, 1, 1};
+  for (const glm::vec4& t : load(file).tangents) {
+    EXPECT_NEAR(t.x, -1.0f, 1e-6f);
+    EXPECT_EQ(t.w, -1.0f);  // cross(z, -x) * -1 = +y still
+  }
+}
+
+TEST_F(SceneLoading, ImagesByUse) {
+#ifndef IRAD_OIIO
+  GTEST_SKIP() << "built without image decoders";
+#endif
+  GltfFile file = texturedQuad();
+  file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+  const Scene s = load(file);
+  ASSERT_EQ(s.images.size(), 2u);  // the one image as colour and as data
+  const Material& m = s.materials[0];
+  EXPECT_TRUE(s.images[static_cast<size_t>(m.baseColorTexture.image)].srgb);
+  EXPECT_FALSE(s.images[static_cast<size_t>(m.normalTexture.image)].srgb);
+  for (const SceneImage& image : s.images)  // straight alpha: colours are not multiplied by it
+    EXPECT_EQ(image.rgba, (std::vector<uint8_t>{255, 0, 0, 128, 10, 20, 30, 255}));
+}
+
+TEST_F(SceneLoading, MissingAndBrokenImagesArePink) {
+  for (const char* uri :
+       {"missing.png", "data:image/png;base64,iVBORw0KGgo=", "../outside.png", "http://127.0.0.1:9/a.png"}) {
+    GltfFile file = texturedQuad();
+    file.json["images"][0]["uri"] = uri;
+    const Scene s = load(file);
+    ASSERT_EQ(s.images.size(), 1u);
+    EXPECT_EQ(s.images[0].width, 8u);
+    EXPECT_EQ(s.images[0].rgba[0], 255);
+    EXPECT_EQ(s.images[0].rgba[1], 0);
+    EXPECT_TRUE(warns(s, "pink")) << uri;
+  }
+}
+
+TEST_F(SceneLoading, TextureTransformAndSampler) {
+  GltfFile file = texturedQuad();
+  file.attributes()["TEXCOORD_1"] = file.vec2({0, 1, 1, 1, 0, 0, 1, 0});
+  file.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9985}}};
+  file.json["textures"][0]["sampler"] = 0;
+  file.json["extensionsUsed"] = {"KHR_texture_transform"};
+  file.json["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {
+      {"offset", {0.5, 0.25}}, {"scale", {2, 3}}, {"rotation", M_PI / 2}, {"texCoord", 1}};
+  const Scene s = load(file);
+  const TextureUse& use = s.materials[0].normalTexture;
+  EXPECT_EQ(use.uvSet, 1u);
+  // Scale, then a quarter turn counter-clockwise as seen (v down: u goes to -v), then the offset.
+  const glm::vec2 uv = use.transform * glm::vec3(1.0f, 0.0f, 1.0f), vv = use.transform * glm::vec3(0.0f, 1.0f, 1.0f);
+  EXPECT_NEAR(uv.x, 0.5f, 1e-6f);
+  EXPECT_NEAR(uv.y, 0.25f - 2.0f, 1e-6f);
+  EXPECT_NEAR(vv.x, 0.5f + 3.0f, 1e-6f);
+  EXPECT_NEAR(vv.y, 0.25f, 1e-6f);
+  EXPECT_EQ(use.sampler.u, Wrap::Clamp);
+  EXPECT_EQ(use.sampler.v, Wrap::Mirror);
+  EXPECT_FALSE(use.sampler.linearMag);
+  EXPECT_TRUE(use.sampler.linearMin);  // LINEAR_MIPMAP_NEAREST
+  EXPECT_FALSE(use.sampler.linearMips);
+}
+
+TEST_F(SceneLoading, FactorsAreClampedAndReported) {
+  GltfFile file = triangleFile();
+  file.primitive()["material"] = 0;
+  file.json["materials"] = {
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {5, -1, 0.5, 1}}, {"roughnessFactor", 0.25}}},
+       {"emissiveFactor", {1, 0.5, 0}},
+       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}}}}};
+  const Scene s = load(file);
+  EXPECT_EQ(s.materials[0].baseColor, glm::vec4(1.0f, 0.0f, 0.5f, 1.0f));
+  EXPECT_EQ(s.materials[0].emission, glm::vec3(8.0f, 4.0f, 0.0f));
+  EXPECT_TRUE(warns(s, "baseColorFactor[0]: 5 is clamped to 1"));
+  EXPECT_TRUE(warns(s, "baseColorFactor[1]: -1 is clamped to 0"));
+  EXPECT_TRUE(s.lights.empty());  // it emits
+  LoadOptions lambertian;
+  lambertian.lambertian = true;
+  const Scene flat = load(file, lambertian);
+  EXPECT_EQ(flat.materials[0].metallic, 0.0f);
+  EXPECT_EQ(flat.materials[0].roughness, 1.0f);
+  EXPECT_EQ(flat.materials[0].emission, s.materials[0].emission);
+}
+
+TEST_F(SceneLoading, DefaultCameraSeesEverythingAndDefaultSunIsNoted) {
+  GltfFile file = triangleFile();
+  const Scene s = load(file);
+  ASSERT_TRUE(s.defaultCamera && s.defaultLight);
+  EXPECT_TRUE(warns(s, "no camera in scene.gltf"));
+  EXPECT_TRUE(warns(s, "no light in scene.gltf"));
+  const Camera& camera = s.cameras[0];
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p(corner & 1 ? s.boundsMax.x : s.boundsMin.x, corner & 2 ? s.boundsMax.y : s.boundsMin.y,
+                      corner & 4 ? s.boundsMax.z : s.boundsMin.z);
+    const glm::vec3 view = glm::inverse(camera.orientation) * glm::vec3(s.origin + glm::dvec3(p) - camera.position);
+    const float limit = std::tan(camera.yfov / 2) * -view.z;
+    EXPECT_LT(view.z, -camera.znear);
+    EXPECT_LT(std::abs(view.x), limit);
+    EXPECT_LT(std::abs(view.y), limit);
+  }
+  EXPECT_LT(s.lights[0].direction.y, -0.5f);
+}
+
+TEST_F(SceneLoading, NothingOutsideTheFolderIsRead) {
+  GltfFile file = triangleFile();
+  std::filesystem::create_directory(folder.path / "inside");
+  std::ofstream(folder.path / "secret.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(file.buffer.data()), static_cast<std::streamsize>(file.buffer.size()));
+  std::filesystem::create_symlink(folder.path / "secret.bin", folder.path / "inside" / "link.bin");
+  std::filesystem::copy(folder.path / "secret.bin", folder.path / "inside" / "own data \xc3\xbc.bin");
+  const auto with = [&](const std::string& uri) {
+    file.json["buffers"] = {{{"byteLength", file.buffer.size()}, {"uri", uri}}};
+    return file.write(folder.path / "inside");
+  };
+  EXPECT_EQ(loadScene(with("own%20data%20%C3%BC.bin")).triangleCount(), 1u);
+  EXPECT_EQ(loadScene(with("own data \xc3\xbc.bin")).triangleCount(), 1u);
+  for (const std::string uri :
+       {"../secret.bin", "%2e%2e/secret.bin", "..\\secret.bin", "x/../../secret.bin", "link.bin"})
+    expectRefused(with(uri), uri);
+  expectRefused(with((folder.path / "secret.bin").string()), "absolute");
+  expectRefused(with("file://" + (folder.path / "secret.bin").string()), "scheme");
+}
+
+TEST_F(SceneLoading, MalformedFilesAreNamed) {
+  const auto text = [&](const std::string& content, const std::string& why) {
+    std::ofstream(folder.path / "bad.gltf", std::ios::binary) << content;
+    expectRefused(folder.path / "bad.gltf", why);
+  };
+  text("", "empty");
+  text(std::string(200000, '['), "nested deeper");
+  text("{\"asset\":{\"version\":\"2.0\"},\"extras\":\"\xff\"}", "JSON");
+  text("{\"asset\":{\"version\":\"2.0\"},\"asset\":{}}", "duplicate key");
+  expectRefused(folder.path / "missing.gltf", "no such file");
+  GltfFile file = triangleFile();
+  const json good = file.json;
+  const auto broken = [&](const char* pointer, const json& value, const std::string& why) {
+    file.json = good;
+    file.json[json::json_pointer(pointer)] = value;
+    refuse(file, why);
+  };
+  broken("/asset/version", "3.0", "asset.version");
+  broken("/nodes/0/mesh", 7, "nodes[0].mesh: 7 points past");
+  broken("/nodes/0/children", json::array({0}), "its own child");
+  broken("/accessors/0/count", 4, "accessors[0]: 4 elements end at byte 48");
+  broken("/accessors/0/count", 4000000000u, "4000000000");
+  broken("/accessors/0/byteOffset", 18446744073709551604ull, "byteOffset");
+  broken("/accessors/0/componentType", 5130, "componentType");
+  broken("/bufferViews/0/byteLength", 4000, "bufferViews[0]");
+  broken("/bufferViews/0/byteStride", 8, "stride of 8");
+  broken("/extensionsRequired", json::array({"VENDOR_x"}), "VENDOR_x");
+  // Two nodes, each the child of the other.
+  broken("/nodes", {{{"children", {1}}}, {{"children", {0}}}}, "cycle");
+  // A node a thousand deep is no trouble.
+  file.json = good;
+  for (int i = 1; i <= 1000; ++i) {
+    file.json["nodes"].push_back({{"mesh", 0}});
+    file.json["nodes"][static_cast<size_t>(i - 1)] = {{"children", {i}}, {"translation", {0, 0, 1}}};
+  }
+  EXPECT_DOUBLE_EQ(world(load(file), 0).z, 1000.0);
+}
+
+TEST_F(SceneLoading, IndexErrors) {
+  GltfFile file = triangleFile();
+  file.primitive()["indices"] = file.data(std::vector<uint16_t>{0, 1, 3}, "SCALAR", kU16, 1);
+  refuse(file, "3 is past the 3 vertices");
+  GltfFile restart = triangleFile();
+  restart.primitive()["indices"] = restart.data(std::vector<uint16_t>{0, 1, 65535}, "SCALAR", kU16, 1);
+  refuse(restart, "primitive restart");
+}
+
+TEST_F(SceneLoading, SizeLimits) {
+  // 4,096 triangles (one, repeated) in 5,000 instances, placed by an accessor of zeros: 20 million, 2^24 is the limit.
+  GltfFile file = triangleFile();
+  std::vector<uint16_t> repeated;
+  for (int i = 0; i < 4096; ++i) repeated.insert(repeated.end(), {0, 1, 2});
+  file.primitive()["indices"] = file.data(repeated, "SCALAR", kU16, 1);
+  const int zeros = file.accessor({{"componentType", kFloat}, {"type", "VEC3"}, {"count", 5000}});
+  file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = zeros;
+  refuse(file, "more than 16777216 triangles");
+  // A few hundred bytes that ask for gigabytes.
+  file.json["accessors"][static_cast<size_t>(zeros)]["count"] = 100'000'000;
+  refuse(file, "a scene may hold");
+}
+
+TEST_F(SceneLoading, CacheRoundTripAndDamage) {
+  GltfFile file = texturedQuad();
+  file.json["materials"][0]["alphaMode"] = "MASK";
+  file.json["nodes"].push_back({{"camera", 0}, {"translation", {1, 2, 3}}});
+  file.json["scenes"][0]["nodes"].push_back(1);
+  file.json["cameras"] = {
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 9}}}}};
+  const Scene a = load(file);
+  const auto path = folder.path / "scene.irscene";
+  writeSceneCache(a, path);
+  const Scene b = loadScene(path);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.tangents, b.tangents);
+  EXPECT_EQ(a.uv0, b.uv0);
+  EXPECT_EQ(a.indices, b.indices);
+  EXPECT_EQ(a.sha256, b.sha256);
+  EXPECT_EQ(a.warnings, b.warnings);
+  ASSERT_EQ(b.images.size(), a.images.size());
+  EXPECT_EQ(a.images[0].rgba, b.images[0].rgba);
+  EXPECT_EQ(b.materials[0].alpha, AlphaMode::Mask);
+  EXPECT_EQ(b.materials[0].normalTexture.image, 0);
+  EXPECT_TRUE(b.cameras[0].orthographic);
+  EXPECT_EQ(b.cameras[0].aspect, 2.0f);
+  EXPECT_EQ(b.cameras[0].position, glm::dvec3(1, 2, 3));
+  EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
+
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const auto damaged = folder.path / "damaged.irscene";
+  for (size_t length = 0; length < bytes.size(); length += 1 + length / 16) {
+    std::ofstream(damaged, std::ios::binary) << bytes.substr(0, length);
+    EXPECT_THROW(loadScene(damaged), InputError) << length;
+  }
+  // Any byte may be wrong: an error or a sound scene, never a crash.
+  for (size_t at = 0; at < bytes.size(); at += 3) {
+    std::string bent = bytes;
+    bent[at] = static_cast<char>(bent[at] ^ 0xFF);
+    std::ofstream(damaged, std::ios::binary) << bent;
+    try {
+      const Scene s = loadScene(damaged);
+      for (const uint32_t index : s.indices) ASSERT_LT(index, s.positions.size());
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_THROW(writeSceneCache(a, folder.path / "no such folder" / "x.irscene"), WorkError);
+}
+
+TEST_F(SceneLoading, BuiltInBox) {
+  const Scene s = loadScene(assets() / "box.glb");
+  EXPECT_EQ(unsound(s), "");
+  EXPECT_GT(s.triangleCount(), 12u);
+  EXPECT_FALSE(s.defaultCamera);
+  EXPECT_FALSE(s.defaultLight);
+  EXPECT_EQ(s.cameras.size(), 2u);
+}
+
+}  // namespace
+}  // namespace irad::test
