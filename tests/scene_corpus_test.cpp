@@ -14,6 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The portable build decodes neither images nor meshopt streams.
+#ifdef IRAD_OIIO
+constexpr bool kFullBuild = true;
+#else
+constexpr bool kFullBuild = false;
+#endif
+
+bool needsFullBuild(const std::string& name) {
+  return name.find("eshopt") != name.npos || name.find("atlas") != name.npos || name.find("emissivetex") != name.npos;
+}
+
 std::vector<fs::path> scenesBelow(const fs::path& folder) {
   std::vector<fs::path> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -97,12 +108,12 @@ TEST_F(Corpus, FeatureFilesLoad) {
     const Outcome outcome = loadApart(path);
     const std::string name = fs::relative(path, folder).generic_string();
     EXPECT_TRUE(outcome.loaded || outcome.refused) << name << ": " << outcome.text;
-    if (ok.contains(name)) {
+    if (ok.contains(name) && (kFullBuild || !needsFullBuild(name))) {
       EXPECT_TRUE(outcome.loaded) << name << ": " << outcome.text;
     }
     loaded += outcome.loaded;
   }
-  EXPECT_GE(loaded, ok.size());
+  EXPECT_GE(loaded, ok.size() - (kFullBuild ? 0 : 7));
   EXPECT_GE(ok.size(), 130u);
 }
 
@@ -224,7 +235,7 @@ TEST_F(Corpus, VariantsOfTheBoxAgree) {
       expectRefused(path, "VENDOR_unknown");
       continue;
     }
-    if (name.rfind("cornell_", 0) != 0) continue;
+    if (name.rfind("cornell_", 0) != 0 || (!kFullBuild && needsFullBuild(name))) continue;
     // 16-bit positions over a 2 unit box step by 6e-5; Draco's and meshopt's quantization is no finer than 14 bits.
     const bool quantized =
         name.find("draco") != name.npos || name.find("meshopt") != name.npos || name.find("i16") != name.npos;
@@ -245,7 +256,7 @@ TEST_F(Corpus, VariantsOfTheBoxAgree) {
     EXPECT_EQ(matched, base.size()) << name;
     ++variants;
   }
-  EXPECT_GE(variants, 28u);
+  EXPECT_GE(variants, kFullBuild ? 28u : 24u);
 }
 
 TEST_F(Corpus, Sponza) {
@@ -268,7 +279,7 @@ TEST_F(Corpus, Sponza) {
   EXPECT_EQ(normalMaps, 16u);
   EXPECT_TRUE(s.defaultCamera);
   EXPECT_TRUE(s.defaultLight);
-  EXPECT_FALSE(warns(s, "pink"));
+  EXPECT_EQ(warns(s, "pink"), !kFullBuild);
 }
 
 TEST_F(Corpus, AnalyticLightsAndCameras) {

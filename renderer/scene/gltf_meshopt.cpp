@@ -1,4 +1,5 @@
 // EXT_meshopt_compression and the version-0 streams of KHR_meshopt_compression, by libmeshoptimizer.
+#ifdef IRAD_OIIO
 #include <meshoptimizer.h>
 
 #include "renderer/scene/gltf_document.h"
@@ -43,3 +44,16 @@ Bytes decodeMeshopt(Document& doc, ByteSpan source, uint32_t count, uint32_t str
 }
 
 }  // namespace irad::gltf
+
+#else
+#include "renderer/scene/gltf_document.h"
+
+namespace irad::gltf {
+
+Bytes decodeMeshopt(Document& doc, ByteSpan, uint32_t, uint32_t, const std::string&, const std::string&,
+                    const std::string& where) {
+  doc.fail(where, "this build has no meshoptimizer (use an .irscene cache written by the full build)");
+}
+
+}  // namespace irad::gltf
+#endif
