@@ -1,6 +1,6 @@
 // The facet list (METHOD section 4, T 5.3): Morton-ordered compaction, attributes, reverse map.
 #include <algorithm>
-#include <set>
+#include <vector>
 
 #include "gi/stages.h"
 #include "renderer/error.h"
@@ -26,46 +26,84 @@ void makeRecord(Context& context, FacetList& list) {
   list.record = makeBuffer<FacetArrays>(context, "facet record", Subsystem::Facets, std::span(&arrays, 1));
 }
 
-/// Attributes of all facets ("GI Voxelization": in the thesis the voxelizer writes them). Every material that samples a
-/// texture takes its own facets out of the list; one dispatch does all others.
+/// Facets that one dispatch of gi/facet_shade.comp takes.
+struct Group {
+  uint32_t material;  // whose set is bound
+  bool textured;
+  uint32_t first = 0, count = 0;  // within the order
+};
+struct Order {
+  std::vector<Group> groups;
+  std::vector<uint32_t> facets;
+};
+
+/// Groups facets by material, those that sample no texture together: a counting sort on the host, since each material's
+/// textures have to be bound by themselves and a dispatch over all facets for each would mostly idle.
+Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles) {
+  constexpr uint32_t kSampled =
+      MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+  Order order;
+  order.groups.push_back({0, false});
+  std::vector<uint32_t> groupOf(scene.scene.triangleCount(), 0);
+  for (const Draw& draw : scene.scene.draws) {
+    if ((scene.materialValues.at(draw.material).flags & kSampled) == 0) continue;
+    std::fill_n(groupOf.begin() + draw.firstIndex / 3, draw.indexCount / 3, static_cast<uint32_t>(order.groups.size()));
+    order.groups.push_back({draw.material, true});
+  }
+  for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~SECOND_FACET]].count;
+  std::vector<uint32_t> next;
+  uint32_t first = 0;
+  for (Group& group : order.groups) {
+    group.first = first;
+    next.push_back(first);
+    first += group.count;
+  }
+  order.facets.resize(triangles.size());
+  for (uint32_t i = 0; i < triangles.size(); ++i) order.facets[next[groupOf[triangles[i] & ~SECOND_FACET]]++] = i;
+  return order;
+}
+
+/// Attributes of all facets ("GI Voxelization": in the thesis the voxelizer writes them). Returns how many albedos had
+/// to be clamped.
 uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& list, const Buffer& triangles,
-                     Frame& frame, const Settings& settings) {
+                     const Settings& settings) {
   const SceneOnDevice& scene = *voxels.scene;
-  Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
-  frame.pass(kStage).fill(clamped, 0);
+  const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, triangles));
+  const Buffer facets =
+      makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.facets));
+  const Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
   ShadeFacetsPush push{};
   push.scene = scene.record.address;
   push.grid = voxels.gridRecord.address;
+  push.order = facets.address;
   push.voxel = list.voxel.address;
   push.triangle = triangles.address;
   push.shape = list.shape.address;
   push.albedo = list.albedo.address;
   push.emission = list.emission.address;
   push.clamped = clamped.address;
-  push.count = list.count;
   push.encoding = static_cast<uint32_t>(list.encoding);
   push.hasEmission = list.hasEmission;
   push.literal = settings.thesis.literal;
-  constexpr uint32_t kSampled =
-      MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
-  std::set<uint32_t> groups;
-  for (const Draw& draw : scene.scene.draws)
-    groups.insert((scene.materialValues.at(draw.material).flags & kSampled) != 0 ? draw.material : UNTEXTURED);
+  Frame frame = context.begin();
+  frame.pass(kStage).fill(clamped, 0);
   for (const bool textured : {false, true}) {
-    if (textured ? *groups.begin() == UNTEXTURED : groups.count(UNTEXTURED) == 0) continue;
+    const auto takes = [=](const Group& g) { return g.textured == textured && g.count > 0; };
+    if (std::none_of(order.groups.begin(), order.groups.end(), takes)) continue;
     frame.pass("GI Voxelization")
         .shader("gi/facet_shade.comp")
         .constant(kSamplesTextures, textured)
         .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-              scene.uv1, scene.colors, scene.normals, voxels.gridRecord, list.voxel, triangles)
+              scene.uv1, scene.colors, scene.normals, voxels.gridRecord, facets, list.voxel, triangles)
         .write(list.shape, list.albedo, list.emission, clamped)
         .run([&](Commands& commands) {
-          for (const uint32_t material : groups) {
-            if ((material != UNTEXTURED) != textured) continue;
-            commands.bindMaterial(scene.materialSets.at(textured ? material : 0));
-            push.material = material;
+          for (const Group& group : order.groups) {
+            if (!takes(group)) continue;
+            commands.bindMaterial(scene.materialSets.at(group.material));
+            push.first = group.first;
+            push.count = group.count;
             commands.push(push);
-            commands.dispatch(list.count);
+            commands.dispatch(group.count);
           }
         });
   }
@@ -135,10 +173,8 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
       .write(list.voxel, triangles, list.reverse)
       .push(push)
       .dispatch(push.blocks);
-  if (list.count > 0)
-    list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, frame, settings);
-  else
-    frame.submitAndWait();
+  frame.submitAndWait();
+  if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, settings);
   makeRecord(context, list);
   voxels.keys = Buffer();
   return list;

@@ -1,6 +1,6 @@
 // Attributes of the facets (METHOD sections 1-2), sampled at the centre of the part of the winning triangle that lies in
 // the voxel: normal, plane offset, albedo = base colour x (1 - metallic) clamped to [0, .98], emitted exitance.
-// One dispatch per textured material, whose set 1 is bound, and one for all facets that read no texture.
+// One dispatch per textured material, whose set 1 is bound, and one for all facets that sample no texture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/normals.h"
@@ -10,21 +10,18 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ShadeFacetsPush push; };
 
-const uint TEXTURES =
-    MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
 const float MAX_ALBEDO = 0.98;
 
 bool finite(float x) { return abs(x) < 3.0e38; }
 
 void main() {
-  uint facet = irad_index();
-  if (facet >= push.count) return;
+  uint index = irad_index();
+  if (index >= push.count) return;
+  uint facet = push.order.at[push.first + index];
   uint entry = push.triangle.at[facet];
   bool second = (entry & SECOND_FACET) != 0u;
   uint triangle = entry & ~SECOND_FACET;
-  uint material = push.scene.at[0].triangleMaterials.at[triangle];
-  uint flags = push.scene.at[0].materials.at[material].flags;
-  if (push.material == UNTEXTURED ? (flags & TEXTURES) != 0u : material != push.material) return;
+  uint flags = triangleFlags(push.scene, triangle);
 
   vec3 cell = vec3(unpackVoxel(push.voxel.at[facet]));
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);

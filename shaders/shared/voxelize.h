@@ -7,10 +7,10 @@
 IRAD_BEGIN
 
 /// Ordered key of a triangle in a voxel, resolved by atomicMax: bits 27-31 the area inside the voxel, up to half a face
-/// (more counts the same); bits 24-26 how far in front it lies along its own facing; bits 0-23 the triangle's complement,
-/// so that equals go to the lower triangle. Of two faces that both fill a voxel, such as a lamp just below a ceiling, the
-/// visible one wins; a sliver of the front one does not. 0 is empty: the lower bits are never 0.
-/// `area`: voxel faces, [0, sqrt 2]; `front`: (centre of the part - centre of the voxel) . unit facing, voxels.
+/// (more counts the same); bits 24-26 how far in front it lies along its own facing; bits 0-23 the triangle's
+/// complement, so that equals go to the lower triangle. Of two faces that both fill a voxel, such as a lamp just below
+/// a ceiling, the visible one wins; a sliver of the front one does not. 0 is empty: the lower bits are never 0. `area`:
+/// voxel faces, [0, sqrt 2]; `front`: (centre of the part - centre of the voxel) . unit facing, voxels.
 IRAD_CONST uint MAX_TRIANGLES = 0xFFFFFEu;
 IRAD_FN uint voxelKey(float area, float front, uint triangle) {
   float a = floor(area * 62.0f + 0.5f);
@@ -55,18 +55,18 @@ struct CompactPush {
   uint slots;
 };
 
-IRAD_CONST uint UNTEXTURED = 0xFFFFFFFFu;
 struct ShadeFacetsPush {
   SceneArray scene;
   GridArray grid;
+  UintArray order;  ///< facets grouped by material; all that sample no texture are one group
   UintArray voxel;
   UintArray triangle;
   UintArray shape;
   Uvec2Array albedo;
   Vec3Array emission;
   UintArray clamped;  ///< [0]: facets whose albedo had to be clamped
+  uint first;         ///< this group, within `order`
   uint count;
-  uint material;  ///< facets of this material, or of all that read no texture (UNTEXTURED)
   uint encoding;
   uint hasEmission;
   uint literal;
