@@ -33,6 +33,7 @@ Command renderCommand();
 Command benchCommand();
 Command exportCommand();
 Command settingsCommand();
+Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 
 /// Parses, runs, reports. The exit status of DESIGN.md: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no

@@ -4,6 +4,9 @@ int main(int argc, char** argv) {
   using namespace irad::app;
   return runProgram(argc, argv,
                     {
+#if IRAD_UI
+                        viewCommand(),
+#endif
                         renderCommand(),
                         benchCommand(),
                         exportCommand(),

@@ -29,6 +29,8 @@ void FlyCamera::move(const glm::vec3& seconds, float gain) {
   camera_.position += glm::dvec3(direction * (unitsPerSecond() * gain));
 }
 
-void FlyCamera::changeSpeed(float notches) { speed_ = std::clamp(speed_ * std::pow(1.2f, notches), 1e-4f, 10.0f); }
+void FlyCamera::changeSpeed(float notches) {
+  speed_ = std::clamp(speed_ * std::pow(1.2f, notches), 1e-4f, 10.0f);
+}
 
 }  // namespace irad

@@ -1,4 +1,5 @@
-// The window's camera: flies with WASD + QE, looks with the mouse, keeps the projection of the scene's camera it began as.
+// The window's camera: flies with WASD + QE, looks with the mouse, keeps the projection of the scene's camera it began
+// as.
 #pragma once
 
 #include "renderer/scene/scene.h"

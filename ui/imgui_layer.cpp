@@ -94,7 +94,8 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
         indices.push_back(base + command.VtxOffset + list.IdxBuffer[static_cast<int>(command.IdxOffset + i)]);
     }
   }
-  vertices_ = Buffer(context_.device, "ui vertices", Subsystem::Ui, vertices.size() * sizeof(ImDrawVert), Access::Upload);
+  vertices_ =
+      Buffer(context_.device, "ui vertices", Subsystem::Ui, vertices.size() * sizeof(ImDrawVert), Access::Upload);
   indices_ = Buffer(context_.device, "ui indices", Subsystem::Ui, indices.size() * sizeof(uint32_t), Access::Upload);
   if (!vertices.empty()) std::memcpy(vertices_.mapped, vertices.data(), vertices.size() * sizeof(ImDrawVert));
   if (!indices.empty()) std::memcpy(indices_.mapped, indices.data(), indices.size() * sizeof(uint32_t));
@@ -114,8 +115,8 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
       const glm::vec2 low = glm::max(glm::floor(glm::vec2(range.clip.x, range.clip.y)), glm::vec2(0.0f));
       const glm::vec2 high = glm::min(glm::ceil(glm::vec2(range.clip.z, range.clip.w)), size);
       if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
-      commands.scissor(static_cast<uint32_t>(low.x), static_cast<uint32_t>(low.y), static_cast<uint32_t>(high.x - low.x),
-                       static_cast<uint32_t>(high.y - low.y));
+      commands.scissor(static_cast<uint32_t>(low.x), static_cast<uint32_t>(low.y),
+                       static_cast<uint32_t>(high.x - low.x), static_cast<uint32_t>(high.y - low.y));
       commands.push(UiDraw{vertices_.address, indices_.address, 2.0f / size, range.texture});
       commands.draw(range.count, range.first);
     }

@@ -13,9 +13,8 @@ Input& of(GLFWwindow* window);
 }  // namespace
 
 Input::Input(GLFWwindow* window)
-    : window_(window),
-      held_{Held{GLFW_KEY_D, {1, 0, 0}}, Held{GLFW_KEY_A, {-1, 0, 0}}, Held{GLFW_KEY_E, {0, 1, 0}},
-            Held{GLFW_KEY_Q, {0, -1, 0}}, Held{GLFW_KEY_W, {0, 0, 1}}, Held{GLFW_KEY_S, {0, 0, -1}}} {
+    : window_(window), held_{Held{GLFW_KEY_D, {1, 0, 0}},  Held{GLFW_KEY_A, {-1, 0, 0}}, Held{GLFW_KEY_E, {0, 1, 0}},
+                             Held{GLFW_KEY_Q, {0, -1, 0}}, Held{GLFW_KEY_W, {0, 0, 1}},  Held{GLFW_KEY_S, {0, 0, -1}}} {
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) { of(w).key(key, action); });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w).event_ = true; });
@@ -36,7 +35,9 @@ Input::Input(GLFWwindow* window)
 }
 
 namespace {
-Input& of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
+Input& of(GLFWwindow* window) {
+  return *static_cast<Input*>(glfwGetWindowUserPointer(window));
+}
 }  // namespace
 
 void Input::key(int key, int action) {
@@ -53,9 +54,15 @@ void Input::key(int key, int action) {
   }
 }
 
-bool Input::takeEvent() { return std::exchange(event_, false); }
-std::vector<int> Input::takePresses() { return std::exchange(presses_, {}); }
-std::vector<std::filesystem::path> Input::takeDrops() { return std::exchange(drops_, {}); }
+bool Input::takeEvent() {
+  return std::exchange(event_, false);
+}
+std::vector<int> Input::takePresses() {
+  return std::exchange(presses_, {});
+}
+std::vector<std::filesystem::path> Input::takeDrops() {
+  return std::exchange(drops_, {});
+}
 
 glm::vec3 Input::takeMovement() {
   const double now = glfwGetTime();
@@ -76,7 +83,8 @@ bool Input::flying() const {
 }
 
 bool Input::shift() const {
-  return glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS || glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+  return glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+         glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 bool Input::control() const {
   return glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||

@@ -16,13 +16,13 @@ class Input {
   explicit Input(GLFWwindow* window);
   Input(const Input&) = delete;
 
-  bool takeEvent();                    ///< anything happened since the last call
-  std::vector<int> takePresses();      ///< GLFW keys pressed since the last call
+  bool takeEvent();                ///< anything happened since the last call
+  std::vector<int> takePresses();  ///< GLFW keys pressed since the last call
   std::vector<std::filesystem::path> takeDrops();
-  /// Seconds for which each direction (right, up, forward) was held since the last call, so that a short tap between two
-  /// slow frames counts for as long as it lasted (1/30 s at least).
+  /// Seconds for which each direction (right, up, forward) was held since the last call, so that a short tap between
+  /// two slow frames counts for as long as it lasted (1/30 s at least).
   glm::vec3 takeMovement();
-  bool flying() const;                 ///< a flying key is down
+  bool flying() const;  ///< a flying key is down
   bool shift() const;
   bool control() const;
 

@@ -1,5 +1,5 @@
-// Where things are in the window: a bar on top, a column left and right, a strip below, the viewport in the middle. A pure
-// function of the window's size, so that nothing overlaps at any size.
+// Where things are in the window: a bar on top, a column left and right, a strip below, the viewport in the middle. A
+// pure function of the window's size, so that nothing overlaps at any size.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -18,12 +18,12 @@ namespace {
 constexpr float kBodyPixels = 14.0f, kHeadingPixels = 15.0f;
 
 /// Code points that labels, units and values use.
-constexpr ImWchar kGlyphs[] = {0x0020, 0x00FF,   // Latin-1: superscripts, degree, multiplication sign
-                               0x0370, 0x03FF,   // Greek: rho, lambda, delta
-                               0x2010, 0x2026,   // dashes, quotation marks, ellipsis
-                               0x2190, 0x2199,   // arrows
-                               0x21BA, 0x21BA,   // reset
-                               0x2260, 0x2265,   // comparisons
+constexpr ImWchar kGlyphs[] = {0x0020, 0x00FF,  // Latin-1: superscripts, degree, multiplication sign
+                               0x0370, 0x03FF,  // Greek: rho, lambda, delta
+                               0x2010, 0x2026,  // dashes, quotation marks, ellipsis
+                               0x2190, 0x2199,  // arrows
+                               0x21BA, 0x21BA,  // reset
+                               0x2260, 0x2265,  // comparisons
                                0};
 
 /// Where Debian's packages put them.
@@ -43,7 +43,9 @@ void addFont(ImFontAtlas& fonts, const std::array<const char*, N>& files, float 
   fonts.AddFontDefault(&config);
 }
 
-bool hasGlyph(ImWchar code) { return ImGui::GetFont()->FindGlyphNoFallback(code) != nullptr; }
+bool hasGlyph(ImWchar code) {
+  return ImGui::GetFont()->FindGlyphNoFallback(code) != nullptr;
+}
 
 }  // namespace
 
@@ -57,8 +59,12 @@ void pushHeadingFont() {
   ImGui::PushFont(fonts[fonts.Size > 1 ? 1 : 0]);
 }
 
-const char* arrowGlyph() { return hasGlyph(0x2192) ? "\u2192" : "->"; }
-const char* resetGlyph() { return hasGlyph(0x21BA) ? "\u21BA" : "x"; }
+const char* arrowGlyph() {
+  return hasGlyph(0x2192) ? "\u2192" : "->";
+}
+const char* resetGlyph() {
+  return hasGlyph(0x21BA) ? "\u21BA" : "x";
+}
 
 void applyTheme(ImGuiStyle& style, float scale) {
   style = ImGuiStyle();
@@ -106,8 +112,8 @@ void applyTheme(ImGuiStyle& style, float scale) {
   color[ImGuiCol_ScrollbarGrabHovered] = faded(theme::dim, 0.6f);
   color[ImGuiCol_ScrollbarGrabActive] = theme::dim;
   color[ImGuiCol_CheckMark] = theme::accent;
-  color[ImGuiCol_SliderGrab] = faded(theme::accent, 0.75f);
-  color[ImGuiCol_SliderGrabActive] = theme::accent;
+  color[ImGuiCol_SliderGrab] = faded(theme::accent, 0.45f);  // the value is written over it
+  color[ImGuiCol_SliderGrabActive] = faded(theme::accent, 0.7f);
   color[ImGuiCol_Button] = field;
   color[ImGuiCol_ButtonHovered] = hover;
   color[ImGuiCol_ButtonActive] = faded(theme::accent, 0.55f);

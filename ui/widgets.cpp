@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "ui/theme.h"
 
@@ -27,9 +27,25 @@ std::string format(const Meta& meta, const char* number) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
+/// The few values that a narrow range allows, as a list.
+bool chooseNumber(uint32_t& value, const Meta& meta, uint32_t low, uint32_t high, uint32_t step) {
+  const auto shown = [&](uint32_t v) { return fmt::format("{} {}", v, meta.unit); };
+  bool changed = false;
+  if (!ImGui::BeginCombo("##value", shown(value).c_str())) return false;
+  for (uint32_t v = low; v <= high; v += step)
+    if (ImGui::Selectable(shown(v).c_str(), v == value)) {
+      changed = v != value;
+      value = v;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
 bool edit(uint32_t& value, const Meta& meta) {
   const auto low = static_cast<uint32_t>(meta.min);
   const auto high = static_cast<uint32_t>(meta.max);
+  const auto step = std::max(static_cast<uint32_t>(meta.step), 1u);
+  if ((high - low) / step < 5) return chooseNumber(value, meta, low, high, step);
   // ImGui's sliders take half the range of their type at most.
   if (high > 0x7FFFFFFFu) return ImGui::InputScalar("##value", ImGuiDataType_U32, &value);
   // A wide range is walked by factors, a narrow one by steps.
@@ -37,7 +53,7 @@ bool edit(uint32_t& value, const Meta& meta) {
       ImGuiSliderFlags_AlwaysClamp | (meta.max >= 256 && meta.min > 0 ? ImGuiSliderFlags_Logarithmic : 0);
   if (!ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &low, &high, format(meta, "%u").c_str(), flags))
     return false;
-  if (meta.step > 0) value = low + static_cast<uint32_t>(std::floor((value - low) / meta.step) * meta.step);
+  value = low + (value - low) / step * step;
   return true;
 }
 
@@ -49,7 +65,9 @@ bool edit(float& value, const Meta& meta) {
                                 (logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0));
 }
 
-bool edit(bool& value, const Meta&) { return ImGui::Checkbox("##value", &value); }
+bool edit(bool& value, const Meta&) {
+  return ImGui::Checkbox("##value", &value);
+}
 
 template <class E>
 bool choose(uint32_t& value) {
@@ -88,10 +106,9 @@ bool row(const Meta& meta, bool resettable, bool& reset, Edit&& editValue) {
   ImGui::SameLine(start + width * kLabelShare);
   ImGui::SetNextItemWidth(width * (1 - kLabelShare) - button - gap);
   const bool changed = editValue();
-  helpTooltip(meta.redo == Redo::Nothing
-                  ? fmt::format("{}\n{}", meta.name, meta.help)
-                  : fmt::format("{}\n{}\nA change redoes: {}", meta.name, meta.help,
-                                EnumNames<Redo>::names[static_cast<size_t>(meta.redo)]));
+  helpTooltip(meta.redo == Redo::Nothing ? fmt::format("{}\n{}", meta.name, meta.help)
+                                         : fmt::format("{}\n{}\nA change redoes: {}", meta.name, meta.help,
+                                                       EnumNames<Redo>::names[static_cast<size_t>(meta.redo)]));
   if (resettable) {
     ImGui::SameLine(start + width - button);
     reset = ImGui::Button(resetGlyph(), {button, button});
@@ -219,7 +236,9 @@ std::string mebibytes(uint64_t bytes) {
   return value < 9.95 ? fmt::format("{:.2f} MiB", value) : fmt::format("{:.1f} MiB", value);
 }
 
-std::string shortNumber(double value) { return fmt::format("{:.3g}", value); }
+std::string shortNumber(double value) {
+  return fmt::format("{:.3g}", value);
+}
 
 std::string withThousands(uint64_t value) {
   std::string digits = fmt::format("{}", value);

@@ -8,9 +8,9 @@
 
 namespace irad {
 
-/// One row per setting whose name `wanted` accepts (a prefix such as "camera."; empty: all, under group headers): label,
-/// widget by the member's type, unit, help as tooltip, and a reset button where it differs from `defaults`. True when
-/// something was edited.
+/// One row per setting whose name `wanted` accepts (a prefix such as "camera."; empty: all, under group headers):
+/// label, widget by the member's type, unit, help as tooltip, and a reset button where it differs from `defaults`. True
+/// when something was edited.
 bool settingRows(Settings& settings, const Settings& defaults, std::string_view prefix = {});
 /// The one setting of that name.
 bool settingRow(Settings& settings, const Settings& defaults, std::string_view name);

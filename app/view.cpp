@@ -1,0 +1,98 @@
+// `irad view`: the interactive window.
+#if IRAD_UI
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <memory>
+
+#include "app/arguments.h"
+#include "app/command.h"
+#include "app/devices.h"
+#include "app/views.h"
+#include "renderer/error.h"
+#include "ui/window.h"
+
+namespace irad::app {
+namespace {
+
+struct Arguments {
+  SettingArguments settings;
+  DeviceArguments device;
+  std::optional<std::string> scene, size, view, camera, scale, captures, exitAfter, screenshot;
+
+  void declare(Options& options) {
+    options.argument("SCENE", scene, "glTF scene, or the name of a built-in one (default: box)");
+    options.value("--view", "NAME", view, "View to begin with (default: lit; 'irad views' lists them)");
+    options.value("--camera", "NAME", camera, "Camera of the scene to begin with (default: its first)");
+    options.value("--size", "WxH", size, "Size of the window (default: 1280x720)");
+    options.value("--scale", "FACTOR", scale, "Size of text and panels, times the monitor's own (default: 1)");
+    options.value("--out", "DIR", captures, "Where F12 saves (default: out/captures)");
+    options.value("--exit-after", "FRAMES", exitAfter,
+                  "End after so many frames in which nothing was left to do (for tests)");
+    options.value("--screenshot", "FILE", screenshot, "The whole window as PNG when it ends (for tests)");
+    settings.declare(options);
+    device.declare(options);
+  }
+};
+
+float parseScale(const std::string& text) {
+  char* end = nullptr;
+  const float value = std::strtof(text.c_str(), &end);
+  if (end == text.c_str() || *end || !(value >= 0.5f && value <= 4.0f))
+    throw UsageError(fmt::format("--scale: '{}' is not a number from 0.5 to 4", text));
+  return value;
+}
+
+/// The shader sources beside the program's build folder or in the current one, for F5; empty where there are none.
+std::filesystem::path findShaders() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::array candidates{program.parent_path().parent_path() / "shaders", std::filesystem::path("shaders")};
+  for (const std::filesystem::path& folder : candidates)
+    if (std::filesystem::exists(folder / "shared" / "types.h", ignored)) return folder;
+  return {};
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.device.list) return printDevices(/*json=*/false);
+  const Config config = arguments.settings.readConfig();
+  (void)arguments.settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
+  WindowOptions options;
+  options.scene = findScene(arguments.scene, config, "box");
+  if (arguments.view) options.view = findViews({*arguments.view}).front().view;
+  if (arguments.size) options.size = parseSize(*arguments.size);
+  if (arguments.scale) options.scale = parseScale(*arguments.scale);
+  if (arguments.camera) options.camera = *arguments.camera;
+  if (arguments.captures) options.captures = *arguments.captures;
+  if (arguments.exitAfter)
+    options.exitAfter = static_cast<uint32_t>(parseInteger("--exit-after", *arguments.exitAfter, 1, 1'000'000));
+  if (arguments.screenshot) options.screenshot = *arguments.screenshot;
+  options.shaders = findShaders();
+
+  DeviceOptions deviceOptions = arguments.device.options();
+  deviceOptions.presentable = true;
+  const std::unique_ptr<Device> device = Device::create(deviceOptions);
+  ShaderLibrary shaders;
+  Timings timings;
+  options.settings = arguments.settings.resolve(config, device->isCpu);
+  options.defaults = defaultSettings(device->isCpu);
+  {
+    Context context(*device, shaders, timings);
+    runWindow(context, options);
+  }
+  const std::vector<std::string> messages = device->validationMessages();
+  if (deviceOptions.validate && !messages.empty())
+    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
+
+}  // namespace
+
+Command viewCommand() {
+  const auto arguments = std::make_shared<Arguments>();
+  return {"view", "Open a scene in the interactive window",
+          [arguments](Options& options) { arguments->declare(options); }, [arguments] { run(*arguments); }};
+}
+
+}  // namespace irad::app
+#endif

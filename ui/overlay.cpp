@@ -1,0 +1,156 @@
+#include "ui/overlay.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "ui/bindings.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+
+namespace {
+
+constexpr ImGuiWindowFlags kFloating = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                       ImGuiWindowFlags_NoFocusOnAppearing;
+
+void floatAt(const Rect& around, ImVec2 pivot, float margin) {
+  const ImVec2 at{around.position.x + (around.size.x - 2 * margin) * pivot.x + margin,
+                  around.position.y + (around.size.y - 2 * margin) * pivot.y + margin};
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+}
+
+struct State {
+  ImVec4 color;
+  std::string text;
+};
+
+State stateOf(const Session& session) {
+  if (session.work) return {theme::accent, session.work->what};
+  if (!session.pipeline) return {theme::dim, "no scene"};
+  if (session.halted) return {theme::warning, "not rebuilt"};
+  if (session.next < Redo::Shade) return {theme::accent, "next: " + stagesFrom(session.next, arrowGlyph())};
+  if (session.paused) return {theme::warning, "paused"};
+  if (session.asleep()) return {theme::good, "asleep"};
+  return {theme::accent, fmt::format("solving: {} sweeps", withThousands(session.sweepsSinceWake))};
+}
+
+}  // namespace
+
+void beginTile(const char* name, const Rect& where, bool background) {
+  ImGui::SetNextWindowPos({where.position.x, where.position.y});
+  ImGui::SetNextWindowSize({where.size.x, where.size.y});
+  ImGui::Begin(
+      name, nullptr,
+      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+          (background
+               ? 0
+               : ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
+}
+void endTile() {
+  ImGui::End();
+}
+
+void drawBar(const Session& session, const Rect& where) {
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      ImVec2(ImGui::GetStyle().WindowPadding.x, (where.size.y - ImGui::GetFontSize()) * 0.5f));
+  beginTile("##bar", where);
+  const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
+  const std::string hint = session.hideUi ? "" : "F1 help";
+  const State state = stateOf(session);
+  const float gap = 2 * ImGui::GetFontSize();
+  const float right = ImGui::CalcTextSize(state.text.c_str()).x + gap + ImGui::CalcTextSize(hint.c_str()).x;
+
+  pushHeadingFont();
+  std::string title = "irad";
+  if (session.pipeline) title += "   " + session.pipeline->scene().path.filename().string();
+  clippedText(title, std::max(width * 0.5f, width - right - gap));
+  ImGui::PopFont();
+  ImGui::SameLine(start + std::max(width - right, width * 0.5f));
+  ImGui::TextColored(state.color, "%s", state.text.c_str());
+  ImGui::SameLine(0, gap);
+  ImGui::TextColored(theme::dim, "%s", hint.c_str());
+  endTile();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+void drawMessages(Session& session, const Rect& viewport) {
+  if (session.messages.empty()) return;
+  const float em = ImGui::GetFontSize();
+  const float width = std::max(std::min(36 * em, viewport.size.x - 2 * em), 8 * em);
+  floatAt(viewport, {0, 1}, em);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, viewport.size.y});
+  ImGui::Begin("##messages", nullptr, kFloating & ~ImGuiWindowFlags_NoScrollbar);
+  std::optional<size_t> dismissed;
+  for (size_t i = 0; i < session.messages.size(); ++i) {
+    const Message& message = session.messages[i];
+    ImGui::PushID(static_cast<int>(i));
+    const float button = ImGui::GetFrameHeight();
+    const float start = ImGui::GetCursorPosX(), row = ImGui::GetContentRegionAvail().x;
+    if (i > 0) ImGui::Separator();
+    ImGui::PushTextWrapPos(start + row - button - em * 0.5f);
+    ImGui::PushStyleColor(ImGuiCol_Text, message.kind == Message::Kind::Error ? theme::error : theme::text);
+    const float top = ImGui::GetCursorPosY();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(message.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    const float bottom = ImGui::GetCursorPosY();
+    ImGui::SetCursorPos({start + row - button, top});
+    if (ImGui::Button("\u00D7", {button, button})) dismissed = i;
+    ImGui::SetCursorPosY(std::max(bottom, ImGui::GetCursorPosY()));
+    ImGui::PopID();
+  }
+  ImGui::End();
+  if (dismissed) session.messages.erase(session.messages.begin() + static_cast<ptrdiff_t>(*dismissed));
+}
+
+void drawProgress(Session& session, const Rect& viewport) {
+  if (!session.work) return;
+  const float em = ImGui::GetFontSize();
+  const float width = std::max(std::min(28 * em, viewport.size.x - 2 * em), 8 * em);
+  floatAt(viewport, {0.5f, 0.5f}, em);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, viewport.size.y});
+  ImGui::Begin("##progress", nullptr, kFloating);
+  pushHeadingFont();
+  clippedText(session.work->what, ImGui::GetContentRegionAvail().x);
+  ImGui::PopFont();
+  ImGui::TextColored(theme::dim, "%s", session.work->stage.c_str());
+  const std::string percent = fmt::format("{:.0f} %", 100 * session.work->fraction);
+  const float button = ImGui::CalcTextSize("Cancel").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::ProgressBar(session.work->fraction,
+                     {ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x, 0}, percent.c_str());
+  ImGui::SameLine();
+  if (ImGui::Button(session.work->cancel ? "\u2026" : "Cancel", {button, 0})) session.work->cancel = true;
+  ImGui::End();
+}
+
+void drawHelp(Session& session, const Rect& viewport) {
+  if (!session.showHelp) return;
+  const float em = ImGui::GetFontSize();
+  floatAt(viewport, {0.5f, 0.5f}, em);
+  ImGui::Begin("##help", nullptr, kFloating);
+  pushHeadingFont();
+  ImGui::TextUnformatted("Keys and mouse");
+  ImGui::PopFont();
+  if (ImGui::BeginTable("bindings", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const Binding& binding : bindings()) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(theme::accent, "%s", binding.keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(binding.does);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::TextColored(theme::dim, "Keys are ignored while a text field has the keyboard.");
+  ImGui::End();
+}
+
+}  // namespace irad

@@ -1,0 +1,18 @@
+// What lies over the panels and the viewport: the bar with the state, messages, progress, help.
+#pragma once
+
+#include "ui/layout.h"
+#include "ui/session.h"
+
+namespace irad {
+
+void drawBar(const Session& session, const Rect& where);
+void drawMessages(Session& session, const Rect& viewport);
+void drawProgress(Session& session, const Rect& viewport);
+void drawHelp(Session& session, const Rect& viewport);
+
+/// Begins one of the fixed windows that tile the main window.
+void beginTile(const char* name, const Rect& where, bool background = true);
+void endTile();
+
+}  // namespace irad

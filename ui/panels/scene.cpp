@@ -1,0 +1,102 @@
+// The scene as loaded: file, counts, lights, warnings; its cameras; opening another.
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "ui/panel.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+class ScenePanel : public Panel {
+ public:
+  const char* title() const override { return "Scene"; }
+  Region region() const override { return Region::Left; }
+
+  void draw(Session& session) override {
+    if (session.pipeline) {
+      drawCounts(session);
+      drawCameras(session);
+      drawWarnings(session.pipeline->scene());
+    } else {
+      ImGui::TextColored(theme::dim, "no scene");
+    }
+    drawOpen(session);
+  }
+
+ private:
+  std::string path_;  ///< being typed
+
+  static void drawCounts(const Session& session) {
+    const Scene& scene = session.pipeline->scene();
+    valueRow("file", scene.path.filename().string());
+    helpTooltip(scene.path.string());
+    valueRow("triangles", withThousands(scene.triangleCount()));
+    valueRow("materials", fmt::format("{}, {} images", scene.materials.size(), scene.images.size()));
+    valueRow("lights", lights(scene));
+    const glm::vec3 size = scene.boundsMax - scene.boundsMin;
+    valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", size.x, size.y, size.z));
+    if (!session.built) return;
+    const Built& built = *session.built;
+    valueRow("grid", fmt::format("{} \u00D7 {} \u00D7 {}", built.dims.x, built.dims.y, built.dims.z));
+    valueRow("facets", fmt::format("{} in {}", withThousands(built.facets), withThousands(built.solidVoxels)));
+    helpTooltip("Facets in the solid voxels that hold them");
+  }
+
+  static std::string lights(const Scene& scene) {
+    size_t sun = 0, point = 0, spot = 0;
+    for (const Light& light : scene.lights)
+      ++(light.type == LightType::Sun ? sun : light.type == LightType::Point ? point : spot);
+    std::string text;
+    for (const auto& [count, name] : {std::pair{sun, "sun"}, {point, "point"}, {spot, "spot"}})
+      if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+    return text.empty() ? "none" : text;
+  }
+
+  static void drawCameras(Session& session) {
+    const std::vector<Camera>& cameras = session.pipeline->scene().cameras;
+    if (cameras.empty()) return;
+    const auto name = [&](int i) {
+      const std::string& own = cameras[static_cast<size_t>(i)].name;
+      return own.empty() ? fmt::format("camera {}", i + 1) : own;
+    };
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo("##camera", fmt::format("Camera: {}", name(session.sceneCamera)).c_str())) return;
+    for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable(name(i).c_str(), i == session.sceneCamera)) session.useSceneCamera(i);
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+
+  static void drawWarnings(const Scene& scene) {
+    if (scene.warnings.empty()) return;
+    const std::string title = fmt::format("{} warning{}", scene.warnings.size(), scene.warnings.size() == 1 ? "" : "s");
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::warning);
+    const bool open = ImGui::TreeNodeEx("##warnings", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", title.c_str());
+    ImGui::PopStyleColor();
+    if (!open) return;
+    ImGui::PushTextWrapPos(0);
+    for (const std::string& warning : scene.warnings) ImGui::TextUnformatted(warning.c_str());
+    ImGui::PopTextWrapPos();
+  }
+
+  void drawOpen(Session& session) {
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##open", "drop a .glb or .gltf, or type its path", &path_,
+                                 ImGuiInputTextFlags_EnterReturnsTrue) &&
+        !path_.empty())
+      session.openScene = path_;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> makeScenePanel() {
+  return std::make_unique<ScenePanel>();
+}
+
+}  // namespace irad

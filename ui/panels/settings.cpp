@@ -1,0 +1,54 @@
+// Every setting of gi/settings.h, generated from visit().
+#include <imgui.h>
+
+#include "ui/panel.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+class SettingsPanel : public Panel {
+ public:
+  const char* title() const override { return "Settings"; }
+  Region region() const override { return Region::Left; }
+
+  void draw(Session& session) override {
+    drawPresets(session);
+    drawNext(session);
+    settingRows(session.edited, session.defaults);
+  }
+
+ private:
+  /// A preset is applied over the settings; those that it leaves alone keep their values (gi/settings.h).
+  static void drawPresets(Session& session) {
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo("##preset", "Preset\u2026")) return;
+    for (const std::string& name : presetNames())
+      if (ImGui::Selectable(name.c_str())) applyPreset(session.edited, name, session.context.device.isCpu);
+    ImGui::Separator();
+    if (ImGui::Selectable("defaults of this device")) session.edited = session.defaults;
+    ImGui::EndCombo();
+  }
+
+  /// What an edit will redo, before it is redone. The line is always there, so that rows do not jump.
+  static void drawNext(Session& session) {
+    ImGui::PushTextWrapPos(0);
+    if (session.next < Redo::Shade)
+      ImGui::TextColored(theme::accent, "next: %s", stagesFrom(session.next, arrowGlyph()).c_str());
+    else if (session.halted)
+      ImGui::TextColored(theme::warning, "not rebuilt: the picture shows the old state");
+    else
+      ImGui::TextColored(theme::dim, "up to date");
+    ImGui::PopTextWrapPos();
+    if (session.halted && ImGui::Button("Rebuild", {-1, 0})) session.rebuild = true;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> makeSettingsPanel() {
+  return std::make_unique<SettingsPanel>();
+}
+
+}  // namespace irad

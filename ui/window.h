@@ -1,0 +1,31 @@
+// The interactive window: the same frames as the headless commands, the panels around them.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+
+#include "gi/pipeline.h"
+
+namespace irad {
+
+struct WindowOptions {
+  std::filesystem::path scene;
+  Settings settings;
+  Settings defaults;  ///< of this device class, for the reset buttons
+  View view = 0;
+  std::string camera;  ///< of the scene, by name; empty: its first
+  glm::uvec2 size{1280, 720};
+  float scale = 1;  ///< times the monitor's content scale
+  std::filesystem::path captures = "out/captures";
+  std::filesystem::path shaders;  ///< sources for F5; empty: not at hand
+  // For tests.
+  uint32_t exitAfter = 0;            ///< > 0: end after so many frames in which nothing was left to do
+  std::filesystem::path screenshot;  ///< of the whole window when it ends, .png
+};
+
+/// Runs until the user quits. Throws what stops the first scene from loading; later errors are shown in the window. The
+/// context's device must have been made presentable.
+void runWindow(Context& context, const WindowOptions& options);
+
+}  // namespace irad
