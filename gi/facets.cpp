@@ -176,6 +176,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, settings);
   makeRecord(context, list);
+  markCorners(context, list);
   voxels.keys = Buffer();
   return list;
 }
@@ -216,6 +217,7 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
   list.emission = make("facet emission", list.hasEmission ? emission : std::vector<glm::vec3>{});
   list.reverse = make("facet reverse map", reverse);
   makeRecord(context, list);
+  markCorners(context, list);
   return list;
 }
 

@@ -32,6 +32,22 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
   return pass;
 }
 
+void markCorners(Context& context, FacetList& list) {
+  if (list.count == 0) return;
+  FacetCornersPush push{};
+  push.facets = list.record.address;
+  push.dims = list.grid.dims;
+  Frame frame = context.begin();
+  frame.pass("GI CompactList")
+      .shader("gi/facet_corners.comp")
+      .constant(0, static_cast<uint32_t>(list.encoding))
+      .read(list.record, list.voxel, list.reverse)
+      .write(list.shape)
+      .push(push)
+      .dispatch(list.count);
+  frame.submit();
+}
+
 void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params, uint32_t firstRow, uint32_t rows,
                const Buffer& hits) {
   TraceRaysPush push{};

@@ -10,9 +10,8 @@
 // of a sampler3D declared before the include; without it that value behaves as TRACE_DDA_REVERSE.
 //
 // Hit rule `robust`: the ray is met by facet planes, not by cells. A facet's plane is taken inside its own cell; a ray
-// that leaves a solid cell without meeting a recorded plane asks the cells one step along and against the recorded
-// normal, whose surfaces may pass through this cell unrecorded (corners: a cell holds two facets at most). A plane is met
-// from the front only by rays that start in front of it. Backs of faces make the ray invalid or block it.
+// that meets none in a cell marked FACET_CORNER asks the cells around, whose surfaces may pass through unrecorded. A plane
+// is met from the front only by rays that start in front of it. Backs of faces make the ray invalid or block it.
 // Hit rule `thesis` (T 5.6): the first cell with a front face (d . n < 0), back faces let through.
 #ifndef IRAD_TRACE_GLSL
 #define IRAD_TRACE_GLSL
@@ -129,10 +128,11 @@ TracePlane tracePlane(TraceWorld world, TraceWalk w, vec3 cell, uint shape) {
   return p;
 }
 
-/// The facets to be asked at one solid cell: those recorded there, then those of the cells beside it.
+/// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of the 26 cells
+/// around are asked whether their planes, extended, cross this cell.
 TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
-  uint passed = TRACE_ESCAPED;  // last face passed in front of, for rays that slip through where planes do not join
+  uint passed = TRACE_ESCAPED;  // last face passed closely in front of, for rays that slip through a joint
   float passedAt = 0.0f;
   bool first = true;
   while (traceToSolid(world, w, hit.steps)) {
@@ -142,27 +142,25 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
     uint facet = entry & ~SECOND_FACET;
     uint left = entry >= SECOND_FACET ? 2u : 1u;
     vec3 at = w.cell;
-    vec3 beside[2];
-    beside[0] = vec3(0.0f);
-    beside[1] = vec3(0.0f);
-    uint asked = 0u;  // 0: recorded facets; 1..4: cells along +n0, -n0, +n1, -n1
+    int around = -1;  // which of the cells around is asked; -1: the cell itself
+    bool corner = false;
     float nearest = 1e30f;
     uint met = TRACE_ESCAPED;
-    bool behind = false, before = false;  // of surfaces found beside the first cell
+    bool behind = false, before = false;  // of faces around the first cell
     for (;;) {
       if (left > 0u) {
         uint shape = world.facets.shape.at[facet];
         TracePlane p = tracePlane(world, w, at, shape);
         float enterS = p.start + p.slope * w.t;
         float leaveS = p.start + p.slope * leave;
+        float cross = -p.start / p.slope;
         float alike = dot(p.normal, ownNormal);
         bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
-        bool recorded = asked == 0u;
+        bool recorded = around < 0;
+        corner = corner || (recorded && (shape & FACET_CORNER) != 0u);
         // The own sheet's other side, whose plane this is too, cannot be met from here.
         if (p.slope < 0.0f && p.start > (alike < -TRACE_OWN_NORMAL ? TRACE_ON_PLANE : -TRACE_BEHIND)) {
-          float cross = -p.start / p.slope;
           if (leaveS <= TRACE_ON_PLANE && (recorded || enterS >= -TRACE_ON_PLANE)) {
-            cross = max(cross, w.t);
             if (cross < nearest) {
               nearest = cross;
               met = facet;
@@ -171,19 +169,12 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
             passed = facet;
             passedAt = leave;
           }
-        } else if (p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE && leaveS > TRACE_ON_PLANE) {
-          float cross = -p.start / p.slope;
-          if (cross < nearest) {
-            nearest = cross;
-            met = (shape & FACET_DOUBLE_SIDED) != 0u ? facet
-                                                     : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
-          }
+        } else if (p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE && leaveS > TRACE_ON_PLANE &&
+                   cross < nearest) {
+          nearest = cross;
+          met = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
         }
-        if (recorded) {
-          vec3 side = round(p.normal);
-          if (left == 2u || entry < SECOND_FACET) beside[0] = side;
-          else beside[1] = side;
-        } else if (first && asked == 1u && !own) {
+        if (first && !recorded && !own) {
           if (p.start < -TRACE_ON_PLANE) behind = true;
           else before = true;
         }
@@ -191,11 +182,10 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
         ++facet;
       }
       if (left == 0u) {
-        if (met != TRACE_ESCAPED || asked == 4u) break;
-        ++asked;
-        vec3 side = asked <= 2u ? beside[0] : beside[1];
-        at = w.cell + (asked == 1u || asked == 3u ? side : -side);
-        if (side != vec3(0.0f) && all(greaterThanEqual(at, vec3(0.0f))) && all(lessThan(at, vec3(world.dims)))) {
+        if (!corner || around == 26 || (around < 0 && met != TRACE_ESCAPED)) break;
+        ++around;
+        at = w.cell + vec3(ivec3(around % 3, (around / 3) % 3, around / 9) - 1);
+        if (around != 13 && all(greaterThanEqual(at, vec3(0.0f))) && all(lessThan(at, vec3(world.dims)))) {
           uint other = world.facets.reverse.at[traceIndex(at, world.dims)];
           if (other != NO_FACET) {
             facet = other & ~SECOND_FACET;
@@ -208,7 +198,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
     first = false;
     if (met != TRACE_ESCAPED) {
       hit.facet = met;
-      hit.t = nearest;
+      hit.t = max(nearest, 0.0f);
       break;
     }
     traceAdvance(w, 1.0f);

@@ -12,6 +12,9 @@ IRAD_CONST uint SECOND_FACET = 0x80000000u;
 /// Facet word `shape`: bits 0-15 normal code (encoding of voxel.normals), bits 16-23 signed plane offset: distance of
 /// the surface from the voxel's centre along the normal, in 1/127 voxel, biased by 128; bit 24: double-sided material.
 IRAD_CONST uint FACET_DOUBLE_SIDED = 1u << 24;
+/// Bit 25: another surface, recorded only in a neighbouring voxel, may pass through this one (edges and corners: a voxel
+/// holds two facets at most). Set by markCorners; rays that meet no recorded face there look around (gi/trace.glsl).
+IRAD_CONST uint FACET_CORNER = 1u << 25;
 IRAD_FN float facetOffset(uint shape) { return (float((shape >> 16) & 255u) - 128.0f) * (1.0f / 127.0f); }
 IRAD_FN uint packFacetOffset(float offset) {
   float clamped = offset < -1.0f ? -1.0f : (offset > 1.0f ? 1.0f : offset);

@@ -61,6 +61,13 @@ IRAD_FN uvec4 rayShifts(uint packedVoxel, uint seed, uint jitter) {
   return uvec4(a, b, c, hashUint(c ^ 0xC2B2AE35u));
 }
 
+/// Pushed to gi/facet_corners.comp.
+struct FacetCornersPush {
+  FacetRecord facets;
+  uvec3 dims;
+  uint pad;
+};
+
 /// Pushed to gi/trace_rays.comp.
 struct TraceRaysPush {
   FacetRecord facets;
