@@ -1,11 +1,14 @@
 // For suites of the GI stages: a scene voxelized with its field, and the matrix read back row by row.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <memory>
 
 #include "gi/check_scenes.h"
 #include "gi/stages.h"
+#include "shaders/shared/normals.h"
 #include "tests/support.h"
 
 namespace irad::test {

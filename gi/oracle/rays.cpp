@@ -1,0 +1,206 @@
+#include "gi/oracle/rays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "shaders/shared/normals.h"
+#include "shaders/shared/sampling.h"
+#include "shaders/shared/trace.h"
+
+namespace irad::oracle {
+namespace {
+
+using glm::dvec3, glm::ivec3;
+
+/// The cells along a ray, one at a time.
+struct Walk {
+  explicit Walk(const Ray& along) : ray(along), cell(glm::floor(along.origin)) { leave = exits()[0].first; }
+  const Ray& ray;
+  ivec3 cell;
+  double enter = 0, leave = 0;
+  double margin = 1e9;  ///< least gap between two exits of the cells left so far: a tie of axes
+
+  std::array<std::pair<double, int>, 3> exits() const {
+    std::array<std::pair<double, int>, 3> t;
+    for (int a = 0; a < 3; ++a) {
+      const double bound = cell[a] + (ray.direction[a] > 0 ? 1 : 0);
+      t[a] = {ray.direction[a] == 0 ? std::numeric_limits<double>::infinity()
+                                    : (bound - ray.origin[a]) / ray.direction[a],
+              a};
+    }
+    std::sort(t.begin(), t.end());
+    return t;
+  }
+  void next() {
+    const auto sorted = exits();
+    margin = std::min(margin, sorted[1].first - sorted[0].first);
+    const int axis = sorted[0].second;
+    cell[axis] += ray.direction[axis] > 0 ? 1 : -1;
+    enter = sorted[0].first;
+    leave = exits()[0].first;
+  }
+};
+
+std::vector<uint32_t> facetsAt(const Facets& f, const ivec3& cell) {
+  for (int a = 0; a < 3; ++a)
+    if (cell[a] < 0 || cell[a] >= static_cast<int>(f.grid.dims[a])) return {};
+  const uint32_t entry = f.reverse[voxelIndex(glm::uvec3(cell), f.grid.dims)];
+  if (entry == NO_FACET) return {};
+  const uint32_t first = entry & ~SECOND_FACET;
+  return entry & SECOND_FACET ? std::vector{first, first + 1} : std::vector{first};
+}
+
+bool inside(const Facets& f, const ivec3& cell) {
+  for (int a = 0; a < 3; ++a)
+    if (cell[a] < 0 || cell[a] >= static_cast<int>(f.grid.dims[a])) return false;
+  return true;
+}
+
+Hit traceThesis(const Facets& facets, const Ray& ray) {
+  Hit hit{TRACE_ESCAPED};
+  Walk walk(ray);
+  for (; inside(facets, walk.cell); walk.next()) {
+    double least = 1;
+    uint32_t best = TRACE_ESCAPED;
+    for (const uint32_t f : facetsAt(facets, walk.cell)) {
+      const double slope = glm::dot(facets.normal(f), ray.direction);
+      if (best != TRACE_ESCAPED) hit.margin = std::min(hit.margin, std::abs(slope - least));
+      if (slope < least) {
+        least = slope;
+        best = f;
+      }
+    }
+    if (best == TRACE_ESCAPED) continue;
+    hit.margin = std::min(hit.margin, std::abs(least));
+    if (least < 0) {
+      hit.facet = best;
+      hit.t = walk.enter;
+      break;
+    }
+  }
+  hit.margin = std::min(hit.margin, walk.margin);
+  return hit;
+}
+
+/// One face asked by the robust rule.
+enum class Answer { Misses, Near, Front, Back };
+
+Hit traceRobust(const Facets& facets, const Ray& ray) {
+  Hit hit{TRACE_ESCAPED};
+  Walk walk(ray);
+  uint32_t passed = TRACE_ESCAPED;
+  double passedAt = 0;
+  // Every comparison leaves its margin.
+  const auto less = [&hit](double a, double b) {
+    hit.margin = std::min(hit.margin, std::abs(a - b));
+    return a < b;
+  };
+  const auto ask = [&](uint32_t f, bool recorded) {
+    const double start = facets.distance(f, ray.origin), slope = glm::dot(facets.normal(f), ray.direction);
+    const double enter = start + slope * walk.enter, leave = start + slope * walk.leave;
+    if (less(slope, 0)) {
+      if (!less(-double{TRACE_BEHIND}, start)) return Answer::Misses;
+      if (!less(TRACE_ON_PLANE, leave) && (recorded || !less(enter, -double{TRACE_ON_PLANE}))) return Answer::Front;
+      return recorded && !less(TRACE_JOINT, leave) ? Answer::Near : Answer::Misses;
+    }
+    const bool own = less(TRACE_OWN_NORMAL, glm::dot(facets.normal(f), ray.normal)) &&
+                     less(std::abs(start), TRACE_OWN_PLANE);
+    const bool crosses = recorded && less(enter, -double{TRACE_ON_PLANE}) && less(TRACE_ON_PLANE, leave);
+    return crosses && !own ? Answer::Back : Answer::Misses;
+  };
+  for (bool first = true; inside(facets, walk.cell) && hit.facet == TRACE_ESCAPED; first = false) {
+    double nearest = 1e30;
+    bool corner = false;
+    const auto consider = [&](uint32_t f, bool recorded) {
+      const Answer answer = ask(f, recorded);
+      const double cross = -facets.distance(f, ray.origin) / glm::dot(facets.normal(f), ray.direction);
+      if (answer == Answer::Near) {
+        passed = f;
+        passedAt = walk.leave;
+      }
+      if ((answer != Answer::Front && answer != Answer::Back) || !less(cross, nearest)) return;
+      nearest = cross;
+      hit.t = std::max(cross, 0.0);
+      if (answer == Answer::Front || (facets.shape[f] & FACET_DOUBLE_SIDED))
+        hit.facet = f;
+      else
+        hit.facet = less(cross, TRACE_NEAR) ? TRACE_INVALID : TRACE_BLOCKED;
+    };
+    for (const uint32_t f : facetsAt(facets, walk.cell)) {
+      consider(f, /*recorded=*/true);
+      corner = corner || (facets.shape[f] & FACET_CORNER);
+    }
+    if (corner && hit.facet == TRACE_ESCAPED) {
+      bool behind = false, before = false;
+      for (int i = 0; i < 27; ++i) {
+        const ivec3 side = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+        if (side == ivec3(0)) continue;
+        for (const uint32_t f : facetsAt(facets, walk.cell + side)) {
+          consider(f, /*recorded=*/false);
+          const double start = facets.distance(f, ray.origin);
+          const bool own = glm::dot(facets.normal(f), ray.normal) > TRACE_OWN_NORMAL && std::abs(start) < TRACE_OWN_PLANE;
+          if (!first || own) continue;
+          if (less(start, -double{TRACE_ON_PLANE})) behind = true;
+          else before = true;
+        }
+      }
+      if (behind && !before) {
+        hit.facet = TRACE_INVALID;
+        hit.t = 1e30;
+      }
+    }
+    if (hit.facet == TRACE_ESCAPED) walk.next();
+  }
+  if (hit.facet > TRACE_LAST_FACET && passed != TRACE_ESCAPED) {
+    const double end = hit.facet == TRACE_ESCAPED ? walk.enter : hit.t;
+    if (less(end - passedAt, TRACE_NEAR)) {
+      hit.facet = passed;
+      hit.t = passedAt;
+    }
+  }
+  hit.margin = std::min(hit.margin, walk.margin);
+  return hit;
+}
+
+}  // namespace
+
+dvec3 Facets::normal(uint32_t facet) const { return dvec3(decodeNormal(shape[facet] & 0xFFFFu, encoding)); }
+
+double Facets::distance(uint32_t facet, const dvec3& p) const {
+  return glm::dot(normal(facet), p - (dvec3(unpackVoxel(voxel[facet])) + 0.5)) - double{facetOffset(shape[facet])};
+}
+
+Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params) {
+  const glm::vec3 n = decodeNormal(facets.shape[facet] & 0xFFFFu, facets.encoding);
+  const glm::uvec4 shifts = rayShifts(facets.voxel[facet], params.seed, params.jitter);
+  const glm::vec3 direction = toWorld(cosineDirection(hammersley(k, params.rays, glm::uvec2(shifts))), n);
+  const glm::uvec3 voxel = unpackVoxel(facets.voxel[facet]);
+  const glm::vec3 origin =
+      params.hitRule == HIT_RULE_THESIS
+          ? glm::vec3(voxel) + 0.5f + n
+          : facetPoint(voxel, n, facetOffset(facets.shape[facet]), facetJitter(k, glm::uvec2(shifts.z, shifts.w)));
+  return {dvec3(origin), dvec3(direction), dvec3(n)};
+}
+
+Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule) {
+  return hitRule == HIT_RULE_THESIS ? traceThesis(facets, ray) : traceRobust(facets, ray);
+}
+
+void jacobi(const std::vector<Row>& rows, const std::vector<dvec3>& albedo, const std::vector<dvec3>& emission,
+            const std::vector<dvec3>& direct, const SolverParams& params, uint32_t sweeps, Light& light) {
+  std::vector<dvec3> next(rows.size());
+  for (uint32_t s = 0; s < sweeps; ++s) {
+    for (size_t i = 0; i < rows.size(); ++i) {
+      dvec3 h(0);
+      for (size_t e = 0; e < rows[i].columns.size(); ++e) h += rows[i].weights[e] * light.radiosity[rows[i].columns[e]];
+      light.indirect[i] = h;
+      const dvec3 b = double{params.lambda} * (emission[i] + albedo[i] * (direct[i] + h));
+      next[i] = (1 - double{params.omega}) * light.radiosity[i] + double{params.omega} * b;
+    }
+    light.radiosity = next;
+  }
+}
+
+}  // namespace irad::oracle

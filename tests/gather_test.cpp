@@ -1,0 +1,95 @@
+// Direct light on the facets against closed forms (METHOD section 6, T 5.7).
+#include "tests/gi_fixture.h"
+
+namespace irad::test {
+namespace {
+
+class Gather : public GiTest {
+ protected:
+  /// D of every facet, and where each facet's centre lies.
+  struct Result {
+    std::vector<glm::vec4> direct;
+    std::vector<glm::dvec3> position, normal;
+  };
+  Result run(Scene scene, uint32_t resolution) {
+    Settings settings = defaults();
+    settings.voxel.resolution = resolution;
+    World w = world(std::move(scene), settings);
+    const ShadowMaps shadows = drawShadows(context(), *w.device, settings.light.shadowResolution);
+    Lighting light = makeLighting(context(), w.facets, settings);
+    Frame frame = context().begin();
+    gather(frame, *w.device, shadows, w.facets, light, settings);
+    frame.submitAndWait();
+    Result r;
+    r.direct = downloadAs<glm::vec4>(context(), light.direct);
+    const auto voxel = downloadAs<uint32_t>(context(), w.facets.voxel), shape = downloadAs<uint32_t>(context(), w.facets.shape);
+    for (size_t i = 0; i < voxel.size(); ++i) {
+      const glm::vec3 n = decodeNormal(shape[i] & 0xFFFFu, NORMALS_OCT16);
+      r.normal.emplace_back(n);
+      r.position.push_back(glm::dvec3(w.facets.grid.origin) +
+                           double{w.facets.grid.edge} * (glm::dvec3(unpackVoxel(voxel[i])) + 0.5 +
+                                                         glm::dvec3(n) * double{facetOffset(shape[i])}));
+    }
+    return r;
+  }
+  static void floor(SceneBuilder& b, float half) {
+    b.quad(b.material(glm::vec3(0.5f)), {-half, 0, half}, {half, 0, half}, {half, 0, -half}, {-half, 0, -half});
+  }
+};
+
+TEST_F(Gather, SunOnAPlane) {
+  SceneBuilder b;
+  floor(b, 1);
+  b.sun({1, -1, 0}, 3.0f);
+  const Result r = run(b.finish("sun"), 32);
+  ASSERT_GE(r.direct.size(), 32u * 32u);
+  for (size_t i = 0; i < r.direct.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(r.direct[i][c], 3 * std::sqrt(0.5), 0.005 * 3 * std::sqrt(0.5)) << i;
+}
+
+TEST_F(Gather, PointLightFallsWithTheSquare) {
+  SceneBuilder b;
+  floor(b, 1);
+  b.point({0.2, 0.7, -0.1}, 5.0f);
+  const Result r = run(b.finish("point"), 64);
+  double worst = 0;
+  for (size_t i = 0; i < r.direct.size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(0.2, 0.7, -0.1) - r.position[i];
+    const double expected = 5 * glm::dot(d, r.normal[i]) / std::pow(glm::length(d), 3);
+    worst = std::max(worst, std::abs(r.direct[i].x / expected - 1));
+  }
+  fmt::print("point light: worst facet {:.3f} % off\n", 100 * worst);
+  EXPECT_LT(worst, 0.005);
+}
+
+TEST_F(Gather, BacksAndShadowsStayDark) {
+  // A square casts its shadow on the floor below; the sun shines straight down. Facets that face down get nothing.
+  SceneBuilder b;
+  floor(b, 1);
+  const uint32_t two = b.material(glm::vec3(0.5f), glm::vec3(0.0f), /*doubleSided=*/true);
+  b.quad(two, {-0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, -0.5f}, {-0.5f, 0.5f, -0.5f});
+  b.sun({0, -1, 0}, 2.0f);
+  const Result r = run(b.finish("shadow"), 64);
+  const double voxel = 2.0 / 64;
+  int lit = 0, shaded = 0, backs = 0;
+  for (size_t i = 0; i < r.direct.size(); ++i) {
+    const glm::dvec3 p = r.position[i];
+    const double edge = std::max(std::abs(p.x), std::abs(p.z));
+    if (r.normal[i].y < 0) {
+      ++backs;
+      EXPECT_EQ(r.direct[i].x, 0.0f);
+    } else if (p.y > 0.25 || edge > 0.5 + 2 * voxel) {
+      ++lit;
+      EXPECT_NEAR(r.direct[i].x, 2.0f, 0.01f) << p.x << ' ' << p.y << ' ' << p.z;
+    } else if (edge < 0.5 - 2 * voxel) {
+      ++shaded;
+      EXPECT_EQ(r.direct[i].x, 0.0f) << p.x << ' ' << p.y << ' ' << p.z;
+    }
+  }
+  EXPECT_GT(lit, 3000);
+  EXPECT_GT(shaded, 700);
+  EXPECT_GT(backs, 700);
+}
+
+}  // namespace
+}  // namespace irad::test

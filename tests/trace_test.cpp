@@ -1,0 +1,121 @@
+// Rays on the device against the double-precision oracle, and the traversals against each other (METHOD sections 3, 5).
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gi/oracle/rays.h"
+#include "gi/ray_kernel.h"
+#include "tests/gi_fixture.h"
+
+namespace irad::test {
+namespace {
+
+class Trace : public GiTest {
+ protected:
+  /// A room with a tilted box, a ball and a thin two-sided shelf: every kind of edge.
+  static Scene room() {
+    SceneBuilder b;
+    const uint32_t m = b.material(glm::vec3(0.5f));
+    const uint32_t shelf = b.material(glm::vec3(0.5f), glm::vec3(0.0f), /*doubleSided=*/true);
+    b.box({m, m, m, m, m, m}, glm::vec3(-1, -0.7f, -1), glm::vec3(1, 0.7f, 1), /*inward=*/true);
+    const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), 0.6f, glm::normalize(glm::vec3(1, 2, 3))));
+    b.box({m, m, m, m, m, m}, glm::vec3(0.2f, -0.3f, 0), glm::vec3(0.6f, 0.2f, 0.5f), /*inward=*/false, turn);
+    b.sphere(m, glm::vec3(-0.45f, -0.2f, -0.3f), 0.35f, /*inward=*/false, 24);
+    b.quad(shelf, {-0.9f, 0.31f, 0.8f}, {0.1f, 0.31f, 0.8f}, {0.1f, 0.31f, 0.3f}, {-0.9f, 0.31f, 0.3f});
+    return b.finish("room");
+  }
+
+  std::vector<uint32_t> hits(const World& w, const MatrixParams& params) {
+    const Buffer out(context().device, "hits", Subsystem::Matrix, 4ull * w.facets.count * params.rays);
+    Frame frame = context().begin();
+    traceRows(frame, rayKernel(w.facets, w.field, params), params, 0, w.facets.count, out);
+    frame.submitAndWait();
+    return downloadAs<uint32_t>(context(), out);
+  }
+
+  oracle::Facets facets(const FacetList& list) {
+    return {list.grid, static_cast<uint32_t>(list.encoding), downloadAs<uint32_t>(context(), list.voxel),
+            downloadAs<uint32_t>(context(), list.shape), downloadAs<uint32_t>(context(), list.reverse)};
+  }
+
+  static size_t differing(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+    size_t n = 0;
+    for (size_t i = 0; i < a.size(); ++i) n += a[i] != b[i];
+    return n;
+  }
+};
+
+TEST_F(Trace, HitsEqualTheOracle) {
+  Settings settings = defaults();
+  settings.voxel.resolution = 32;
+  const World w = world(room(), settings);
+  const oracle::Facets host = facets(w.facets);
+  MatrixParams params = settings.matrix.gpu;
+  params.rays = 1 + 110000 / w.facets.count;
+  params.traversal = TRAVERSAL_SDF;
+  for (const uint32_t rule : {HIT_RULE_ROBUST, HIT_RULE_THESIS}) {
+    params.hitRule = rule;
+    const std::vector<uint32_t> met = hits(w, params);
+    ASSERT_GE(met.size(), 100000u);
+    size_t wrong = 0, found = 0;
+    for (uint32_t f = 0; f < w.facets.count; ++f)
+      for (uint32_t k = 0; k < params.rays; ++k) {
+        const oracle::Hit expected = oracle::trace(host, oracle::facetRay(host, f, k, params), rule);
+        const uint32_t got = met[size_t{f} * params.rays + k];
+        found += got <= TRACE_LAST_FACET;
+        if (got == expected.facet) continue;
+        ++wrong;
+        // Only where the decision is too close for fp32: 1e-3 voxels over paths of up to 50.
+        EXPECT_LT(expected.margin, 1e-3) << "facet " << f << " ray " << k << ": met " << got << " instead of "
+                                         << expected.facet << " at " << expected.t;
+      }
+    fmt::print("rule {}: {} of {} rays differ from the oracle, {} met a facet\n", rule, wrong, met.size(), found);
+    EXPECT_LE(wrong, met.size() / 10000);
+    EXPECT_GT(found, met.size() / 2);
+  }
+}
+
+TEST_F(Trace, TraversalsAgree) {
+  Settings settings = defaults();
+  settings.voxel.resolution = 48;
+  const World w = world(room(), settings);
+  MatrixParams params = settings.matrix.gpu;
+  params.rays = 1 + 500000 / w.facets.count;
+  params.traversal = TRAVERSAL_DDA;
+  const std::vector<uint32_t> dda = hits(w, params);
+  EXPECT_GE(dda.size(), 500000u);
+
+  // The reverse map and the field's zero bytes are the same set: not one ray may differ.
+  World bare = world(room(), settings);
+  bare.field.chebyshev = Buffer();
+  EXPECT_EQ(differing(dda, hits(bare, params)), 0u);
+
+  params.traversal = TRAVERSAL_SDF;
+  const size_t skipped = differing(dda, hits(w, params));
+  fmt::print("chebyshev against dda: {} of {} rays differ\n", skipped, dda.size());
+  EXPECT_LE(skipped, dda.size() / 10000);
+
+  // The thesis's field: UNORM8 distances tunnel (METHOD section 3); the figure is printed, and is not small.
+  Settings jfa = settings;
+  jfa.field.method = FieldMethod::jfa;
+  const World thesis = world(room(), jfa);
+  const size_t marched = differing(dda, hits(thesis, params));
+  fmt::print("jfa against dda: {:.1f} % of rays differ\n", 100.0 * static_cast<double>(marched) / dda.size());
+  EXPECT_GT(marched, dda.size() / 20);
+  EXPECT_LT(marched, dda.size());
+}
+
+TEST_F(Trace, CornersAreMarkedWhereWallsMeet) {
+  Settings settings = defaults();
+  settings.voxel.resolution = 16;
+  const World w = world(furnaceBox(0.5f), settings);
+  const oracle::Facets host = facets(w.facets);
+  // A box of 16 voxels: exactly the cells that touch two walls are corners.
+  for (uint32_t f = 0; f < w.facets.count; ++f) {
+    const glm::uvec3 v = unpackVoxel(host.voxel[f]);
+    int walls = 0;
+    for (int a = 0; a < 3; ++a) walls += v[a] == 1 || v[a] == 16;
+    EXPECT_EQ((host.shape[f] & FACET_CORNER) != 0, walls >= 2) << v.x << ' ' << v.y << ' ' << v.z;
+  }
+}
+
+}  // namespace
+}  // namespace irad::test
