@@ -114,7 +114,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
         static_cast<uint64_t>(4.0 * static_cast<double>(matrix.stats.entries) / (first + count) * (rows - first));
     device.memory().check(fmt::format("matrix entries (csr, rows {} to {})", first, rows), expected);
     matrix.segments.emplace_back(device, fmt::format("matrix entries {}", first >> arrays.segmentShift),
-                                 Subsystem::Matrix, 4ull * entries);
+                                 Subsystem::Matrix, 8ull * ((entries + 1) / 2));  // read in pairs by some kernels
     const Buffer& segment = matrix.segments.back();
     PackRowsPush pack{};
     pack.entries = hits.address;
@@ -177,7 +177,7 @@ void buildPadded(Context& context, const FacetList& facets, const Field& field, 
     const uint64_t segment = first >> arrays.segmentShift;
     const uint64_t end = std::min<uint64_t>({rows, first + chunk, (segment + 1) << arrays.segmentShift});
     PaddedRowsPush push{};
-    push.facets = facets.record.address;
+    push.facets = facets.addresses();
     push.chebyshev = kernel.chebyshev();
     push.segment = matrix.segments[segment].address;
     push.rowInfo = matrix.rowInfo.address;

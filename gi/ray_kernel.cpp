@@ -51,7 +51,7 @@ void markCorners(Context& context, FacetList& list) {
 void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params, uint32_t firstRow, uint32_t rows,
                const Buffer& hits) {
   TraceRaysPush push{};
-  push.facets = kernel.facets.record.address;
+  push.facets = kernel.facets.addresses();
   push.chebyshev = kernel.chebyshev();
   push.hits = hits.address;
   push.dims = kernel.facets.grid.dims;

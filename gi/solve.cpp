@@ -34,6 +34,7 @@ struct Sweep {
     Pass pass = frame.pass(kStage);
     pass.constant(0, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
         .constant(1, work)
+        .constant(2, frame.context().device.isCpu)
         .read(matrix.record, matrix.rowStart, matrix.rowInfo, facets.record, facets.albedo, facets.emission,
               light.direct, input)
         .write(output)

@@ -93,14 +93,15 @@ TEST_F(Trace, TraversalsAgree) {
   fmt::print("chebyshev against dda: {} of {} rays differ\n", skipped, dda.size());
   EXPECT_LE(skipped, dda.size() / 10000);
 
-  // The thesis's field: UNORM8 distances tunnel (METHOD section 3); the figure is printed, and is not small.
+  // The thesis's field: UNORM8 distances between centres tunnel (METHOD section 3). The figure is printed, not judged,
+  // but that it is worse than the exact field.
   Settings jfa = settings;
   jfa.field.method = FieldMethod::jfa;
   const World thesis = world(room(), jfa);
   const size_t marched = differing(dda, hits(thesis, params));
   fmt::print("jfa against dda: {:.1f} % of rays differ\n", 100.0 * static_cast<double>(marched) / dda.size());
-  EXPECT_GT(marched, dda.size() / 20);
-  EXPECT_LT(marched, dda.size());
+  EXPECT_GT(marched, skipped);
+  EXPECT_LT(marched, dda.size() / 2);
 }
 
 TEST_F(Trace, CornersAreMarkedWhereWallsMeet) {

@@ -11,7 +11,7 @@ void main() {
   uint index = irad_index();
   if (index >= p.rows) return;
   uint row = p.firstRow + index;
-  FacetArrays facets = p.facets.at[0];
+  FacetArrays facets = p.facets;
   uint packedVoxel = facets.voxel.at[row];
   uint shape = facets.shape.at[row];
   uvec3 voxel = unpackVoxel(packedVoxel);

@@ -7,7 +7,16 @@
 
 layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
 layout(constant_id = 1) const uint WORK = SOLVE_WATCH;
+layout(constant_id = 2) const uint WIDE = 0u;  ///< 1: 64-bit loads, where every load of a lane costs alike (lavapipe)
 layout(push_constant, scalar) uniform Push { SolvePush p; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LongArray { uint64_t at[]; };
+
+/// x_j as two loads instead of three.
+vec3 wideLoad(Vec4Array x, uint j) {
+  LongArray words = LongArray(uint64_t(x));
+  return vec3(uintBitsToFloat(unpack32(words.at[2u * j])), uintBitsToFloat(uint(words.at[2u * j + 1u])));
+}
 
 struct Row {
   UintArray entries;   ///< csr
@@ -38,6 +47,25 @@ vec4 entryTerm(Row r, uint columnBits, Vec4Array x, uint i) {
   uvec2 place = r.places.at[r.start + i];
   float weight = uintBitsToFloat(place.y);
   return vec4(x.at[place.x].xyz * weight, weight);
+}
+
+/// The whole sum of a csr row by one invocation, two entries per load.
+vec4 wideSum(Row r, uint columnBits, Vec4Array x) {
+  LongArray pairs = LongArray(uint64_t(r.entries));
+  uint mask = (1u << columnBits) - 1u;
+  uint end = r.start + r.count;
+  vec4 sum = vec4(0.0f);
+  for (uint pair = r.start >> 1; 2u * pair < end; ++pair) {
+    uvec2 e = unpack32(pairs.at[pair]);
+    // The first and the last pair may hold a neighbour's entry: it counts 0 hits of column 0.
+    if (2u * pair < r.start) e.x = 0u;
+    if (2u * pair + 1u >= end) e.y = 0u;
+    float first = float(e.x >> columnBits);
+    float second = float(e.y >> columnBits);
+    sum += vec4(wideLoad(x, e.x & mask) * first, first);
+    sum += vec4(wideLoad(x, e.y & mask) * second, second);
+  }
+  return sum;
 }
 
 /// What a row hands to the reductions.

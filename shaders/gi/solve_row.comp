@@ -12,7 +12,10 @@ void main() {
   if (row < m.rows) {
     Row r = openRow(m, row);
     vec4 sum = vec4(0.0f);
-    for (uint i = 0u; i < r.count; ++i) sum += entryTerm(r, m.columnBits, p.input_, i);
+    if (WIDE == 1u && FORMAT == SOLVE_CSR)
+      sum = wideSum(r, m.columnBits, p.input_);
+    else
+      for (uint i = 0u; i < r.count; ++i) sum += entryTerm(r, m.columnBits, p.input_, i);
     w = finishRow(row, sum * r.weight);
   }
   report(w);

@@ -11,7 +11,7 @@ void main() {
   if (ray >= p.rows * p.rays) return;
   uint row = p.firstRow + ray / p.rays;
   uint k = ray % p.rays;
-  FacetArrays facets = p.facets.at[0];
+  FacetArrays facets = p.facets;
   uint packedVoxel = facets.voxel.at[row];
   uint shape = facets.shape.at[row];
   uvec3 voxel = unpackVoxel(packedVoxel);

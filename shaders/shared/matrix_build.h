@@ -32,7 +32,7 @@ struct PackRowsPush {
 
 /// gi/padded_rows.comp (T 5.4-5.6): one invocation per row traces and appends.
 struct PaddedRowsPush {
-  FacetRecord facets;
+  FacetArrays facets;  ///< by value
   ByteArray chebyshev;
   Uvec2Array segment;  ///< of the segment that holds firstRow
   Uvec2Array rowInfo;
@@ -41,7 +41,6 @@ struct PaddedRowsPush {
   float jfaMax;
   uint firstRow, rows, rays, jitter, seed;
   uint segmentRow;  ///< firstRow's place in the segment
-  uint pad0, pad1;
 };
 
 IRAD_END

@@ -11,8 +11,8 @@ IRAD_FN uint hashUint(uint x) {
   uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
   return (word >> 22) ^ word;
 }
-/// Uniform in (0, 1): 24 bits, centred.
-IRAD_FN float unitFloat(uint h) { return (float(h >> 8) + 0.5f) * (1.0f / 16777216.0f); }
+/// Uniform in (0, 1): 23 bits, centred; with 24 the half would round up to 1.
+IRAD_FN float unitFloat(uint h) { return (float(h >> 9) + 0.5f) * (1.0f / 8388608.0f); }
 
 /// Van der Corput radical inverse in base 2, as a 32-bit fraction.
 IRAD_FN uint reverseBits(uint x) {

@@ -70,7 +70,7 @@ struct FacetCornersPush {
 
 /// Pushed to gi/trace_rays.comp.
 struct TraceRaysPush {
-  FacetRecord facets;
+  FacetArrays facets;  ///< by value: pointers in push constants are uniform, which lavapipe cannot see of loaded ones
   ByteArray chebyshev;
   UintArray hits;  ///< rays x rows words: facet met, or TRACE_*
   uvec3 dims;
