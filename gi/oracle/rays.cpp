@@ -101,7 +101,8 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
     const double start = facets.distance(f, ray.origin), slope = glm::dot(facets.normal(f), ray.direction);
     const double enter = start + slope * walk.enter, leave = start + slope * walk.leave;
     if (less(slope, 0)) {
-      if (!less(-double{TRACE_BEHIND}, start)) return Answer::Misses;
+      const bool ownBack = less(glm::dot(facets.normal(f), ray.normal), -double{TRACE_OWN_NORMAL});
+      if (!less(ownBack ? TRACE_ON_PLANE : -double{TRACE_BEHIND}, start)) return Answer::Misses;
       if (!less(TRACE_ON_PLANE, leave) && (recorded || !less(enter, -double{TRACE_ON_PLANE}))) return Answer::Front;
       return recorded && !less(TRACE_JOINT, leave) ? Answer::Near : Answer::Misses;
     }
