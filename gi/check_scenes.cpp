@@ -64,7 +64,8 @@ void SceneBuilder::sphere(uint32_t material, glm::vec3 centre, float radius, boo
   const uint32_t sectors = 2 * rings;
   const auto at = [&](uint32_t i, uint32_t j) {
     const double theta = std::numbers::pi * j / rings, phi = 2 * std::numbers::pi * (i % sectors) / sectors;
-    return centre + radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+    return centre +
+           radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
   };
   for (uint32_t j = 0; j < rings; ++j)
     for (uint32_t i = 0; i < sectors; ++i) {
@@ -76,7 +77,8 @@ void SceneBuilder::sphere(uint32_t material, glm::vec3 centre, float radius, boo
 }
 
 void SceneBuilder::sun(glm::vec3 direction, float lux) {
-  scene_.lights.push_back({.name = "sun", .type = LightType::Sun, .direction = glm::normalize(direction), .intensity = lux});
+  scene_.lights.push_back(
+      {.name = "sun", .type = LightType::Sun, .direction = glm::normalize(direction), .intensity = lux});
 }
 
 void SceneBuilder::point(glm::dvec3 position, float candela) {
@@ -157,8 +159,12 @@ Scene facingSquares(const char* name, float distance, float rho0, float rho1) {
 }
 }  // namespace
 
-Scene parallelSquares(float distance) { return facingSquares("parallel-squares", distance, 0.0f, 0.0f); }
-Scene plates(float gap, float rho0, float rho1) { return facingSquares("plates", gap, rho0, rho1); }
+Scene parallelSquares(float distance) {
+  return facingSquares("parallel-squares", distance, 0.0f, 0.0f);
+}
+Scene plates(float gap, float rho0, float rho1) {
+  return facingSquares("plates", gap, rho0, rho1);
+}
 
 double formFactorParallelSquares(double d) {
   const double x = 1 / d, x2 = 1 + x * x;

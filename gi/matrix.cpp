@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"
 #include "renderer/error.h"
-#include "shaders/shared/matrix_build.h"
 
 namespace irad {
 namespace {
@@ -15,19 +15,17 @@ constexpr uint64_t kSegmentTable = 64;  ///< offset of the segments' addresses i
 static_assert(sizeof(MatrixArrays) <= kSegmentTable);
 
 /// Rays in one submission: short enough for watchdogs (and for cancelling), long enough to hide the round trip.
-uint64_t raysPerSubmission(const Device& device) { return device.isCpu ? uint64_t{1} << 18 : uint64_t{1} << 24; }
+uint64_t raysPerSubmission(const Device& device) {
+  return device.isCpu ? uint64_t{1} << 18 : uint64_t{1} << 24;
+}
 
-double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
+double mebibytes(uint64_t bytes) {
+  return static_cast<double>(bytes) / (1024.0 * 1024.0);
+}
 
 void report(const std::function<bool(float)>& progress, uint64_t done, uint64_t all) {
   if (progress && !progress(static_cast<float>(static_cast<double>(done) / static_cast<double>(all))))
     throw WorkError("building the matrix: cancelled");
-}
-
-/// A group of dispatched workgroups, one per row, within the limit of 65,535 per axis.
-void dispatchRows(Pass& pass, uint32_t rows) {
-  const uint32_t x = std::min(rows, 32768u);
-  pass.dispatchGroups(x, (rows + x - 1) / x);
 }
 
 void addSums(MatrixStats& stats, const ChunkCounts& sums) {
@@ -51,8 +49,77 @@ void writeRecord(Context& context, FormFactors& matrix, const MatrixArrays& arra
   upload(context, matrix.record, bytes);
 }
 
-/// csr: each chunk of rows is traced once into a scratch array, its rows sorted and merged there, counted, scanned, and
-/// packed into a segment of the exact size.
+/// What both ways to turn a chunk's hits into its segment share.
+struct CsrBuild {
+  Context& context;
+  FormFactors& matrix;
+  uint32_t rows, segmentShift;
+
+  /// Makes room for a chunk's entries. From the first chunk on the whole is known well enough to stop before memory
+  /// runs out half-way.
+  Buffer& addSegment(const Chunk& chunk, const ChunkCounts& sums, uint32_t entries, uint64_t words) {
+    addSums(matrix.stats, sums);
+    matrix.stats.entries += entries;
+    const uint32_t done = chunk.firstRow + chunk.rows;
+    const uint64_t expected =
+        static_cast<uint64_t>(4.0 * static_cast<double>(matrix.stats.entries) / done * (rows - chunk.firstRow));
+    context.device.memory().check(fmt::format("matrix entries (csr, rows {} to {})", chunk.firstRow, rows), expected);
+    return matrix.segments.emplace_back(
+        context.device, fmt::format("matrix entries {}", chunk.firstRow >> segmentShift), Subsystem::Matrix, 4 * words);
+  }
+};
+
+/// GPUs: sorted and merged where they are, counted, scanned, packed.
+void mergeAndPackOnDevice(CsrBuild& build, Frame frame, const Chunk& chunk, const Buffer& hits, const Buffer& counts,
+                          const Buffer& total, const Buffer& sums) {
+  mergeOnDevice(frame, chunk, hits, counts, build.matrix.rowInfo, sums);
+  exclusiveScan(frame, kStage, counts, chunk.rows, total);
+  ChunkCounts found{};
+  uint32_t entries = 0;
+  frame.readback(sums, 0, sizeof(found), [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
+  frame.readback(total, 0, 4, [&](std::span<const uint8_t> b) { std::memcpy(&entries, b.data(), b.size()); });
+  frame.submitAndWait();
+  const Buffer& segment = build.addSegment(chunk, found, entries, entries);
+  PackRowsPush pack{};
+  pack.entries = hits.address;
+  pack.starts = counts.address;
+  pack.rowInfo = build.matrix.rowInfo.address;
+  pack.rowStart = build.matrix.rowStart.address;
+  pack.segment = segment.address;
+  pack.firstRow = chunk.firstRow;
+  pack.rows = chunk.rows;
+  pack.rays = chunk.rays;
+  Frame packing = build.context.begin();
+  packing.pass(kStage)
+      .shader("gi/pack_rows.comp")
+      .read(hits, counts, build.matrix.rowInfo)
+      .write(segment, build.matrix.rowStart)
+      .push(pack)
+      .dispatch(uint64_t{chunk.rows} * chunk.rays);
+  packing.submit();
+}
+
+/// CPU devices: the same by the host in mapped memory.
+void mergeAndPackOnHost(CsrBuild& build, Frame frame, const Chunk& chunk, const Buffer& hits) {
+  // The device's writes are made visible to the host.
+  frame.pass(kStage)
+      .declare(hits, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT})
+      .record([](VkCommandBuffer) {});
+  frame.submitAndWait();
+  std::vector<glm::uvec2> info(chunk.rows);
+  std::vector<uint32_t> start(chunk.rows);
+  ChunkCounts sums{};
+  const std::span<uint32_t> mapped(static_cast<uint32_t*>(hits.mapped), uint64_t{chunk.rows} * chunk.rays);
+  std::vector<uint32_t> entries = mergeOnHost(chunk, mapped, info, start, sums);
+  const auto count = static_cast<uint32_t>(entries.size());
+  if (count % 2) entries.push_back(0);  // gi/solve_row.comp reads pairs on such devices
+  const Buffer& segment = build.addSegment(chunk, sums, count, entries.size());
+  if (!entries.empty()) upload(build.context, segment, std::as_bytes(std::span(entries)));
+  upload(build.context, build.matrix.rowInfo, std::as_bytes(std::span(info)), 8ull * chunk.firstRow);
+  upload(build.context, build.matrix.rowStart, std::as_bytes(std::span(start)), 4ull * chunk.firstRow);
+}
+
+/// csr: each chunk of rows is traced once into a scratch array, and turned into a segment of the exact size.
 void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
               FormFactors& matrix, const std::function<bool(float)>& progress) {
   const Device& device = context.device;
@@ -60,80 +127,32 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   MatrixArrays arrays{};
   arrays.columnBits = std::max(1, static_cast<int>(std::bit_width(rows - 1)));
   if (uint64_t{rays} >= uint64_t{1} << (32 - arrays.columnBits))
-    throw UsageError(
-        fmt::format("matrix.rays = {} with {} facets: a csr entry of 32 bits gives {} bits to the column and {} to the "
-                    "hit count, which holds at most {}; take fewer rays, a lower voxel.resolution or "
-                    "matrix.format=padded",
-                    rays, rows, arrays.columnBits, 32 - arrays.columnBits,
-                    (uint64_t{1} << (32 - arrays.columnBits)) - 1));
+    throw UsageError(fmt::format(
+        "matrix.rays = {} with {} facets: a csr entry of 32 bits gives {} bits to the column and {} to the "
+        "hit count, which holds at most {}; take fewer rays, a lower voxel.resolution or "
+        "matrix.format=padded",
+        rays, rows, arrays.columnBits, 32 - arrays.columnBits, (uint64_t{1} << (32 - arrays.columnBits)) - 1));
   arrays.segmentShift = std::clamp(static_cast<int>(std::bit_width(raysPerSubmission(device) / rays)) - 1, 6, 20);
   const uint32_t segmentRows = std::min(rows, 1u << arrays.segmentShift);
   const uint64_t places = uint64_t{segmentRows} * rays;
 
   matrix.rowStart = Buffer(device, "matrix row starts", Subsystem::Matrix, 4ull * rows);
-  Buffer hits(device, "matrix scratch: hits of a chunk", Subsystem::Matrix, 4 * places);
+  Buffer hits(device, "matrix scratch: hits of a chunk", Subsystem::Matrix, 4 * places,
+              device.isCpu ? Access::Readback : Access::Device);
   Buffer counts(device, "matrix scratch: row counts", Subsystem::Matrix, 4ull * segmentRows);
   Buffer total(device, "matrix scratch: total", Subsystem::Matrix, 4);
   Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
   const RayKernel kernel = rayKernel(facets, field, params);
-  const uint32_t sorted = std::bit_ceil(std::max(2u, rays));
-  const uint32_t width = device.isCpu ? std::max(8u, device.subgroupSize) : std::clamp(sorted / 4, 32u, 256u);
-
+  CsrBuild build{context, matrix, rows, arrays.segmentShift};
   for (uint32_t first = 0; first < rows; first += segmentRows) {
-    const uint32_t count = std::min(segmentRows, rows - first);
+    const Chunk chunk{first, std::min(segmentRows, rows - first), rays, arrays.columnBits};
     Frame frame = context.begin();
-    traceRows(frame, kernel, params, first, count, hits);
-    frame.pass(kStage).fill(sums, 0);
-    MergeRowsPush merge{};
-    merge.hits = hits.address;
-    merge.counts = counts.address;
-    merge.rowInfo = matrix.rowInfo.address;
-    merge.sums = sums.address;
-    merge.firstRow = first;
-    merge.rows = count;
-    merge.rays = rays;
-    merge.columnBits = arrays.columnBits;
-    Pass pass = frame.pass(kStage);
-    pass.shader("gi/merge_rows.comp")
-        .constant(0, width)
-        .constant(1, sorted)
-        .write(hits, counts, matrix.rowInfo, sums)
-        .push(merge);
-    dispatchRows(pass, count);
-    exclusiveScan(frame, kStage, counts, count, total);
-    ChunkCounts found{};
-    uint32_t entries = 0;
-    frame.readback(sums, 0, sizeof(found), [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
-    frame.readback(total, 0, 4, [&](std::span<const uint8_t> b) { std::memcpy(&entries, b.data(), b.size()); });
-    frame.submitAndWait();
-
-    addSums(matrix.stats, found);
-    matrix.stats.entries += entries;
-    // From the first chunk on the whole is known well enough to stop before memory runs out half-way.
-    const uint64_t expected =
-        static_cast<uint64_t>(4.0 * static_cast<double>(matrix.stats.entries) / (first + count) * (rows - first));
-    device.memory().check(fmt::format("matrix entries (csr, rows {} to {})", first, rows), expected);
-    matrix.segments.emplace_back(device, fmt::format("matrix entries {}", first >> arrays.segmentShift),
-                                 Subsystem::Matrix, 8ull * ((entries + 1) / 2));  // read in pairs by some kernels
-    const Buffer& segment = matrix.segments.back();
-    PackRowsPush pack{};
-    pack.entries = hits.address;
-    pack.starts = counts.address;
-    pack.rowInfo = matrix.rowInfo.address;
-    pack.rowStart = matrix.rowStart.address;
-    pack.segment = segment.address;
-    pack.firstRow = first;
-    pack.rows = count;
-    pack.rays = rays;
-    Frame packing = context.begin();
-    packing.pass(kStage)
-        .shader("gi/pack_rows.comp")
-        .read(hits, counts, matrix.rowInfo)
-        .write(segment, matrix.rowStart)
-        .push(pack)
-        .dispatch(uint64_t{count} * rays);
-    packing.submit();
-    report(progress, uint64_t{first} + count, rows);
+    traceRows(frame, kernel, params, first, chunk.rows, hits);
+    if (device.isCpu)
+      mergeAndPackOnHost(build, std::move(frame), chunk, hits);
+    else
+      mergeAndPackOnDevice(build, std::move(frame), chunk, hits, counts, total, sums);
+    report(progress, uint64_t{first} + chunk.rows, rows);
   }
   matrix.stats.bytesUsed = 4 * matrix.stats.entries;
   writeRecord(context, matrix, arrays);
@@ -159,7 +178,8 @@ void buildPadded(Context& context, const FacetList& facets, const Field& field, 
   arrays.stride = params.rays;
   // One array, unless the device cannot allocate (or a shader index) that much in one piece.
   const uint64_t largest = std::min<uint64_t>({device.maxAllocation, (uint64_t{1} << 32) - rowBytes, 1ull << 32});
-  arrays.segmentShift = static_cast<uint32_t>(std::bit_width(std::min(capacity, std::bit_floor(largest / rowBytes)))) - 1;
+  arrays.segmentShift =
+      static_cast<uint32_t>(std::bit_width(std::min(capacity, std::bit_floor(largest / rowBytes)))) - 1;
   const uint64_t segmentRows = uint64_t{1} << arrays.segmentShift;
   matrix.rowStart = Buffer(device, "matrix row starts", Subsystem::Matrix, 0);
   Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
@@ -198,7 +218,8 @@ void buildPadded(Context& context, const FacetList& facets, const Field& field, 
         .push(push)
         .dispatch(push.rows);
     ChunkCounts found{};
-    frame.readback(sums, 0, sizeof(found), [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
+    frame.readback(sums, 0, sizeof(found),
+                   [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
     frame.submitAndWait();
     addSums(matrix.stats, found);
     first = static_cast<uint32_t>(end);

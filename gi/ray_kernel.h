@@ -1,4 +1,5 @@
-// Rays through the voxel grid on the device: which shader, which specialization, which resources (shaders/gi/trace.glsl).
+// Rays through the voxel grid on the device: which shader, which specialization, which resources
+// (shaders/gi/trace.glsl).
 #pragma once
 
 #include "gi/stages.h"

@@ -12,9 +12,9 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "GI Solve";
-constexpr uint32_t kBatch = 16;          ///< sweeps per submission at most; the last one is watched
-constexpr float kDark = 1e-6f;           ///< share of the last lit H below which an unlit scene is put out
-constexpr uint32_t kPatience = 3;        ///< growing batches in a row that count as divergence
+constexpr uint32_t kBatch = 16;    ///< sweeps per submission at most; the last one is watched
+constexpr float kDark = 1e-6f;     ///< share of the last lit H below which an unlit scene is put out
+constexpr uint32_t kPatience = 3;  ///< growing batches in a row that count as divergence
 
 SolverKernel chooseKernel(const Device& device, SolverKernel asked) {
   if (asked != SolverKernel::automatic) return asked;
@@ -43,15 +43,16 @@ struct Sweep {
     if (work != SOLVE_PRODUCT) pass.write(light.indirect);
     if (work == SOLVE_WATCH) pass.write(light.residual);
     switch (kernel) {
-      case SolverKernel::row: pass.shader("gi/solve_row.comp").dispatch(matrix.rows); break;
+      case SolverKernel::row:
+        pass.shader("gi/solve_row.comp").dispatch(matrix.rows);
+        break;
       case SolverKernel::tree: {
         const uint32_t x = std::min(matrix.rows, 32768u);
         pass.shader("gi/solve_tree.comp").dispatchGroups(x, (matrix.rows + x - 1) / x);
         break;
       }
       default:
-        pass.shader("gi/solve_subgroup.comp")
-            .dispatch(uint64_t{matrix.rows} * frame.context().device.subgroupSize);
+        pass.shader("gi/solve_subgroup.comp").dispatch(uint64_t{matrix.rows} * frame.context().device.subgroupSize);
     }
   }
 };
@@ -67,8 +68,7 @@ void judge(SolveReport& report, const SolveResidual& r, const SolverParams& para
   const float reach = q < 1 ? report.residual / (1 - q) : std::numeric_limits<float>::infinity();
   report.bound = report.residual == 0 ? 0 : q * reach;
   // H is one product behind B: its error is bounded by |dB| / (1 - q), row sums being <= 1.
-  report.converged =
-      report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
+  report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ class Gather : public GiTest {
     frame.submitAndWait();
     Result r;
     r.direct = downloadAs<glm::vec4>(context(), light.direct);
-    const auto voxel = downloadAs<uint32_t>(context(), w.facets.voxel), shape = downloadAs<uint32_t>(context(), w.facets.shape);
+    const auto voxel = downloadAs<uint32_t>(context(), w.facets.voxel),
+               shape = downloadAs<uint32_t>(context(), w.facets.shape);
     for (size_t i = 0; i < voxel.size(); ++i) {
       const glm::vec3 n = decodeNormal(shape[i] & 0xFFFFu, NORMALS_OCT16);
       r.normal.emplace_back(n);

@@ -3,6 +3,7 @@
 #include <map>
 #include <numbers>
 
+#include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"
 #include "renderer/error.h"
 #include "tests/gi_fixture.h"
@@ -58,7 +59,8 @@ class Matrix : public GiTest {
     const int other = to / 2, along = 3 - axis - other;
     const double c = to % 2 == 0 ? p[other] : 1 - p[other];  // the wall that faces + lies at 0
     for (const double b : {p[along], 1 - p[along]})
-      sum += (std::atan(b / c) - c / std::sqrt(1 + c * c) * std::atan(b / std::sqrt(1 + c * c))) / (2 * std::numbers::pi);
+      sum +=
+          (std::atan(b / c) - c / std::sqrt(1 + c * c) * std::atan(b / std::sqrt(1 + c * c))) / (2 * std::numbers::pi);
     return sum;
   }
   static Scene room() {
@@ -197,6 +199,49 @@ TEST_F(Matrix, RowsAreExactCountsOfTheirRays) {
   for (uint32_t r = 0; r < w.facets.count; ++r)
     for (size_t i = places[r].columns.size(); i < params.rays; ++i)
       ASSERT_EQ(words[2 * (size_t{r} * params.rays + i)] | words[2 * (size_t{r} * params.rays + i) + 1], 0u);
+}
+
+TEST_F(Matrix, MergingOnTheDeviceEqualsMergingOnTheHost) {
+  const uint32_t facets = 5000;
+  for (const uint32_t rays : {1u, 2u, 7u, 64u, 100u, 384u, 1024u}) {
+    const Chunk chunk{.firstRow = 3, .rows = 50, .rays = rays, .columnBits = 13};
+    std::vector<uint32_t> met(size_t{chunk.rows} * rays);
+    for (uint32_t i = 0; i < met.size(); ++i) {
+      const uint32_t h = hashUint(i + 77 * rays), row = i / rays;
+      // From rows of one column to rows all different; row 7 met nothing, row 8 has no valid ray.
+      met[i] = row == 7     ? TRACE_ESCAPED
+               : row == 8   ? TRACE_INVALID
+               : h % 8 == 0 ? TRACE_ESCAPED - h / 8 % 3
+                            : h / 8 % std::min(facets, 1 + row * row * row);
+    }
+    const Buffer hits = makeBuffer<uint32_t>(context(), "hits", Subsystem::Matrix, met);
+    const Buffer counts(context().device, "counts", Subsystem::Matrix, 4ull * chunk.rows);
+    const Buffer infos(context().device, "infos", Subsystem::Matrix, 8ull * (chunk.rows + chunk.firstRow));
+    const Buffer sums(context().device, "sums", Subsystem::Matrix, sizeof(ChunkCounts));
+    Frame frame = context().begin();
+    mergeOnDevice(frame, chunk, hits, counts, infos, sums);
+    frame.submitAndWait();
+    const auto merged = downloadAs<uint32_t>(context(), hits), count = downloadAs<uint32_t>(context(), counts);
+    const auto info = downloadAs<glm::uvec2>(context(), infos);
+    const auto found = downloadAs<ChunkCounts>(context(), sums).at(0);
+
+    std::vector<glm::uvec2> hostInfo(chunk.rows);
+    std::vector<uint32_t> start(chunk.rows);
+    ChunkCounts hostSums{};
+    const std::vector<uint32_t> entries = mergeOnHost(chunk, met, hostInfo, start, hostSums);
+    for (uint32_t r = 0; r < chunk.rows; ++r) {
+      ASSERT_EQ(info[chunk.firstRow + r], hostInfo[r]) << rays << " rays, row " << r;
+      ASSERT_EQ(count[r], rowEntries(hostInfo[r]));
+      for (uint32_t i = 0; i < count[r]; ++i)
+        ASSERT_EQ(merged[size_t{r} * rays + i], entries[start[r] + i]) << rays << " rays, row " << r;
+    }
+    EXPECT_EQ(found.hits, hostSums.hits);
+    EXPECT_EQ(found.escaped, hostSums.escaped);
+    EXPECT_EQ(found.invalid, hostSums.invalid);
+    EXPECT_EQ(found.largestRow, hostSums.largestRow);
+    EXPECT_EQ(rowEntries(hostInfo[7]) + rowEntries(hostInfo[8]), 0u);
+    EXPECT_EQ(hostInfo[8].y, 0u);  // weight 0, not 1 / 0
+  }
 }
 
 TEST_F(Matrix, TwoBuildsHaveTheSameBits) {

@@ -62,7 +62,8 @@ TEST(Sampling, SetsAreStratified) {
 }
 
 TEST(Sampling, ChiSquare) {
-  // 64 x 64 equal cells of the square under the shifts of 409,600 voxels: chi^2 with 4095 degrees of freedom, sigma 90.5.
+  // 64 x 64 equal cells of the square under the shifts of 409,600 voxels: chi^2 with 4095 degrees of freedom,
+  // sigma 90.5.
   std::vector<int> cells(4096);
   const int n = 409600;
   for (int i = 0; i < n; ++i) {

@@ -260,7 +260,8 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
   // Two steps of a stair, 1.8 voxels apart in neighbouring voxels, and the back of the upper one: light 1, 2 and 4.
   Settings settings = at(16, 16);
   const Grid grid = makeGrid(glm::vec3(0), glm::vec3(1), 16);
-  const uint32_t up = encodeNormal(glm::vec3(0, 1, 0), NORMALS_OCT16), down = encodeNormal(glm::vec3(0, -1, 0), NORMALS_OCT16);
+  const uint32_t up = encodeNormal(glm::vec3(0, 1, 0), NORMALS_OCT16),
+                 down = encodeNormal(glm::vec3(0, -1, 0), NORMALS_OCT16);
   std::vector<uint32_t> voxel, shape;
   std::vector<float> value;
   for (uint32_t z = 4; z < 12; ++z)
@@ -274,9 +275,9 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
       shape.push_back(down | packFacetOffset(0.2f));
       value.push_back(4.0f);
     }
-  const FacetList facets = uploadFacets(context(), grid, voxel, shape,
-                                        std::vector<glm::uvec2>(voxel.size(), packAlbedo(glm::vec3(0.5f))), {},
-                                        NormalEncoding::oct16);
+  const FacetList facets =
+      uploadFacets(context(), grid, voxel, shape, std::vector<glm::uvec2>(voxel.size(), packAlbedo(glm::vec3(0.5f))),
+                   {}, NormalEncoding::oct16);
   Lighting light = makeLighting(context(), facets, settings);
   std::vector<glm::vec4> h;
   for (const float v : value) h.emplace_back(v, 2 * v, 3 * v, 0);
@@ -331,8 +332,8 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
   EXPECT_EQ(present, facets.solidVoxels);
   EXPECT_EQ(texel(voxel[0]).x, 65504.0f);
   EXPECT_EQ(texel(voxel[0]).y, 0.0f);
-  EXPECT_NEAR(texel(voxel[0]).z, 0.333f, 2e-4f);
-  EXPECT_EQ(texel(voxel[4]).x, 2.0f);  // the upper step's first facet, not its back
+  EXPECT_NEAR(texel(voxel[0]).z, 0.333f, 2.45e-4f);  // one ulp: a store to fp16 may truncate (lavapipe does)
+  EXPECT_EQ(texel(voxel[4]).x, 2.0f);                // the upper step's first facet, not its back
 
   // Thesis: the volume holds B; with edge removal B - lambda rho D (T eq. 23).
   std::vector<glm::vec4> radiosity(h.size(), glm::vec4(5, 5, 5, 0)), direct(h.size(), glm::vec4(2, 4, 20, 0));

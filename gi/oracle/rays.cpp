@@ -26,9 +26,9 @@ struct Walk {
     std::array<std::pair<double, int>, 3> t;
     for (int a = 0; a < 3; ++a) {
       const double bound = cell[a] + (ray.direction[a] > 0 ? 1 : 0);
-      t[a] = {ray.direction[a] == 0 ? std::numeric_limits<double>::infinity()
-                                    : (bound - ray.origin[a]) / ray.direction[a],
-              a};
+      t[a] = {
+          ray.direction[a] == 0 ? std::numeric_limits<double>::infinity() : (bound - ray.origin[a]) / ray.direction[a],
+          a};
     }
     std::sort(t.begin(), t.end());
     return t;
@@ -106,8 +106,8 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
       if (!less(TRACE_ON_PLANE, leave) && (recorded || !less(enter, -double{TRACE_ON_PLANE}))) return Answer::Front;
       return recorded && !less(TRACE_JOINT, leave) ? Answer::Near : Answer::Misses;
     }
-    const bool own = less(TRACE_OWN_NORMAL, glm::dot(facets.normal(f), ray.normal)) &&
-                     less(std::abs(start), TRACE_OWN_PLANE);
+    const bool own =
+        less(TRACE_OWN_NORMAL, glm::dot(facets.normal(f), ray.normal)) && less(std::abs(start), TRACE_OWN_PLANE);
     const bool crosses = recorded && less(enter, -double{TRACE_ON_PLANE}) && less(TRACE_ON_PLANE, leave);
     return crosses && !own ? Answer::Back : Answer::Misses;
   };
@@ -141,10 +141,13 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
         for (const uint32_t f : facetsAt(facets, walk.cell + side)) {
           consider(f, /*recorded=*/false);
           const double start = facets.distance(f, ray.origin);
-          const bool own = glm::dot(facets.normal(f), ray.normal) > TRACE_OWN_NORMAL && std::abs(start) < TRACE_OWN_PLANE;
+          const bool own =
+              glm::dot(facets.normal(f), ray.normal) > TRACE_OWN_NORMAL && std::abs(start) < TRACE_OWN_PLANE;
           if (!first || own) continue;
-          if (less(start, -double{TRACE_ON_PLANE})) behind = true;
-          else before = true;
+          if (less(start, -double{TRACE_ON_PLANE}))
+            behind = true;
+          else
+            before = true;
         }
       }
       if (behind && !before) {
@@ -167,7 +170,9 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
 
 }  // namespace
 
-dvec3 Facets::normal(uint32_t facet) const { return dvec3(decodeNormal(shape[facet] & 0xFFFFu, encoding)); }
+dvec3 Facets::normal(uint32_t facet) const {
+  return dvec3(decodeNormal(shape[facet] & 0xFFFFu, encoding));
+}
 
 double Facets::distance(uint32_t facet, const dvec3& p) const {
   return glm::dot(normal(facet), p - (dvec3(unpackVoxel(voxel[facet])) + 0.5)) - double{facetOffset(shape[facet])};

@@ -44,7 +44,8 @@ struct Light {
   std::vector<glm::dvec3> radiosity, indirect;
 };
 /// `sweeps` of H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
-void jacobi(const std::vector<Row>& rows, const std::vector<glm::dvec3>& albedo, const std::vector<glm::dvec3>& emission,
-            const std::vector<glm::dvec3>& direct, const SolverParams& params, uint32_t sweeps, Light& light);
+void jacobi(const std::vector<Row>& rows, const std::vector<glm::dvec3>& albedo,
+            const std::vector<glm::dvec3>& emission, const std::vector<glm::dvec3>& direct, const SolverParams& params,
+            uint32_t sweeps, Light& light);
 
 }  // namespace irad::oracle

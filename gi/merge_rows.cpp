@@ -1,0 +1,60 @@
+#include "gi/merge_rows.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace irad {
+
+void mergeOnDevice(Frame& frame, const Chunk& chunk, const Buffer& hits, const Buffer& counts, const Buffer& rowInfo,
+                   const Buffer& sums) {
+  const Device& device = frame.context().device;
+  const uint32_t sorted = std::bit_ceil(std::max(2u, chunk.rays));
+  const uint32_t width = device.isCpu ? std::max(8u, device.subgroupSize) : std::clamp(sorted / 4, 32u, 256u);
+  MergeRowsPush push{};
+  push.hits = hits.address;
+  push.counts = counts.address;
+  push.rowInfo = rowInfo.address;
+  push.sums = sums.address;
+  push.firstRow = chunk.firstRow;
+  push.rows = chunk.rows;
+  push.rays = chunk.rays;
+  push.columnBits = chunk.columnBits;
+  const uint32_t x = std::min(chunk.rows, 32768u);
+  frame.pass("GI BuildMatrix").fill(sums, 0);
+  frame.pass("GI BuildMatrix")
+      .shader("gi/merge_rows.comp")
+      .constant(0, width)
+      .constant(1, sorted)
+      .write(hits, counts, rowInfo, sums)
+      .push(push)
+      .dispatchGroups(x, (chunk.rows + x - 1) / x);
+}
+
+std::vector<uint32_t> mergeOnHost(const Chunk& chunk, std::span<uint32_t> hits, std::span<glm::uvec2> info,
+                                  std::span<uint32_t> start, ChunkCounts& sums) {
+  std::vector<uint32_t> entries;
+  entries.reserve(uint64_t{chunk.rows} * chunk.rays);
+  sums = {};
+  for (uint32_t r = 0; r < chunk.rows; ++r) {
+    const std::span<uint32_t> row = hits.subspan(uint64_t{r} * chunk.rays, chunk.rays);
+    std::sort(row.begin(), row.end());
+    const auto end = std::upper_bound(row.begin(), row.end(), TRACE_LAST_FACET);
+    start[r] = static_cast<uint32_t>(entries.size());
+    for (auto i = row.begin(); i != end;) {
+      const auto next = std::find_if(i, end, [column = *i](uint32_t c) { return c != column; });
+      entries.push_back(*i | static_cast<uint32_t>(next - i) << chunk.columnBits);
+      i = next;
+    }
+    const auto count = static_cast<uint32_t>(entries.size()) - start[r];
+    const auto invalid = static_cast<uint32_t>(std::count(end, row.end(), TRACE_INVALID));
+    const float weight = invalid < chunk.rays ? 1.0f / static_cast<float>(chunk.rays - invalid) : 0.0f;
+    info[r] = {count | invalid << 16, std::bit_cast<uint32_t>(weight)};
+    sums.hits += static_cast<uint32_t>(end - row.begin());
+    sums.escaped += static_cast<uint32_t>(std::count(end, row.end(), TRACE_ESCAPED));
+    sums.invalid += invalid;
+    sums.largestRow = std::max(sums.largestRow, count);
+  }
+  return entries;
+}
+
+}  // namespace irad
