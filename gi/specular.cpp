@@ -48,32 +48,44 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   push.params = settings.specular.gpu;
   push.jfaMax = field.jfaMax;
   const uint32_t method = traceMethod(settings, field);
-  const bool inFragment = settings.specular.mode == SpecularMode::fragment;
+  const auto traced = [&](Pass& pass, bool fragment) -> Pass& {
+    pass.constant(0, method)
+        .constant(1, settings.matrix.gpu.hitRule)
+        .constant(2, static_cast<uint32_t>(facets.encoding))
+        .read(camera, facets.record, facets.shape, facets.reverse, lighting.radiosity)
+        .sample(targets.depth, point)
+        .read(targets.normal, targets.geometric, targets.f0);
+    if (fragment) pass.read(targets.indirect);
+    if (field.chebyshev) pass.read(field.chebyshev);
+    if (!fragment) pass.read(targets.glossy).write(targets.linear);
+    if (method == TRACE_JFA) pass.sample(field.jfaDistance, point);
+    return pass.push(push);
+  };
+
+  // T 5.11: in the fragment shader, over the whole picture, unfiltered.
+  if (settings.specular.mode == SpecularMode::fragment) {
+    Pass pass = frame.pass("RE Specular");
+    pass.shaders({"specular/screen.vert", method == TRACE_JFA ? "specular/trace_jfa.frag" : "specular/trace.frag"});
+    traced(pass, /*fragment*/ true).color(targets.specular, ClearColor{}).draw(3);
+    return;
+  }
+
+  // List the pixels that trace; the others are done with that.
+  push.glossy = targets.glossy.address;
+  frame.pass("RE Specular").update(targets.glossy, glm::uvec4(0, 1, 1, 0));
+  frame.pass("RE Specular")
+      .shader("specular/classify.comp")
+      .read(camera)
+      .sample(targets.depth, point)
+      .read(targets.normal, targets.f0, targets.indirect)
+      .write(targets.linear, targets.specular, targets.glossy)
+      .push(push)
+      .run([&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
 
   // Trace.
   Pass trace = frame.pass("RE Specular");
-  if (inFragment) {
-    trace.shaders({"specular/screen.vert", method == TRACE_JFA ? "specular/trace_jfa.frag" : "specular/trace.frag"});
-  } else {
-    trace.shader(method == TRACE_JFA ? "specular/trace_jfa.comp" : "specular/trace.comp");
-  }
-  trace.constant(0, method)
-      .constant(1, settings.matrix.gpu.hitRule)
-      .constant(2, static_cast<uint32_t>(facets.encoding))
-      .read(camera, facets.record, facets.shape, facets.reverse, lighting.radiosity)
-      .sample(targets.depth, point)
-      .read(targets.normal, targets.geometric, targets.f0, targets.indirect);
-  if (field.chebyshev) trace.read(field.chebyshev);
-  if (!inFragment) trace.write(targets.linear);
-  if (method == TRACE_JFA) trace.sample(field.jfaDistance, point);
-  trace.push(push);
-  if (inFragment) {
-    trace.color(targets.specular, ClearColor{}).draw(3);
-    return;
-  }
-  const uint32_t groupsX = (targets.size.x + 7) / 8, groupsY = (targets.size.y + 7) / 8;
-  const auto dispatch = [=](Commands& commands) { commands.dispatchGroups(groupsX, groupsY); };
-  trace.run(dispatch);
+  trace.shader(method == TRACE_JFA ? "specular/trace_jfa.comp" : "specular/trace.comp");
+  traced(trace, /*fragment*/ false).dispatchIndirect(targets.glossy);
 
   // Filter; linear and specular take turns, so that the last of the three steps ends in `specular`.
   const Image* from = &targets.linear;
@@ -86,12 +98,11 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
     push.resolve = last ? 1 : 0;
     frame.pass("RE Specular")
         .shader("specular/filter.comp")
-        .read(camera)
-        .sample(targets.depth, point)
+        .read(camera, targets.glossy)
         .read(targets.normal, targets.geometric, targets.f0, targets.indirect, *from)
         .write(*to)
         .push(push)
-        .run(dispatch);
+        .dispatchIndirect(targets.glossy);
     std::swap(from, to);
   }
 }

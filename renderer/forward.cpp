@@ -29,6 +29,16 @@ VkCullModeFlags culling(const SceneOnDevice& scene, const Draw& draw) {
   return hasFlag(scene, draw, MATERIAL_DOUBLE_SIDED) ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
 }
 
+constexpr uint32_t kAnyTexture = MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE |
+                                 MATERIAL_NORMAL_TEXTURE | MATERIAL_OCCLUSION_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+
+/// IRAD_SHADOW_KINDS of shaders/forward/shadow.glsl.
+uint32_t shadowKinds(const SceneOnDevice& scene) {
+  uint32_t kinds = 0;
+  for (const GpuLight& light : scene.lightValues) kinds |= lightUsesCube(light.type, light.outerCos) ? 2 : 1;
+  return kinds;
+}
+
 /// Largest and smallest distance of the bounds' corners along the view direction.
 glm::dvec2 depthOfBounds(const Scene& scene, const glm::dvec3& eye, const glm::dvec3& forward) {
   glm::dvec2 range(1e300, -1e300);
@@ -59,6 +69,7 @@ Targets::Targets(Context& context, glm::uvec2 extent) : size(extent) {
   indirect = target(device, "indirect irradiance", full, size, color);
   emitted = target(device, "irradiance of emitters", full, size, color);
   specular = target(device, "specular radiance", full, size, color);
+  glossy = Buffer(device, "glossy pixels", Subsystem::Targets, 4ull * (GLOSSY_FIRST + size.x * size.y));
   linear = target(device, "linear picture", full, size, color);
   display = target(device, "display picture", VK_FORMAT_R8G8B8A8_UNORM, size, color);
 }
@@ -162,49 +173,62 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   push.scene = scene.record.address;
   push.camera = camera.address;
   push.sampling = indirect.sample;
-  push.normalEncoding = indirect.normalEncoding;
   push.shadowBias = shade.shadowBias;
-  push.pcf = std::clamp(shade.pcf, 1u, 5u);
   push.specularDirect = shade.specularDirect;
   const bool fromVolume = indirect.volume != nullptr && indirect.grid != nullptr && indirect.sample.gated == 0;
   const bool fromFacets =
       !fromVolume && indirect.grid != nullptr && indirect.facets != nullptr && indirect.shaded != nullptr;
-  push.hasIndirect = fromVolume || fromFacets ? 1 : 0;
-  Pass pass = frame.pass("RE Forward");
-  pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"})
-      .read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
-            scene.indices)
-      .read(scene.materials, scene.lights, camera);
-  if (push.hasIndirect != 0) {
-    push.grid = indirect.grid->address;
-    pass.read(*indirect.grid);
-  }
-  if (fromFacets) {
-    push.facets = indirect.facets->address;
-    push.shaded = indirect.shaded->address;
-    push.shadedEmitted = indirect.shadedEmitted != nullptr ? indirect.shadedEmitted->address : indirect.shaded->address;
-    for (const Buffer* buffer :
-         {indirect.facets, indirect.shape, indirect.reverse, indirect.shaded, indirect.shadedEmitted})
-      if (buffer != nullptr) pass.read(*buffer);
-  }
-  pass.sample(shadows.flat, shadows.sampler).sample(shadows.cubes, shadows.sampler);
-  if (fromVolume) {
-    SamplerDesc linear{Wrap::Clamp, Wrap::Clamp};
-    linear.mips = linear.linearMips = false;
-    pass.sample(*indirect.volume, sampler(frame.context().device, linear));
-  }
-  for (const Image* image : {&targets.normal, &targets.geometric, &targets.albedo, &targets.f0, &targets.direct,
-                             &targets.highlight, &targets.indirect, &targets.emitted})
-    pass.color(*image, ClearColor{});
-  pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
-    for (const Draw& draw : draws) {
-      push.material = draw.material;
-      commands.cull(culling(scene, draw));
-      commands.bindMaterial(scene.materialSets.at(draw.material));
-      commands.push(push);
-      commands.draw(draw.indexCount, draw.firstIndex);
+  const bool emitters = indirect.shadedEmitted != nullptr && scene.anyEmission;
+
+  // What the scene does not have is left out of the shader. Untextured materials have a pass of their own: a device
+  // that runs both sides of a branch would otherwise fetch five textures that are not there.
+  const uint32_t constants[] = {indirect.normalEncoding, shadowKinds(scene), 0,
+                                fromVolume || fromFacets ? (emitters ? 2u : 1u) : 0u,
+                                std::clamp(shade.pcf, 1u, 5u) | 1u};
+  bool first = true;
+  for (const bool textured : {false, true}) {
+    if (std::none_of(draws.begin(), draws.end(),
+                     [&](const Draw& d) { return hasFlag(scene, d, kAnyTexture) == textured; }) &&
+        !(first && textured))
+      continue;
+    Pass pass = frame.pass("RE Forward");
+    pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
+    for (uint32_t id = 0; id < std::size(constants); ++id) pass.constant(id, id == 2 ? textured : constants[id]);
+    pass.read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
+              scene.indices, scene.materials, scene.lights, camera);
+    if (fromVolume || fromFacets) {
+      push.grid = indirect.grid->address;
+      pass.read(*indirect.grid);
     }
-  });
+    if (fromFacets) {
+      push.facets = indirect.facets->address;
+      push.shaded = indirect.shaded->address;
+      push.shadedEmitted = emitters ? indirect.shadedEmitted->address : 0;
+      for (const Buffer* buffer :
+           {indirect.facets, indirect.shape, indirect.reverse, indirect.shaded, indirect.shadedEmitted})
+        if (buffer != nullptr) pass.read(*buffer);
+    }
+    pass.sample(shadows.flat, shadows.sampler).sample(shadows.cubes, shadows.sampler);
+    if (fromVolume) {
+      SamplerDesc linear{Wrap::Clamp, Wrap::Clamp};
+      linear.mips = linear.linearMips = false;
+      pass.sample(*indirect.volume, sampler(frame.context().device, linear));
+    }
+    for (const Image* image : {&targets.normal, &targets.geometric, &targets.albedo, &targets.f0, &targets.direct,
+                               &targets.highlight, &targets.indirect, &targets.emitted})
+      pass.color(*image, first ? std::optional(ClearColor{}) : std::nullopt);
+    first = false;
+    pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
+      for (const Draw& draw : draws) {
+        if (hasFlag(scene, draw, kAnyTexture) != textured) continue;
+        push.material = draw.material;
+        commands.cull(culling(scene, draw));
+        commands.bindMaterial(scene.materialSets.at(draw.material));
+        commands.push(push);
+        commands.draw(draw.indexCount, draw.firstIndex);
+      }
+    });
+  }
 }
 
 }  // namespace irad

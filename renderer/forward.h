@@ -26,6 +26,7 @@ struct Targets {
   Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2
   Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M)
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
+  Buffer glossy;    ///< pixels that trace specular rays (shaders/shared/passes.h)
   Image linear;     ///< RGBA32F: the view's result, before exposure and tone curve
   Image display;    ///< RGBA8: what is shown and written as PNG (sRGB-encoded)
 };

@@ -30,11 +30,13 @@ uint bestFacet(FacetArrays facets, Grid grid, uint encoding, ivec3 v, vec3 p, ve
   if (entry == NO_FACET) return NO_FACET;
   uint facet = entry & ~SECOND_FACET;
   uint best = NO_FACET;
-  for (uint i = 0u; i < ((entry & SECOND_FACET) != 0u ? 2u : 1u); ++i) {
-    float a = facetAgreement(facets.shape.at[facet + i], encoding, vec3(v), p, n);
-    if (a > agreement) {
-      agreement = a;
-      best = facet + i;
+  agreement = facetAgreement(facets.shape.at[facet], encoding, vec3(v), p, n);
+  if (agreement > 0.0) best = facet;
+  if ((entry & SECOND_FACET) != 0u) {
+    float other = facetAgreement(facets.shape.at[facet + 1u], encoding, vec3(v), p, n);
+    if (other > agreement) {
+      agreement = other;
+      best = facet + 1u;
     }
   }
   return best;
@@ -60,9 +62,9 @@ uint nearestFacet(FacetArrays facets, Grid grid, uint encoding, vec3 p, vec3 n) 
   return best;
 }
 
-/// Gated lookup at `p` (voxel units). The taps are the eight voxels whose centres surround p + offset n.
+/// Gated lookup at `p` (voxel units); `emitted` is left out unless there are `emitters`. The taps are the eight voxels whose centres surround p + offset n.
 Indirect facetIndirect(FacetArrays facets, Grid grid, uint encoding, Vec4Array shaded, Vec4Array shadedEmitted,
-                       SampleParams sampling, vec3 p, vec3 n) {
+                       SampleParams sampling, vec3 p, vec3 n, bool emitters) {
   Indirect result = Indirect(vec3(0.0), vec3(0.0));
   float total = 0.0;
   if (sampling.filter_ != FILTER_NEAREST) {
@@ -78,7 +80,7 @@ Indirect facetIndirect(FacetArrays facets, Grid grid, uint encoding, Vec4Array s
       float weight = w.x * w.y * w.z * agreement;
       total += weight;
       result.irradiance += weight * shaded.at[facet].xyz;
-      if (facets.hasEmission != 0u) result.emitted += weight * shadedEmitted.at[facet].xyz;
+      if (emitters) result.emitted += weight * shadedEmitted.at[facet].xyz;
     }
     if (total >= 1.0 / 256.0) {
       result.irradiance /= total;
@@ -88,7 +90,7 @@ Indirect facetIndirect(FacetArrays facets, Grid grid, uint encoding, Vec4Array s
   }
   uint facet = nearestFacet(facets, grid, encoding, p, n);
   if (facet == NO_FACET) return Indirect(vec3(0.0), vec3(0.0));
-  return Indirect(shaded.at[facet].xyz, facets.hasEmission != 0u ? shadedEmitted.at[facet].xyz : vec3(0.0));
+  return Indirect(shaded.at[facet].xyz, emitters ? shadedEmitted.at[facet].xyz : vec3(0.0));
 }
 
 /// One per-facet quantity around `p` on a surface with normal `n`, as facetIndirect; `facet` where nothing else agrees.

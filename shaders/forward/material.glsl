@@ -3,6 +3,9 @@
 #define IRAD_FORWARD_MATERIAL_GLSL
 #include "shared/scene_gpu.h"
 
+#ifndef IRAD_TEXTURED
+#define IRAD_TEXTURED true
+#endif
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
 layout(set = 1, binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 2) uniform sampler2D normalTexture;
@@ -18,7 +21,7 @@ vec2 textureUv(GpuMaterial m, uint i, vec4 uv) {
 /// Base colour (linear) and alpha; `tint` is the vertex colour.
 vec4 materialBaseColor(GpuMaterial m, vec4 uv, vec4 tint) {
   vec4 c = m.baseColor * tint;
-  if ((m.flags & MATERIAL_BASE_COLOR_TEXTURE) != 0u)
+  if (IRAD_TEXTURED && (m.flags & MATERIAL_BASE_COLOR_TEXTURE) != 0u)
     c *= texture(baseColorTexture, textureUv(m, TEXTURE_BASE_COLOR, uv));
   return c;
 }

@@ -1,5 +1,13 @@
 // "RE Forward", fragment stage: surface, direct light, indirect lookup. Written once per visible pixel (the depth
 // prepass and EQUAL see to it); renderer/forward.h says what each target holds.
+layout(constant_id = 0) const uint NORMAL_ENCODING = 3u;
+layout(constant_id = 1) const uint SHADOW_KINDS = 3u;  ///< as IRAD_SHADOW_KINDS; 0: no lights
+layout(constant_id = 2) const bool TEXTURED = true;    ///< a material of this pass has a texture
+layout(constant_id = 3) const uint INDIRECT = 2u;      ///< 0: none, 1: without emitters, 2: with
+layout(constant_id = 4) const uint PCF = 3u;
+#define IRAD_SHADOW_KINDS SHADOW_KINDS
+#define IRAD_TEXTURED TEXTURED
+
 #include "forward/indirect.glsl"
 #include "forward/material.glsl"
 #include "forward/shadow.glsl"
@@ -31,7 +39,7 @@ vec3 faceNormal(vec3 view) {
 }
 
 vec3 mappedNormal(GpuMaterial m, vec3 n) {
-  if ((m.flags & MATERIAL_NORMAL_TEXTURE) == 0u) return n;
+  if (!TEXTURED || (m.flags & MATERIAL_NORMAL_TEXTURE) == 0u) return n;
   vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
   float l2 = dot(t, t);
   if (!(l2 > 0.0)) return n;
@@ -60,7 +68,7 @@ void main() {
   vec4 base = clamp(materialBaseColor(m, uv, tint), 0.0, 1.0);
   float metallic = m.metallic;
   float roughness = m.roughness;
-  if ((m.flags & MATERIAL_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
+  if (TEXTURED && (m.flags & MATERIAL_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
     vec4 mr = texture(metallicRoughnessTexture, textureUv(m, TEXTURE_METALLIC_ROUGHNESS, uv));
     metallic *= mr.b;
     roughness *= mr.g;
@@ -71,11 +79,11 @@ void main() {
   vec3 albedo = lambertian ? base.rgb : base.rgb * (1.0 - metallic);
   vec3 f0 = lambertian ? vec3(0.0) : mix(vec3(0.04), base.rgb, metallic);
   float occlusion = 1.0;
-  if ((m.flags & MATERIAL_OCCLUSION_TEXTURE) != 0u)
+  if (TEXTURED && (m.flags & MATERIAL_OCCLUSION_TEXTURE) != 0u)
     occlusion += m.occlusionStrength *
                  (texture(occlusionTexture, textureUv(m, TEXTURE_OCCLUSION, uv)).r - 1.0);
   vec3 emission = m.emission;
-  if ((m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
+  if (TEXTURED && (m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
     emission *= texture(emissiveTexture, textureUv(m, TEXTURE_EMISSIVE, uv)).rgb;
 
   // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (METHOD section 1: D).
@@ -83,13 +91,13 @@ void main() {
   float alpha = max(roughness * roughness, GGX_LEAST_ALPHA);
   vec3 direct = vec3(0.0);
   vec3 highlight = vec3(0.0);
-  for (uint i = 0u; i < scene.lightCount; ++i) {
+  for (uint i = 0u; SHADOW_KINDS != 0u && i < scene.lightCount; ++i) {
     GpuLight light = scene.lights.at[i];
     vec3 l = lightDirection(light, local);
     float nl = dot(n, l);
     vec3 e = nl > 0.0 ? lightIntensity(light, local) * nl : vec3(0.0);
     if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
-    e *= shadowVisibility(light, local, face, push.shadowBias, push.pcf);
+    e *= shadowVisibility(light, local, face, push.shadowBias, PCF);
     direct += e;
     if (lambertian || push.specularDirect == 0u) continue;
     vec3 h = normalize(l + view);
@@ -99,14 +107,14 @@ void main() {
 
   // Indirect light.
   Indirect indirect = Indirect(vec3(0.0), vec3(0.0));
-  if (push.hasIndirect != 0u) {
+  if (INDIRECT != 0u) {
     Grid grid = push.grid.at[0];
     vec3 p = (local - grid.origin) * grid.inverseEdge;
 #ifdef IRAD_VOLUME
     indirect.irradiance = volumeIndirect(grid, push.sampling, p, lookup);
 #else
-    indirect = facetIndirect(push.facets.at[0], grid, push.normalEncoding, push.shaded, push.shadedEmitted,
-                             push.sampling, p, lookup);
+    indirect = facetIndirect(push.facets.at[0], grid, NORMAL_ENCODING, push.shaded, push.shadedEmitted,
+                             push.sampling, p, lookup, INDIRECT == 2u && push.facets.at[0].hasEmission != 0u);
 #endif
   }
 

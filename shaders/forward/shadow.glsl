@@ -1,5 +1,6 @@
 // Light from the analytic lights and its visibility through the shadow maps: one definition for shading and for the
-// facet gather. The including shader binds the maps; by default they are set 0, bindings 0 and 1.
+// facet gather. The including shader binds the maps; by default they are set 0, bindings 0 and 1. Where it knows that a
+// scene has no light of one sort it says so (IRAD_SHADOW_KINDS), and the code for that sort is left out.
 #ifndef IRAD_FORWARD_SHADOW_GLSL
 #define IRAD_FORWARD_SHADOW_GLSL
 #include "shared/scene_gpu.h"
@@ -12,6 +13,10 @@
 #endif
 #ifndef IRAD_SHADOW_CUBE_BINDING
 #define IRAD_SHADOW_CUBE_BINDING 1
+#endif
+/// Bit 0: lights with flat maps, bit 1: with cubes.
+#ifndef IRAD_SHADOW_KINDS
+#define IRAD_SHADOW_KINDS 3u
 #endif
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArrayShadow shadowFlat;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
@@ -73,15 +78,22 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
     slope = vec2(dt.z * db.y - dt.y * db.z, dt.x * db.z - dt.z * db.x) / det;
     slope *= min(1.0, 10.0 * cosine);  // grazing light: a steeper plane than 1 : 10 is not followed
   }
+  // pcf x pcf bilinear comparisons one texel apart weigh (pcf + 1)^2 texels by 1 - f, 1, ..., 1, f along each axis; they
+  // are fetched in blocks of four, each with the plane's depth at the block's middle.
   float size = float(textureSize(shadowFlat, 0).x);
-  vec2 uv = ndc.xy * vec2(0.5, -0.5) + 0.5;
-  float first = -0.5 * float(pcf - 1u);
+  vec2 at = (ndc.xy * vec2(0.5, -0.5) + 0.5) * size;
+  vec2 first = floor(at - 0.5 * float(pcf));
+  vec2 f = at - 0.5 * float(pcf) - first;
+  vec2 perTexel = slope * vec2(2.0, -2.0) / size;
   float sum = 0.0;
-  for (uint y = 0u; y < pcf; ++y)
-    for (uint x = 0u; x < pcf; ++x) {
-      vec2 tap = (vec2(x, y) + first) / size;
-      float depth = ndc.z + dot(slope, tap * vec2(2.0, -2.0));
-      sum += texture(shadowFlat, vec4(uv + tap, float(light.shadowLayer), clamp(depth, 1e-30, 1.0)));
+  for (uint y = 0u; y <= pcf; y += 2u)
+    for (uint x = 0u; x <= pcf; x += 2u) {
+      vec2 middle = first + vec2(x, y) + 1.0;
+      float depth = clamp(ndc.z + dot(perTexel, middle - at), 1e-30, 1.0);
+      vec4 blocked = textureGather(shadowFlat, vec3(middle / size, float(light.shadowLayer)), depth);
+      vec2 low = vec2(x == 0u ? 1.0 - f.x : 1.0, y == 0u ? 1.0 - f.y : 1.0);
+      vec2 high = vec2(x + 1u == pcf ? f.x : 1.0, y + 1u == pcf ? f.y : 1.0);
+      sum += dot(blocked, vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y));
     }
   return 1.0 - sum / float(pcf * pcf);
 }
@@ -115,10 +127,11 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
 /// the slope inside one texel needs; nothing here has a length of its own, so the scene's scale does not matter.
 float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float biasTexels, uint pcf) {
   if (light.shadowLayer < 0) return 1.0;
+  pcf |= 1u;  // odd
   float cosine = dot(normal, lightDirection(light, localPosition));
   float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
   float lift = biasTexels * max(sine, 0.1);
-  if (lightUsesCube(light.type, light.outerCos)) {
+  if (IRAD_SHADOW_KINDS == 2u || (IRAD_SHADOW_KINDS == 3u && lightUsesCube(light.type, light.outerCos))) {
     vec3 a = abs(localPosition - light.position);
     float texel = light.shadowTexel * max(a.x, max(a.y, a.z));
     return cubeVisibility(light, localPosition, normal, lift * texel, pcf);

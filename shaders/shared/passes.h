@@ -31,13 +31,17 @@ struct ForwardPush {
   Vec4Array shaded;         ///< H per facet
   Vec4Array shadedEmitted;  ///< F M per facet
   SampleParams sampling;
-  uint normalEncoding;
-  uint hasIndirect;
   uint material;
   float shadowBias;
-  uint pcf;
   uint specularDirect;
+  uint padding;
 };
+
+/// Targets::glossy: three words of dispatch arguments, the number of pixels, then each pixel that traces, x | y << 16, in no
+/// particular order.
+IRAD_CONST uint GLOSSY_COUNT = 3u;
+IRAD_CONST uint GLOSSY_FIRST = 4u;
+IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
 
 /// "RE Specular": tracing and filtering.
 struct SpecularPush {
@@ -46,10 +50,11 @@ struct SpecularPush {
   FacetRecord facets;
   Vec4Array radiosity;
   ByteArray chebyshev;
+  UintArray glossy;
   SpecularParams params;
   float jfaMax;
   uint step_;     ///< filter: pixels between taps; 0: none
-  uint resolve;   ///< filter: 1: multiply by the lobe's reflectance and blend with the diffuse irradiance
+  uint resolve;   ///< filter: 1: the last step
   float leastRoughness;  ///< filter: smoother surfaces are left alone
 };
 

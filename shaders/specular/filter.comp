@@ -1,28 +1,27 @@
 // "RE Specular": one step of an edge-aware a-trous filter over the traced radiance (Dammertz et al. 2010): 3 x 3 taps
-// `step` pixels apart, weighted by plane, normal and roughness. The last step (`resolve`) multiplies by the lobe's
-// reflectance and blends with the diffuse irradiance that rough surfaces take.
+// `step` pixels apart, weighted by plane, normal and roughness, at the listed pixels. The last step (`resolve`) multiplies
+// by the lobe's reflectance and blends with the reflection of the diffuse irradiance near max_roughness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0) uniform sampler2D depthTarget;
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
-layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
-layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
-layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
-layout(set = 0, binding = 5, rgba32f) uniform readonly image2D from;
-layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D to;
+layout(local_size_x = GLOSSY_GROUP) in;
+layout(set = 0, binding = 0, rgba16f) uniform readonly image2D normalTarget;
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D geometricTarget;
+layout(set = 0, binding = 2, rgba16f) uniform readonly image2D f0Target;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D indirectTarget;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D from;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D to;
 
 void main() {
+  ivec2 pixel;
+  if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
   GpuCamera camera = push.camera.at[0];
-  if (any(greaterThanEqual(gl_GlobalInvocationID.xy, camera.size))) return;
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   vec4 centre = imageLoad(from, pixel);
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);
   vec4 result = centre;
-  if (centre.w >= 0.0 && push.step_ > 0u && normal.w > push.leastRoughness) {
+  if (push.step_ > 0u && normal.w > push.leastRoughness) {
     vec3 position = pixelPosition(camera, pixel, centre.w, axis);
     vec3 face = imageLoad(geometricTarget, pixel).xyz;
     // Length of a pixel at this distance: what a tap may lie off the plane.
@@ -50,14 +49,11 @@ void main() {
     result.rgb = total > 0.0 ? sum / total : centre.rgb;
   }
   if (push.resolve != 0u) {
-    vec4 f0 = imageLoad(f0Target, pixel);
-    float depth = texelFetch(depthTarget, pixel, 0).r;
-    vec3 radiance = imageLoad(indirectTarget, pixel).rgb * (1.0 / IRAD_PI);
-    if (centre.w >= 0.0) radiance = mix(radiance, result.rgb, tracedShare(normal.w));
-    vec3 view = towardsViewer(camera, pixelPosition(camera, pixel, viewDepth(camera, depth), axis), axis);
+    vec3 view = towardsViewer(camera, pixelPosition(camera, pixel, centre.w, axis), axis);
     float nv = max(dot(normalize(normal.xyz), view), 1e-3);
-    bool lobe = depth < 1.0 && f0.w != 0.0;
-    result = vec4(lobe ? radiance * environmentBrdf(f0.rgb, normal.w, nv) : vec3(0.0), 1.0);
+    vec3 diffuse = imageLoad(indirectTarget, pixel).rgb * (1.0 / IRAD_PI);
+    vec3 radiance = mix(diffuse, result.rgb, tracedShare(normal.w));
+    result = vec4(radiance * environmentBrdf(imageLoad(f0Target, pixel).rgb, normal.w, nv), 1.0);
   }
   imageStore(to, pixel, result);
 }

@@ -34,6 +34,15 @@ float tracedShare(float roughness) {
   return clamp((push.params.maxRoughness - roughness) / max(push.params.fade, 1e-4), 0.0, 1.0);
 }
 
+/// The pixel of this invocation of a dispatch over Targets::glossy; false past its end.
+bool glossyPixel(uint invocation, out ivec2 pixel) {
+  pixel = ivec2(0);
+  if (invocation >= push.glossy.at[GLOSSY_COUNT]) return false;
+  uint packed_ = push.glossy.at[GLOSSY_FIRST + invocation];
+  pixel = ivec2(packed_ & 0xFFFFu, packed_ >> 16);
+  return true;
+}
+
 /// No rays: no lobe, too rough, or too little light here to matter (METHOD section 8).
 bool tracesNothing(vec4 f0, float roughness, vec3 irradiance) {
   if (f0.w == 0.0 || roughness >= push.params.maxRoughness) return true;
