@@ -101,7 +101,7 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
                     cameras = write("e.json", R"({"settings": {}, "cameras": [{"position": 3}]})");
   const std::vector<UsageCase> cases{
       {{"render", "absent.glb"}, "absent.glb: no such file"},
-      {{"render", "boks"}, "did you mean box"},
+      {{"render", "bxo"}, "bxo: no such file; built-in scenes (did you mean box?)"},
       {{"settings", "--config", notJson}, "a.json: not JSON"},
       {{"settings", "--config", array}, "b.json: expected a JSON object"},
       {{"settings", "--config", (folder.path / "none.json").string()}, "none.json: cannot be read"},
