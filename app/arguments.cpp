@@ -38,6 +38,13 @@ Settings SettingArguments::resolve(const Config& from, bool cpuDevice) const {
   return settings;
 }
 
+bool SettingArguments::sizesAreDefault() const {
+  const auto sizes = [](const std::string& s) {
+    return s.starts_with("voxel.resolution=") || s.starts_with("matrix.rays=");
+  };
+  return !preset && !config && std::none_of(set.begin(), set.end(), sizes);
+}
+
 void DeviceArguments::declare(Options& options) {
   options.value("--device", "NAME|INDEX", device, "Vulkan device, by index or part of its name");
   options.flag("--validate", validate, "Run under the validation layers; any message is a failure");

@@ -20,6 +20,8 @@ struct SettingArguments {
   void declare(Options& options);
   Config readConfig() const;
   Settings resolve(const Config& config, bool cpuDevice) const;
+  /// Voxels and rays are nobody's choice but the defaults', and may be lowered where memory does not suffice.
+  bool sizesAreDefault() const;
 };
 
 /// --device, --validate, --list-devices.

@@ -6,13 +6,6 @@
 #include "renderer/error.h"
 
 namespace irad::app {
-namespace {
-
-double since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace
 
 const char* toString(WorkKind kind) {
   switch (kind) {
@@ -43,20 +36,22 @@ StageSamples& Bench::slot(WorkKind kind, const std::string& stage) {
   return samples_.back();
 }
 
-void Bench::collect(WorkKind kind, double wallMs) {
+void Bench::collect(WorkKind kind) {
   // One sample per stage and call: a stage that ran in several submissions counts once, with their sum.
   std::map<std::pair<WorkKind, std::string>, double> sums;
   std::vector<std::pair<WorkKind, std::string>> order;
-  for (const Timings::FrameSample& group : context_.timings.frames())
-    for (const auto& [stage, ms] : group.stages) {
-      // A rebuild ends with the relight that it makes necessary; the pipeline marks which is which.
-      const WorkKind own = kind == WorkKind::Setup && !group.setup ? WorkKind::Cold : kind;
-      const auto [entry, fresh] = sums.try_emplace({own, stage}, 0.0);
-      entry->second += ms;
-      if (fresh) order.emplace_back(own, stage);
-    }
+  const auto add = [&](WorkKind own, const std::string& stage, double ms) {
+    const auto [entry, fresh] = sums.try_emplace({own, stage}, 0.0);
+    entry->second += ms;
+    if (fresh) order.emplace_back(own, stage);
+  };
+  for (const Timings::FrameSample& group : context_.timings.frames()) {
+    // A rebuild ends with the relight that it makes necessary; the pipeline marks which is which.
+    const WorkKind own = kind == WorkKind::Setup && !group.setup ? WorkKind::Cold : kind;
+    for (const auto& [stage, ms] : group.stages) add(own, stage, ms);
+    add(own, "wall", group.cpuMs);
+  }
   for (const auto& key : order) slot(key.first, key.second).ms.push_back(sums[key]);
-  slot(kind, "wall").ms.push_back(wallMs);
   const WorkKind solved = kind == WorkKind::Setup ? WorkKind::Cold : kind;
   if (const auto solve = sums.find({solved, "GI Solve"}); solve != sums.end()) {
     solveMs_ += solve->second;
@@ -66,26 +61,23 @@ void Bench::collect(WorkKind kind, double wallMs) {
 }
 
 void Bench::prepare(const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
   pipeline_.prepare(progress);
-  collect(WorkKind::Setup, since(start));
+  collect(WorkKind::Setup);
 }
 
 void Bench::rebuild() {
-  const auto start = std::chrono::steady_clock::now();
   pipeline_.invalidate(Redo::Voxels);
   pipeline_.prepare();
-  collect(WorkKind::Setup, since(start));
+  collect(WorkKind::Setup);
 }
 
 void Bench::relight() {
   // Up and down in turn, so that the solver always has the same way to go.
   const float factor = relights_++ % 2 == 0 ? 1.02f : 1.0f / 1.02f;
   for (GpuLight& light : pipeline_.device().lightValues) light.intensity *= factor;
-  const auto start = std::chrono::steady_clock::now();
   pipeline_.lightsChanged();
   pipeline_.prepare();
-  collect(WorkKind::Relight, since(start));
+  collect(WorkKind::Relight);
 }
 
 void Bench::cameraFrame() {
@@ -93,9 +85,9 @@ void Bench::cameraFrame() {
   Frame frame = context_.begin(frame_);
   pipeline_.render(frame, camera_, view_, targets_);
   frame.submitAndWait();
-  const double wall = since(start);
-  context_.timings.endFrame(frame_++, /*setup=*/false, wall);
-  collect(WorkKind::Camera, wall);
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  context_.timings.endFrame(frame_++, /*setup=*/false, wall.count());
+  collect(WorkKind::Camera);
 }
 
 void Bench::forget() {

@@ -17,7 +17,7 @@ const char* toString(WorkKind);
 /// All samples of one stage, ms, in the order of measurement.
 struct StageSamples {
   WorkKind kind;
-  std::string stage;  ///< a name of METHOD section 11, or "wall": from submission to completion, on the CPU's clock
+  std::string stage;  ///< a name of METHOD section 11, or "wall": all of it, on the CPU's clock
   std::vector<double> ms;
 };
 
@@ -44,7 +44,7 @@ class Bench {
   double sweepGigabytesPerSecond() const;
 
  private:
-  void collect(WorkKind kind, double wallMs);
+  void collect(WorkKind kind);
   StageSamples& slot(WorkKind kind, const std::string& stage);
   Context& context_;
   Pipeline pipeline_;

@@ -63,7 +63,7 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
-  pipeline.prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
+  session.prepare(pipeline);
 
   std::vector<fs::path> written;
   for (const Volume volume : volumes)

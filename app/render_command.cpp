@@ -113,7 +113,7 @@ void run(const Arguments& arguments) {
   makeFolder(out);
 
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
-  pipeline.prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
+  session.prepare(pipeline);
   Targets targets(*session.context, size);
 
   std::vector<fs::path> written;

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "gi/sizes.h"
 #include "renderer/error.h"
 
 namespace irad::app {
 
 Session::Session(const SettingArguments& arguments, const DeviceArguments& deviceArguments)
-    : config(arguments.readConfig()) {
+    : config(arguments.readConfig()), sizesAreDefault_(arguments.sizesAreDefault()) {
   (void)arguments.resolve(config, /*cpuDevice=*/true);
   device = Device::create(deviceArguments.options());
   context = std::make_unique<Context>(*device, shaders, timings);
@@ -25,6 +26,24 @@ Scene Session::load(const std::filesystem::path& path) {
     progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
                               config.path.string(), scene.sha256, *config.sceneSha256));
   return scene;
+}
+
+void Session::prepare(Pipeline& pipeline) {
+  while (true) {
+    try {
+      pipeline.prepare([this](const char* stage, float fraction) { return progress(stage, fraction); });
+      return;
+    } catch (const DeviceError& error) {
+      Settings lower = settings;
+      if (!sizesAreDefault_ || !lowerSizes(lower)) throw;
+      progress.note(fmt::format("warning: {}; taking {} voxels and {} rays instead of {} and {}", error.what(),
+                                lower.voxel.resolution, lower.matrix.gpu.rays, settings.voxel.resolution,
+                                settings.matrix.gpu.rays));
+      settings = lower;
+    }
+    device->waitIdle();  // what the attempt held is free from here on
+    pipeline.set(settings);
+  }
 }
 
 void Session::checkValidation() const {

@@ -6,6 +6,7 @@
 
 #include "app/arguments.h"
 #include "app/progress.h"
+#include "gi/pipeline.h"
 #include "renderer/frame.h"
 
 namespace irad::app {
@@ -24,8 +25,14 @@ struct Session {
 
   /// Loads the scene and says what is odd about it, on standard error.
   Scene load(const std::filesystem::path& path);
+  /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
+  /// next smaller ones, in `settings` too.
+  void prepare(Pipeline& pipeline);
   /// After --validate: WorkError with the messages, if there were any.
   void checkValidation() const;
+
+ private:
+  bool sizesAreDefault_;
 };
 
 }  // namespace irad::app

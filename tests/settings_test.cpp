@@ -11,6 +11,7 @@
 #include <set>
 
 #include "gi/near_match.h"
+#include "gi/sizes.h"
 #include "renderer/error.h"
 
 namespace irad {
@@ -198,6 +199,16 @@ TEST(Presets, DefaultsFollowTheDeviceClass) {
   EXPECT_EQ(defaultSettings(true).matrix.gpu.rays, 128u);
   EXPECT_EQ(defaultSettings(false).voxel.resolution, 256u);
   EXPECT_EQ(defaultSettings(false).matrix.gpu.rays, 384u);
+}
+
+TEST(Presets, SizesAreLoweredStepByStepToTheSmallestDefaults) {
+  Settings s = defaultSettings(/*cpuDevice=*/false);
+  std::vector<std::pair<uint32_t, uint32_t>> steps;
+  while (lowerSizes(s)) steps.emplace_back(s.voxel.resolution, s.matrix.gpu.rays);
+  EXPECT_EQ(steps, (std::vector<std::pair<uint32_t, uint32_t>>{
+                       {256, 256}, {256, 128}, {192, 128}, {144, 128}, {108, 128}, {81, 128}, {64, 128}}));
+  Settings cpu = defaultSettings(/*cpuDevice=*/true);
+  EXPECT_FALSE(lowerSizes(cpu));
 }
 
 TEST(Presets, EachIsTheSameWhateverCameBeforeAndKeepsTheSeed) {
