@@ -79,7 +79,7 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"views", "extra"}, "unexpected argument 'extra'"},
   };
   for (const UsageCase& c : cases) {
-    const RunResult result = runIrad(c.arguments, 60);
+    const RunResult result = runIrad(c.arguments);
     std::string line;
     for (const std::string& a : c.arguments) line += a + " ";
     EXPECT_EQ(result.status, 2) << line << result.err;
@@ -111,18 +111,18 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
       {{"render", notGltf, "--out", folder.path.string()}, "c.gltf"},
   };
   for (const UsageCase& c : cases) {
-    const RunResult result = runIrad(c.arguments, 60);
+    const RunResult result = runIrad(c.arguments);
     EXPECT_EQ(result.status, 3) << c.expected << "\n" << result.err;
     EXPECT_TRUE(contains(result.err, c.expected)) << result.err;
   }
   // A settings file with an unknown name is bad usage, and names the file as well.
-  const RunResult unknown = runIrad({"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")}, 60);
+  const RunResult unknown = runIrad({"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_TRUE(contains(unknown.err, "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays")) << unknown.err;
 }
 
 TEST(Cli, NoSuchDeviceIsStatus4) {
-  const RunResult result = runIrad({"render", "box", "--device", "no such device"}, 60);
+  const RunResult result = runIrad({"render", "box", "--device", "no such device"});
   EXPECT_EQ(result.status, 4) << result.err;
   EXPECT_TRUE(contains(result.err, "no such device")) << result.err;
 }
@@ -138,25 +138,25 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
 }
 
 TEST(Cli, HelpVersionAndDevicesAreStatus0) {
-  const RunResult help = runIrad({"--help"}, 60);
+  const RunResult help = runIrad({"--help"});
   EXPECT_EQ(help.status, 0);
   for (const char* command : {"render", "bench", "export", "settings", "views", "Exit status"})
     EXPECT_TRUE(contains(help.out, command)) << command;
   for (const char* command : {"render", "bench", "export", "settings", "views"})
-    EXPECT_EQ(runIrad({command, "--help"}, 60).status, 0) << command;
-  const RunResult version = runIrad({"--version"}, 60);
+    EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
+  const RunResult version = runIrad({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_TRUE(version.out.starts_with("irad ")) << version.out;
-  const RunResult devices = runIrad({"--list-devices"}, 60);
+  const RunResult devices = runIrad({"--list-devices"});
   EXPECT_EQ(devices.status, 0) << devices.err;
   EXPECT_TRUE(contains(devices.out, "suitable")) << devices.out;
 }
 
 TEST(Cli, RegistriesAsTableAndJson) {
-  const RunResult table = runIrad({"settings"}, 60);
+  const RunResult table = runIrad({"settings"});
   EXPECT_EQ(table.status, 0);
   EXPECT_TRUE(contains(table.out, "voxel.resolution")) << table.out;
-  const auto settings = nlohmann::json::parse(runIrad({"settings", "--json", "--set", "matrix.rays=77"}, 60).out);
+  const auto settings = nlohmann::json::parse(runIrad({"settings", "--json", "--set", "matrix.rays=77"}).out);
   const auto rays =
       std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s["name"] == "matrix.rays"; });
   ASSERT_NE(rays, settings.end());
@@ -164,7 +164,7 @@ TEST(Cli, RegistriesAsTableAndJson) {
   EXPECT_EQ((*rays)["default"], 384);
   EXPECT_EQ((*rays)["default_cpu"], 128);
   EXPECT_EQ((*rays)["unit"], "rays");
-  const auto views = nlohmann::json::parse(runIrad({"views", "--json"}, 60).out);
+  const auto views = nlohmann::json::parse(runIrad({"views", "--json"}).out);
   for (const char* name : {"lit", "no-gi", "direct", "indirect", "specular", "voxel-albedo", "voxel-normal", "distance",
                            "irradiance", "radiosity", "row-occupancy"})
     EXPECT_TRUE(std::any_of(views.begin(), views.end(), [&](const auto& v) { return v["name"] == name; })) << name;
@@ -172,16 +172,15 @@ TEST(Cli, RegistriesAsTableAndJson) {
 
 TEST(Cli, ValuesRoundTripThroughAFile) {
   test::TemporaryFolder folder;
-  const RunResult first = runIrad({"settings", "--values", "--preset", "thesis", "--set", "solver.omega=0.7"}, 60);
+  const RunResult first = runIrad({"settings", "--values", "--preset", "thesis", "--set", "solver.omega=0.7"});
   std::ofstream(folder.path / "s.json") << first.out;
-  const RunResult second = runIrad({"settings", "--values", "--config", (folder.path / "s.json").string()}, 60);
+  const RunResult second = runIrad({"settings", "--values", "--config", (folder.path / "s.json").string()});
   EXPECT_EQ(second.out, first.out);
   EXPECT_TRUE(contains(second.out, "\"solver.omega\": 0.7")) << second.out;
   // Later beats earlier: preset, config, set, seed.
   const auto last =
       nlohmann::json::parse(runIrad({"settings", "--values", "--preset", "fast", "--config",
-                                     (folder.path / "s.json").string(), "--set", "matrix.rays=5", "--seed", "9"},
-                                    60)
+                                     (folder.path / "s.json").string(), "--set", "matrix.rays=5", "--seed", "9"})
                                 .out);
   EXPECT_EQ(last["voxel.normals"], "axis26");
   EXPECT_EQ(last["matrix.rays"], 5);
