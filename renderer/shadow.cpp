@@ -72,7 +72,7 @@ void fitPlanes(const Scene& scene, GpuLight& light) {
   const glm::dvec3 inside = glm::clamp(light.position, scene.boundsMin, scene.boundsMax);
   const double outside = glm::distance(inside, glm::dvec3(light.position));
   light.shadowFar = static_cast<float>(farthest * (1.0 + 1.0 / 1024.0));
-  light.shadowNear = std::min(static_cast<float>(std::max(farthest / 2048.0, outside * 0.5)), 0.5f * light.shadowFar);
+  light.shadowNear = std::min(static_cast<float>(std::max(farthest / 256.0, outside * 0.5)), 0.5f * light.shadowFar);
 }
 
 /// A sun's map encloses the vertices, tightly, in the light's own axes; a rim of 4 texels is left for the filter.

@@ -129,6 +129,33 @@ TEST_F(Shadow, NoAcneAtAnyAngle) {
     }
 }
 
+TEST_F(Shadow, NoAcneUnderATiltedSpotOrAPoint) {
+  // Straight below the light the floor faces it, but is slanted in the map of a spot that points aside.
+  for (const LightType type : {LightType::Spot, LightType::Point}) {
+    SceneBuilder b;
+    b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+    b.addCamera({0, 5, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
+    Light& light = b.addLight(type, 9 * kPi);
+    light.position = {0, 3, 0};
+    light.direction = glm::normalize(glm::vec3(-0.5f, -1, -0.4f));
+    light.outerCos = std::cos(1.2f);
+    light.innerCos = std::cos(1.19f);
+    Stage stage(context(), b.finish());
+    const Picture p = stage.draw(VIEW_DIRECT, {101, 101});
+    const float k = std::tan(0.45f) / 50.5f * 5;
+    uint32_t compared = 0;
+    for (uint32_t y = 0; y < 101; ++y)
+      for (uint32_t x = 0; x < 101; ++x) {
+        const glm::vec3 to((x - 50.0f) * k, -3, (y - 50.0f) * k);
+        if (type == LightType::Spot && glm::dot(glm::normalize(to), light.direction) < light.innerCos) continue;
+        ++compared;
+        const float d2 = glm::dot(to, to);
+        ASSERT_NEAR(p.at(x, y).x, 9 / d2 * 3 / std::sqrt(d2), 2e-3) << x << " " << y;
+      }
+    EXPECT_GT(compared, 5000u);
+  }
+}
+
 TEST_F(Shadow, ContactStaysDark) {
   // A box on the floor, the sun at 45 degrees: the floor just behind it is dark up to the wall.
   SceneBuilder b;

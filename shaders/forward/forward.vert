@@ -10,6 +10,7 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uv;
 layout(location = 4) out vec4 tint;
+layout(location = 5) flat out vec3 faceNormal;  ///< of the triangle, not unit; set by its first vertex
 
 void main() {
   GpuScene scene = push.scene.at[0];
@@ -19,6 +20,12 @@ void main() {
   tangent = scene.tangents.at[vertex];
   uv = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
   tint = scene.colors.at[vertex];
+  faceNormal = vec3(0.0);
+  if (gl_VertexIndex % 3 == 0) {
+    vec3 b = scene.positions.at[scene.indices.at[gl_VertexIndex + 1]];
+    vec3 c = scene.positions.at[scene.indices.at[gl_VertexIndex + 2]];
+    faceNormal = cross(b - local, c - local);
+  }
   precise vec4 clip = project(push.camera.at[0].viewProjection, local);
   gl_Position = clip;
 }

@@ -20,6 +20,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uv;
 layout(location = 4) in vec4 tint;
+layout(location = 5) flat in vec3 faceNormal;
 
 layout(location = 0) out vec4 outNormal;
 layout(location = 1) out vec4 outGeometric;
@@ -30,11 +31,10 @@ layout(location = 5) out vec4 outHighlight;
 layout(location = 6) out vec4 outIndirect;
 layout(location = 7) out vec4 outEmitted;
 
-/// The triangle's own normal, towards the viewer. A triangle too thin to have one takes the vertices'.
-vec3 faceNormal(vec3 view) {
-  vec3 n = cross(dFdx(local), dFdy(local));
-  float l2 = dot(n, n);
-  n = l2 > 0.0 ? n * inversesqrt(l2) : normalize(normal);
+/// The triangle's own normal, towards the viewer. One without area takes the vertices'.
+vec3 orientedFace(vec3 view) {
+  float l2 = dot(faceNormal, faceNormal);
+  vec3 n = l2 > 0.0 ? faceNormal * inversesqrt(l2) : normalize(normal);
   return dot(n, view) < 0.0 ? -n : n;
 }
 
@@ -58,7 +58,7 @@ void main() {
   vec3 view = camera.orthographic != 0u
                   ? -normalize(vec3(camera.viewProjection[0][2], camera.viewProjection[1][2], camera.viewProjection[2][2]))
                   : normalize(camera.position - local);
-  vec3 face = faceNormal(view);
+  vec3 face = orientedFace(view);
   vec3 smooth_ = normalize(normal);
   if (dot(smooth_, face) < 0.0) smooth_ = -smooth_;
   vec3 n = mappedNormal(m, smooth_);

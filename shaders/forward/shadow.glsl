@@ -123,22 +123,25 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
 }
 
 /// Share of the light that reaches a point of a surface, 0..1: pcf x pcf bilinear comparisons one texel apart. The point
-/// is lifted off the surface along its normal by `biasTexels` texels times the sine of the light's angle, which is what
-/// the slope inside one texel needs; nothing here has a length of its own, so the scene's scale does not matter.
+/// is lifted off the surface along its normal by `biasTexels` texels times the sine between the normal and the map's axis,
+/// which is what the surface's slope inside one texel needs; nothing here has a length of its own, so the scene's scale
+/// does not matter.
 float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float biasTexels, uint pcf) {
   if (light.shadowLayer < 0) return 1.0;
   pcf |= 1u;  // odd
-  float cosine = dot(normal, lightDirection(light, localPosition));
-  float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
-  float lift = biasTexels * max(sine, 0.1);
   if (IRAD_SHADOW_KINDS == 2u || (IRAD_SHADOW_KINDS == 3u && lightUsesCube(light.type, light.outerCos))) {
     vec3 a = abs(localPosition - light.position);
-    float texel = light.shadowTexel * max(a.x, max(a.y, a.z));
-    return cubeVisibility(light, localPosition, normal, lift * texel, pcf);
+    float major = max(a.x, max(a.y, a.z));
+    float along = a.x == major ? normal.x : (a.y == major ? normal.y : normal.z);
+    float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * light.shadowTexel * major;
+    return cubeVisibility(light, localPosition, normal, lift, pcf);
   }
+  float cosine = dot(normal, lightDirection(light, localPosition));
+  float along = dot(normal, light.direction);
   float texel = light.shadowTexel;
   if (light.type == LIGHT_SPOT) texel *= dot(localPosition - light.position, light.direction);
-  return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift * texel, texel, pcf);
+  float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * texel;
+  return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift, texel, pcf);
 }
 
 #endif
