@@ -206,7 +206,8 @@ class WindowTest : public ::testing::Test {
   }
   void key(const std::string& name) { xdotool("key --delay 40 " + name); }
 
-  /// The middle of the viewport of a 1280 x 720 window: ui/layout.h gives x 333..998, y 30..532.
+  /// The middle of the viewport of a 1280 x 720 window: ui/layout.h gives x 332..998, y 30..532. The mouse stays in the
+  /// viewport but out of this part: the server draws its pointer into the framebuffer.
   Picture viewport() const { return screen_->grab(400, 100, 500, 380); }
 
   /// Waits until `region` satisfies `wanted` and has stayed the same for a second; false after `seconds`.
@@ -250,7 +251,7 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
   EXPECT_GT(screen_->grab(340, 540, 400, 100).deviation(), 0.03);
 
   // An idle window does no work: no picture, no processor time, once the mouse's last movement has been answered.
-  xdotool("mousemove 650 300");
+  xdotool("mousemove 360 510");
   double used = 1;
   for (int attempt = 0; attempt < 10 && used > 0.05; ++attempt) {
     const double before = window_->cpuSeconds();
@@ -272,7 +273,7 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
 
   // A right drag looks around.
   const Picture nearer = viewport();
-  xdotool("mousemove 650 300 sleep 0.4 mousedown 3 sleep 0.4 mousemove 710 310 sleep 0.4 mouseup 3");
+  xdotool("mousemove 360 510 sleep 0.4 mousedown 3 sleep 0.4 mousemove 420 515 sleep 0.4 mouseup 3");
   ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p.difference(nearer) > 0.2; }))
       << "the drag changed nothing";
 
@@ -296,7 +297,7 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
 TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
-  xdotool("mousemove 650 300");
+  xdotool("mousemove 360 510");
   const Picture first = viewport();
   const auto column = [this] { return screen_->grab(5, 40, 310, 600); };
   const Picture panels = column();
@@ -334,7 +335,7 @@ TEST_F(WindowTest, FollowsItsSize) {
   resize(1280, 720);
   ASSERT_TRUE(viewportSettles(lit));
 
-  xdotool("mousemove 650 300");
+  xdotool("mousemove 360 510");
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
 }

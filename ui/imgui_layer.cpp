@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "renderer/error.h"
 #include "shaders/shared/ui.h"
@@ -65,7 +67,6 @@ void ImGuiLayer::beginFrame() {
 }
 
 void* ImGuiLayer::texture(const Image& image) {
-  IRAD_CHECK_OP(textures_.size(), <, size_t{UI_TEXTURES});
   textures_.push_back(&image);
   return reinterpret_cast<void*>(textures_.size() - 1);
 }
@@ -100,27 +101,34 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
   if (!vertices.empty()) std::memcpy(vertices_.mapped, vertices.data(), vertices.size() * sizeof(ImDrawVert));
   if (!indices.empty()) std::memcpy(indices_.mapped, indices.data(), indices.size() * sizeof(uint32_t));
 
+  // Where a run of draws with one image begins, a pass begins: no descriptor indexing (ENVIRONMENT: no bindless), and
+  // no branch over images, each of which a CPU rasterizer would sample.
   const glm::vec2 size(static_cast<float>(target.desc.width), static_cast<float>(target.desc.height));
   const VkSampler linear = sampler(context_.device, {.u = Wrap::Clamp, .v = Wrap::Clamp, .mips = false});
   const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
-  Pass pass = frame.pass("UI");
-  pass.shaders({"ui/imgui.vert", "ui/imgui.frag"})
-      .color(target, ClearColor{background.x, background.y, background.z, 1.0f})
-      .alphaBlend()
-      .read(vertices_, indices_);
-  for (size_t slot = 0; slot < UI_TEXTURES; ++slot)
-    pass.sample(slot < textures_.size() ? *textures_[slot] : atlas_, linear);
-  pass.run([&](Commands& commands) {
-    for (const Range& range : ranges) {
-      const glm::vec2 low = glm::max(glm::floor(glm::vec2(range.clip.x, range.clip.y)), glm::vec2(0.0f));
-      const glm::vec2 high = glm::min(glm::ceil(glm::vec2(range.clip.z, range.clip.w)), size);
-      if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
-      commands.scissor(static_cast<uint32_t>(low.x), static_cast<uint32_t>(low.y),
-                       static_cast<uint32_t>(high.x - low.x), static_cast<uint32_t>(high.y - low.y));
-      commands.push(UiDraw{vertices_.address, indices_.address, 2.0f / size, range.texture});
-      commands.draw(range.count, range.first);
-    }
-  });
+  std::optional<ClearColor> clear = ClearColor{background.x, background.y, background.z, 1.0f};
+  for (size_t begin = 0, end = 0; begin < ranges.size(); begin = end) {
+    const uint32_t texture = ranges[begin].texture;
+    while (end < ranges.size() && ranges[end].texture == texture) ++end;
+    Pass pass = frame.pass("UI");
+    pass.shaders({"ui/imgui.vert", "ui/imgui.frag"})
+        .color(target, std::exchange(clear, std::nullopt))
+        .alphaBlend()
+        .read(vertices_, indices_)
+        .sample(*textures_.at(texture), linear);
+    pass.run([&](Commands& commands) {
+      for (size_t i = begin; i < end; ++i) {
+        const Range& range = ranges[i];
+        const glm::vec2 low = glm::max(glm::floor(glm::vec2(range.clip.x, range.clip.y)), glm::vec2(0.0f));
+        const glm::vec2 high = glm::min(glm::ceil(glm::vec2(range.clip.z, range.clip.w)), size);
+        if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
+        const glm::uvec2 corner(low), extent(high - low);
+        commands.scissor(corner.x, corner.y, extent.x, extent.y);
+        commands.push(UiDraw{vertices_.address, indices_.address, 2.0f / size, texture == 0 ? 0.0f : 1.0f});
+        commands.draw(range.count, range.first);
+      }
+    });
+  }
 }
 
 }  // namespace irad

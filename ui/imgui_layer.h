@@ -1,4 +1,4 @@
-// Dear ImGui on our device: its GLFW half feeds events, this draws its triangles as one pass of the frame ("UI").
+// Dear ImGui on our device: its GLFW half feeds events, this draws its triangles ("UI" in the timings).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,10 +23,10 @@ class ImGuiLayer {
   float scale() const { return scale_; }
 
   void beginFrame();
-  /// Registers an image for this frame and returns what ImGui::Image takes; UI_TEXTURES - 1 of them at most. The image
-  /// must live until the frame has been submitted.
+  /// Registers an image for this frame and returns what ImGui::Image takes. It must live until the frame is submitted.
   void* texture(const Image& image);
-  /// Ends ImGui's frame and records the pass onto `target`, cleared to the theme's background first.
+  /// Ends ImGui's frame and records it onto `target`, cleared to the theme's background first: one pass for each run of
+  /// draws with the same image, two or three in all.
   void draw(Frame& frame, const Image& target);
 
  private:

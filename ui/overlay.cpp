@@ -40,17 +40,17 @@ State stateOf(const Session& session) {
 
 }  // namespace
 
-void beginTile(const char* name, const Rect& where, bool background) {
+void beginTile(const char* name, const Rect& where, bool filled, bool scrolls) {
+  ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                           ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                           ImGuiWindowFlags_NoBringToFrontOnFocus;
+  if (!filled) flags |= ImGuiWindowFlags_NoBackground;
+  if (!scrolls) flags |= ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
   ImGui::SetNextWindowPos({where.position.x, where.position.y});
   ImGui::SetNextWindowSize({where.size.x, where.size.y});
-  ImGui::Begin(
-      name, nullptr,
-      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-          (background
-               ? 0
-               : ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
+  ImGui::Begin(name, nullptr, flags);
 }
+
 void endTile() {
   ImGui::End();
 }
@@ -59,7 +59,7 @@ void drawBar(const Session& session, const Rect& where) {
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
                       ImVec2(ImGui::GetStyle().WindowPadding.x, (where.size.y - ImGui::GetFontSize()) * 0.5f));
-  beginTile("##bar", where);
+  beginTile("##bar", where, /*filled=*/true, /*scrolls=*/false);
   const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
   const std::string hint = session.hideUi ? "" : "F1 help";
   const State state = stateOf(session);

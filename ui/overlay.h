@@ -11,8 +11,9 @@ void drawMessages(Session& session, const Rect& viewport);
 void drawProgress(Session& session, const Rect& viewport);
 void drawHelp(Session& session, const Rect& viewport);
 
-/// Begins one of the fixed windows that tile the main window.
-void beginTile(const char* name, const Rect& where, bool background = true);
+/// Begins one of the fixed windows that tile the main window. It has the cleared window's colour already; `filled`
+/// draws its own, `scrolls` lets its contents be longer than it is.
+void beginTile(const char* name, const Rect& where, bool filled = false, bool scrolls = true);
 void endTile();
 
 }  // namespace irad

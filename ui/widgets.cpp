@@ -22,8 +22,7 @@ T& twin(Settings& settings, Settings& other, T& member) {
 }
 
 std::string format(const Meta& meta, const char* number) {
-  std::string unit;
-  for (const char* c = meta.unit; *c; ++c) unit += *c == '%' ? std::string("%%") : std::string(1, *c);
+  const std::string unit = prettyUnit(meta.unit);  // no unit holds a percent sign, which the format would read
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
@@ -229,6 +228,18 @@ void rightText(const std::string& text) {
   const float slack = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   if (slack > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + slack);
   ImGui::TextUnformatted(text.c_str());
+}
+
+std::string prettyUnit(std::string_view unit) {
+  std::string text;
+  for (size_t i = 0; i < unit.size(); ++i)
+    if (unit.substr(i, 2) == "^2") {
+      text += "\u00B2";
+      ++i;
+    } else {
+      text += unit[i];
+    }
+  return text;
 }
 
 std::string mebibytes(uint64_t bytes) {

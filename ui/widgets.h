@@ -25,6 +25,8 @@ void clippedText(const std::string& text, float width);
 /// Right-aligned in the current table cell or region.
 void rightText(const std::string& text);
 
+/// A unit as registries spell it, for the eye: "W/m^2" becomes "W/m²".
+std::string prettyUnit(std::string_view unit);
 std::string mebibytes(uint64_t bytes);
 /// 3 significant digits, exponent where needed: "0.0123", "1.2e-06".
 std::string shortNumber(double value);

@@ -108,7 +108,7 @@ void Window::run() {
       takeRequests();
       applyEdits();
       fly();
-      drawFrame();
+      if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
     } catch (const Error& error) {
       // A frame that failed before it was drawn would fail again at once: stop, unless a smaller picture may do.
       if (session_.halted || !session_.pipeline) throw;
@@ -126,16 +126,21 @@ bool Window::settled() const {
          (!session_.pipeline || session_.halted || session_.paused || session_.asleep());
 }
 
-/// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor.
+/// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor. What wakes
+/// it and is none (the display answering a presentation) lets it sleep again.
 void Window::wait() {
   const bool idle = settled() && framesLeft_ <= 0 && !input_.flying() && options_.exitAfter == 0;
+  const bool blinks = idle && ImGui::GetIO().WantTextInput;  // the text cursor
   if (!idle)
     glfwPollEvents();
-  else if (ImGui::GetIO().WantTextInput)
-    glfwWaitEventsTimeout(0.4);  // the text cursor blinks
+  else if (blinks)
+    glfwWaitEventsTimeout(0.4);
   else
     glfwWaitEvents();
-  if (input_.takeEvent() || idle) framesLeft_ = kFramesPerEvent;
+  if (input_.takeEvent())
+    framesLeft_ = kFramesPerEvent;
+  else if (blinks)
+    framesLeft_ = 1;
 }
 
 void Window::takeKeys() {
@@ -338,6 +343,7 @@ void Window::drawFrame() {
   if (!busy && session_.built && session_.viewDirty) {
     session_.pipeline->render(frame, session_.camera.camera(), session_.view, session_.targets);
     session_.viewDirty = false;
+    framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
   }
   layer_.draw(frame, image_);
   presenter_.present(frame, image_);
@@ -370,7 +376,7 @@ void Window::drawPanels(const Layout& layout) {
 void Window::drawViewport(const Rect& where) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
-  beginTile("##viewport", where, /*background=*/false);
+  beginTile("##viewport", where, /*filled=*/false, /*scrolls=*/false);
   ImGui::PopStyleVar(2);
   const ImVec2 size{std::max(where.size.x, 1.0f), std::max(where.size.y, 1.0f)};
   if (session_.targets.display) {

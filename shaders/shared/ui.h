@@ -11,16 +11,12 @@ struct UiVertex {
 };
 IRAD_ARRAY(UiVertexArray, UiVertex, 4)
 
-/// One draw of the pass: `texture_` picks one of the pass's images (uniform over the draw).
 struct UiDraw {
   UiVertexArray vertices;
   UintArray indices;
-  vec2 toClip;  ///< 2 / window size
-  uint texture_;
+  vec2 toClip;    ///< 2 / window size
+  float opaque_;  ///< 1: the texture's alpha is not for blending (pictures); 0: it is (the font atlas)
 };
-
-/// Images that one pass can draw from. Slot 0 is the font atlas.
-IRAD_CONST uint UI_TEXTURES = 4u;
 
 IRAD_END
 #endif

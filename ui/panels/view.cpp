@@ -20,9 +20,9 @@ class ViewPanel : public Panel {
       if (info.view == session.view) shown = &info;
     drawCombo(session, shown);
     if (shown && shown->scalar)
-      valueRow("range", fmt::format("{:.4g} to {:.4g} {}", shown->rangeMin, shown->rangeMax, shown->unit));
+      valueRow("range", fmt::format("{:.4g} to {:.4g} {}", shown->rangeMin, shown->rangeMax, prettyUnit(shown->unit)));
     else
-      valueRow("unit", shown && *shown->unit ? shown->unit : "none");
+      valueRow("unit", shown && *shown->unit ? prettyUnit(shown->unit) : "none");
     settingRow(session.edited, session.defaults, "camera.exposure");
     settingRow(session.edited, session.defaults, "camera.tone_curve");
     const glm::dvec3 p = session.camera.camera().position;
