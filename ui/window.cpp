@@ -308,6 +308,9 @@ void Window::drawFrame() {
   const glm::uvec2 size = presenter_.framebufferSize();
   if (size.x == 0 || size.y == 0) framesLeft_ = 0;  // iconified: until the next event
   if (!presenter_.acquire()) return;
+  // Timers are read when a frame begins: with the last frame done, this reads exactly that one, and a sample of the
+  // timing table is one frame, never the sum of two.
+  if (!session_.work) context_.device.waitIdle();
   const double start = glfwGetTime();
   lastDraw_ = start;
   const bool busy = session_.work.has_value();
