@@ -76,7 +76,7 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
   vec2 slope = vec2(0.0);
   if (det != 0.0) {
     slope = vec2(dt.z * db.y - dt.y * db.z, dt.x * db.z - dt.z * db.x) / det;
-    slope *= min(1.0, 10.0 * cosine);  // grazing light: a steeper plane than 1 : 10 is not followed
+    slope *= min(1.0, 20.0 * cosine);  // grazing light: a steeper plane than 1 : 20 is not followed
   }
   // pcf x pcf bilinear comparisons one texel apart weigh (pcf + 1)^2 texels by 1 - f, 1, ..., 1, f along each axis; they
   // are fetched in blocks of four, each with the plane's depth at the block's middle.
