@@ -210,21 +210,16 @@ class WindowTest : public ::testing::Test {
   /// viewport but out of this part: the server draws its pointer into the framebuffer.
   Picture viewport() const { return screen_->grab(400, 100, 500, 380); }
 
-  /// Waits until `region` satisfies `wanted` and has stayed the same for a second; false after `seconds`.
+  /// Waits until the program sleeps (no processor time in 1.5 s: nothing more will change) and `region` has stayed the
+  /// same meanwhile and satisfies `wanted`; false after `seconds`.
   bool settles(const std::function<Picture()>& region, const std::function<bool(const Picture&)>& wanted,
-               double seconds = 60) {
-    Picture last = region();
-    auto since = Clock::now();
-    for (const auto end = since + std::chrono::duration<double>(seconds); Clock::now() < end;) {
-      pause(0.1);
+               double seconds = 120) {
+    for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); Clock::now() < end;) {
       if (!window_->running()) return false;
-      Picture now = region();
-      if (!(now == last)) {
-        last = std::move(now);
-        since = Clock::now();
-      } else if (wanted(last) && Clock::now() - since > std::chrono::seconds(1)) {
-        return true;
-      }
+      const Picture before = region();
+      const double used = window_->cpuSeconds();
+      pause(1.5);
+      if (window_->cpuSeconds() - used <= 0.02 && region() == before && wanted(before)) return true;
     }
     return false;
   }
@@ -250,15 +245,12 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
   EXPECT_GT(screen_->grab(1010, 40, 260, 600).deviation(), 0.03);
   EXPECT_GT(screen_->grab(340, 540, 400, 100).deviation(), 0.03);
 
-  // An idle window does no work: no picture, no processor time, once the mouse's last movement has been answered.
+  // What settles() waits for is stated once: an idle window does no work, no picture and no processor time.
   xdotool("mousemove 360 510");
-  double used = 1;
-  for (int attempt = 0; attempt < 10 && used > 0.05; ++attempt) {
-    const double before = window_->cpuSeconds();
-    pause(2);
-    used = window_->cpuSeconds() - before;
-  }
-  EXPECT_LE(used, 0.05) << "seconds of processor time in 2 s of idling";
+  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p == first; }));
+  const double used = window_->cpuSeconds();
+  pause(3);
+  EXPECT_LE(window_->cpuSeconds() - used, 0.05) << "seconds of processor time in 3 s of idling";
 
   // Another view and back: another picture, and the very same bits.
   key("2");
