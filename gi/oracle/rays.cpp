@@ -114,15 +114,7 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
   for (bool first = true; inside(facets, walk.cell) && hit.facet == TRACE_ESCAPED; first = false) {
     double nearest = 1e30;
     uint32_t around = 0;
-    bool behind = false, before = false;
     const auto consider = [&](uint32_t f, bool recorded) {
-      // Where the ray starts behind a face across its way, it starts outside.
-      if (first && std::abs(glm::dot(facets.normal(f), ray.normal)) < TRACE_OWN_NORMAL) {
-        if (less(facets.distance(f, ray.origin), -double{TRACE_ON_PLANE}))
-          behind = true;
-        else
-          before = true;
-      }
       const Answer answer = ask(f, recorded);
       const double cross = -facets.distance(f, ray.origin) / glm::dot(facets.normal(f), ray.direction);
       if (answer == Answer::Near) {
@@ -141,14 +133,27 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
       consider(f, /*recorded=*/true);
       if (facets.shape[f] & FACET_CORNER) around |= facets.around[f];
     }
-    if (hit.facet == TRACE_ESCAPED)
-      for (int i = 0; i < 27; ++i)
-        if (around >> i & 1)
-          for (const uint32_t f : facetsAt(facets, walk.cell + ivec3(i % 3, i / 3 % 3, i / 9) - 1))
-            consider(f, /*recorded=*/false);
-    if (behind && !before) {
-      hit.facet = TRACE_INVALID;
-      if (nearest == 1e30) hit.t = 1e30;
+    if (around != 0 && hit.facet == TRACE_ESCAPED) {
+      bool behind = false, before = false;
+      for (int i = 0; i < 27; ++i) {
+        const ivec3 side = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+        if ((around >> i & 1) == 0) continue;
+        for (const uint32_t f : facetsAt(facets, walk.cell + side)) {
+          consider(f, /*recorded=*/false);
+          const double start = facets.distance(f, ray.origin);
+          const bool own =
+              glm::dot(facets.normal(f), ray.normal) > TRACE_OWN_NORMAL && std::abs(start) < TRACE_OWN_PLANE;
+          if (!first || own) continue;
+          if (less(start, -double{TRACE_ON_PLANE}))
+            behind = true;
+          else
+            before = true;
+        }
+      }
+      if (behind && !before) {
+        hit.facet = TRACE_INVALID;
+        hit.t = 1e30;
+      }
     }
     if (hit.facet == TRACE_ESCAPED) walk.next();
   }

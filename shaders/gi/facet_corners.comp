@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { FacetCornersPush p; };
 
 const int SEARCH = 3;       // voxels
 const float SAME = 0.02f;    // voxels: planes of one code this near are one plane
-const float REACH = 0.9f;    // voxels: half a cell's diagonal and what planes are known to
+const float REACH = 0.9f;  // voxels: half a cell's diagonal and what planes are known to
 
 void main() {
   uint facet = irad_index();

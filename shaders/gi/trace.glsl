@@ -148,7 +148,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
     uint ask = 0u;         // cells around that may know of more
     float nearest = 1e30f;
     uint met = TRACE_ESCAPED;
-    bool behind = false, before = false;  // of faces in and around the first cell
+    bool behind = false, before = false;  // of faces around the first cell
     uint over = 0u;
     for (;;) {
       if (left > 0u) {
@@ -178,8 +178,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
           nearest = cross;
           met = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
         }
-        // Where the ray starts behind a face across its way, it starts outside. A sheet's own back does not count.
-        if (first && abs(alike) < TRACE_OWN_NORMAL) {
+        if (first && !recorded && !own) {
           if (p.start < -TRACE_ON_PLANE) behind = true;
           else before = true;
         }
