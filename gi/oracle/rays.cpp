@@ -143,7 +143,9 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
           const double start = facets.distance(f, ray.origin);
           const bool own =
               glm::dot(facets.normal(f), ray.normal) > TRACE_OWN_NORMAL && std::abs(start) < TRACE_OWN_PLANE;
-          if (!first || own) continue;
+          const glm::dvec3 middle =
+              glm::dvec3(walk.cell + side) + 0.5 + facets.normal(f) * double(facetOffset(facets.shape[f]));
+          if (!first || own || !less(TRACE_CONCAVE, glm::dot(ray.normal, middle - ray.origin))) continue;
           if (less(start, -double{TRACE_ON_PLANE}))
             behind = true;
           else

@@ -4,14 +4,15 @@
 //   TraceWorld world = TraceWorld(facetRecord.at[0], chebyshev, dims, jfaMax);
 //   TraceHit hit = traceRay(world, origin, direction, normal);
 //
-// `normal` is the geometric normal of the surface that the ray leaves (unit; direction . normal > 0 expected). hit.facet
-// is a facet index, or one of TRACE_ESCAPED, TRACE_BLOCKED, TRACE_INVALID; hit.t the distance in voxels. The includer
-// specializes constant 0 (traversal), 1 (hit rule), 2 (normal encoding). TRACE_JFA needs `#define TRACE_JFA_TEXTURE name`
-// of a sampler3D declared before the include; without it that value behaves as TRACE_DDA_REVERSE.
+// `normal` is the geometric normal of the surface that the ray leaves (unit; direction . normal > 0 expected).
+// hit.facet is a facet index, or one of TRACE_ESCAPED, TRACE_BLOCKED, TRACE_INVALID; hit.t the distance in voxels. The
+// includer specializes constant 0 (traversal), 1 (hit rule), 2 (normal encoding). TRACE_JFA needs `#define
+// TRACE_JFA_TEXTURE name` of a sampler3D declared before the include; without it that value behaves as
+// TRACE_DDA_REVERSE.
 //
 // Hit rule `robust`: the ray is met by facet planes, not by cells. A facet's plane is taken inside its own cell; a ray
-// that meets none in a cell marked FACET_CORNER asks the cells around, whose surfaces may pass through unrecorded. A plane
-// is met from the front only by rays that start in front of it. Backs of faces make the ray invalid or block it.
+// that meets none in a cell marked FACET_CORNER asks the cells around, whose surfaces may pass through unrecorded. A
+// plane is met from the front only by rays that start in front of it. Backs of faces make the ray invalid or block it.
 // Hit rule `thesis` (T 5.6): the first cell with a front face (d . n < 0), back faces let through.
 #ifndef IRAD_TRACE_GLSL
 #define IRAD_TRACE_GLSL
@@ -63,7 +64,9 @@ bool traceInside(TraceWalk w, uvec3 dims) {
   return all(greaterThanEqual(w.cell, vec3(0.0f))) && all(lessThan(w.cell, vec3(dims)));
 }
 
-uint traceIndex(vec3 cell, uvec3 dims) { return voxelIndex(uvec3(cell), dims); }
+uint traceIndex(vec3 cell, uvec3 dims) {
+  return voxelIndex(uvec3(cell), dims);
+}
 
 /// Distance at which the ray leaves the cube of cells within `k` - 1 of its cell (k = 1: the cell itself).
 vec3 traceBounds(TraceWalk w, float k) {
@@ -71,8 +74,8 @@ vec3 traceBounds(TraceWalk w, float k) {
   return (bound - w.origin) * w.inverse;
 }
 
-/// Steps out of that cube. The exit axis moves by whole cells; the others follow from the ray's position, held inside the
-/// cube, so that hits equal those of the cell-by-cell walk (Amanatides and Woo 1987).
+/// Steps out of that cube. The exit axis moves by whole cells; the others follow from the ray's position, held inside
+/// the cube, so that hits equal those of the cell-by-cell walk (Amanatides and Woo 1987).
 void traceAdvance(inout TraceWalk w, float k) {
   vec3 t = traceBounds(w, k);
   float exit = min(t.x, min(t.y, t.z));
@@ -174,9 +177,14 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
           nearest = cross;
           met = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
         }
-        if (first && !recorded && !own) {
-          if (p.start < -TRACE_ON_PLANE) behind = true;
-          else before = true;
+        // An origin behind a face that rises in front of the own plane is inside the wall beyond a concave edge. Where
+        // the surface is convex, every neighbour's plane lies in front of the origin, and that says nothing.
+        vec3 middle = at + 0.5f + p.normal * facetOffset(shape);
+        if (first && !recorded && !own && dot(ownNormal, middle - w.origin) > TRACE_CONCAVE) {
+          if (p.start < -TRACE_ON_PLANE)
+            behind = true;
+          else
+            before = true;
         }
         --left;
         ++facet;

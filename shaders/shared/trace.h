@@ -9,27 +9,31 @@ IRAD_BEGIN
 IRAD_CONST uint TRACE_DDA_REVERSE = 0u;  ///< cell by cell, solid where the reverse map has a facet
 IRAD_CONST uint TRACE_DDA_FIELD = 1u;    ///< cell by cell, solid where the Chebyshev byte is 0 (a quarter of the bytes)
 IRAD_CONST uint TRACE_SKIP = 2u;         ///< steps over the empty cube that the Chebyshev distance proves
-IRAD_CONST uint TRACE_JFA = 3u;          ///< sphere-marches the UNORM8 Euclidean distance (T 5.2): only shaders that bind it
+IRAD_CONST uint TRACE_JFA = 3u;  ///< sphere-marches the UNORM8 Euclidean distance (T 5.2): only shaders that bind it
 
 // What a ray met, in place of a facet index.
-IRAD_CONST uint TRACE_ESCAPED = 0xFFFFFFFFu;  ///< left the grid
-IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;  ///< the back of a face, 4 voxels away or more: absorbed
-IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;  ///< started behind a surface: does not count
+IRAD_CONST uint TRACE_ESCAPED = 0xFFFFFFFFu;     ///< left the grid
+IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;     ///< the back of a face, 4 voxels away or more: absorbed
+IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;     ///< started behind a surface: does not count
 IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
 
 // The robust rule's lengths, in voxels.
-IRAD_CONST float TRACE_ON_PLANE = 0.05f;     ///< planes are known to about this (offset 1/254, normal 1 degree)
-IRAD_CONST float TRACE_BEHIND = 0.02f;       ///< an origin this far behind a face cannot meet its front
-IRAD_CONST float TRACE_JOINT = 0.2f;         ///< a ray passing a face this closely may have slipped through a joint
-IRAD_CONST float TRACE_OWN_PLANE = 1.5f;     ///< backs of faces this near the own plane are not met
-IRAD_CONST float TRACE_NEAR = 4.0f;          ///< a back face nearer than this makes the ray invalid
-IRAD_CONST float TRACE_OWN_NORMAL = 0.8f;    ///< cosine above which two faces lie in one plane
+IRAD_CONST float TRACE_ON_PLANE = 0.05f;  ///< planes are known to about this (offset 1/254, normal 1 degree)
+IRAD_CONST float TRACE_BEHIND = 0.02f;    ///< an origin this far behind a face cannot meet its front
+IRAD_CONST float TRACE_JOINT = 0.2f;      ///< a ray passing a face this closely may have slipped through a joint
+IRAD_CONST float TRACE_OWN_PLANE = 1.5f;  ///< backs of faces this near the own plane are not met
+IRAD_CONST float TRACE_CONCAVE =
+    0.25f;                           ///< a face whose middle is this far in front of the own plane meets it concavely
+IRAD_CONST float TRACE_NEAR = 4.0f;  ///< a back face nearer than this makes the ray invalid
+IRAD_CONST float TRACE_OWN_NORMAL = 0.8f;  ///< cosine above which two faces lie in one plane
 
 /// One byte per voxel: exact Chebyshev distance to the nearest solid voxel (Field::chebyshev).
 #ifdef __cplusplus
 using ByteArray = uint64_t;
 #else
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ByteArray { uint8_t at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ByteArray {
+  uint8_t at[];
+};
 #endif
 
 /// Where ray k of a facet starts under the robust rule: on the facet's plane, jittered over its cell's footprint along
