@@ -80,6 +80,7 @@ struct Pipeline::Impl {
     }
     if (newField) field = std::move(newField);
     matrix = std::move(newMatrix);
+    if (light) light->emittedCurrent = false;  // F M of the old F
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
