@@ -278,9 +278,10 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
   // F12 saves the view.
   key("F12");
   const std::filesystem::path png = folder_.path / "out/captures/box.lit.001.png";
-  for (int i = 0; i < 100 && !std::filesystem::exists(png); ++i) pause(0.1);
+  const std::filesystem::path exr = folder_.path / "out/captures/box.lit.001.exr";
+  for (int i = 0; i < 300 && !(std::filesystem::exists(png) && std::filesystem::exists(exr)); ++i) pause(0.1);
   EXPECT_TRUE(std::filesystem::exists(png));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path / "out/captures/box.lit.001.exr"));
+  EXPECT_TRUE(std::filesystem::exists(exr));
 
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0) << "status after Esc, with validation on";
