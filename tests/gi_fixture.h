@@ -75,6 +75,12 @@ class GiTest : public GpuTest {
     w.field = buildField(context(), w.facets, settings);
     return w;
   }
+  static Settings at(uint32_t resolution, uint32_t rays) {
+    Settings s = defaults();
+    s.voxel.resolution = resolution;
+    s.matrix.gpu.rays = rays;
+    return s;
+  }
 };
 
 }  // namespace irad::test

@@ -13,12 +13,6 @@ namespace {
 
 class Matrix : public GiTest {
  protected:
-  static Settings at(uint32_t resolution, uint32_t rays) {
-    Settings s = defaults();
-    s.voxel.resolution = resolution;
-    s.matrix.gpu.rays = rays;
-    return s;
-  }
   FormFactors build(const World& w, const Settings& s, const std::function<bool(float)>& progress = {}) {
     return buildMatrix(context(), w.facets, w.field, s, progress);
   }

@@ -11,12 +11,6 @@ namespace {
 
 class Solve : public GiTest {
  protected:
-  static Settings at(uint32_t resolution, uint32_t rays) {
-    Settings s = defaults();
-    s.voxel.resolution = resolution;
-    s.matrix.gpu.rays = rays;
-    return s;
-  }
   void setAlbedo(const FacetList& facets, float rho) {
     const std::vector<glm::uvec2> albedo(facets.count, packAlbedo(glm::vec3(rho)));
     upload(context(), facets.albedo, std::as_bytes(std::span(albedo)));
