@@ -102,15 +102,14 @@ struct Pipeline::Impl {
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
   }
 
-  IndirectInputs indirectInputs() const {
+  IndirectInputs indirectInputs(View view) const {
     IndirectInputs in;
     if (!facets || facets->count == 0 || !light) return in;
     in.grid = &gridRecord;
-    in.facets = &facets->record;
     in.shape = &facets->shape;
     in.reverse = &facets->reverse;
     in.shaded = &light->shaded;
-    in.shadedEmitted = &light->shadedEmitted;
+    if (view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) in.shadedEmitted = &light->shadedEmitted;
     in.volume = light->volume ? &light->volume : nullptr;
     in.normalEncoding = static_cast<uint32_t>(facets->encoding);
     in.sample = settings.sample.gpu;
@@ -148,7 +147,9 @@ void Pipeline::lightsChanged() {
   impl_->dirty = std::min(impl_->dirty, Redo::Gather);
 }
 
-void Pipeline::invalidate(Redo from) { impl_->dirty = std::min(impl_->dirty, from); }
+void Pipeline::invalidate(Redo from) {
+  impl_->dirty = std::min(impl_->dirty, from);
+}
 
 void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
@@ -181,7 +182,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
 
   ShadeParams shade = p.settings.camera.gpu;
   shade.exposure = std::exp2(p.settings.camera.exposureEv);
-  const IndirectInputs indirect = p.indirectInputs();
+  const IndirectInputs indirect = p.indirectInputs(view);
   drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets);
 
   ViewInputs inputs;

@@ -176,15 +176,11 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
   const bool fromVolume = indirect.volume != nullptr && indirect.grid != nullptr && indirect.sample.gated == 0;
-  const bool fromFacets =
-      !fromVolume && indirect.grid != nullptr && indirect.facets != nullptr && indirect.shaded != nullptr;
+  const bool fromFacets = !fromVolume && indirect.grid != nullptr && indirect.shaded != nullptr;
   const bool emitters = indirect.shadedEmitted != nullptr && scene.anyEmission;
 
   // What the scene does not have is left out of the shader. Untextured materials have a pass of their own: a device
   // that runs both sides of a branch would otherwise fetch five textures that are not there.
-  const uint32_t constants[] = {indirect.normalEncoding, shadowKinds(scene), 0,
-                                fromVolume || fromFacets ? (emitters ? 2u : 1u) : 0u,
-                                std::clamp(shade.pcf, 1u, 5u) | 1u};
   bool first = true;
   for (const bool textured : {false, true}) {
     if (std::none_of(draws.begin(), draws.end(),
@@ -193,23 +189,13 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       continue;
     Pass pass = frame.pass("RE Forward");
     pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
-    for (uint32_t id = 0; id < std::size(constants); ++id) pass.constant(id, id == 2 ? textured : constants[id]);
+    pass.constant(0, shadowKinds(scene)).constant(1, textured).constant(2, std::clamp(shade.pcf, 1u, 5u) | 1u);
     pass.read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
               scene.indices, scene.materials, scene.lights, camera);
-    if (fromVolume || fromFacets) {
-      push.grid = indirect.grid->address;
-      pass.read(*indirect.grid);
-    }
-    if (fromFacets) {
-      push.facets = indirect.facets->address;
-      push.shaded = indirect.shaded->address;
-      push.shadedEmitted = emitters ? indirect.shadedEmitted->address : 0;
-      for (const Buffer* buffer :
-           {indirect.facets, indirect.shape, indirect.reverse, indirect.shaded, indirect.shadedEmitted})
-        if (buffer != nullptr) pass.read(*buffer);
-    }
     pass.sample(shadows.flat, shadows.sampler).sample(shadows.cubes, shadows.sampler);
     if (fromVolume) {
+      push.grid = indirect.grid->address;
+      pass.read(*indirect.grid);
       SamplerDesc linear{Wrap::Clamp, Wrap::Clamp};
       linear.mips = linear.linearMips = false;
       pass.sample(*indirect.volume, sampler(frame.context().device, linear));
@@ -229,6 +215,31 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       }
     });
   }
+  if (fromVolume) return;
+
+  // Indirect light of the facets: in compute, where no lane is spent outside a triangle.
+  if (!fromFacets) {
+    for (const Image* image : {&targets.indirect, &targets.emitted})
+      frame.pass("RE Forward").clear(*image, ClearColor{});
+    return;
+  }
+  IndirectPush lookup{};
+  lookup.grid = indirect.grid->address;
+  lookup.shape = indirect.shape->address;
+  lookup.reverse = indirect.reverse->address;
+  lookup.shaded = indirect.shaded->address;
+  lookup.shadedEmitted = emitters ? indirect.shadedEmitted->address : 0;
+  lookup.sampling = indirect.sample;
+  lookup.size = targets.size;
+  Pass pass = frame.pass("RE Forward");
+  pass.shader("forward/indirect.comp")
+      .constant(0, indirect.normalEncoding)
+      .constant(1, emitters)
+      .read(*indirect.grid, *indirect.shape, *indirect.reverse, *indirect.shaded)
+      .write(targets.indirect, targets.emitted);
+  if (emitters) pass.read(*indirect.shadedEmitted);
+  pass.push(lookup).run(
+      [&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
 }
 
 }  // namespace irad

@@ -22,7 +22,7 @@ struct Targets {
   Image albedo;     ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
   Image f0;         ///< RGBA16F: specular reflectance at normal incidence; w: 1 = has a specular lobe
   Image direct;     ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
-  Image highlight;  ///< RGBA32F: outgoing radiance of the direct lights' specular lobe + emission (w: emission luminance)
+  Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
   Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2
   Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M)
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
@@ -33,12 +33,11 @@ struct Targets {
 
 /// Where shading finds indirect light. Null pointers: there is none (H = 0).
 struct IndirectInputs {
-  const Buffer* grid = nullptr;     ///< one Grid
-  const Buffer* facets = nullptr;   ///< one FacetArrays
-  const Buffer* shape = nullptr;    ///< facet words and reverse map, declared as read
-  const Buffer* reverse = nullptr;
+  const Buffer* grid = nullptr;           ///< one Grid
+  const Buffer* shape = nullptr;          ///< facet words
+  const Buffer* reverse = nullptr;        ///< voxel -> facet
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
-  const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M
+  const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, Targets::emitted stays 0
   const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup (gated off)
   uint32_t normalEncoding = 3;
   SampleParams sample{};

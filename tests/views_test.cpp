@@ -54,7 +54,6 @@ struct Lit {
   IndirectInputs indirect() const {
     IndirectInputs in;
     in.grid = &grid;
-    in.facets = &facets.record;
     in.shape = &facets.shape;
     in.reverse = &facets.reverse;
     in.shaded = &light.shaded;
@@ -210,6 +209,26 @@ TEST_F(Views, MirrorShowsTheWall) {
     const auto row = static_cast<uint32_t>((0.5 - 0.5 * y) * 65);
     EXPECT_NEAR(p.at(32, row).x, 1, 0.02) << static_cast<int>(mode);
   }
+}
+
+TEST_F(Views, RoughnessAtTheLimitTracesNoRays) {
+  // The G-buffer's half precision must not bring a material of max_roughness back below the limit. The wall's radiosity
+  // is far from what the diffuse irradiance reflects, so that one traced ray would show.
+  Scene scene = cornerScene();
+  scene.materials[0].lambertian = false;
+  scene.materials[0].roughness = 0.6f;
+  Settings settings = smallSettings();
+  settings.specular.gpu.maxRoughness = 0.6f;
+  settings.specular.gpu.fade = 0;
+  settings.specular.gpu.threshold = 0;
+  Lit lit(context(), std::move(scene), settings);
+  const std::vector<glm::vec4> b(lit.facets.count, glm::vec4(100));
+  upload(context(), lit.light.radiosity, std::as_bytes(std::span(b)));
+  const Picture at = lit.draw(VIEW_SPECULAR);
+  lit.stage.settings.specular.gpu.maxRoughness = 0;
+  EXPECT_TRUE(at.linear == lit.draw(VIEW_SPECULAR).linear);
+  lit.stage.settings.specular.gpu.maxRoughness = 0.61f;
+  EXPECT_FALSE(at.linear == lit.draw(VIEW_SPECULAR).linear);
 }
 
 TEST_F(Views, LambertianSceneHasNoSpecularAtAll) {

@@ -1,4 +1,4 @@
-// Indirect light from the facets around the point.
+// Indirect light from the facets around the point follows in forward/indirect.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/shade.glsl"

@@ -7,11 +7,6 @@
 #include "shared/grid.h"
 #include "shared/normals.h"
 
-struct Indirect {
-  vec3 irradiance;  ///< H, W/m^2
-  vec3 emitted;     ///< its part that comes straight from emissive facets, F M
-};
-
 /// How well a facet of voxel `v` stands for a surface through `p` (voxel units) with normal `n`: 1 on the same plane,
 /// 0 where it faces away or lies on another level (the far side of a thin wall, the next step of a stair).
 float facetAgreement(uint shape, uint encoding, vec3 v, vec3 p, vec3 n) {
@@ -22,18 +17,30 @@ float facetAgreement(uint shape, uint encoding, vec3 v, vec3 p, vec3 n) {
   return facing * facing * clamp(1.5 - plane, 0.0, 1.0);
 }
 
+/// Where lookups find the facets. By value: what is read through uniform pointers is read once for all lanes.
+struct FacetMap {
+  UintArray shape, reverse;
+  uvec3 dims;
+  uint encoding;
+};
+
+/// A voxel's entry of the reverse map; NO_FACET outside the grid.
+uint facetEntry(FacetMap map, ivec3 v) {
+  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(map.dims)))) return NO_FACET;
+  return map.reverse.at[voxelIndex(uvec3(v), map.dims)];
+}
+
 /// The better of a voxel's facets; returns its index, or NO_FACET when neither agrees.
-uint bestFacet(FacetArrays facets, Grid grid, uint encoding, ivec3 v, vec3 p, vec3 n, out float agreement) {
+uint bestFacet(FacetMap map, ivec3 v, vec3 p, vec3 n, out float agreement) {
   agreement = 0.0;
-  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(grid.dims)))) return NO_FACET;
-  uint entry = facets.reverse.at[voxelIndex(uvec3(v), grid.dims)];
+  uint entry = facetEntry(map, v);
   if (entry == NO_FACET) return NO_FACET;
   uint facet = entry & ~SECOND_FACET;
   uint best = NO_FACET;
-  agreement = facetAgreement(facets.shape.at[facet], encoding, vec3(v), p, n);
+  agreement = facetAgreement(map.shape.at[facet], map.encoding, vec3(v), p, n);
   if (agreement > 0.0) best = facet;
   if ((entry & SECOND_FACET) != 0u) {
-    float other = facetAgreement(facets.shape.at[facet + 1u], encoding, vec3(v), p, n);
+    float other = facetAgreement(map.shape.at[facet + 1u], map.encoding, vec3(v), p, n);
     if (other > agreement) {
       agreement = other;
       best = facet + 1u;
@@ -42,15 +49,31 @@ uint bestFacet(FacetArrays facets, Grid grid, uint encoding, ivec3 v, vec3 p, ve
   return best;
 }
 
+/// The eight voxels whose centres surround `q`, gated for a surface through `p` with normal `n` (voxel units): the sum
+/// of their facets' values and, in w, of the weights.
+vec4 facetTaps(FacetMap map, Vec4Array values, vec3 q, vec3 p, vec3 n) {
+  vec3 base = floor(q - 0.5);
+  vec3 f = q - 0.5 - base;
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+    vec3 w = mix(1.0 - f, f, vec3(corner));
+    float agreement;
+    uint facet = bestFacet(map, ivec3(base) + corner, p, n, agreement);
+    if (facet != NO_FACET) sum += w.x * w.y * w.z * agreement * vec4(values.at[facet].xyz, 1.0);
+  }
+  return sum;
+}
+
 /// The nearest facet of the 3 x 3 x 3 voxels around `p` that agrees with `n`, or NO_FACET.
-uint nearestFacet(FacetArrays facets, Grid grid, uint encoding, vec3 p, vec3 n) {
+uint nearestFacet(FacetMap map, vec3 p, vec3 n) {
   ivec3 centre = ivec3(floor(p));
   uint best = NO_FACET;
   float nearest = 1e9;
   for (int i = 0; i < 27; ++i) {
     ivec3 v = centre + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
     float agreement;
-    uint facet = bestFacet(facets, grid, encoding, v, p, n, agreement);
+    uint facet = bestFacet(map, v, p, n, agreement);
     if (facet == NO_FACET) continue;
     vec3 d = p - (vec3(v) + 0.5);
     float distance2 = dot(d, d) + 1.0 - agreement;
@@ -62,61 +85,26 @@ uint nearestFacet(FacetArrays facets, Grid grid, uint encoding, vec3 p, vec3 n) 
   return best;
 }
 
-/// Gated lookup at `p` (voxel units); `emitted` is left out unless there are `emitters`. The taps are the eight voxels whose centres surround p + offset n.
-Indirect facetIndirect(FacetArrays facets, Grid grid, uint encoding, Vec4Array shaded, Vec4Array shadedEmitted,
-                       SampleParams sampling, vec3 p, vec3 n, bool emitters) {
-  Indirect result = Indirect(vec3(0.0), vec3(0.0));
-  float total = 0.0;
+/// Gated lookup of shading at `p` (voxel units), offset along the normal (METHOD section 7).
+vec3 facetIndirect(FacetMap map, Vec4Array values, SampleParams sampling, vec3 p, vec3 n) {
   if (sampling.filter_ != FILTER_NEAREST) {
-    vec3 q = p + n * sampling.normalOffset - 0.5;
-    vec3 base = floor(q);
-    vec3 f = q - base;
-    for (int i = 0; i < 8; ++i) {
-      ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-      vec3 w = mix(1.0 - f, f, vec3(corner));
-      float agreement;
-      uint facet = bestFacet(facets, grid, encoding, ivec3(base) + corner, p, n, agreement);
-      if (facet == NO_FACET) continue;
-      float weight = w.x * w.y * w.z * agreement;
-      total += weight;
-      result.irradiance += weight * shaded.at[facet].xyz;
-      if (emitters) result.emitted += weight * shadedEmitted.at[facet].xyz;
-    }
-    if (total >= 1.0 / 256.0) {
-      result.irradiance /= total;
-      result.emitted /= total;
-      return result;
-    }
+    vec4 sum = facetTaps(map, values, p + n * sampling.normalOffset, p, n);
+    if (sum.w >= 1.0 / 256.0) return sum.rgb / sum.w;
   }
-  uint facet = nearestFacet(facets, grid, encoding, p, n);
-  if (facet == NO_FACET) return Indirect(vec3(0.0), vec3(0.0));
-  return Indirect(shaded.at[facet].xyz, emitters ? shadedEmitted.at[facet].xyz : vec3(0.0));
+  uint facet = nearestFacet(map, p, n);
+  return facet != NO_FACET ? values.at[facet].xyz : vec3(0.0);
 }
 
-/// One per-facet quantity around `p` on a surface with normal `n`, as facetIndirect; `facet` where nothing else agrees.
-vec3 facetValueAround(FacetArrays facets, Grid grid, uint encoding, Vec4Array values, uint facet, vec3 p, vec3 n) {
-  vec3 q = p - 0.5;
-  vec3 base = floor(q);
-  vec3 f = q - base;
-  vec3 sum = vec3(0.0);
-  float total = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-    vec3 w = mix(1.0 - f, f, vec3(corner));
-    float agreement;
-    uint tap = bestFacet(facets, grid, encoding, ivec3(base) + corner, p, n, agreement);
-    if (tap == NO_FACET) continue;
-    float weight = w.x * w.y * w.z * agreement;
-    total += weight;
-    sum += weight * values.at[tap].xyz;
-  }
-  return total >= 1.0 / 256.0 ? sum / total : values.at[facet].xyz;
+/// The value at `p` on the surface of `facet`, whose normal is `n`; its own where nothing else agrees.
+vec3 facetValueAround(FacetMap map, Vec4Array values, uint facet, vec3 p, vec3 n) {
+  vec4 sum = facetTaps(map, values, p, p, n);
+  return sum.w >= 1.0 / 256.0 ? sum.rgb / sum.w : values.at[facet].xyz;
 }
 
 #ifdef IRAD_VOLUME
-/// The thesis's lookups in the RGBA16F volume at `p` (voxel units): the texel, the hardware's trilinear filter, or 3 x 3
-/// x 3 trilinear taps half a voxel apart. Where presence is below 1/256 the nearest solid texel of the 3 x 3 x 3 around
-/// p is taken instead of dividing by it.
+/// The thesis's lookups in the RGBA16F volume at `p` (voxel units): the texel, the hardware's trilinear filter, or 3 x
+/// 3 x 3 trilinear taps half a voxel apart. Where presence is below 1/256 the nearest solid texel of the 3 x 3 x 3
+/// around p is taken instead of dividing by it.
 vec3 volumeIndirect(Grid grid, SampleParams sampling, vec3 p, vec3 n) {
   vec3 q = p + n * sampling.normalOffset;
   vec3 size = vec3(grid.dims);

@@ -1,10 +1,9 @@
-// "RE Forward", fragment stage: surface, direct light, indirect lookup. Written once per visible pixel (the depth
-// prepass and EQUAL see to it); renderer/forward.h says what each target holds.
-layout(constant_id = 0) const uint NORMAL_ENCODING = 3u;
-layout(constant_id = 1) const uint SHADOW_KINDS = 3u;  ///< as IRAD_SHADOW_KINDS; 0: no lights
-layout(constant_id = 2) const bool TEXTURED = true;    ///< a material of this pass has a texture
-layout(constant_id = 3) const uint INDIRECT = 2u;      ///< 0: none, 1: without emitters, 2: with
-layout(constant_id = 4) const uint PCF = 3u;
+// "RE Forward", fragment stage: surface and direct light, and with IRAD_VOLUME the thesis's indirect lookup; without,
+// what forward/indirect.comp needs for the lookup in the facets. Written once per visible pixel (the depth prepass and
+// EQUAL see to it); renderer/forward.h says what each target holds.
+layout(constant_id = 0) const uint SHADOW_KINDS = 3u;  ///< as IRAD_SHADOW_KINDS; 0: no lights
+layout(constant_id = 1) const bool TEXTURED = true;    ///< a material of this pass has a texture
+layout(constant_id = 2) const uint PCF = 3u;
 #define IRAD_SHADOW_KINDS SHADOW_KINDS
 #define IRAD_TEXTURED TEXTURED
 
@@ -14,7 +13,9 @@ layout(constant_id = 4) const uint PCF = 3u;
 #include "shared/ggx.h"
 #include "shared/passes.h"
 
-layout(push_constant, scalar) uniform PushBlock { ForwardPush push; };
+layout(push_constant, scalar) uniform PushBlock {
+  ForwardPush push;
+};
 layout(location = 0) in vec3 local;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
@@ -55,9 +56,10 @@ void main() {
   GpuCamera camera = push.camera.at[0];
 
   // Surface frame: the triangle's normal, the vertices' (smooth), the normal map's; all on the viewer's side.
-  vec3 view = camera.orthographic != 0u
-                  ? -normalize(vec3(camera.viewProjection[0][2], camera.viewProjection[1][2], camera.viewProjection[2][2]))
-                  : normalize(camera.position - local);
+  vec3 view =
+      camera.orthographic != 0u
+          ? -normalize(vec3(camera.viewProjection[0][2], camera.viewProjection[1][2], camera.viewProjection[2][2]))
+          : normalize(camera.position - local);
   vec3 face = orientedFace(view);
   vec3 smooth_ = normalize(normal);
   if (dot(smooth_, face) < 0.0) smooth_ = -smooth_;
@@ -80,8 +82,7 @@ void main() {
   vec3 f0 = lambertian ? vec3(0.0) : mix(vec3(0.04), base.rgb, metallic);
   float occlusion = 1.0;
   if (TEXTURED && (m.flags & MATERIAL_OCCLUSION_TEXTURE) != 0u)
-    occlusion += m.occlusionStrength *
-                 (texture(occlusionTexture, textureUv(m, TEXTURE_OCCLUSION, uv)).r - 1.0);
+    occlusion += m.occlusionStrength * (texture(occlusionTexture, textureUv(m, TEXTURE_OCCLUSION, uv)).r - 1.0);
   vec3 emission = m.emission;
   if (TEXTURED && (m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
     emission *= texture(emissiveTexture, textureUv(m, TEXTURE_EMISSIVE, uv)).rgb;
@@ -97,8 +98,8 @@ void main() {
     float nl = dot(n, l);
     vec3 e = nl > 0.0 ? lightIntensity(light, local) * nl : vec3(0.0);
     if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
-    // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The facet gather
-    // knows its planes less well and takes all of it.)
+    // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The facet
+    // gather knows its planes less well and takes all of it.)
     float bias = lightUsesCube(light.type, light.outerCos) ? push.shadowBias : 0.5 * push.shadowBias;
     e *= shadowVisibility(light, local, face, bias, PCF);
     direct += e;
@@ -108,25 +109,19 @@ void main() {
                  (ggxDistribution(max(dot(n, h), 0.0), alpha) * ggxVisibility(nl, nv, alpha));
   }
 
-  // Indirect light.
-  Indirect indirect = Indirect(vec3(0.0), vec3(0.0));
-  if (INDIRECT != 0u) {
-    Grid grid = push.grid.at[0];
-    vec3 p = (local - grid.origin) * grid.inverseEdge;
-#ifdef IRAD_VOLUME
-    indirect.irradiance = volumeIndirect(grid, push.sampling, p, lookup);
-#else
-    indirect = facetIndirect(push.facets.at[0], grid, NORMAL_ENCODING, push.shaded, push.shadedEmitted,
-                             push.sampling, p, lookup, INDIRECT == 2u && push.facets.at[0].hasEmission != 0u);
-#endif
-  }
-
   outNormal = vec4(n, roughness);
   outGeometric = vec4(face, metallic);
   outAlbedo = vec4(albedo, occlusion);
   outF0 = vec4(f0, lambertian ? 0.0 : 1.0);
   outDirect = vec4(direct, 1.0);
   outHighlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
-  outIndirect = vec4(indirect.irradiance, 1.0);
-  outEmitted = vec4(indirect.emitted, 1.0);
+#ifdef IRAD_VOLUME
+  Grid grid = push.grid.at[0];
+  vec3 p = (local - grid.origin) * grid.inverseEdge;
+  outIndirect = vec4(volumeIndirect(grid, push.sampling, p, lookup), 1.0);
+  outEmitted = vec4(0.0, 0.0, 0.0, 1.0);
+#else
+  outIndirect = vec4(local, 1.0);
+  outEmitted = vec4(lookup, 1.0);
+#endif
 }

@@ -22,14 +22,11 @@ struct DepthPush {
   uint padding;
 };
 
-/// "RE Forward".
+/// "RE Forward", drawing.
 struct ForwardPush {
   SceneArray scene;
   CameraArray camera;
-  GridArray grid;
-  FacetRecord facets;
-  Vec4Array shaded;         ///< H per facet
-  Vec4Array shadedEmitted;  ///< F M per facet
+  GridArray grid;  ///< of the volume; 0: there is none
   SampleParams sampling;
   uint material;
   float shadowBias;
@@ -37,8 +34,18 @@ struct ForwardPush {
   uint padding;
 };
 
-/// Targets::glossy: three words of dispatch arguments, the number of pixels, then each pixel that traces, x | y << 16, in no
-/// particular order.
+/// "RE Forward", forward/indirect.comp.
+struct IndirectPush {
+  GridArray grid;
+  UintArray shape, reverse;  ///< of FacetArrays
+  Vec4Array shaded;          ///< H per facet
+  Vec4Array shadedEmitted;   ///< F M per facet
+  SampleParams sampling;
+  uvec2 size;
+};
+
+/// Targets::glossy: three words of dispatch arguments, the number of pixels, then each pixel that traces, x | y << 16,
+/// in no particular order.
 IRAD_CONST uint GLOSSY_COUNT = 3u;
 IRAD_CONST uint GLOSSY_FIRST = 4u;
 IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
@@ -53,8 +60,8 @@ struct SpecularPush {
   UintArray glossy;
   SpecularParams params;
   float jfaMax;
-  uint step_;     ///< filter: pixels between taps; 0: none
-  uint resolve;   ///< filter: 1: the last step
+  uint step_;            ///< filter: pixels between taps; 0: none
+  uint resolve;          ///< filter: 1: the last step
   float leastRoughness;  ///< filter: smoother surfaces are left alone
 };
 
@@ -72,9 +79,9 @@ struct ViewPush {
   float exposure;
   uint toneCurve;
   uint normalEncoding;
-  uint rays;      ///< of a matrix row
-  uint padded;    ///< 1: matrix.format padded
-  float jfaMax;   ///< voxels that 1.0 of the bound volume stands for; 0: none bound
+  uint rays;     ///< of a matrix row
+  uint padded;   ///< 1: matrix.format padded
+  float jfaMax;  ///< voxels that 1.0 of the bound volume stands for; 0: none bound
 };
 
 IRAD_END

@@ -2,13 +2,14 @@
 #include "shared/ggx.h"
 #include "shared/passes.h"
 
-layout(push_constant, scalar) uniform PushBlock { SpecularPush push; };
+layout(push_constant, scalar) uniform PushBlock {
+  SpecularPush push;
+};
 
 /// Distance along the view direction.
 float viewDepth(GpuCamera camera, float depth) {
-  return camera.orthographic != 0u
-             ? mix(camera.znear, camera.zfar, depth)
-             : camera.znear * camera.zfar / (camera.zfar - depth * (camera.zfar - camera.znear));
+  return camera.orthographic != 0u ? mix(camera.znear, camera.zfar, depth)
+                                   : camera.znear * camera.zfar / (camera.zfar - depth * (camera.zfar - camera.znear));
 }
 
 /// Direction in which the camera looks: the gradient of clip w, or of clip z where w is constant.
@@ -17,8 +18,8 @@ vec3 viewAxis(GpuCamera camera) {
   return camera.orthographic != 0u ? normalize(vec3(m[0][2], m[1][2], m[2][2])) : vec3(m[0][3], m[1][3], m[2][3]);
 }
 
-/// Local position of a pixel's centre at view depth z. The first two columns of the inverse span the picture plane at unit
-/// depth.
+/// Local position of a pixel's centre at view depth z. The first two columns of the inverse span the picture plane at
+/// unit depth.
 vec3 pixelPosition(GpuCamera camera, ivec2 pixel, float z, vec3 axis) {
   vec2 ndc = (vec2(pixel) + 0.5) / vec2(camera.size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
   vec3 aside = camera.inverseViewProjection[0].xyz * ndc.x + camera.inverseViewProjection[1].xyz * ndc.y;
@@ -43,9 +44,10 @@ bool glossyPixel(uint invocation, out ivec2 pixel) {
   return true;
 }
 
-/// No rays: no lobe, too rough, or too little light here to matter (METHOD section 8).
+/// No rays: no lobe, too rough, or too little light here to matter (METHOD section 8). The targets hold roughness in
+/// half precision, which some devices truncate: a material at max_roughness would come back below it.
 bool tracesNothing(vec4 f0, float roughness, vec3 irradiance) {
-  if (f0.w == 0.0 || roughness >= push.params.maxRoughness) return true;
+  if (f0.w == 0.0 || roughness * (1.0 + 1.0 / 1024.0) >= push.params.maxRoughness) return true;
   vec3 reflected = f0.rgb * irradiance * (1.0 / IRAD_PI);
   return max(reflected.r, max(reflected.g, reflected.b)) < push.params.threshold;
 }

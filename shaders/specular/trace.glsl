@@ -1,5 +1,5 @@
-// Specular rays of one pixel through the voxels (METHOD section 8, T 5.11). Radiance at a hit is B / pi; what escapes sees
-// nothing.
+// Specular rays of one pixel through the voxels (METHOD section 8, T 5.11). Radiance at a hit is B / pi; what escapes
+// sees nothing.
 #include "forward/indirect.glsl"
 #include "gi/trace.glsl"
 #include "shared/sampling.h"
@@ -23,7 +23,8 @@ TraceHit traceFrom(TraceWorld world, Surface s, vec3 direction) {
 
 /// Mean reflected radiance before the lobe's reflectance: visible normals of GGX (Heitz 2018), each ray weighted with
 /// F G2 / G1 and the sum divided by the weights. `shift` decorrelates pixels.
-vec3 traceLobe(TraceWorld world, Grid grid, Surface s, uvec2 shift) {
+vec3 traceLobe(TraceWorld world, Surface s, uvec2 shift) {
+  FacetMap map = FacetMap(world.facets.shape, world.facets.reverse, world.dims, TRACE_NORMALS);
   float alpha = s.roughness * s.roughness;
   bool mirror = alpha < 1e-3;
   uint rays = mirror ? 1u : push.params.rays;
@@ -48,12 +49,13 @@ vec3 traceLobe(TraceWorld world, Grid grid, Surface s, uvec2 shift) {
     if (hit.facet > TRACE_LAST_FACET) continue;
     vec3 at = s.position + s.face * RAY_LIFT + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);
-    sum += weight * facetValueAround(world.facets, grid, TRACE_NORMALS, push.radiosity, hit.facet, at, n);
+    sum += weight * facetValueAround(map, push.radiosity, hit.facet, at, n);
   }
   return sum / max(weights, vec3(1e-20)) * (1.0 / IRAD_PI);
 }
 
-/// T 5.11: rays about the mirror direction of the normal jittered by the roughness, plain mean, radiance of the voxel met.
+/// T 5.11: rays about the mirror direction of the normal jittered by the roughness, plain mean, radiance of the voxel
+/// met.
 vec3 traceJittered(TraceWorld world, Surface s, uint seed) {
   vec3 sum = vec3(0.0);
   for (uint k = 0u; k < push.params.rays; ++k) {

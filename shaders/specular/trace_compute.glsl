@@ -1,5 +1,5 @@
-// "RE Specular": one invocation per listed pixel. Writes the mean reflected radiance (without the lobe's reflectance) and
-// the view depth.
+// "RE Specular": one invocation per listed pixel. Writes the mean reflected radiance (without the lobe's reflectance)
+// and the view depth.
 #include "specular/trace.glsl"
 
 layout(local_size_x = GLOSSY_GROUP) in;
@@ -28,5 +28,5 @@ void main() {
   // Shifts of neighbouring pixels follow the R2 lattice (Roberts 2018), so that any few of them cover the lobe evenly.
   uvec2 shift = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
-  imageStore(tracedTarget, pixel, vec4(traceLobe(world, grid, s, shift), z));
+  imageStore(tracedTarget, pixel, vec4(traceLobe(world, s, shift), z));
 }

@@ -1,0 +1,31 @@
+// "RE Forward", last step: indirect light from the facets around each visible point, which the fragment stage has left
+// in the targets (position in `indirect`, normal in `emitted`; w = 0 where nothing is drawn).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "forward/indirect.glsl"
+#include "shared/passes.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint NORMAL_ENCODING = NORMALS_OCT16;
+layout(constant_id = 1) const bool EMITTED = true;  ///< F M too
+layout(push_constant, scalar) uniform PushBlock {
+  IndirectPush push;
+};
+layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
+layout(set = 0, binding = 1, rgba32f) uniform image2D emittedTarget;
+
+void main() {
+  Grid grid = push.grid.at[0];
+  FacetMap map = FacetMap(push.shape, push.reverse, grid.dims, NORMAL_ENCODING);
+  // Neighbours in a subgroup are neighbours in the picture: 4 x 2 pixels, of which 2 x 4 make a group.
+  uint i = gl_LocalInvocationIndex;
+  ivec2 pixel = ivec2(8u * gl_WorkGroupID.xy + uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)));
+  if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
+  vec4 position = imageLoad(indirectTarget, pixel);
+  if (position.w == 0.0) return;
+  vec3 normal = imageLoad(emittedTarget, pixel).xyz;
+  vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
+  vec3 emitted = EMITTED ? facetIndirect(map, push.shadedEmitted, push.sampling, p, normal) : vec3(0.0);
+  imageStore(indirectTarget, pixel, vec4(facetIndirect(map, push.shaded, push.sampling, p, normal), 1.0));
+  imageStore(emittedTarget, pixel, vec4(emitted, 1.0));
+}
