@@ -38,6 +38,7 @@ struct Pipeline::Impl {
   std::optional<FacetList> facets;
   std::optional<Field> field;
   std::optional<FormFactors> matrix;
+  std::optional<Emitters> emitters;
   std::optional<Lighting> light;
 
   /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
@@ -75,6 +76,7 @@ struct Pipeline::Impl {
     });
 
     if (newFacets) {
+      emitters = listEmitters(context, *newFacets);
       facets = std::move(newFacets);
       light.reset();  // belongs to the old list
     }
@@ -191,6 +193,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   if (p.field) inputs.field = &*p.field;
   if (p.matrix) inputs.matrix = &*p.matrix;
   if (p.light) inputs.lighting = &*p.light;
+  if (p.emitters) inputs.emitters = &*p.emitters;
   traceSpecular(frame, inputs, p.camera, p.settings, targets);
   drawView(frame, view, inputs, p.camera, p.settings, targets);
 }

@@ -1,6 +1,7 @@
 // "RE Specular": reflections of the voxelized scene (METHOD section 8).
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "gi/views.h"
 #include "shaders/shared/passes.h"
@@ -85,6 +86,12 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   // Trace.
   Pass trace = frame.pass("RE Specular");
   trace.shader(method == TRACE_JFA ? "specular/trace_jfa.comp" : "specular/trace.comp");
+  const bool emitters = inputs.emitters != nullptr && inputs.emitters->count > 0;
+  if (emitters) {
+    push.emitters = inputs.emitters->record.address;
+    trace.read(inputs.emitters->record, inputs.emitters->entries, facets.voxel, facets.emission);
+  }
+  trace.constant(3, emitters);
   traced(trace, /*fragment*/ false).dispatchIndirect(targets.glossy);
 
   // Filter; linear and specular take turns, so that the last of the three steps ends in `specular`.
@@ -93,11 +100,11 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   for (size_t i = 0; i < kFilter.size(); ++i) {
     const bool last = i + 1 == kFilter.size();
     if (settings.specular.gpu.filter_ == 0 && !last) continue;
-    push.step_ = settings.specular.gpu.filter_ != 0 ? kFilter[i].step : 0;
-    push.leastRoughness = kFilter[i].leastRoughness;
-    push.resolve = last ? 1 : 0;
     frame.pass("RE Specular")
         .shader("specular/filter.comp")
+        .constant(0, settings.specular.gpu.filter_ != 0 ? kFilter[i].step : 0)
+        .constant(1, last)
+        .constant(2, std::bit_cast<uint32_t>(kFilter[i].leastRoughness))
         .read(camera, targets.glossy)
         .read(targets.normal, targets.geometric, targets.f0, targets.indirect, *from)
         .write(*to)

@@ -9,6 +9,7 @@
 #include "renderer/frame.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/shadow.h"
+#include "shaders/shared/emitters.h"
 #include "shaders/shared/facets.h"
 #include "shaders/shared/grid.h"
 #include "shaders/shared/matrix.h"
@@ -29,9 +30,9 @@ void exclusiveScan(Frame& frame, const char* stage, const Buffer& values, uint32
 /// Per voxel and facet slot: which triangle won (ordered atomic key), and its attributes.
 struct Voxels {
   Grid grid;
-  Buffer gridRecord;  ///< one Grid
-  uint32_t slots = 1;  ///< voxel.facets
-  Buffer keys;        ///< slots x voxels uints, voxelKey of shared/voxelize.h; 0 = empty
+  Buffer gridRecord;                     ///< one Grid
+  uint32_t slots = 1;                    ///< voxel.facets
+  Buffer keys;                           ///< slots x voxels uints, voxelKey of shared/voxelize.h; 0 = empty
   const SceneOnDevice* scene = nullptr;  ///< of which compactFacets reads the winners' attributes
 };
 Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings);
@@ -39,11 +40,11 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
 // ---- 4. Facet list (T 5.3) ------------------------------------------------------------------------------------------
 struct FacetList {
   Grid grid;
-  uint32_t count = 0;         ///< facets
+  uint32_t count = 0;  ///< facets
   uint32_t solidVoxels = 0;
   uint32_t clampedAlbedo = 0;  ///< facets whose albedo was outside [0, .98] or not a number
   Buffer voxel, shape, albedo, emission, reverse;
-  Buffer record;              ///< one FacetArrays
+  Buffer record;  ///< one FacetArrays
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
   FacetArrays addresses() const;
@@ -60,10 +61,11 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
 // ---- 3. Distance fields (T 5.2) -------------------------------------------------------------------------------------
 struct Field {
   FieldMethod method = FieldMethod::chebyshev;
-  Buffer chebyshev;  ///< one byte per voxel, 4 per uint, x fastest: exact Chebyshev distance to the nearest solid, 0..255
-  Image jfaDistance; ///< R8_UNORM volume: Euclidean distance / maxDistance
-  float jfaMax = 0;  ///< voxels that 1.0 stands for
-  Image jfaSeeds;    ///< R32_UINT packVoxel of the nearest seed, the last pass
+  Buffer
+      chebyshev;  ///< one byte per voxel, 4 per uint, x fastest: exact Chebyshev distance to the nearest solid, 0..255
+  Image jfaDistance;             ///< R8_UNORM volume: Euclidean distance / maxDistance
+  float jfaMax = 0;              ///< voxels that 1.0 stands for
+  Image jfaSeeds;                ///< R32_UINT packVoxel of the nearest seed, the last pass
   std::vector<Image> jfaPasses;  ///< every pass, on request (field.keep_passes)
 };
 /// Builds what `settings` and the solid set (facets.reverse) call for.
@@ -91,8 +93,8 @@ FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& 
 // ---- 6. Relight (T 5.7-5.9) -----------------------------------------------------------------------------------------
 struct SolveReport {
   uint32_t sweeps = 0;
-  float residual = 0;   ///< max |dB| of the last sweep, W/m^2
-  float bound = 0;      ///< rho/(1-rho) max|dB|: error bound on B, W/m^2
+  float residual = 0;  ///< max |dB| of the last sweep, W/m^2
+  float bound = 0;     ///< rho/(1-rho) max|dB|: error bound on B, W/m^2
   float largestH = 0;
   float largestGain = 0;  ///< rho-bar: largest row gain
   uint32_t nonFinite = 0, negative = 0;
@@ -105,10 +107,10 @@ struct Lighting {
   Buffer emitted;   ///< F M: first gather from emissive facets alone (the part of H that is direct light of emitters)
   Buffer indirect;  ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer
-  Buffer shaded;    ///< H as shading samples it (blurred over neighbours that face the same way, or edge-removed)
+  Buffer shaded;         ///< H as shading samples it (blurred over neighbours that face the same way, or edge-removed)
   Buffer shadedEmitted;  ///< `emitted` likewise
-  Image volume;     ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
-  Buffer residual;  ///< solver's reductions, see shared/solve.h
+  Image volume;          ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
+  Buffer residual;       ///< solver's reductions, see shared/solve.h
   SolveReport report;
   /// solve() computes `emitted` when this is not set, and sets it; clear it when the matrix or the emission changes.
   bool emittedCurrent = false;
@@ -117,13 +119,23 @@ struct Lighting {
 /// All zero. The volume exists when sampling is ungated; addVolume makes it otherwise (views, exports).
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
 void addVolume(Context& context, const FacetList& facets, Lighting& light);
-void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets, Lighting& light,
-            const Settings& settings);
+void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
+            Lighting& light, const Settings& settings);
 /// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity. Blocking.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
                   const Settings& settings, uint32_t maxSweeps);
 /// `shaded` and `shadedEmitted`; and the volume where it exists: H, or B with ungated sampling (T 5.9), or B - lambda
 /// (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a voxel, alpha 1.
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
+
+// ---- 8. Specular ----------------------------------------------------------------------------------------------------
+/// The facets that emit, to be drawn in proportion to their power. count 0: none, and no buffers.
+struct Emitters {
+  uint32_t count = 0;
+  Buffer entries, record;  ///< Emitter per facet, one EmitterTable
+};
+Emitters listEmitters(Context& context, const FacetList& facets);
+/// Vose's alias table of facets[i] with probability powers[i] / sum; powers > 0.
+std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const std::vector<double>& powers);
 
 }  // namespace irad

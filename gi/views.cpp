@@ -69,6 +69,7 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   if (!onVoxels(view)) {
     frame.pass("View")
         .shader("view/debug_view.comp")
+        .constant(0, view)
         .read(camera)
         .sample(targets.depth, point)
         .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.highlight, targets.indirect,

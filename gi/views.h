@@ -33,6 +33,7 @@ struct ViewInputs {
   const Field* field = nullptr;
   const FormFactors* matrix = nullptr;
   const Lighting* lighting = nullptr;
+  const Emitters* emitters = nullptr;
 };
 /// Composes `view` from the targets (after drawForward and traceSpecular) into targets.linear and targets.display.
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,

@@ -1,6 +1,7 @@
 // The registry of views and what each draws: composition, colour map, voxels, odd values.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -34,6 +35,7 @@ struct Lit {
   Field field;
   FormFactors matrix;
   Lighting light;
+  Emitters emitters;
   Buffer grid;
   Lit(Context& context, Scene scene, Settings settings) : stage(context, std::move(scene), settings) {
     Voxels voxels = voxelize(context, stage.device, settings);
@@ -41,6 +43,7 @@ struct Lit {
     field = buildField(context, facets, settings);
     matrix = buildMatrix(context, facets, field, settings);
     light = makeLighting(context, facets, settings);
+    emitters = listEmitters(context, facets);
     Frame direct = context.begin();
     gather(direct, stage.device, stage.shadows, facets, light, settings);
     direct.submitAndWait();
@@ -50,7 +53,7 @@ struct Lit {
     frame.submitAndWait();
     grid = makeBuffer(context, "grid", Subsystem::Voxels, std::span<const Grid>(&facets.grid, 1));
   }
-  ViewInputs inputs() const { return {&stage.device, &facets, &field, &matrix, &light}; }
+  ViewInputs inputs() const { return {&stage.device, &facets, &field, &matrix, &light, &emitters}; }
   IndirectInputs indirect() const {
     IndirectInputs in;
     in.grid = &grid;
@@ -209,6 +212,64 @@ TEST_F(Views, MirrorShowsTheWall) {
     const auto row = static_cast<uint32_t>((0.5 - 0.5 * y) * 65);
     EXPECT_NEAR(p.at(32, row).x, 1, 0.02) << static_cast<int>(mode);
   }
+}
+
+TEST_F(Views, RaysToEmittersKeepTheMeanAndQuietIt) {
+  // A glossy metal floor before a small bright panel. Sent along the lobe alone, a few rays in a hundred meet it.
+  SceneBuilder b;
+  Material& floor = b.scene.materials[0];
+  floor.lambertian = false;
+  floor.metallic = 1;
+  floor.roughness = 0.3f;
+  floor.baseColor = {0.9f, 0.5f, 0.2f, 1};
+  b.addQuad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+  Material& panel = b.newMaterial();
+  panel.lambertian = true;
+  panel.emission = glm::vec3(50);
+  b.addQuad({-0.5f, 0.6f, -1}, {1, 0, 0}, {0, 0.5f, 0});
+  b.addCamera({0, 2, 8}, {0, 0.2, 0}, 0.4f);
+  Settings settings = smallSettings();
+  settings.specular.gpu.threshold = 0;
+  settings.specular.gpu.filter_ = 0;
+  Lit lit(context(), b.finish(), settings);
+  ASSERT_GT(lit.emitters.count, 0u);
+
+  const auto draw = [&](uint32_t rays, bool aimed) {
+    lit.stage.settings.specular.gpu.rays = rays;
+    ViewInputs inputs = lit.inputs();
+    if (!aimed) inputs.emitters = nullptr;
+    return lit.stage.draw(VIEW_SPECULAR, {64, 64}, 0, inputs, lit.indirect());
+  };
+  const auto mean = [](const Picture& p) {
+    double sum = 0;
+    for (const glm::vec4& c : p.linear) sum += c.x;
+    return sum / static_cast<double>(p.linear.size());
+  };
+  const Picture reference = draw(64, true), aimed = draw(4, true), plain = draw(4, false);
+  // Around the panel's image, where only the lobe's tail meets it.
+  const auto error = [&](const Picture& p) {
+    double sum = 0;
+    for (size_t i = 0; i < p.linear.size(); ++i) {
+      const double d = p.linear[i].x - reference.linear[i].x;
+      if (reference.linear[i].x < 1) sum += d * d;
+    }
+    return std::sqrt(sum / static_cast<double>(p.linear.size()));
+  };
+  EXPECT_NEAR(mean(reference) / mean(draw(64, false)), 1, 0.02);
+  EXPECT_NEAR(mean(aimed) / mean(reference), 1, 0.02);
+  EXPECT_LT(error(aimed), error(plain) / 2);
+}
+
+TEST(AliasTable, DrawsInProportion) {
+  // The probability of a facet is the sum over entries of what they keep or pass on, each drawn with 1 / count.
+  const std::vector<uint32_t> facets{4, 7, 9, 12, 20};
+  const std::vector<double> powers{1, 10, 0.25, 3, 0.75};
+  std::map<uint32_t, double> chance;
+  for (const Emitter& e : makeAliasTable(facets, powers)) {
+    chance[e.facet] += e.keep / 5.0;
+    chance[e.other] += (1 - e.keep) / 5.0;
+  }
+  for (size_t i = 0; i < facets.size(); ++i) EXPECT_NEAR(chance[facets[i]], powers[i] / 15, 1e-6) << facets[i];
 }
 
 TEST_F(Views, RoughnessAtTheLimitTracesNoRays) {

@@ -1,6 +1,7 @@
 // Push constants of the passes that make pictures (renderer/forward.cpp, gi/views.cpp, gi/specular.cpp).
 #ifndef IRAD_SHARED_PASSES_H
 #define IRAD_SHARED_PASSES_H
+#include "shared/emitters.h"
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/grid.h"
@@ -50,7 +51,7 @@ IRAD_CONST uint GLOSSY_COUNT = 3u;
 IRAD_CONST uint GLOSSY_FIRST = 4u;
 IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
 
-/// "RE Specular": tracing and filtering.
+/// "RE Specular".
 struct SpecularPush {
   CameraArray camera;
   Grid grid;
@@ -58,11 +59,10 @@ struct SpecularPush {
   Vec4Array radiosity;
   ByteArray chebyshev;
   UintArray glossy;
+  EmitterRecord emitters;  ///< 0: there are none
   SpecularParams params;
   float jfaMax;
-  uint step_;            ///< filter: pixels between taps; 0: none
-  uint resolve;          ///< filter: 1: the last step
-  float leastRoughness;  ///< filter: smoother surfaces are left alone
+  uint padding;
 };
 
 /// Views over the targets (view/debug_view.comp) and over the voxels (view/voxel_view.comp).

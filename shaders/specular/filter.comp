@@ -1,11 +1,14 @@
 // "RE Specular": one step of an edge-aware a-trous filter over the traced radiance (Dammertz et al. 2010): 3 x 3 taps
-// `step` pixels apart, weighted by plane, normal and roughness, at the listed pixels. The last step (`resolve`) multiplies
+// STEP pixels apart, weighted by plane, normal and roughness, at the listed pixels. The last step (RESOLVE) multiplies
 // by the lobe's reflectance and blends with the reflection of the diffuse irradiance near max_roughness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"
 
 layout(local_size_x = GLOSSY_GROUP) in;
+layout(constant_id = 0) const int STEP = 1;  ///< pixels between taps; 0: no filter
+layout(constant_id = 1) const bool RESOLVE = true;
+layout(constant_id = 2) const float LEAST_ROUGHNESS = 0.0;  ///< smoother surfaces are left alone
 layout(set = 0, binding = 0, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D geometricTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D f0Target;
@@ -21,18 +24,18 @@ void main() {
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);
   vec4 result = centre;
-  if (push.step_ > 0u && normal.w > push.leastRoughness) {
+  if (STEP > 0 && normal.w > LEAST_ROUGHNESS) {
     vec3 position = pixelPosition(camera, pixel, centre.w, axis);
     vec3 face = imageLoad(geometricTarget, pixel).xyz;
     // Length of a pixel at this distance: what a tap may lie off the plane.
     float footprint = 2.0 * length(camera.inverseViewProjection[1].xyz) / float(camera.size.y) *
                       (camera.orthographic != 0u ? 1.0 : centre.w);
-    float tolerance = 1.0 / (footprint * float(push.step_));
+    float tolerance = 1.0 / (footprint * float(STEP));
     vec3 sum = vec3(0.0);
     float total = 0.0;
     for (int i = 0; i < 9; ++i) {
       ivec2 offset = ivec2(i % 3, i / 3) - 1;
-      ivec2 at = pixel + offset * int(push.step_);
+      ivec2 at = pixel + offset * STEP;
       if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(camera.size)))) continue;
       vec4 tap = imageLoad(from, at);
       if (tap.w < 0.0) continue;
@@ -48,7 +51,7 @@ void main() {
     }
     result.rgb = total > 0.0 ? sum / total : centre.rgb;
   }
-  if (push.resolve != 0u) {
+  if (RESOLVE) {
     vec3 view = towardsViewer(camera, pixelPosition(camera, pixel, centre.w, axis), axis);
     float nv = max(dot(normalize(normal.xyz), view), 1e-3);
     vec3 diffuse = imageLoad(indirectTarget, pixel).rgb * (1.0 / IRAD_PI);

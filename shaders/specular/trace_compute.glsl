@@ -26,7 +26,10 @@ void main() {
   s.f0 = imageLoad(f0Target, pixel).rgb;
   s.roughness = normal.w;
   // Shifts of neighbouring pixels follow the R2 lattice (Roberts 2018), so that any few of them cover the lobe evenly.
-  uvec2 shift = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
+  // Those of the rays to emitters follow another turn of it.
+  uvec2 first = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
+  uvec4 shift =
+      uvec4(first, pixel.x * 2447445414u + pixel.y * 3242174889u, pixel.x * 1847517997u + pixel.y * 2447445414u);
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
   imageStore(tracedTarget, pixel, vec4(traceLobe(world, s, shift), z));
 }

@@ -1,5 +1,5 @@
-// "RE Specular" in the fragment shader (T 5.11), one fragment per visible point: rays seeded by the point's position and
-// the ray's index, mean radiance times the lobe's reflectance; rough surfaces take the diffuse irradiance.
+// "RE Specular" in the fragment shader (T 5.11), one fragment per visible point: rays seeded by the point's position
+// and the ray's index, mean radiance times the lobe's reflectance; rough surfaces take the diffuse irradiance.
 #include "specular/trace.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;

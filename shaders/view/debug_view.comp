@@ -5,6 +5,7 @@
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint VIEW = 0u;  ///< known to the compiler: no view pays for what the others read
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -31,7 +32,7 @@ void main() {
 
   vec3 value = vec3(0.0);
   float high = push.high;
-  switch (push.view) {
+  switch (VIEW) {
     case VIEW_LIT:
       value = albedo.rgb * (direct + albedo.a * indirect) * (1.0 / IRAD_PI) + highlight +
               albedo.a * imageLoad(specularTarget, pixel).rgb;

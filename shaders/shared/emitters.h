@@ -1,0 +1,33 @@
+// The emissive facets as a table from which one is drawn in proportion to its power (Walker's alias method, 1977), so
+// that specular rays can be sent to them.
+#ifndef IRAD_SHARED_EMITTERS_H
+#define IRAD_SHARED_EMITTERS_H
+#include "shared/types.h"
+IRAD_BEGIN
+
+IRAD_FN float luminance(vec3 c) {
+  return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+
+/// A facet's area as rays may start from it or end on it (facetPoint), voxels^2.
+IRAD_FN float footprintArea(vec3 normal) {
+  vec3 a = abs(normal);
+  return 1.0f / max(a.x, max(a.y, a.z));
+}
+
+/// An entry is drawn with equal chance; it stands for `facet` with probability `keep`, else for `other`.
+struct Emitter {
+  uint facet, other;
+  float keep;
+};
+IRAD_ARRAY(EmitterArray, Emitter, 4)
+
+struct EmitterTable {
+  EmitterArray entries;
+  uint count;
+  float power;  ///< sum of luminance(M) x footprintArea over the facets, W/m^2 x voxels^2
+};
+IRAD_ARRAY(EmitterRecord, EmitterTable, 8)
+
+IRAD_END
+#endif
