@@ -122,6 +122,10 @@ void Context::Impl::deliver(FrameSlot& slot, Timings& timings) {
     const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - slot.submitted;
     timings.add(timers.front(), wall.count());
   }
+  if (slot.sample) {
+    const std::chrono::duration<double, std::milli> cpu = slot.submitted - slot.sample->began;
+    timings.endFrame(slot.sample->frame, /*setup=*/false, cpu.count());
+  }
   const std::vector<FrameSlot::Readback> readbacks = std::move(slot.readbacks);
   slot.readbacks.clear();
   for (const FrameSlot::Readback& r : readbacks) r.done({reinterpret_cast<const uint8_t*>(r.bytes), r.size});
@@ -133,6 +137,7 @@ void Context::Impl::reset(FrameSlot& slot) {
   slot.descriptorPool = 0;
   slot.timers.clear();
   slot.readbacks.clear();
+  slot.sample.reset();
   slot.awaited = false;
   std::erase_if(slot.staging, [](const FrameSlot::Chunk& chunk) { return chunk.buffer.bytes > kStagingKept; });
   for (FrameSlot::Chunk& chunk : slot.staging) chunk.used = 0;
@@ -146,6 +151,15 @@ void Context::Impl::destroy(FrameSlot& slot) {
         for (const VkQueryPool p : queryPools) vkDestroyQueryPool(device, p, nullptr);
         vkDestroyCommandPool(device, pool, nullptr);
       });
+}
+
+void Context::collect() {
+  impl->collect(timings);
+}
+
+void Context::finish() {
+  if (!impl->inFlight.empty()) device.wait(impl->inFlight.back()->timelineValue);
+  collect();
 }
 
 Frame Context::begin(uint64_t frameIndex) {
@@ -162,6 +176,7 @@ Frame Context::begin(uint64_t frameIndex) {
 }
 
 Frame Context::beginUntimed() {
+  if (impl->idle.empty()) collect();
   Frame frame;
   frame.impl_ = std::make_unique<Frame::Impl>();
   frame.impl_->context = this;

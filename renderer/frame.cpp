@@ -29,6 +29,7 @@ Frame::~Frame() {
   FrameSlot& slot = *impl_->slot;
   slot.timers.clear();
   slot.readbacks.clear();
+  slot.sample.reset();
   try {
     impl_->submit(VK_NULL_HANDLE, VK_NULL_HANDLE, /*awaited=*/false);
   } catch (const Error& error) {
@@ -43,6 +44,11 @@ Context& Frame::context() const {
 VkCommandBuffer Frame::commands() const {
   IRAD_CHECK(impl_ && impl_->slot, "the frame has been submitted");
   return impl_->slot->commands;
+}
+
+void Frame::sampled(uint64_t frameIndex, std::chrono::steady_clock::time_point began) {
+  IRAD_CHECK(impl_ && impl_->slot, "the frame has been submitted");
+  impl_->slot->sample = {frameIndex, began};
 }
 
 void Frame::submit(VkSemaphore presentWait, VkSemaphore presentSignal) {

@@ -8,6 +8,7 @@
 // image, sample: combined image sampler), checked against the shader's own declarations. Set 1 is the material's.
 #pragma once
 
+#include <chrono>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -40,6 +41,9 @@ class Context {
   VkDescriptorSet materialSet(std::span<const VkImageView> views, std::span<const VkSampler> samplers);
   Frame begin(uint64_t frameIndex = 0);
   Frame beginUntimed();  ///< whose passes get no row in the timing table: transfers, tests
+  /// Delivers what finished frames owe, readbacks and times, in order; finish() waits for those in flight first.
+  void collect();
+  void finish();
 
   struct Impl;
   std::unique_ptr<Impl> impl;
@@ -164,6 +168,9 @@ class Frame {
   /// Deferred: `done` is called with the bytes by whoever first notices that the frame has finished.
   void readback(const Buffer& buffer, uint64_t offset, uint64_t bytes,
                 std::function<void(std::span<const uint8_t>)> done);
+  /// Makes the frame a sample of its own in the timing table, closed by whoever collects its times: nobody has to wait
+  /// for it. Its CPU time runs from `began` until it is submitted.
+  void sampled(uint64_t frameIndex, std::chrono::steady_clock::time_point began);
   void submit(VkSemaphore presentWait = VK_NULL_HANDLE, VkSemaphore presentSignal = VK_NULL_HANDLE);
   void submitAndWait();
   Context& context() const;

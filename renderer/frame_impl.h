@@ -33,6 +33,12 @@ struct FrameSlot {
   };
   std::vector<Readback> readbacks;
 
+  struct Sample {
+    uint64_t frame;
+    std::chrono::steady_clock::time_point began;
+  };
+  std::optional<Sample> sample;  ///< a group of the timing table by itself
+
   uint64_t timelineValue = 0;
   std::chrono::steady_clock::time_point submitted;
   bool awaited = false;  ///< by submitAndWait: its wall clock may stand in for timestamps

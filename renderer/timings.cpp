@@ -44,11 +44,21 @@ void Timings::add(std::string_view stage, double gpuMs) {
 void Timings::endFrame(uint64_t frame, bool setup, double cpuMs) {
   frames_.push_back({frame, setup, cpuMs, std::move(open_)});
   open_.clear();
+  ++recorded_;
+  if (++kept_[setup] <= window_) return;
+  // The oldest of its kind goes: near the front, for set-up work is rare.
+  frames_.erase(std::find_if(frames_.begin(), frames_.end(), [&](const FrameSample& f) { return f.setup == setup; }));
+  --kept_[setup];
+}
+
+void Timings::forget() {
+  open_.clear();
 }
 
 void Timings::reset() {
-  open_.clear();
+  forget();
   frames_.clear();
+  kept_ = {};
 }
 
 std::vector<Timings::Row> Timings::rows() const {

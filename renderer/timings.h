@@ -1,9 +1,10 @@
 // GPU and CPU milliseconds per stage: samples, statistics (the columns of T Tables 6-10), CSV.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <iosfwd>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,14 @@ TimingStats statistics(std::vector<double> milliseconds);
 
 class Timings {
  public:
+  /// Keeps the last `window` groups of per-frame work, and as many of set-up work.
+  explicit Timings(size_t window = SIZE_MAX) : window_(window) {}
   /// Adds one pass's time. Passes of the same stage within one sample group (frame) are summed by `endFrame`.
   void add(std::string_view stage, double gpuMs);
   /// Closes the group: each stage seen since the last call gets one sample. `setup`: the group is one-time work (a
   /// rebuild), listed apart from per-frame stages.
   void endFrame(uint64_t frame, bool setup, double cpuMs);
+  void forget();  ///< drops what was added since the last group: work that was given up
   void reset();
 
   struct FrameSample {
@@ -31,7 +35,8 @@ class Timings {
     double cpuMs;
     std::vector<std::pair<std::string, double>> stages;
   };
-  const std::vector<FrameSample>& frames() const { return frames_; }
+  const std::deque<FrameSample>& frames() const { return frames_; }
+  uint64_t recorded() const { return recorded_; }  ///< groups ever closed: grows where frames() stays full
   /// Rows in order of first appearance: (stage, setup, statistics).
   struct Row {
     std::string stage;
@@ -41,8 +46,11 @@ class Timings {
   std::vector<Row> rows() const;
 
  private:
+  size_t window_;
   std::vector<std::pair<std::string, double>> open_;
-  std::vector<FrameSample> frames_;
+  std::deque<FrameSample> frames_;
+  std::array<size_t, 2> kept_{};  ///< of frames_: per-frame, set-up
+  uint64_t recorded_ = 0;
 };
 
 /// subsystem,kind,mean_ms,min_ms,max_ms,std_ms,p50_ms,p95_ms,p99_ms,samples

@@ -95,6 +95,38 @@ TEST_F(Core, TimersAreSane) {
   EXPECT_GT(stages[0].second + stages[1].second, 0.3 * wall);
 }
 
+TEST_F(Core, SampledFramesAreSamplesWhoeverCollectsThem) {
+  const Buffer a(device(), "a", Subsystem::Staging, 64);
+  context().finish();
+  gpu().timings.reset();
+  const auto began = std::chrono::steady_clock::now();
+  const auto submit = [&](uint64_t index) {
+    Frame frame = context().begin();
+    frame.pass(fmt::format("Fill {}", index)).fill(a, 1);
+    frame.sampled(index, began);
+    frame.submit();
+  };
+  // Several in flight, a blocking transfer and a frame of somebody else's group in between.
+  for (uint64_t i = 0; i < 4; ++i) submit(i);
+  (void)download(context(), a);
+  submit(4);
+  Frame other = context().begin();
+  other.pass("Other").fill(a, 2);
+  other.submitAndWait();
+  gpu().timings.endFrame(100, /*setup=*/true, 1.0);
+  submit(5);
+  context().finish();
+  const auto& frames = gpu().timings.frames();
+  ASSERT_EQ(frames.size(), 7u);
+  const uint64_t expected[] = {0, 1, 2, 3, 4, 100, 5};
+  for (size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].frame, expected[i]);
+    ASSERT_EQ(frames[i].stages.size(), 1u);
+    EXPECT_EQ(frames[i].stages[0].first, expected[i] == 100 ? "Other" : fmt::format("Fill {}", expected[i]));
+    EXPECT_GT(frames[i].cpuMs, 0.0);
+  }
+}
+
 TEST_F(Core, MoreTimersThanAPoolHolds) {
   const Buffer a(device(), "a", Subsystem::Staging, 64);
   gpu().timings.reset();

@@ -71,5 +71,39 @@ TEST(Timings, PassesOfAStageAddUpAndSetUpStaysApart) {
   EXPECT_TRUE(timings.rows().empty());
 }
 
+TEST(Timings, WorkGivenUpIsNoSample) {
+  Timings timings;
+  timings.add("GI BuildMatrix", 1000);
+  timings.forget();
+  timings.add("RE Forward", 1);
+  timings.endFrame(0, /*setup=*/false, 1);
+  ASSERT_EQ(timings.rows().size(), 1u);
+  EXPECT_EQ(timings.rows()[0].stage, "RE Forward");
+}
+
+TEST(Timings, TheWindowKeepsTheLastOfEitherKind) {
+  Timings timings(/*window=*/3);
+  for (int i = 0; i < 10; ++i) {
+    timings.add("GI BuildMatrix", 100 + i);
+    timings.endFrame(i, /*setup=*/true, 0);
+    for (int j = 0; j < 2; ++j) {
+      timings.add("RE Forward", 2 * i + j);
+      timings.endFrame(i, /*setup=*/false, 0);
+    }
+  }
+  EXPECT_EQ(timings.frames().size(), 6u);
+  EXPECT_EQ(timings.recorded(), 30u);
+  const std::vector<Timings::Row> rows = timings.rows();
+  ASSERT_EQ(rows.size(), 2u);
+  for (const Timings::Row& row : rows) {
+    EXPECT_EQ(row.stats.samples, 3u);
+    EXPECT_EQ(row.stats.min, row.setup ? 107 : 17);
+    EXPECT_EQ(row.stats.max, row.setup ? 109 : 19);
+  }
+  timings.reset();
+  timings.endFrame(0, /*setup=*/false, 0);
+  EXPECT_EQ(timings.frames().size(), 1u);
+}
+
 }  // namespace
 }  // namespace irad

@@ -41,15 +41,15 @@ class TimingsPanel : public Panel {
     bool setup;
     TimingStats stats;
   };
-  size_t seen_ = SIZE_MAX;
+  uint64_t seen_ = UINT64_MAX;
   std::vector<Row> rows_;
   std::vector<float> frames_;  ///< GPU ms of the frames that rendered a picture
 
   /// Statistics of the last kWindow frames, and of all one-time work; only when a frame has been added.
   void update(const Timings& timings) {
     const auto& frames = timings.frames();
-    if (frames.size() == seen_) return;
-    seen_ = frames.size();
+    if (timings.recorded() == seen_) return;
+    seen_ = timings.recorded();
     std::vector<std::pair<Row, std::vector<double>>> found;
     frames_.clear();
     const size_t first = frames.size() > kWindow ? frames.size() - kWindow : 0;
