@@ -108,7 +108,7 @@ VkSurfaceFormatKHR Presenter::Impl::chooseFormat() const {
                                 formats.size()));
 }
 
-/// False while the window has no area.
+/// False while nothing can be shown: the window has no area, or its surface is lost once more.
 bool Presenter::Impl::rebuild() {
   device().waitIdle();
   if (surfaceLost) {
@@ -116,10 +116,12 @@ bool Presenter::Impl::rebuild() {
     vkDestroySurfaceKHR(device().instance, surface, nullptr);
     surface = VK_NULL_HANDLE;
     makeSurface();
-    surfaceLost = false;
   }
   VkSurfaceCapabilitiesKHR can;
-  vkCheck(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device().physical, surface, &can), "asking for the surface's size");
+  const VkResult asked = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device().physical, surface, &can);
+  surfaceLost = asked == VK_ERROR_SURFACE_LOST_KHR;
+  if (surfaceLost) return false;
+  vkCheck(asked, "asking for the surface's size");
   const glm::uvec2 wanted = size();
   extent = can.currentExtent;
   if (extent.width == UINT32_MAX)  // the surface takes the swapchain's size

@@ -3,82 +3,12 @@
 
 #if IRAD_UI
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <fstream>
-#include <thread>
-
 #include "renderer/error.h"
 #include "renderer/presenter.h"
-#include "tests/support.h"
-
-extern char** environ;
+#include "tests/virtual_screen.h"
 
 namespace irad::test {
 namespace {
-
-/// An X server without a screen whose framebuffer is a file (XWD format).
-class VirtualDisplay {
- public:
-  VirtualDisplay() {
-    int ends[2];
-    if (pipe(ends) != 0) return;
-    const std::string number = std::to_string(ends[1]), folder = folder_.path.string();
-    const char* argv[] = {"Xvfb",   "-displayfd",   number.c_str(), "-screen", "0",    "640x480x24",
-                          "-fbdir", folder.c_str(), "-nolisten",    "tcp",     nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-    if (posix_spawnp(&pid_, "Xvfb", &actions, nullptr, const_cast<char* const*>(argv), environ) != 0) pid_ = 0;
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
-    // "N\n", written in two pieces: closing early would kill the server with SIGPIPE.
-    std::string text;
-    for (char c = 0; pid_ && c != '\n' && read(ends[0], &c, 1) == 1;) text += c;
-    if (!text.empty()) display_ = fmt::format(":{}", std::atoi(text.c_str()));
-    close(ends[0]);
-    if (!display_.empty()) setenv("DISPLAY", display_.c_str(), 1);
-  }
-  ~VirtualDisplay() {
-    if (!pid_) return;
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
-    unsetenv("DISPLAY");
-  }
-  bool running() const { return !display_.empty(); }
-
-  /// How many of the screen's pixels have this colour (0xRRGGBB).
-  int count(uint32_t rgb) const {
-    std::ifstream in(folder_.path / "Xvfb_screen0", std::ios::binary);
-    const std::string file((std::istreambuf_iterator<char>(in)), {});
-    const auto word = [&](size_t i) {  // the header is big-endian
-      uint32_t v = 0;
-      for (size_t b = 0; b < 4; ++b) v = v << 8 | static_cast<uint8_t>(file[4 * i + b]);
-      return v;
-    };
-    if (file.size() < 100) return -1;
-    const uint32_t header = word(0), width = word(4), height = word(5), stride = word(12), colors = word(19);
-    int n = 0;
-    for (uint32_t y = 0; y < height; ++y)
-      for (uint32_t x = 0; x < width; ++x) {
-        uint32_t pixel;
-        std::memcpy(&pixel, file.data() + header + 12ull * colors + uint64_t{y} * stride + 4ull * x, 4);
-        n += (pixel & 0xFFFFFF) == rgb;
-      }
-    return n;
-  }
-
- private:
-  TemporaryFolder folder_;
-  pid_t pid_ = 0;
-  std::string display_;
-};
 
 /// Left half red, right half green.
 Image halves(Context& context, uint32_t width, uint32_t height) {
@@ -90,65 +20,162 @@ Image halves(Context& context, uint32_t width, uint32_t height) {
   return image;
 }
 
-TEST(Presenter, ShowsResizesAndCloses) {
-  VirtualDisplay display;
-  if (!display.running()) GTEST_SKIP() << "Xvfb is not installed";
-  const auto device = Device::create({.validate = true, .presentable = true});
-  ShaderLibrary shaders;
-  Timings timings;
-  {
-    Context context(*device, shaders, timings);
-    Presenter presenter("irad test", 320, 200);
-    presenter.attach(context);
-    const auto show = [&](const Image& image, int frames) {
-      for (int i = 0; i < frames; ++i) {
-        ASSERT_TRUE(presenter.poll());
-        ASSERT_TRUE(presenter.acquire());
-        Frame frame = context.begin(i);
-        presenter.present(frame, image);
-      }
-    };
-    // Waits until the display shows the picture: presentation is asynchronous.
-    const auto shown = [&](const Image& image, int red) {
-      for (int i = 0; i < 200 && display.count(0xFF0000) != red; ++i) {
-        show(image, 1);
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
-      EXPECT_EQ(display.count(0xFF0000), red);
-      EXPECT_EQ(display.count(0x00FF00), red);
-    };
-    const Image picture = halves(context, 320, 200);
-    show(picture, 20);
-    EXPECT_EQ(presenter.framebufferSize(), glm::uvec2(320, 200));
-    shown(picture, 160 * 200);
-    EXPECT_EQ(presenter.rebuilds(), 1u);
-
-    // The swapchain follows the window.
-    presenter.resize(400, 300);
-    for (int i = 0; i < 200 && presenter.framebufferSize() != glm::uvec2(400, 300); ++i) {
-      presenter.poll();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    ASSERT_EQ(presenter.framebufferSize(), glm::uvec2(400, 300));
-    const Image larger = halves(context, 400, 300);
-    show(larger, 20);
-    shown(larger, 200 * 300);
-    EXPECT_GE(presenter.rebuilds(), 2u);
-
-    // An acquired image that is never presented, and a frame dropped in between.
-    ASSERT_TRUE(presenter.acquire());
-    { Frame dropped = context.begin(); }
-    ASSERT_TRUE(presenter.acquire());
-    show(larger, 3);
-    ASSERT_TRUE(presenter.acquire());
-
-    // Attached again, as after a lost device or a device change.
-    presenter.detach();
-    presenter.attach(context);
-    show(larger, 3);
-    shown(larger, 200 * 300);
+/// A window of 320 x 200 on a screen of its own, on a validated device.
+class PresenterTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed: the presenter is not tested";
+    screen_ = std::make_unique<VirtualScreen>(640, 480);
+    setenv("DISPLAY", screen_->display().c_str(), 1);
+    device_ = Device::create({.validate = true, .presentable = true});
+    context_ = std::make_unique<Context>(*device_, shaders_, timings_);
+    presenter_ = std::make_unique<Presenter>("irad test", 320, 200);
+    presenter_->attach(*context_);
   }
-  for (const std::string& message : device->validationMessages()) ADD_FAILURE() << message;
+  void TearDown() override {
+    presenter_.reset();
+    context_.reset();
+    if (device_)
+      for (const std::string& message : device_->validationMessages()) ADD_FAILURE() << message;
+    device_.reset();
+    unsetenv("DISPLAY");
+  }
+  void show(const Image& image, int frames) {
+    for (int i = 0; i < frames; ++i) {
+      ASSERT_TRUE(presenter_->poll());
+      ASSERT_TRUE(presenter_->acquire());
+      Frame frame = context_->begin();
+      presenter_->present(frame, image);
+    }
+  }
+  /// Waits until the display shows so many red and as many green pixels: presentation is asynchronous.
+  void shown(const Image& image, int red) {
+    const auto count = [&](uint32_t color) { return screen_->grab(0, 0, 640, 480).count(color); };
+    for (int i = 0; i < 200 && count(0xFF0000) != red; ++i) {
+      show(image, 1);
+      pause(0.01);
+    }
+    EXPECT_EQ(count(0xFF0000), red);
+    EXPECT_EQ(count(0x00FF00), red);
+  }
+
+  std::unique_ptr<VirtualScreen> screen_;
+  std::unique_ptr<Device> device_;
+  ShaderLibrary shaders_;
+  Timings timings_;
+  std::unique_ptr<Context> context_;
+  std::unique_ptr<Presenter> presenter_;
+};
+
+TEST_F(PresenterTest, ShowsResizesAndCloses) {
+  const Image picture = halves(*context_, 320, 200);
+  show(picture, 20);
+  EXPECT_EQ(presenter_->framebufferSize(), glm::uvec2(320, 200));
+  shown(picture, 160 * 200);
+  EXPECT_EQ(presenter_->rebuilds(), 1u);
+
+  // The swapchain follows the window.
+  presenter_->resize(400, 300);
+  for (int i = 0; i < 200 && presenter_->framebufferSize() != glm::uvec2(400, 300); ++i) {
+    presenter_->poll();
+    pause(0.01);
+  }
+  ASSERT_EQ(presenter_->framebufferSize(), glm::uvec2(400, 300));
+  const Image larger = halves(*context_, 400, 300);
+  show(larger, 20);
+  shown(larger, 200 * 300);
+  EXPECT_GE(presenter_->rebuilds(), 2u);
+
+  // An acquired image that is never presented, and a frame dropped in between.
+  ASSERT_TRUE(presenter_->acquire());
+  { Frame dropped = context_->begin(); }
+  ASSERT_TRUE(presenter_->acquire());
+  show(larger, 3);
+  ASSERT_TRUE(presenter_->acquire());
+
+  // Attached again, as after a lost device or a device change.
+  presenter_->detach();
+  presenter_->attach(*context_);
+  show(larger, 3);
+  shown(larger, 200 * 300);
+}
+
+// What a display may answer and Xvfb never does, put in its driver's mouth. An answer is given once.
+PFN_vkAcquireNextImageKHR driversAcquire;
+PFN_vkQueuePresentKHR driversPresent;
+PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR driversCapabilities;
+VkResult acquireAnswer, presentAnswer, capabilitiesAnswer;
+bool noArea;
+
+VkResult answer(VkResult& once) {
+  return std::exchange(once, VK_SUCCESS);
+}
+
+class MoodyDisplay : public PresenterTest {
+ protected:
+  void SetUp() override {
+    PresenterTest::SetUp();
+    if (IsSkipped()) return;
+    driversAcquire =
+        std::exchange(vkAcquireNextImageKHR, [](VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout,
+                                                VkSemaphore semaphore, VkFence fence, uint32_t* image) {
+          const VkResult result = answer(acquireAnswer);
+          return result ? result : driversAcquire(device, swapchain, timeout, semaphore, fence, image);
+        });
+    driversPresent = std::exchange(vkQueuePresentKHR, [](VkQueue queue, const VkPresentInfoKHR* info) {
+      const VkResult result = driversPresent(queue, info);  // the semaphore is waited for in any case
+      return result ? result : answer(presentAnswer);
+    });
+    driversCapabilities =
+        std::exchange(vkGetPhysicalDeviceSurfaceCapabilitiesKHR,
+                      [](VkPhysicalDevice device, VkSurfaceKHR surface, VkSurfaceCapabilitiesKHR* capabilities) {
+                        if (const VkResult result = answer(capabilitiesAnswer)) return result;
+                        const VkResult result = driversCapabilities(device, surface, capabilities);
+                        if (noArea) capabilities->currentExtent = {0, 0};
+                        return result;
+                      });
+  }
+  void TearDown() override {
+    if (driversAcquire) {
+      vkAcquireNextImageKHR = driversAcquire;
+      vkQueuePresentKHR = driversPresent;
+      vkGetPhysicalDeviceSurfaceCapabilitiesKHR = driversCapabilities;
+    }
+    PresenterTest::TearDown();
+  }
+};
+
+TEST_F(MoodyDisplay, OutdatedAndLostSurfacesAreMadeAnew) {
+  const Image picture = halves(*context_, 320, 200);
+  shown(picture, 160 * 200);
+  ASSERT_EQ(presenter_->rebuilds(), 1u);
+  uint32_t rebuilds = 1;
+  for (VkResult* where : {&acquireAnswer, &presentAnswer})
+    for (const VkResult result : {VK_ERROR_OUT_OF_DATE_KHR, VK_ERROR_SURFACE_LOST_KHR}) {
+      *where = result;
+      show(picture, 3);
+      EXPECT_EQ(presenter_->rebuilds(), ++rebuilds);
+      shown(picture, 160 * 200);
+    }
+  // Lost again while it is made anew: this frame is skipped, the next one shown.
+  acquireAnswer = capabilitiesAnswer = VK_ERROR_SURFACE_LOST_KHR;
+  EXPECT_FALSE(presenter_->acquire());
+  show(picture, 3);
+  EXPECT_EQ(presenter_->rebuilds(), ++rebuilds);
+  // Anything else is an error in words.
+  acquireAnswer = VK_ERROR_OUT_OF_HOST_MEMORY;
+  EXPECT_THROW(presenter_->acquire(), Error);
+  shown(picture, 160 * 200);
+}
+
+TEST_F(MoodyDisplay, WithoutAreaFramesAreSkipped) {
+  const Image picture = halves(*context_, 320, 200);
+  shown(picture, 160 * 200);
+  noArea = true;
+  acquireAnswer = VK_ERROR_OUT_OF_DATE_KHR;
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(presenter_->acquire());
+  noArea = false;
+  shown(picture, 160 * 200);
 }
 
 TEST(Presenter, NoDisplayIsAnErrorInWords) {

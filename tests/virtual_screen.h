@@ -1,0 +1,189 @@
+// A virtual X server of a suite's own, processes in it, synthetic keys and mouse, and what its screen shows.
+#pragma once
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "tests/support.h"
+
+namespace irad::test {
+
+using Clock = std::chrono::steady_clock;
+
+inline void pause(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+inline std::string readText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A child process with its standard error in a file.
+class Process {
+ public:
+  Process(const std::vector<std::string>& command, const std::filesystem::path& folder,
+          const std::map<std::string, std::string>& environment)
+      : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    const int log = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    std::vector<char*> arguments;
+    for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
+    arguments.push_back(nullptr);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  /// Asked first, so that a server removes its lock and socket.
+  ~Process() {
+    if (!running()) return;
+    kill(pid_, SIGTERM);
+    if (wait(5) != -1) return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+
+  bool running() {
+    if (!status_ && waitpid(pid_, &raw_, WNOHANG) == pid_)
+      status_ = WIFEXITED(raw_) ? WEXITSTATUS(raw_) : 128 + WTERMSIG(raw_);
+    return !status_;
+  }
+  /// Exit status, or -1 when it still runs after `seconds`.
+  int wait(double seconds) {
+    for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); running();) {
+      if (Clock::now() > end) return -1;
+      pause(0.02);
+    }
+    return *status_;
+  }
+  /// Processor time used so far by all its threads, seconds.
+  double cpuSeconds() const {
+    const std::string stat = readText(fmt::format("/proc/{}/stat", pid_));
+    std::istringstream fields(stat.substr(stat.rfind(')') + 2));
+    std::string skipped;
+    for (int i = 3; i < 14; ++i) fields >> skipped;
+    double user = 0, system = 0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+  std::string log() const { return readText(log_); }
+
+ private:
+  std::filesystem::path log_;
+  pid_t pid_ = -1;
+  int raw_ = 0;
+  std::optional<int> status_;
+};
+
+inline bool installed(const std::string& program) {
+  return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
+}
+
+/// A part of the screen, RGB.
+struct ScreenPart {
+  int width = 0, height = 0;
+  std::vector<uint8_t> rgb;
+  bool operator==(const ScreenPart&) const = default;
+
+  /// Pixels of this colour (0xRRGGBB).
+  int count(uint32_t color) const {
+    int n = 0;
+    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
+      n += (uint32_t{rgb[i]} << 16 | uint32_t{rgb[i + 1]} << 8 | rgb[i + 2]) == color;
+    return n;
+  }
+  double meanLuminance() const {
+    double sum = 0;
+    for (size_t i = 0; i + 2 < rgb.size(); i += 3) sum += 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
+    return sum / (255.0 * static_cast<double>(rgb.size() / 3));
+  }
+  double deviation() const {
+    const double mean = meanLuminance();
+    double sum = 0;
+    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
+      sum += std::pow((0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2]) / 255.0 - mean, 2);
+    return std::sqrt(sum / static_cast<double>(rgb.size() / 3));
+  }
+  /// Share of pixels that differ.
+  double difference(const ScreenPart& other) const {
+    if (rgb.size() != other.rgb.size()) return 1;
+    size_t differing = 0;
+    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
+      differing += rgb[i] != other.rgb[i] || rgb[i + 1] != other.rgb[i + 1] || rgb[i + 2] != other.rgb[i + 2];
+    return static_cast<double>(differing) / static_cast<double>(rgb.size() / 3);
+  }
+};
+
+/// Xvfb on a free display, its framebuffer readable as a file.
+class VirtualScreen {
+ public:
+  VirtualScreen(int width, int height) {
+    int fds[2] = {};
+    if (pipe(fds) != 0) throw std::runtime_error("pipe");
+    server_ = std::make_unique<Process>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]),
+                                                                 "-screen", "0", fmt::format("{}x{}x24", width, height),
+                                                                 "-fbdir", folder_.path.string(), "-nolisten", "tcp"},
+                                        folder_.path, std::map<std::string, std::string>{});
+    close(fds[1]);
+    // "N\n", written in two pieces: closing early would kill the server with SIGPIPE.
+    std::string number;
+    for (char c = 0; c != '\n' && read(fds[0], &c, 1) == 1;) number += c;
+    close(fds[0]);
+    if (number.empty()) throw std::runtime_error("Xvfb did not start: " + server_->log());
+    display_ = fmt::format(":{}", std::atoi(number.c_str()));
+  }
+  std::map<std::string, std::string> environment() const {
+    return {{"DISPLAY", display_}, {"XDG_SESSION_TYPE", "x11"}};
+  }
+
+  const std::string& display() const { return display_; }
+  /// Keys, mouse and window, by xdotool's own words; a step later than a frame.
+  void xdotool(const std::string& arguments) const {
+    const std::string command = fmt::format("DISPLAY={} xdotool {}", display_, arguments);
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    pause(0.1);
+  }
+  void key(const std::string& name) const { xdotool("key --delay 40 " + name); }
+
+  /// The framebuffer is in the XWD format: big-endian header, then rows of BGRX.
+  ScreenPart grab(int x, int y, int width, int height) const {
+    const std::string file = readText(folder_.path / "Xvfb_screen0");
+    const auto word = [&](size_t i) {
+      uint32_t value = 0;
+      for (size_t b = 0; b < 4; ++b) value = value << 8 | static_cast<uint8_t>(file.at(4 * i + b));
+      return value;
+    };
+    const size_t pixels = word(0) + 12 * size_t{word(19)}, row = word(12), depth = word(11) / 8;
+    ScreenPart picture{width, height, {}};
+    for (int j = y; j < y + height; ++j)
+      for (int i = x; i < x + width; ++i)
+        for (int c = 2; c >= 0; --c)
+          picture.rgb.push_back(static_cast<uint8_t>(file.at(pixels + row * static_cast<size_t>(j) +
+                                                             depth * static_cast<size_t>(i) + static_cast<size_t>(c))));
+    return picture;
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::unique_ptr<Process> server_;
+  std::string display_;
+};
+
+}  // namespace irad::test
