@@ -19,7 +19,7 @@ namespace {
 struct Arguments {
   SettingArguments settings;
   DeviceArguments device;
-  std::optional<std::string> scene, size, view, camera, scale, captures, exitAfter, screenshot;
+  std::optional<std::string> scene, size, view, camera, scale, captures, shaders, exitAfter, screenshot;
 
   void declare(Options& options) {
     options.argument("SCENE", scene, "glTF scene, or the name of a built-in one (default: box)");
@@ -28,6 +28,7 @@ struct Arguments {
     options.value("--size", "WxH", size, "Size of the window (default: 1280x720)");
     options.value("--scale", "FACTOR", scale, "Size of text and panels, times the monitor's own (default: 1)");
     options.value("--out", "DIR", captures, "Where F12 saves (default: out/captures)");
+    options.value("--shaders", "DIR", shaders, "Sources that F5 compiles (default: those the program was built from)");
     options.value("--exit-after", "FRAMES", exitAfter,
                   "End after so many frames in which nothing was left to do (for tests)");
     options.value("--screenshot", "FILE", screenshot, "The whole window as PNG when it ends (for tests)");
@@ -35,6 +36,8 @@ struct Arguments {
     device.declare(options);
   }
 };
+
+constexpr size_t kTimedFrames = 3000;  ///< that the timing table remembers
 
 float parseScale(const std::string& text) {
   char* end = nullptr;
@@ -68,13 +71,13 @@ void run(const Arguments& arguments) {
   if (arguments.exitAfter)
     options.exitAfter = static_cast<uint32_t>(parseInteger("--exit-after", *arguments.exitAfter, 1, 1'000'000));
   if (arguments.screenshot) options.screenshot = *arguments.screenshot;
-  options.shaders = findShaders();
+  options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
 
   DeviceOptions deviceOptions = arguments.device.options();
   deviceOptions.presentable = true;
   const std::unique_ptr<Device> device = Device::create(deviceOptions);
   ShaderLibrary shaders;
-  Timings timings;
+  Timings timings(kTimedFrames);
   options.settings = arguments.settings.resolve(config, device->isCpu);
   options.defaults = defaultSettings(device->isCpu);
   {

@@ -24,6 +24,12 @@ size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+bool sameInterface(const ShaderModule& a, const ShaderModule& b) {
+  return a.pushBytes == b.pushBytes &&
+         std::equal(a.bindings.begin(), a.bindings.end(), b.bindings.begin(), b.bindings.end(),
+                    [](const ShaderBinding& x, const ShaderBinding& y) { return x.sameAs(y); });
+}
+
 }  // namespace
 
 ShaderLibrary::ShaderLibrary() {
@@ -54,22 +60,30 @@ void ShaderLibrary::add(std::string name, std::vector<uint32_t> spirv) {
   ++generation_;
 }
 
-std::string ShaderLibrary::reload(const std::filesystem::path& sources) {
+ShaderReload ShaderLibrary::reload(const std::filesystem::path& sources) {
   std::map<std::string, ShaderModule, std::less<>> fresh;
-  std::string messages;
+  ShaderReload result;
+  size_t found = 0;
   for (const auto& [name, module] : modules_) {
     if (!std::filesystem::exists(sources / name)) continue;
+    ++found;
     try {
-      fresh.emplace(name, reflect(name, compileGlsl(sources, name)));
+      ShaderModule compiled = reflect(name, compileGlsl(sources, name));
+      if (withoutDebugInfo(compiled.spirv) == withoutDebugInfo(module.spirv)) continue;
+      if (!sameInterface(compiled, module))
+        throw WorkError(fmt::format("{}: its images or push constants have changed: build the program again", name));
+      result.changed.push_back(name);
+      fresh.emplace(name, std::move(compiled));
     } catch (const WorkError& error) {
-      messages += std::string(error.what()) + "\n";
+      result.errors += std::string(error.what()) + "\n";
     }
   }
-  if (fresh.empty() && messages.empty()) messages = fmt::format("no shader sources in {}\n", sources.string());
-  if (!messages.empty()) return messages;
+  if (found == 0) result.errors = fmt::format("no shader sources in {}\n", sources.string());
+  if (!result.errors.empty()) return {.errors = std::move(result.errors), .changed = {}};
+  if (fresh.empty()) return result;
   for (auto& [name, module] : fresh) modules_.insert_or_assign(name, std::move(module));
   ++generation_;
-  return {};
+  return result;
 }
 
 }  // namespace irad

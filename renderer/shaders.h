@@ -17,6 +17,10 @@ struct ShaderBinding {
   uint32_t set = 0, binding = 0, count = 1;
   bool storageImage = false;  ///< else: combined image sampler
   std::string name;
+  /// As pipelines see it: the name does not matter.
+  bool sameAs(const ShaderBinding& o) const {
+    return set == o.set && binding == o.binding && count == o.count && storageImage == o.storageImage;
+  }
 };
 
 struct ShaderModule {
@@ -37,6 +41,14 @@ struct ReflectedStruct {
 };
 std::vector<ReflectedStruct> reflectStructs(std::span<const uint32_t> spirv);
 ShaderModule reflect(std::string name, std::vector<uint32_t> spirv);
+/// What a device executes: the module without its names, sources and lines.
+std::vector<uint32_t> withoutDebugInfo(std::span<const uint32_t> spirv);
+
+/// What a reload did.
+struct ShaderReload {
+  std::string errors;                ///< the compiler's messages; not empty: nothing was replaced
+  std::vector<std::string> changed;  ///< modules that now do something else
+};
 
 class ShaderLibrary {
  public:
@@ -45,11 +57,12 @@ class ShaderLibrary {
   std::vector<std::string> names() const;
   /// Adds or replaces a module from outside the program (tests).
   void add(std::string name, std::vector<uint32_t> spirv);
-  uint64_t generation() const { return generation_; }  ///< grows with every successful reload; pipelines key on it
+  uint64_t generation() const { return generation_; }  ///< grows with every replacement; pipelines key on it
 
-  /// Recompiles every stage below `sources` (the shaders/ folder) that the library knows. Empty result: all replaced.
-  /// Otherwise the compiler's messages, and every old module stays in place.
-  std::string reload(const std::filesystem::path& sources);
+  /// Recompiles every stage below `sources` (the shaders/ folder) that the library knows, and replaces all that have
+  /// changed or, after an error, none. A module whose images or push constants have changed is an error: the program
+  /// feeds it the old ones.
+  ShaderReload reload(const std::filesystem::path& sources);
 
  private:
   std::map<std::string, ShaderModule, std::less<>> modules_;

@@ -10,8 +10,13 @@ namespace irad {
 namespace {
 
 enum Op : uint32_t {
+  OpSourceContinued = 2,
+  OpSource = 3,
+  OpSourceExtension = 4,
   OpName = 5,
   OpMemberName = 6,
+  OpString = 7,
+  OpLine = 8,
   OpExecutionMode = 16,
   OpTypeInt = 21,
   OpTypeFloat = 22,
@@ -30,6 +35,8 @@ enum Op : uint32_t {
   OpVariable = 59,
   OpDecorate = 71,
   OpMemberDecorate = 72,
+  OpNoLine = 317,
+  OpModuleProcessed = 330,
   OpExecutionModeId = 331,
 };
 enum Decoration : uint32_t {
@@ -41,6 +48,7 @@ enum Decoration : uint32_t {
   DescriptorSet = 34,
   Offset = 35
 };
+constexpr size_t kHeaderWords = 5;
 constexpr uint32_t kLocalSize = 17, kLocalSizeId = 38, kWorkgroupSize = 25, kPushConstant = 9, kNone = UINT32_MAX;
 
 struct Type {
@@ -89,14 +97,22 @@ std::string text(std::span<const uint32_t> words) {
   return s;
 }
 
-Parsed parse(std::span<const uint32_t> spirv) {
-  Parsed p;
-  IRAD_CHECK(spirv.size() > 5 && spirv[0] == 0x07230203, "not SPIR-V: {} words", spirv.size());
-  for (size_t at = 5; at < spirv.size();) {
+/// Calls visit(opcode, all words of the instruction) for each instruction after the header.
+template <class Visit>
+void forEachInstruction(std::span<const uint32_t> spirv, Visit visit) {
+  IRAD_CHECK(spirv.size() > kHeaderWords && spirv[0] == 0x07230203, "not SPIR-V: {} words", spirv.size());
+  for (size_t at = kHeaderWords; at < spirv.size();) {
     const uint32_t op = spirv[at] & 0xFFFF, length = spirv[at] >> 16;
     IRAD_CHECK(length > 0 && at + length <= spirv.size(), "instruction of {} words at {}", length, at);
-    const std::span<const uint32_t> w = spirv.subspan(at + 1, length - 1);
+    visit(op, spirv.subspan(at, length));
     at += length;
+  }
+}
+
+Parsed parse(std::span<const uint32_t> spirv) {
+  Parsed p;
+  forEachInstruction(spirv, [&](uint32_t op, std::span<const uint32_t> words) {
+    const std::span<const uint32_t> w = words.subspan(1);
     switch (op) {
       case OpName:
         p.ids[w[0]].name = text(w.subspan(1));
@@ -150,7 +166,7 @@ Parsed parse(std::span<const uint32_t> spirv) {
       default:
         break;
     }
-  }
+  });
   return p;
 }
 
@@ -240,6 +256,17 @@ ShaderModule reflect(std::string name, std::vector<uint32_t> spirv) {
   module.name = std::move(name);
   module.spirv = std::move(spirv);
   return module;
+}
+
+std::vector<uint32_t> withoutDebugInfo(std::span<const uint32_t> spirv) {
+  std::vector<uint32_t> code;
+  forEachInstruction(spirv, [&](uint32_t op, std::span<const uint32_t> words) {
+    constexpr Op kDebug[] = {OpSourceContinued, OpSource, OpSourceExtension, OpName,           OpMemberName,
+                             OpString,          OpLine,   OpNoLine,          OpModuleProcessed};
+    if (std::find(std::begin(kDebug), std::end(kDebug), op) == std::end(kDebug))
+      code.insert(code.end(), words.begin(), words.end());
+  });
+  return code;
 }
 
 std::vector<ReflectedStruct> reflectStructs(std::span<const uint32_t> spirv) {

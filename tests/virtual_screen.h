@@ -137,10 +137,12 @@ class VirtualScreen {
   VirtualScreen(int width, int height) {
     int fds[2] = {};
     if (pipe(fds) != 0) throw std::runtime_error("pipe");
-    server_ = std::make_unique<Process>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]),
-                                                                 "-screen", "0", fmt::format("{}x{}x24", width, height),
-                                                                 "-fbdir", folder_.path.string(), "-nolisten", "tcp"},
-                                        folder_.path, std::map<std::string, std::string>{});
+    // -noreset: else it starts anew, and refuses connections meanwhile, whenever its last client leaves.
+    server_ =
+        std::make_unique<Process>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
+                                                           fmt::format("{}x{}x24", width, height), "-fbdir",
+                                                           folder_.path.string(), "-nolisten", "tcp", "-noreset"},
+                                  folder_.path, std::map<std::string, std::string>{});
     close(fds[1]);
     // "N\n", written in two pieces: closing early would kill the server with SIGPIPE.
     std::string number;

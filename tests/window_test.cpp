@@ -1,174 +1,17 @@
 // The window as a user has it: `irad view` under a virtual X server of the test's own, driven by synthetic keys and
 // mouse, watched through the server's framebuffer. Skipped, in words, where Xvfb or xdotool is not installed.
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
+#if IRAD_UI
+
 #include <functional>
-#include <map>
-#include <sstream>
-#include <thread>
 
-#include "tests/support.h"
+#include "tests/file_drop.h"
+#include "tests/scene_files.h"
+#include "tests/virtual_screen.h"
 
-namespace irad {
+namespace irad::test {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-void pause(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
-std::string readText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A child process with its standard error in a file.
-class Process {
- public:
-  Process(const std::vector<std::string>& command, const std::filesystem::path& folder,
-          const std::map<std::string, std::string>& environment, int inheritedFd = -1)
-      : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")) {
-    pid_ = fork();
-    if (pid_ != 0) return;
-    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    const int log = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    dup2(log, STDOUT_FILENO);
-    dup2(log, STDERR_FILENO);
-    if (chdir(folder.c_str()) != 0) _exit(126);
-    (void)inheritedFd;  // stays open across exec
-    std::vector<char*> arguments;
-    for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
-    arguments.push_back(nullptr);
-    execvp(arguments[0], arguments.data());
-    _exit(127);
-  }
-  ~Process() {
-    if (running()) {
-      kill(pid_, SIGKILL);
-      waitpid(pid_, nullptr, 0);
-    }
-  }
-  Process(const Process&) = delete;
-
-  bool running() {
-    if (!status_ && waitpid(pid_, &raw_, WNOHANG) == pid_)
-      status_ = WIFEXITED(raw_) ? WEXITSTATUS(raw_) : 128 + WTERMSIG(raw_);
-    return !status_;
-  }
-  /// Exit status, or -1 when it still runs after `seconds`.
-  int wait(double seconds) {
-    for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); running();) {
-      if (Clock::now() > end) return -1;
-      pause(0.02);
-    }
-    return *status_;
-  }
-  /// Processor time used so far by all its threads, seconds.
-  double cpuSeconds() const {
-    const std::string stat = readText(fmt::format("/proc/{}/stat", pid_));
-    std::istringstream fields(stat.substr(stat.rfind(')') + 2));
-    std::string skipped;
-    for (int i = 3; i < 14; ++i) fields >> skipped;
-    double user = 0, system = 0;
-    fields >> user >> system;
-    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-  }
-  std::string log() const { return readText(log_); }
-
- private:
-  std::filesystem::path log_;
-  pid_t pid_ = -1;
-  int raw_ = 0;
-  std::optional<int> status_;
-};
-
-bool installed(const std::string& program) {
-  return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
-}
-
-/// A part of the screen, RGB.
-struct Picture {
-  int width = 0, height = 0;
-  std::vector<uint8_t> rgb;
-  bool operator==(const Picture&) const = default;
-
-  double meanLuminance() const {
-    double sum = 0;
-    for (size_t i = 0; i + 2 < rgb.size(); i += 3) sum += 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
-    return sum / (255.0 * static_cast<double>(rgb.size() / 3));
-  }
-  double deviation() const {
-    const double mean = meanLuminance();
-    double sum = 0;
-    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
-      sum += std::pow((0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2]) / 255.0 - mean, 2);
-    return std::sqrt(sum / static_cast<double>(rgb.size() / 3));
-  }
-  /// Share of pixels that differ.
-  double difference(const Picture& other) const {
-    if (rgb.size() != other.rgb.size()) return 1;
-    size_t differing = 0;
-    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
-      differing += rgb[i] != other.rgb[i] || rgb[i + 1] != other.rgb[i + 1] || rgb[i + 2] != other.rgb[i + 2];
-    return static_cast<double>(differing) / static_cast<double>(rgb.size() / 3);
-  }
-};
-
-/// Xvfb on a free display, its framebuffer readable as a file.
-class VirtualScreen {
- public:
-  VirtualScreen(int width, int height) {
-    int fds[2] = {};
-    if (pipe(fds) != 0) throw std::runtime_error("pipe");
-    server_ = std::make_unique<Process>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]),
-                                                                 "-screen", "0", fmt::format("{}x{}x24", width, height),
-                                                                 "-fbdir", folder_.path.string(), "-nolisten", "tcp"},
-                                        folder_.path, std::map<std::string, std::string>{}, fds[1]);
-    close(fds[1]);
-    char number[16] = {};
-    const ssize_t got = read(fds[0], number, sizeof(number) - 1);
-    close(fds[0]);
-    if (got <= 0) throw std::runtime_error("Xvfb did not start: " + server_->log());
-    display_ = fmt::format(":{}", std::string_view(number, strcspn(number, "\n")));
-  }
-  std::map<std::string, std::string> environment() const {
-    return {{"DISPLAY", display_}, {"XDG_SESSION_TYPE", "x11"}};
-  }
-
-  /// The framebuffer is in the XWD format: big-endian header, then rows of BGRX.
-  Picture grab(int x, int y, int width, int height) const {
-    const std::string file = readText(folder_.path / "Xvfb_screen0");
-    const auto word = [&](size_t i) {
-      uint32_t value = 0;
-      for (size_t b = 0; b < 4; ++b) value = value << 8 | static_cast<uint8_t>(file.at(4 * i + b));
-      return value;
-    };
-    const size_t pixels = word(0) + 12 * size_t{word(19)}, row = word(12), depth = word(11) / 8;
-    Picture picture{width, height, {}};
-    for (int j = y; j < y + height; ++j)
-      for (int i = x; i < x + width; ++i)
-        for (int c = 2; c >= 0; --c)
-          picture.rgb.push_back(static_cast<uint8_t>(file.at(pixels + row * static_cast<size_t>(j) +
-                                                             depth * static_cast<size_t>(i) + static_cast<size_t>(c))));
-    return picture;
-  }
-
- private:
-  test::TemporaryFolder folder_;
-  std::unique_ptr<Process> server_;
-  std::string display_;
-};
 
 class WindowTest : public ::testing::Test {
  protected:
@@ -185,7 +28,7 @@ class WindowTest : public ::testing::Test {
   void start(std::vector<std::string> more = {}) {
     std::vector<std::string> command{IRAD_BINARY,
                                      "view",
-                                     (test::assets() / "box.glb").string(),
+                                     (assets() / "box.glb").string(),
                                      "--size",
                                      "1280x720",
                                      "--validate",
@@ -198,47 +41,77 @@ class WindowTest : public ::testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     window_ = std::make_unique<Process>(command, folder_.path, screen_->environment());
   }
-  void xdotool(const std::string& arguments) {
-    const auto environment = screen_->environment();
-    const std::string command = fmt::format("DISPLAY={} xdotool {}", environment.at("DISPLAY"), arguments);
-    ASSERT_EQ(std::system(command.c_str()), 0) << command;
-    pause(0.1);
-  }
-  void key(const std::string& name) { xdotool("key --delay 40 " + name); }
+  void xdotool(const std::string& arguments) { screen_->xdotool(arguments); }
+  void key(const std::string& name) { screen_->key(name); }
 
   /// The middle of the viewport of a 1280 x 720 window: ui/layout.h gives x 332..998, y 30..532. The mouse stays in the
   /// viewport but out of this part: the server draws its pointer into the framebuffer.
-  Picture viewport() const { return screen_->grab(400, 100, 500, 380); }
+  ScreenPart viewport() const { return screen_->grab(400, 100, 500, 380); }
 
-  /// Waits until the program sleeps (no processor time in 1.5 s: nothing more will change) and `region` has stayed the
+  /// The part of it above the messages.
+  ScreenPart part() const { return screen_->grab(400, 60, 500, 220); }
+
+  bool drop(const std::vector<std::filesystem::path>& files) { return dropFiles(screen_->display(), "irad", files); }
+  /// The program prints `text`, within 30 s.
+  bool says(const std::string& text) {
+    for (int i = 0; i < 600 && window_->log().find(text) == std::string::npos; ++i) pause(0.05);
+    return window_->log().find(text) != std::string::npos;
+  }
+  /// Waits for the progress bar in the middle of the viewport, presses its button, waits until the program says so.
+  void cancel(const std::function<void()>& startWork) {
+    const auto times = [this] {
+      const std::string log = window_->log();
+      size_t n = 0;
+      for (size_t at = 0; (at = log.find("was cancelled", at)) != std::string::npos; ++at) ++n;
+      return n;
+    };
+    const auto bar = [this] { return screen_->grab(490, 255, 280, 20); };
+    const ScreenPart none = bar();
+    const size_t before = times();
+    startWork();
+    for (int i = 0; i < 200 && bar() == none; ++i) pause(0.05);
+    ASSERT_NE(bar(), none) << "no progress is shown";
+    xdotool("mousemove 824 302 sleep 0.3 mousedown 1 sleep 0.3 mouseup 1");
+    for (int i = 0; i < 200 && times() == before; ++i) pause(0.05);
+    EXPECT_EQ(times(), before + 1) << "the button does not cancel";
+    xdotool("mousemove 360 510");
+  }
+  std::filesystem::path copyShaders() const {
+    const std::filesystem::path copy = folder_.path / "shaders";
+    std::filesystem::copy(std::filesystem::path(IRAD_SOURCE_DIR) / "shaders", copy,
+                          std::filesystem::copy_options::recursive);
+    return copy;
+  }
+
+  /// Waits until the program sleeps (no processor time in 0.8 s: nothing more will change) and `region` has stayed the
   /// same meanwhile and satisfies `wanted`; false after `seconds`.
-  bool settles(const std::function<Picture()>& region, const std::function<bool(const Picture&)>& wanted,
+  bool settles(const std::function<ScreenPart()>& region, const std::function<bool(const ScreenPart&)>& wanted,
                double seconds = 120) {
     for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); Clock::now() < end;) {
       if (!window_->running()) return false;
-      const Picture before = region();
+      const ScreenPart before = region();
       const double used = window_->cpuSeconds();
-      pause(1.5);
+      pause(0.8);
       if (window_->cpuSeconds() - used <= 0.02 && region() == before && wanted(before)) return true;
     }
     return false;
   }
-  bool viewportSettles(const std::function<bool(const Picture&)>& wanted) {
+  bool viewportSettles(const std::function<bool(const ScreenPart&)>& wanted) {
     return settles([this] { return viewport(); }, wanted);
   }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::unique_ptr<VirtualScreen> screen_;
   std::unique_ptr<Process> window_;
 };
 
-const auto lit = [](const Picture& p) { return p.meanLuminance() > 0.05 && p.deviation() > 0.02; };
+const auto lit = [](const ScreenPart& p) { return p.meanLuminance() > 0.05 && p.deviation() > 0.02; };
 
 TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
   start();
   ASSERT_TRUE(viewportSettles(lit)) << "mean " << viewport().meanLuminance() << ", deviation "
                                     << viewport().deviation();
-  const Picture first = viewport();
+  const ScreenPart first = viewport();
   EXPECT_LT(first.meanLuminance(), 0.9);
   // The panels hold text: both columns and the strip vary.
   EXPECT_GT(screen_->grab(5, 40, 310, 600).deviation(), 0.03);
@@ -247,32 +120,34 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
 
   // What settles() waits for is stated once: an idle window does no work, no picture and no processor time.
   xdotool("mousemove 360 510");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p == first; }));
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }));
   const double used = window_->cpuSeconds();
   pause(3);
   EXPECT_LE(window_->cpuSeconds() - used, 0.05) << "seconds of processor time in 3 s of idling";
 
   // Another view and back: another picture, and the very same bits.
   key("2");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p.difference(first) > 0.05; })) << "key 2 changed nothing";
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.05; }))
+      << "key 2 changed nothing";
   key("1");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p == first; })) << "key 1 did not bring the picture back";
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }))
+      << "key 1 did not bring the picture back";
 
   // W flies forward.
   xdotool("keydown w sleep 0.4 keyup w");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return lit(p) && p.difference(first) > 0.2; }))
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return lit(p) && p.difference(first) > 0.2; }))
       << "W changed nothing";
 
   // A right drag looks around.
-  const Picture nearer = viewport();
+  const ScreenPart nearer = viewport();
   xdotool("mousemove 360 510 sleep 0.4 mousedown 3 sleep 0.4 mousemove 420 515 sleep 0.4 mouseup 3");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p.difference(nearer) > 0.2; }))
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(nearer) > 0.2; }))
       << "the drag changed nothing";
 
   // C returns to a camera of the scene: from the first to the second, and round to the first again.
   key("c");
   key("c");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p == first; }))
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }))
       << "C twice did not return to the first camera";
 
   // F12 saves the view.
@@ -291,19 +166,19 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
   xdotool("mousemove 360 510");
-  const Picture first = viewport();
+  const ScreenPart first = viewport();
   const auto column = [this] { return screen_->grab(5, 40, 310, 600); };
-  const Picture panels = column();
+  const ScreenPart panels = column();
 
   key("F1");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p.difference(first) > 0.1; })) << "F1 shows nothing";
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.1; })) << "F1 shows nothing";
   key("F1");
-  ASSERT_TRUE(viewportSettles([&](const Picture& p) { return p == first; }));
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }));
 
   key("F2");
-  ASSERT_TRUE(settles(column, [&](const Picture& p) { return p.difference(panels) > 0.5; })) << "F2 hides nothing";
+  ASSERT_TRUE(settles(column, [&](const ScreenPart& p) { return p.difference(panels) > 0.5; })) << "F2 hides nothing";
   key("F2");
-  ASSERT_TRUE(settles(column, [&](const Picture& p) { return p.difference(panels) < 0.05; }));
+  ASSERT_TRUE(settles(column, [&](const ScreenPart& p) { return p.difference(panels) < 0.05; }));
 
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
@@ -319,7 +194,7 @@ TEST_F(WindowTest, FollowsItsSize) {
   const auto right = [this] { return screen_->grab(1300, 50, 280, 600); };
   EXPECT_EQ(right().deviation(), 0.0);
   resize(1600, 900);
-  ASSERT_TRUE(settles(right, [](const Picture& p) { return p.deviation() > 0.03; })) << "the window did not grow";
+  ASSERT_TRUE(settles(right, [](const ScreenPart& p) { return p.deviation() > 0.03; })) << "the window did not grow";
   ASSERT_TRUE(viewportSettles(lit));
   // Too small for anything, and back.
   resize(40, 30);
@@ -331,6 +206,124 @@ TEST_F(WindowTest, FollowsItsSize) {
   xdotool("mousemove 360 510");
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, SurvivesBeingUnmappedAndResizedInAHurry) {
+  start();
+  ASSERT_TRUE(viewportSettles(lit));
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = viewport();
+  xdotool("search --onlyvisible --name irad windowunmap --sync");
+  pause(0.5);
+  xdotool("search --name irad windowmap --sync");
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; })) << "not drawn again when mapped";
+
+  // Sizes that come faster than frames.
+  std::string sizes;
+  for (const char* size : {"900 500", "1500 800", "700 700", "1100 400", "1280 720"})
+    sizes += fmt::format(" search --name irad windowsize {} sleep 0.03", size);
+  xdotool(sizes);
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; })) << "the picture did not come back";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, TakesDroppedScenesAndRefusesOthersInWords) {
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+
+  // What is no scene leaves a message and the picture: no glTF, a folder, a file that goes before it is read.
+  std::ofstream(folder_.path / "bad.glb") << "not a scene";
+  for (const char* name : {"bad.glb", ".", "gone.glb"}) {
+    ASSERT_TRUE(drop({folder_.path / name}));
+    EXPECT_TRUE(says(name)) << window_->log();
+    ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; })) << name;
+  }
+  const ScreenPart messages = screen_->grab(340, 400, 300, 120);
+  EXPECT_GT(messages.deviation(), 0.03);
+
+  // A scene replaces the one shown, whatever its name; of several the last is taken.
+  const std::filesystem::path triangle = triangleFile().write(folder_.path, "100% drei\u00E9ck #1.gltf");
+  ASSERT_TRUE(drop({assets() / "box.glb", triangle}));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.2; }))
+      << "the dropped scene is not shown";
+  ASSERT_TRUE(drop({assets() / "box.glb"}));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "the first scene did not come back with the same bits";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, ReloadsShadersAndWhatTheyMade) {
+  const std::filesystem::path shaders = copyShaders();
+  start({"--shaders", shaders.string(), "--view", "voxel-albedo"});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+
+  key("F5");
+  EXPECT_TRUE(says("no shader has changed"));
+
+  // An error: the message names file and line, the old shaders stay.
+  const std::filesystem::path facets = shaders / "gi/facet_shade.comp";
+  const std::string good = readText(facets);
+  std::ofstream(facets) << good << "\nmistake\n";
+  key("F5");
+  EXPECT_TRUE(says("The old shaders stay in use"));
+  EXPECT_TRUE(says("facet_shade.comp")) << window_->log();
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
+
+  // A shader of the voxels: they are made anew, and what follows from them.
+  const std::string packed = "packAlbedo(";
+  std::string changed = good;
+  ASSERT_NE(changed.find(packed), std::string::npos);
+  changed.replace(changed.find(packed), packed.size(), packed + "vec3(0.9, 0.1, 0.5) * ");
+  std::ofstream(facets) << changed;
+  key("F5");
+  EXPECT_TRUE(says("Compiled again: gi/facet_shade.comp"));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.5; }))
+      << "the voxels keep what the old shader made of them";
+  std::ofstream(facets) << good;
+  key("F5");
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "the first picture did not come back with its shader";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, LoadsAndRebuildsCanBeCancelled) {
+  // Large enough for some seconds of work.
+  const std::filesystem::path shaders = copyShaders();
+  start({"--shaders", shaders.string(), "--set", "voxel.resolution=64", "--set", "matrix.rays=256"});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+
+  const std::filesystem::path copy = folder_.path / "copy.glb";
+  std::filesystem::copy_file(assets() / "box.glb", copy);
+  cancel([&] { ASSERT_TRUE(drop({copy})); });
+  EXPECT_TRUE(says("copy.glb: loading was cancelled"));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
+
+  // Another sequence of rays in every row.
+  const std::filesystem::path rays = shaders / "shared/sampling.h";
+  std::string text = readText(rays);
+  const size_t half = text.find("0.5");
+  ASSERT_NE(half, std::string::npos);
+  text.replace(half, 3, "0.4");
+  std::ofstream(rays) << text;
+  cancel([&] { key("F5"); });
+  EXPECT_TRUE(says("The rebuild was cancelled"));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
+
+  // Esc ends the program in the middle of the work.
+  ASSERT_TRUE(drop({copy}));
+  pause(0.5);
+  key("Escape");
+  EXPECT_EQ(window_->wait(5), 0);
 }
 
 TEST_F(WindowTest, ScreenshotOfTheWholeWindow) {
@@ -359,4 +352,12 @@ TEST_F(WindowTest, RefusesWhatItCannotShow) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::test
+
+#else
+
+TEST(Window, NotBuilt) {
+  GTEST_SKIP() << "built without IRAD_UI";
+}
+
+#endif

@@ -1,5 +1,7 @@
 #include "ui/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -7,6 +9,7 @@ namespace irad {
 
 void Session::say(Message::Kind kind, std::string text) {
   constexpr size_t most = 4;
+  fmt::print(stderr, "irad: {}\n", text);
   std::erase_if(messages, [&](const Message& m) { return m.text == text; });
   messages.push_back({kind, std::move(text)});
   if (messages.size() > most) messages.erase(messages.begin());

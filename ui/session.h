@@ -72,6 +72,7 @@ struct Session {
   std::optional<std::filesystem::path> openScene;
   bool reloadShaders = false, capture = false, quit = false, rebuild = false;
 
+  // Shown until dismissed, and printed on standard error.
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void useSceneCamera(int index);

@@ -2,9 +2,11 @@
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "renderer/error.h"
@@ -21,8 +23,9 @@
 namespace irad {
 namespace {
 
-constexpr double kBusyInterval = 0.1;  ///< seconds between frames while a load or a rebuild runs
-constexpr int kFramesPerEvent = 3;     ///< ImGui needs a few to settle after an event
+constexpr double kBusyInterval = 0.1;    ///< seconds between frames while a load or a rebuild runs
+constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
+constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
 constexpr const char* kCancelled = "cancelled";
 
 /// Every setting as a number, to see whether anything was edited.
@@ -44,11 +47,13 @@ class Window {
 
  private:
   void load(const std::filesystem::path& path);
+  void open(const std::filesystem::path& path);
   void takeKeys();
   void act(Action action);
   void takeRequests();
   void applyEdits();
   void prepare(Pipeline& pipeline);
+  void forgetTimes();
   void fly();
   void drawFrame();
   void drawPanels(const Layout& layout);
@@ -56,6 +61,7 @@ class Window {
   void reloadShaders();
   void capture();
   void saveScreenshot();
+  bool working() const;
   bool settled() const;
   void wait();
   bool progress(const char* stage, float fraction);
@@ -71,6 +77,8 @@ class Window {
   glm::uvec2 viewport_{0};
   std::vector<double> applied_;  ///< values() of what the pipeline has
   bool loadedLambertian_ = false;
+  bool stale_ = false;              ///< shaders have changed that made what the pipeline holds
+  bool visible_ = true;             ///< the last frame had something to be drawn on
   Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced
   int framesLeft_ = kFramesPerEvent;
   uint32_t settledFrames_ = 0;
@@ -120,18 +128,25 @@ void Window::run() {
   if (!options_.screenshot.empty()) saveScreenshot();
 }
 
-bool Window::settled() const {
-  return !session_.work && !session_.viewDirty && session_.next == Redo::Nothing && !session_.openScene &&
-         !session_.capture && !session_.reloadShaders && !session_.rebuild &&
-         (!session_.pipeline || session_.halted || session_.paused || session_.asleep());
+/// Something is to be done that needs no frame.
+bool Window::working() const {
+  return session_.work || session_.openScene || session_.capture || session_.reloadShaders || session_.rebuild ||
+         stale_ || (session_.pipeline && !session_.halted && !session_.paused && !session_.asleep());
 }
 
-/// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor. What wakes
-/// it and is none (the display answering a presentation) lets it sleep again.
+bool Window::settled() const {
+  return !working() && !session_.viewDirty && session_.next == Redo::Nothing;
+}
+
+/// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor. What
+/// wakes it and is none (the display answering a presentation) lets it sleep again.
 void Window::wait() {
+  const bool hidden = !visible_ && !working();
   const bool idle = settled() && framesLeft_ <= 0 && !input_.flying() && options_.exitAfter == 0;
   const bool blinks = idle && ImGui::GetIO().WantTextInput;  // the text cursor
-  if (!idle)
+  if (hidden)
+    glfwWaitEventsTimeout(kHiddenInterval);
+  else if (!idle)
     glfwPollEvents();
   else if (blinks)
     glfwWaitEventsTimeout(0.4);
@@ -139,7 +154,7 @@ void Window::wait() {
     glfwWaitEvents();
   if (input_.takeEvent())
     framesLeft_ = kFramesPerEvent;
-  else if (blinks)
+  else if (blinks || hidden)
     framesLeft_ = 1;
 }
 
@@ -193,14 +208,22 @@ void Window::takeRequests() {
   if (std::exchange(session_.reloadShaders, false)) reloadShaders();
   if (std::exchange(session_.capture, false)) capture();
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
-  if (session_.openScene) load(*std::exchange(session_.openScene, std::nullopt));
+  if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
+}
+
+void Window::open(const std::filesystem::path& path) {
+  try {
+    load(path);
+  } catch (const Error& error) {
+    session_.error(error.what());
+    framesLeft_ = kFramesPerEvent;
+  }
 }
 
 /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded.
 void Window::load(const std::filesystem::path& path) {
   session_.work = Work{.what = "Loading " + path.filename().string(), .stage = "", .fraction = 0};
   workBegan_ = glfwGetTime();
-  const bool first = !session_.pipeline;
   try {
     LoadOptions load;
     load.lambertian = session_.edited.lambertian;
@@ -217,12 +240,13 @@ void Window::load(const std::filesystem::path& path) {
     session_.halted = false;
     if (!sameScene) session_.useSceneCamera(0);
     glfwSetWindowTitle(presenter_.window(), fmt::format("irad \u2014 {}", path.filename().string()).c_str());
-  } catch (const Error& error) {
+  } catch (const Error&) {
+    forgetTimes();
     const bool cancelled = session_.work->cancel;
     session_.work.reset();
-    session_.edited.lambertian = loadedLambertian_;
-    if (first && !cancelled) throw;
-    session_.error(cancelled ? fmt::format("{}: loading was cancelled", path.filename().string()) : error.what());
+    if (session_.pipeline) session_.edited.lambertian = loadedLambertian_;
+    if (!cancelled) throw;
+    session_.note(fmt::format("{}: loading was cancelled", path.filename().string()));
   }
   session_.work.reset();
   framesLeft_ = kFramesPerEvent;
@@ -239,7 +263,7 @@ void Window::applyEdits() {
     session_.next = redo;
     if (redo < Redo::Shade && (shownNext_ != redo || ImGui::IsAnyItemActive())) return;
     session_.next = Redo::Nothing;
-    if (reload) return load(std::filesystem::path(pipeline.scene().path));
+    if (reload) return open(std::filesystem::path(pipeline.scene().path));
     pipeline.set(session_.edited);
     applied_ = values(session_.edited);
     session_.viewDirty = true;
@@ -251,8 +275,9 @@ void Window::applyEdits() {
     if (redo >= Redo::Shade && !session_.asleep() && session_.paused) return;
   } else {
     session_.next = Redo::Nothing;
-    if (session_.paused && session_.built) return;
+    if (session_.paused && session_.built && !stale_) return;
   }
+  stale_ = false;
   if (session_.halted || (session_.built && pipeline.asleep())) return;
   session_.work = Work{.what = "Rebuilding", .stage = "", .fraction = 0};
   workBegan_ = glfwGetTime();
@@ -260,11 +285,19 @@ void Window::applyEdits() {
     prepare(pipeline);
   } catch (const Error& error) {
     session_.halted = true;
-    if (!session_.quit)
-      session_.error(session_.work->cancel ? "The rebuild was cancelled; the picture shows the old state."
-                                           : error.what());
+    forgetTimes();
+    if (!session_.work->cancel)
+      session_.error(error.what());
+    else if (!session_.quit)
+      session_.note("The rebuild was cancelled; the picture shows the old state.");
   }
   session_.work.reset();
+}
+
+/// What given-up work has measured is no frame's time.
+void Window::forgetTimes() {
+  context_.finish();
+  context_.timings.forget();
 }
 
 void Window::prepare(Pipeline& pipeline) {
@@ -307,13 +340,16 @@ void Window::fly() {
 void Window::drawFrame() {
   const glm::uvec2 size = presenter_.framebufferSize();
   if (size.x == 0 || size.y == 0) framesLeft_ = 0;  // iconified: until the next event
-  if (!presenter_.acquire()) return;
-  // Timers are read when a frame begins: with the last frame done, this reads exactly that one, and a sample of the
-  // timing table is one frame, never the sum of two.
-  if (!session_.work) context_.device.waitIdle();
-  const double start = glfwGetTime();
-  lastDraw_ = start;
+  visible_ = presenter_.acquire();
+  if (!visible_) return;
+  const auto began = std::chrono::steady_clock::now();
+  lastDraw_ = glfwGetTime();
   const bool busy = session_.work.has_value();
+  // The last frame before the sleep shows the times of all others: only it waits for them.
+  if (framesLeft_ <= 1 && settled())
+    context_.finish();
+  else
+    context_.collect();
   if (image_.desc.width != size.x || image_.desc.height != size.y)
     image_ = Image(context_.device, ImageDesc{.name = "window",
                                               .subsystem = Subsystem::Ui,
@@ -342,7 +378,8 @@ void Window::drawFrame() {
   shownNext_ = session_.next;
 
   // Frames of the progress bar stay out of the timings: the rebuild's own passes are being summed there.
-  Frame frame = busy ? context_.beginUntimed() : context_.begin(frameIndex_++);
+  Frame frame = busy ? context_.beginUntimed() : context_.begin(frameIndex_);
+  if (!busy) frame.sampled(frameIndex_++, began);
   if (!busy && session_.built && session_.viewDirty) {
     session_.pipeline->render(frame, session_.camera.camera(), session_.view, session_.targets);
     session_.viewDirty = false;
@@ -350,7 +387,6 @@ void Window::drawFrame() {
   }
   layer_.draw(frame, image_);
   presenter_.present(frame, image_);
-  if (!busy) context_.timings.endFrame(frameIndex_, /*setup=*/false, (glfwGetTime() - start) * 1e3);
   --framesLeft_;
 }
 
@@ -388,7 +424,8 @@ void Window::drawViewport(const Rect& where) {
   }
   ImGui::InvisibleButton("##look", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+  // What the mouse moved before it was pressed is no drag, also where a slow frame sees both at once.
+  if (ImGui::IsItemActive() && !ImGui::IsItemActivated() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
     session_.camera.look(io.MouseDelta.x, io.MouseDelta.y);
     session_.viewDirty = true;
   }
@@ -399,12 +436,25 @@ void Window::drawViewport(const Rect& where) {
 void Window::reloadShaders() {
   if (options_.shaders.empty())
     return session_.error("F5: the folder shaders/ was not found; the built-in shaders stay");
-  const std::string errors = context_.shaders.reload(options_.shaders);
-  if (!errors.empty()) return session_.error("The old shaders stay in use.\n" + errors);
-  // Voxels and matrix keep what the old shaders made of them; light and pictures are made anew.
-  if (session_.pipeline) session_.pipeline->lightsChanged();
+  const ShaderReload reload = context_.shaders.reload(options_.shaders);
+  if (!reload.errors.empty()) return session_.error("The old shaders stay in use.\n" + reload.errors);
+  if (reload.changed.empty()) return session_.note("F5: no shader has changed");
+  // Whatever a changed shader had a part in is made anew.
+  const auto changedIn = [&](std::string_view folder) {
+    return std::any_of(reload.changed.begin(), reload.changed.end(),
+                       [&](const std::string& name) { return name.starts_with(folder); });
+  };
+  const bool build = changedIn("gi/"), shadows = changedIn("forward/");  // shadow maps are drawn by depth.vert
+  if (session_.pipeline && build) session_.pipeline->invalidate(Redo::Voxels);
+  if (session_.pipeline && shadows) session_.pipeline->lightsChanged();
+  if (build || shadows) {
+    stale_ = session_.pipeline != nullptr;
+    session_.halted = false;
+    session_.solves.clear();
+    session_.sweepsSinceWake = 0;
+  }
   session_.viewDirty = true;
-  session_.note(fmt::format("Shaders compiled again from {}", options_.shaders.string()));
+  session_.note(fmt::format("Compiled again: {}", fmt::join(reload.changed, ", ")));
 }
 
 /// The view as shown, and its light before exposure, under the first free number.
