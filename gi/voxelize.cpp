@@ -100,7 +100,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
       pass.write(voxels.keys).constant(kSamplesTextures, masked);
       if (raster) {
         const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
-        pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.geom", "gi/voxel_raster.frag"}).extent(size, size);
+        pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.frag"}).extent(size, size);
       } else {
         pass.shader("gi/voxelize.comp");
       }

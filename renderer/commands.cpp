@@ -55,6 +55,13 @@ void Commands::draw(uint32_t vertexCount, uint32_t firstVertex, uint32_t instanc
   ++frame_->context().device.counters.draws;
 }
 
+void Commands::drawIndexed(uint32_t indexCount, uint32_t firstIndex) {
+  checkPushed();
+  if (indexCount == 0) return;
+  vkCmdDrawIndexed(raw(), indexCount, 1, firstIndex, 0, 0);
+  ++frame_->context().device.counters.draws;
+}
+
 void Commands::cull(VkCullModeFlags mode) {
   vkCmdSetCullMode(raw(), mode);
 }

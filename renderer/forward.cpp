@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/depth_pass.h"
 #include "renderer/error.h"
 #include "shaders/shared/passes.h"
 
@@ -145,28 +146,8 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   const std::vector<Draw>& draws = scene.scene.draws;
 
   // Depth prepass: masked materials look at their textures here, so that shading writes each pixel once.
-  const auto drawDepth = [&](bool masked) {
-    return [&, masked](Commands& commands) {
-      for (const Draw& draw : draws) {
-        if (hasFlag(scene, draw, MATERIAL_ALPHA_MASK) != masked) continue;
-        commands.cull(culling(scene, draw));
-        if (masked) commands.bindMaterial(scene.materialSets.at(draw.material));
-        commands.push(DepthPush{scene.record.address, camera.address, draw.material, 0});
-        commands.draw(draw.indexCount, draw.firstIndex);
-      }
-    };
-  };
-  frame.pass("RE Depth")
-      .shaders({"forward/depth.vert", "forward/depth.frag"})
-      .read(scene.record, scene.positions, scene.indices, camera)
-      .depth(targets.depth, /*write*/ true, 1.0f)
-      .run(drawDepth(false));
-  if (scene.anyAlphaMask)
-    frame.pass("RE Depth")
-        .shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
-        .read(scene.record, scene.positions, scene.indices, scene.uv0, scene.uv1, scene.colors, scene.materials, camera)
-        .depth(targets.depth, /*write*/ true)
-        .run(drawDepth(true));
+  drawDepth(frame, scene,
+            {.stage = "RE Depth", .target = targets.depth, .projections = camera, .clear = 1, .cull = true});
 
   // Shading, material by material.
   ForwardPush push{};

@@ -76,6 +76,11 @@ Pass& Pass::depthCompare(VkCompareOp op) {
   state_->raster.compare = op;
   return *this;
 }
+Pass& Pass::indices(const Buffer& buffer) {
+  IRAD_CHECK(buffer.handle, "{}: an empty index buffer", stage_);
+  state_->indices = &buffer;
+  return declare(buffer, kIndexInput);
+}
 Pass& Pass::extent(uint32_t width, uint32_t height) {
   state_->width = width;
   state_->height = height;
@@ -265,6 +270,7 @@ void Pass::rasterize(VkCommandBuffer cmd, Commands& commands, const std::functio
   const AtEnd end{[&] { vkCmdEndRendering(cmd); }};
   commands.viewport(0, 0, static_cast<float>(width), static_cast<float>(height));
   commands.cull(VK_CULL_MODE_NONE);
+  if (s.indices) vkCmdBindIndexBuffer(cmd, s.indices->handle, 0, VK_INDEX_TYPE_UINT32);
   vkCmdSetDepthBias(cmd, s.biasConstant, 0.0f, s.biasSlope);
   body(commands);
 }

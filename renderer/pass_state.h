@@ -21,6 +21,7 @@ inline constexpr Use kClear{VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_
                             VK_ACCESS_2_TRANSFER_WRITE_BIT};
 inline constexpr Use kCopyFrom{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 inline constexpr Use kCopyTo{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr Use kIndexInput{VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT};
 inline constexpr Use kIndirect{VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
 
 inline VkImageAspectFlags aspect(const Image& image) {
@@ -54,6 +55,7 @@ struct Pass::State {
     std::optional<ClearColor> clear;
   };
   std::vector<Color> colors;
+  const Buffer* indices = nullptr;
   const Image* depth = nullptr;
   std::optional<float> depthClear;
   int depthLayer = 0;

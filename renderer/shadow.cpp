@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/depth_pass.h"
 #include "renderer/error.h"
 #include "shaders/shared/passes.h"
 
@@ -177,40 +178,16 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
   for (const Face& face : faces) matrices.push_back(face.matrix);
   const Buffer projections =
       makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
-  const auto masked = [&](const Draw& draw) {
-    return (scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
-  };
   Frame frame = context.begin();
-  for (size_t i = 0; i < faces.size(); ++i) {
-    const Face& face = faces[i];
-    const Image& target = face.cube ? maps.cubes : maps.flat;
-    DepthPush push{scene.record.address, projections.address + i * sizeof(Projection), 0, 0};
-    const auto drawAll = [&](bool cutOut) {
-      return [&, cutOut](Commands& commands) {
-        for (const Draw& draw : scene.scene.draws) {
-          if (masked(draw) != cutOut) continue;
-          push.material = draw.material;
-          if (cutOut) commands.bindMaterial(scene.materialSets.at(draw.material));
-          commands.push(push);
-          commands.draw(draw.indexCount, draw.firstIndex);
-        }
-      };
-    };
-    frame.pass("RE Shadow")
-        .shaders({"forward/depth.vert", "forward/depth.frag"})
-        .read(scene.record, scene.positions, scene.indices, projections)
-        .depth(target, /*write*/ true, 0.0f, face.layer)
-        .depthCompare(VK_COMPARE_OP_GREATER_OR_EQUAL)
-        .run(drawAll(false));
-    if (!scene.anyAlphaMask) continue;
-    frame.pass("RE Shadow")
-        .shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
-        .read(scene.record, scene.positions, scene.indices, scene.uv0, scene.uv1, scene.colors, scene.materials,
-              projections)
-        .depth(target, /*write*/ true, {}, face.layer)
-        .depthCompare(VK_COMPARE_OP_GREATER_OR_EQUAL)
-        .run(drawAll(true));
-  }
+  for (size_t i = 0; i < faces.size(); ++i)
+    drawDepth(frame, scene,
+              {.stage = "RE Shadow",
+               .target = faces[i].cube ? maps.cubes : maps.flat,
+               .layer = faces[i].layer,
+               .projections = projections,
+               .offset = i * sizeof(Projection),
+               .clear = 0,
+               .compare = VK_COMPARE_OP_GREATER_OR_EQUAL});
   // Placeholders are cleared to the far end.
   for (const Image* unused : {flats == 0 ? &maps.flat : nullptr, cubes == 0 ? &maps.cubes : nullptr}) {
     if (unused == nullptr) continue;

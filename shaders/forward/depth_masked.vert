@@ -4,14 +4,16 @@
 #include "forward/project.glsl"
 #include "shared/passes.h"
 
-layout(push_constant, scalar) uniform PushBlock { DepthPush push; };
+layout(push_constant, scalar) uniform PushBlock {
+  DepthPush push;
+};
 
 layout(location = 0) out vec4 uv;
 layout(location = 1) out float alpha;
 
 void main() {
   GpuScene scene = push.scene.at[0];
-  uint vertex = scene.indices.at[gl_VertexIndex];
+  uint vertex = gl_VertexIndex;
   uv = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
   alpha = scene.colors.at[vertex].w;
   precise vec4 clip = project(push.projection.at[0].matrix, scene.positions.at[vertex]);

@@ -4,8 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
+
 #include "voxel_material.glsl"
-layout(push_constant, scalar) uniform Push { VoxelizePush push; };
+layout(push_constant, scalar) uniform Push {
+  VoxelizePush push;
+};
 layout(location = 0) flat in uvec2 triangleAxis;
 layout(location = 1) flat in vec3 plane;
 layout(location = 2) flat in vec2 corner;
@@ -13,30 +16,30 @@ layout(location = 2) flat in vec2 corner;
 void main() {
   uvec3 dims = push.grid.at[0].dims;
   uint triangle = triangleAxis.x;
-  uint d = triangleAxis.y;
+  uint d = triangleAxis.y & 3u;
   vec2 pixel = floor(gl_FragCoord.xy) + 0.5;
-  vec3 point;
-  point[d] = plane.z + dot(plane.xy, pixel - corner);
-  point[(d + 1u) % 3u] = pixel.x;
-  point[(d + 2u) % 3u] = pixel.y;
+  vec3 point = originalAxes(vec3(pixel, plane.z + dot(plane.xy, pixel - corner)), d);
   ivec3 cell = ivec3(floor(point));
   if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(dims)))) return;
   uint voxel = voxelIndex(uvec3(cell), dims);
-  uint flags = triangleFlags(push.scene, triangle);
   // The point's distance in front of the voxel's centre along the triangle's facing.
-  vec3 offset = point - vec3(cell) - 0.5;
-  float depth = offset[d] - dot(plane.xy, vec2(offset[(d + 1u) % 3u], offset[(d + 2u) % 3u]));
+  vec3 offset = dominantLast(point - vec3(cell) - 0.5, d);
+  float depth = offset.z - dot(plane.xy, offset.xy);
   float columnArea = sqrt(1.0 + dot(plane.xy, plane.xy));
-  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  float side = t.normal[d] >= 0.0 ? 1.0 : -1.0;
-  if (push.slot == 1u) {
-    uint winner = push.keys.at[voxel];
-    if (winner == 0u) return;
-    vec3 winnerNormal = triangleNormal(push.scene, push.grid, keyTriangle(winner));
-    if (!opposes(t.normal, flags, winnerNormal)) return;
-    if (dot(t.normal, winnerNormal) > 0.0) side = -side;
+  float side = (triangleAxis.y & RASTER_FACES_UP) != 0u ? 1.0 : -1.0;
+  // Only a second facet and a masked material need the triangle itself.
+  if (push.slot == 1u || SAMPLES_TEXTURES != 0u) {
+    uint flags = triangleFlags(push.scene, triangle);
+    VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+    if (push.slot == 1u) {
+      uint winner = push.keys.at[voxel];
+      if (winner == 0u) return;
+      vec3 winnerNormal = triangleNormal(push.scene, push.grid, keyTriangle(winner));
+      if (!opposes(t.normal, flags, winnerNormal)) return;
+      if (dot(t.normal, winnerNormal) > 0.0) side = -side;
+    }
+    if (masked(push.scene, t, triangle, flags, point)) return;
   }
-  if (masked(push.scene, t, triangle, flags, point)) return;
   atomicMax(push.keys.at[push.slot * push.grid.at[0].voxels + voxel],
             voxelKey(columnArea, side * depth / columnArea, triangle));
 }

@@ -31,6 +31,9 @@ IRAD_CONST float OPPOSED_COSINE = -0.25f;
 IRAD_CONST uint TILES_PER_TRIANGLE = 256u;
 IRAD_CONST uint TILE_COLUMNS = 4u;
 
+/// Raster voxelization: the triangle's normal points up its dominant axis; beside the axis (0, 1, 2).
+IRAD_CONST uint RASTER_FACES_UP = 4u;
+
 struct VoxelizePush {
   SceneArray scene;
   GridArray grid;

@@ -1,0 +1,70 @@
+#include "renderer/depth_pass.h"
+
+#include "shaders/shared/passes.h"
+
+namespace irad {
+namespace {
+
+/// Triangles that one draw takes.
+struct Range {
+  uint32_t firstIndex, indexCount;
+  VkCullModeFlags cull;
+  uint32_t material;  ///< of masked ones
+};
+
+/// Opaque neighbours in the index buffer are one range if they are culled alike: depth knows no materials.
+std::vector<Range> ranges(const SceneOnDevice& scene, bool masked, bool cull) {
+  std::vector<Range> ranges;
+  for (const Draw& draw : scene.scene.draws) {
+    const uint32_t flags = scene.materialValues.at(draw.material).flags;
+    if (((flags & MATERIAL_ALPHA_MASK) != 0) != masked) continue;
+    const VkCullModeFlags mode =
+        cull && (flags & MATERIAL_DOUBLE_SIDED) == 0 ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+    if (!masked && !ranges.empty()) {
+      Range& last = ranges.back();
+      if (last.cull == mode && last.firstIndex + last.indexCount == draw.firstIndex) {
+        last.indexCount += draw.indexCount;
+        continue;
+      }
+    }
+    ranges.push_back({draw.firstIndex, draw.indexCount, mode, draw.material});
+  }
+  return ranges;
+}
+
+}  // namespace
+
+void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth) {
+  DepthPush push{scene.record.address, depth.projections.address + depth.offset, 0, 0};
+  frame.pass(depth.stage)
+      .shaders({"forward/depth.vert", "forward/depth.frag"})
+      .indices(scene.indices)
+      .read(scene.record, scene.positions, depth.projections)
+      .depth(depth.target, /*write*/ true, depth.clear, depth.layer)
+      .depthCompare(depth.compare)
+      .run([&](Commands& commands) {
+        commands.push(push);
+        for (const Range& range : ranges(scene, /*masked*/ false, depth.cull)) {
+          commands.cull(range.cull);
+          commands.drawIndexed(range.indexCount, range.firstIndex);
+        }
+      });
+  if (!scene.anyAlphaMask) return;
+  frame.pass(depth.stage)
+      .shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
+      .indices(scene.indices)
+      .read(scene.record, scene.positions, scene.uv0, scene.uv1, scene.colors, scene.materials, depth.projections)
+      .depth(depth.target, /*write*/ true, {}, depth.layer)
+      .depthCompare(depth.compare)
+      .run([&](Commands& commands) {
+        for (const Range& range : ranges(scene, /*masked*/ true, depth.cull)) {
+          push.material = range.material;
+          commands.cull(range.cull);
+          commands.bindMaterial(scene.materialSets.at(range.material));
+          commands.push(push);
+          commands.drawIndexed(range.indexCount, range.firstIndex);
+        }
+      });
+}
+
+}  // namespace irad

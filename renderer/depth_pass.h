@@ -1,0 +1,23 @@
+// Depth alone, of the whole scene through one projection: "RE Shadow" and "RE Depth".
+#pragma once
+
+#include "renderer/frame.h"
+#include "renderer/gpu_scene.h"
+
+namespace irad {
+
+struct DepthPass {
+  const char* stage;
+  const Image& target;  ///< D32, cleared to `clear`
+  int layer = 0;
+  const Buffer& projections;
+  uint64_t offset = 0;  ///< of the Projection in `projections`, bytes
+  float clear = 1;
+  VkCompareOp compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+  bool cull = false;  ///< backs of single-sided materials
+};
+
+/// Opaque triangles in as few draws as their culling allows; then masked materials, which look at their textures.
+void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& pass);
+
+}  // namespace irad
