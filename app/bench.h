@@ -39,7 +39,7 @@ class Bench {
   /// gathers (16 B); per row its start (csr 4 B), info (8 B), albedo (8 B), D (16 B), M (12 B, where anything emits),
   /// the old B (16 B), H and B written (32 B).
   uint64_t sweepBytes() const;
-  /// Time of "GI Solve" over its sweeps, summed over all relights; 0 when not measured.
+  /// Time of "GI Solve" over its sweeps, summed over all relights; 0 when not measured. (F M is "GI Solve Emitters".)
   double sweepMilliseconds() const { return sweeps_ > 0 ? solveMs_ / static_cast<double>(sweeps_) : 0; }
   double sweepGigabytesPerSecond() const;
 
@@ -56,8 +56,8 @@ class Bench {
   std::vector<StageSamples> samples_;
 };
 
-/// Median GB/s of a device buffer copy, bytes read plus bytes written: 256 MiB on a CPU device, 1 GiB on a GPU, less
-/// where memory is short.
+/// Median GB/s of a device buffer copy, bytes read plus bytes written, by the driver's transfer or by a kernel,
+/// whichever is faster: 256 MiB on a CPU device, 2 GiB on a GPU, less where memory is short.
 double copyBandwidth(Context& context);
 
 }  // namespace irad::app

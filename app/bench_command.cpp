@@ -80,9 +80,10 @@ std::string rates(const Bench& bench, double copy) {
   if (bench.megaRaysPerSecond() > 0)
     out += fmt::format("build       {:.2f} Mrays/s ({} rays)\n", bench.megaRaysPerSecond(), matrix.rays);
   if (bench.sweepMilliseconds() > 0)
-    out += fmt::format("sweep       {:.4f} ms, {:.1f} MB: {:.2f} GB/s; copy bandwidth {:.2f} GB/s\n",
-                       bench.sweepMilliseconds(), static_cast<double>(bench.sweepBytes()) * 1e-6,
-                       bench.sweepGigabytesPerSecond(), copy);
+    out +=
+        fmt::format("sweep       {:.4f} ms, {:.1f} M entries/s, {:.1f} MB: {:.2f} GB/s; copy bandwidth {:.2f} GB/s\n",
+                    bench.sweepMilliseconds(), static_cast<double>(matrix.entries) * 1e-3 / bench.sweepMilliseconds(),
+                    static_cast<double>(bench.sweepBytes()) * 1e-6, bench.sweepGigabytesPerSecond(), copy);
   out += fmt::format("matrix      {} facets, {} entries, {:.1f} MiB used, {:.1f} MiB allocated\n",
                      bench.pipeline().facets().count, matrix.entries, static_cast<double>(matrix.bytesUsed) / (1 << 20),
                      static_cast<double>(matrix.bytesAllocated) / (1 << 20));

@@ -19,7 +19,7 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
   Frame frame = context.begin();
   for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
                           &light.shaded, &light.shadedEmitted, &light.residual})
-    frame.pass("GI Solve").fill(*b, 0);
+    frame.pass("GI Solve Clear").fill(*b, 0);
   frame.submit();
   if (settings.sample.gpu.gated == 0) addVolume(context, facets, light);
   return light;

@@ -2,6 +2,7 @@
 #include "shaders/shared/solve.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 
@@ -12,7 +13,8 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "GI Solve";
-constexpr uint32_t kBatch = 16;    ///< sweeps per submission at most; the last one is watched
+constexpr const char* kEmittersStage = "GI Solve Emitters";  ///< F M, the emitters' first gather
+constexpr uint32_t kBatch = 16;                              ///< sweeps per submission at most; the last one is watched
 constexpr float kDark = 1e-6f;     ///< share of the last lit H below which an unlit scene is put out
 constexpr uint32_t kPatience = 3;  ///< growing batches in a row that count as divergence
 
@@ -22,39 +24,78 @@ SolverKernel chooseKernel(const Device& device, SolverKernel asked) {
   return device.isCpu ? SolverKernel::row : SolverKernel::subgroup;
 }
 
-struct Sweep {
-  const FacetList& facets;
-  const FormFactors& matrix;
-  SolverKernel kernel;
-  SolvePush push{};
+class Sweep {
+ public:
+  Sweep(Context& context, const FacetList& facets, const FormFactors& matrix, SolverKernel asked)
+      : facets_(facets), matrix_(matrix), kernel_(chooseKernel(context.device, asked)) {
+    const uint32_t height = (facets.count + SOLVE_IMAGE_WIDTH - 1) / SOLVE_IMAGE_WIDTH;
+    images_ = context.device.isCpu && kernel_ == SolverKernel::row && matrix.format == MatrixFormat::csr &&
+              height <= context.device.limits.maxImageDimension2D;
+    if (!images_) return;
+    ImageDesc desc;
+    desc.name = "solver vector";
+    desc.subsystem = Subsystem::Solver;
+    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.width = SOLVE_IMAGE_WIDTH;
+    desc.height = height;
+    for (Image& image : vectors_) image = Image(context.device, desc);
+  }
 
-  void record(Frame& frame, uint32_t work, const Buffer& input, const Buffer& output, const Lighting& light) {
+  /// Before the first record(): `input` is what it will be called with. Later ones take their predecessor's output.
+  void begin(Frame& frame, const char* stage, const Buffer& input) {
+    if (!images_) return;
+    frame.pass(stage)
+        .shader("gi/solve_image.comp")
+        .read(input)
+        .write(vectors_[0])
+        .push(SolveImagePush{input.address, facets_.count, 0})
+        .dispatch(facets_.count);
+    current_ = 0;
+  }
+
+  void record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
+              const Lighting& light) {
     push.input_ = input.address;
     push.output_ = output.address;
-    Pass pass = frame.pass(kStage);
-    pass.constant(0, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
+    Pass pass = frame.pass(stage);
+    pass.constant(0, matrix_.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
         .constant(1, work)
-        .constant(2, frame.context().device.isCpu)
-        .read(matrix.record, matrix.rowStart, matrix.rowInfo, facets.record, facets.albedo, facets.emission,
+        .read(matrix_.record, matrix_.rowStart, matrix_.rowInfo, facets_.record, facets_.albedo, facets_.emission,
               light.direct, input)
         .write(output)
         .push(push);
-    for (const Buffer& segment : matrix.segments) pass.read(segment);
+    for (const Buffer& segment : matrix_.segments) pass.read(segment);
     if (work != SOLVE_PRODUCT) pass.write(light.indirect);
     if (work == SOLVE_WATCH) pass.write(light.residual);
-    switch (kernel) {
+    switch (kernel_) {
       case SolverKernel::row:
-        pass.shader("gi/solve_row.comp").dispatch(matrix.rows);
+        if (images_) {
+          pass.read(vectors_[current_]).write(vectors_[1 - current_]);
+          pass.shader("gi/solve_row_image.comp").dispatch(matrix_.rows);
+          current_ = 1 - current_;
+        } else {
+          pass.shader("gi/solve_row.comp").dispatch(matrix_.rows);
+        }
         break;
       case SolverKernel::tree: {
-        const uint32_t x = std::min(matrix.rows, 32768u);
-        pass.shader("gi/solve_tree.comp").dispatchGroups(x, (matrix.rows + x - 1) / x);
+        const uint32_t x = std::min(matrix_.rows, 32768u);
+        pass.shader("gi/solve_tree.comp").dispatchGroups(x, (matrix_.rows + x - 1) / x);
         break;
       }
       default:
-        pass.shader("gi/solve_subgroup.comp").dispatch(uint64_t{matrix.rows} * frame.context().device.subgroupSize);
+        pass.shader("gi/solve_subgroup.comp").dispatch(uint64_t{matrix_.rows} * frame.context().device.subgroupSize);
     }
   }
+
+  SolvePush push{};
+
+ private:
+  const FacetList& facets_;
+  const FormFactors& matrix_;
+  SolverKernel kernel_;
+  bool images_ = false;           ///< the vectors as images too, see gi/solve.glsl
+  std::array<Image, 2> vectors_;  ///< input and output, in turn
+  uint32_t current_ = 0;
 };
 
 /// How far B may still be from its fixed point, and H from F times that: q contraction, |dB| the last change.
@@ -82,7 +123,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     return light.report = report;
   }
   const SolverParams& params = settings.solver.gpu;
-  Sweep sweep{facets, matrix, chooseKernel(context.device, settings.solver.kernel)};
+  Sweep sweep(context, facets, matrix, settings.solver.kernel);
   sweep.push.matrix = matrix.record.address;
   sweep.push.facets = facets.record.address;
   sweep.push.direct = light.direct.address;
@@ -96,15 +137,16 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     Frame frame = context.begin();
     if (facets.hasEmission) {
       // M as a vector, in the spare half of B's double buffer; then one product.
-      frame.pass(kStage)
+      frame.pass(kEmittersStage)
           .shader("gi/emission.comp")
           .read(facets.record, facets.emission)
           .write(light.radiosityNext)
           .push(EmissionPush{facets.record.address, light.radiosityNext.address})
           .dispatch(facets.count);
-      sweep.record(frame, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
+      sweep.begin(frame, kEmittersStage, light.radiosityNext);
+      sweep.record(frame, kEmittersStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
     } else {
-      frame.pass(kStage).fill(light.emitted, 0);
+      frame.pass(kEmittersStage).fill(light.emitted, 0);
     }
     frame.submit();
     light.emittedCurrent = true;
@@ -118,8 +160,10 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     const uint32_t count = std::min(batch, maxSweeps - report.sweeps);
     Frame frame = context.begin();
     frame.pass(kStage).fill(light.residual, 0);
+    if (report.sweeps == 0) sweep.begin(frame, kStage, light.radiosity);
     for (uint32_t i = 0; i < count; ++i) {
-      sweep.record(frame, i + 1 == count ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext, light);
+      sweep.record(frame, kStage, i + 1 == count ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext,
+                   light);
       std::swap(light.radiosity, light.radiosityNext);
     }
     SolveResidual residual{};

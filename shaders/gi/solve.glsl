@@ -7,15 +7,22 @@
 
 layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
 layout(constant_id = 1) const uint WORK = SOLVE_WATCH;
-layout(constant_id = 2) const uint WIDE = 0u;  ///< 1: 64-bit loads, where every load of a lane costs alike (lavapipe)
 layout(push_constant, scalar) uniform Push { SolvePush p; };
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LongArray { uint64_t at[]; };
+#ifdef IRAD_SOLVE_IMAGES
+// B also as an image: lavapipe loads from memory lane by lane, but from images all lanes at once.
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D inputImage;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D outputImage;
+vec3 inputAt(uint j) { return imageLoad(inputImage, solveTexel(j)).xyz; }
+#else
+vec3 inputAt(uint j) { return p.input_.at[j].xyz; }
+#endif
 
-/// x_j as two loads instead of three.
-vec3 wideLoad(Vec4Array x, uint j) {
-  LongArray words = LongArray(uint64_t(x));
-  return vec3(uintBitsToFloat(unpack32(words.at[2u * j])), uintBitsToFloat(uint(words.at[2u * j + 1u])));
+void putOutput(uint row, vec3 value) {
+  p.output_.at[row] = vec4(value, 0.0f);
+#ifdef IRAD_SOLVE_IMAGES
+  imageStore(outputImage, solveTexel(row), vec4(value, 0.0f));
+#endif
 }
 
 struct Row {
@@ -38,34 +45,15 @@ Row openRow(MatrixArrays m, uint row) {
 }
 
 /// Entry i's share of the row's sum: xyz = F_ij x_j over the row's weight, w = F_ij likewise.
-vec4 entryTerm(Row r, uint columnBits, Vec4Array x, uint i) {
+vec4 entryTerm(Row r, uint columnBits, uint i) {
   if (FORMAT == SOLVE_CSR) {
     uint e = r.entries.at[r.start + i];
     float hits = float(e >> columnBits);
-    return vec4(x.at[e & ((1u << columnBits) - 1u)].xyz * hits, hits);
+    return vec4(inputAt(e & ((1u << columnBits) - 1u)) * hits, hits);
   }
   uvec2 place = r.places.at[r.start + i];
   float weight = uintBitsToFloat(place.y);
-  return vec4(x.at[place.x].xyz * weight, weight);
-}
-
-/// The whole sum of a csr row by one invocation, two entries per load.
-vec4 wideSum(Row r, uint columnBits, Vec4Array x) {
-  LongArray pairs = LongArray(uint64_t(r.entries));
-  uint mask = (1u << columnBits) - 1u;
-  uint end = r.start + r.count;
-  vec4 sum = vec4(0.0f);
-  for (uint pair = r.start >> 1; 2u * pair < end; ++pair) {
-    uvec2 e = unpack32(pairs.at[pair]);
-    // The first and the last pair may hold a neighbour's entry: it counts 0 hits of column 0.
-    if (2u * pair < r.start) e.x = 0u;
-    if (2u * pair + 1u >= end) e.y = 0u;
-    float first = float(e.x >> columnBits);
-    float second = float(e.y >> columnBits);
-    sum += vec4(wideLoad(x, e.x & mask) * first, first);
-    sum += vec4(wideLoad(x, e.y & mask) * second, second);
-  }
-  return sum;
+  return vec4(inputAt(place.x) * weight, weight);
 }
 
 /// What a row hands to the reductions.
@@ -79,7 +67,7 @@ float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 Watch finishRow(uint row, vec4 sum) {
   Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
   if (WORK == SOLVE_PRODUCT) {
-    p.output_.at[row] = vec4(sum.xyz, 0.0f);
+    putOutput(row, sum.xyz);
     return w;
   }
   FacetArrays f = p.facets.at[0];
@@ -90,10 +78,10 @@ Watch finishRow(uint row, vec4 sum) {
   h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
   vec3 now = p.lambda * (source + rho * h);
   vec3 old = vec3(0.0f);
-  if (p.omega != 1.0f || WORK == SOLVE_WATCH) old = p.input_.at[row].xyz;
+  if (p.omega != 1.0f || WORK == SOLVE_WATCH) old = inputAt(row);
   if (p.omega != 1.0f) now = mix(old, now, p.omega);
   now = mix(now, vec3(0.0f), lessThan(abs(now), vec3(p.flush)));
-  p.output_.at[row] = vec4(now, 0.0f);
+  putOutput(row, now);
   p.indirect.at[row] = vec4(h, 0.0f);
   if (WORK == SOLVE_WATCH) {
     bvec3 bad = bvec3(isnan(now.x) || isinf(now.x), isnan(now.y) || isinf(now.y), isnan(now.z) || isinf(now.z));

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI Solve", one invocation per row: for devices whose subgroups are short and whose loads are scalar.
+// "GI Solve", one invocation per row: for devices whose subgroups are short.
 #include "gi/solve.glsl"
 
 layout(local_size_x = 64) in;
@@ -12,10 +12,7 @@ void main() {
   if (row < m.rows) {
     Row r = openRow(m, row);
     vec4 sum = vec4(0.0f);
-    if (WIDE == 1u && FORMAT == SOLVE_CSR)
-      sum = wideSum(r, m.columnBits, p.input_);
-    else
-      for (uint i = 0u; i < r.count; ++i) sum += entryTerm(r, m.columnBits, p.input_, i);
+    for (uint i = 0u; i < r.count; ++i) sum += entryTerm(r, m.columnBits, i);
     w = finishRow(row, sum * r.weight);
   }
   report(w);

@@ -14,7 +14,7 @@ void main() {
     Row r = openRow(m, row);
     vec4 sum = vec4(0.0f);
     for (uint i = gl_SubgroupInvocationID; i < r.count; i += gl_SubgroupSize)
-      sum += entryTerm(r, m.columnBits, p.input_, i);
+      sum += entryTerm(r, m.columnBits, i);
     sum = subgroupAdd(sum);
     if (subgroupElect()) {
       Watch next = finishRow(row, sum * r.weight);

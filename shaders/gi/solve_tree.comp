@@ -14,7 +14,7 @@ void main() {
   uint me = gl_LocalInvocationID.x;
   Row r = openRow(m, row);
   vec4 sum = vec4(0.0f);
-  for (uint i = me; i < r.count; i += 64u) sum += entryTerm(r, m.columnBits, p.input_, i);
+  for (uint i = me; i < r.count; i += 64u) sum += entryTerm(r, m.columnBits, i);
   partial[me] = sum;
   barrier();
   for (uint width = 32u; width > 0u; width >>= 1) {

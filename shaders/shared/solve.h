@@ -39,6 +39,17 @@ struct SolvePush {
   uint pad;
 };
 
+/// gi/solve_image.comp: a vector of facets as an image, row by row.
+struct SolveImagePush {
+  Vec4Array vector;
+  uint count;
+  uint pad;
+};
+IRAD_CONST uint SOLVE_IMAGE_WIDTH = 1024u;
+IRAD_FN ivec2 solveTexel(uint i) {
+  return ivec2(int(i % SOLVE_IMAGE_WIDTH), int(i / SOLVE_IMAGE_WIDTH));
+}
+
 /// gi/gather.comp: D per facet.
 struct GatherPush {
   SceneArray scene;
