@@ -153,6 +153,9 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   ForwardPush push{};
   push.scene = scene.record.address;
   push.camera = camera.address;
+  push.materials = scene.materials.address;
+  push.lights = scene.lights.address;
+  push.lightCount = static_cast<uint32_t>(scene.lightValues.size());
   push.sampling = indirect.sample;
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
@@ -188,7 +191,13 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
         if (hasFlag(scene, draw, kAnyTexture) != textured) continue;
+        const GpuMaterial& material = scene.materialValues.at(draw.material);
         push.material = draw.material;
+        push.baseColor = material.baseColor;
+        push.emission = material.emission;
+        push.metallic = material.metallic;
+        push.roughness = material.roughness;
+        push.flags = material.flags;
         commands.cull(culling(scene, draw));
         commands.bindMaterial(scene.materialSets.at(draw.material));
         commands.push(push);

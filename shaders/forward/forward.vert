@@ -4,13 +4,16 @@
 #include "forward/project.glsl"
 #include "shared/passes.h"
 
-layout(push_constant, scalar) uniform PushBlock { ForwardPush push; };
+layout(push_constant, scalar) uniform PushBlock {
+  ForwardPush push;
+};
 layout(location = 0) out vec3 local;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uv;
 layout(location = 4) out vec4 tint;
 layout(location = 5) flat out vec3 faceNormal;  ///< of the triangle, not unit; set by its first vertex
+layout(location = 6) out vec3 towardsEye;       ///< not unit; affine in the position
 
 void main() {
   GpuScene scene = push.scene.at[0];
@@ -26,6 +29,9 @@ void main() {
     vec3 c = scene.positions.at[scene.indices.at[gl_VertexIndex + 2]];
     faceNormal = cross(b - local, c - local);
   }
-  precise vec4 clip = project(push.camera.at[0].viewProjection, local);
+  GpuCamera camera = push.camera.at[0];
+  mat4 m = camera.viewProjection;
+  towardsEye = camera.orthographic != 0u ? -vec3(m[0][2], m[1][2], m[2][2]) : camera.position - local;
+  precise vec4 clip = project(m, local);
   gl_Position = clip;
 }

@@ -22,6 +22,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uv;
 layout(location = 4) in vec4 tint;
 layout(location = 5) flat in vec3 faceNormal;
+layout(location = 6) in vec3 towardsEye;  ///< not unit
 
 layout(location = 0) out vec4 outNormal;
 layout(location = 1) out vec4 outGeometric;
@@ -51,15 +52,16 @@ vec3 mappedNormal(GpuMaterial m, vec3 n) {
 }
 
 void main() {
-  GpuScene scene = push.scene.at[0];
-  GpuMaterial m = scene.materials.at[push.material];
-  GpuCamera camera = push.camera.at[0];
+  GpuMaterial m;  // what only textures need stays in memory
+  if (TEXTURED) m = push.materials.at[push.material];
+  m.baseColor = push.baseColor;
+  m.emission = push.emission;
+  m.metallic = push.metallic;
+  m.roughness = push.roughness;
+  m.flags = push.flags;
 
   // Surface frame: the triangle's normal, the vertices' (smooth), the normal map's; all on the viewer's side.
-  vec3 view =
-      camera.orthographic != 0u
-          ? -normalize(vec3(camera.viewProjection[0][2], camera.viewProjection[1][2], camera.viewProjection[2][2]))
-          : normalize(camera.position - local);
+  vec3 view = normalize(towardsEye);
   vec3 face = orientedFace(view);
   vec3 smooth_ = normalize(normal);
   if (dot(smooth_, face) < 0.0) smooth_ = -smooth_;
@@ -92,8 +94,8 @@ void main() {
   float alpha = max(roughness * roughness, GGX_LEAST_ALPHA);
   vec3 direct = vec3(0.0);
   vec3 highlight = vec3(0.0);
-  for (uint i = 0u; SHADOW_KINDS != 0u && i < scene.lightCount; ++i) {
-    GpuLight light = scene.lights.at[i];
+  for (uint i = 0u; SHADOW_KINDS != 0u && i < push.lightCount; ++i) {
+    GpuLight light = push.lights.at[i];
     vec3 l = lightDirection(light, local);
     float nl = dot(n, l);
     vec3 e = nl > 0.0 ? lightIntensity(light, local) * nl : vec3(0.0);

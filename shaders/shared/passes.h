@@ -23,16 +23,23 @@ struct DepthPush {
   uint padding;
 };
 
-/// "RE Forward", drawing.
+/// "RE Forward", drawing. What untextured fragments need of the material travels along: as constants it is read once,
+/// not per lane.
 struct ForwardPush {
-  SceneArray scene;
-  CameraArray camera;
+  SceneArray scene;    ///< vertices
+  CameraArray camera;  ///< vertices
+  MaterialArray materials;
+  LightArray lights;
   GridArray grid;  ///< of the volume; 0: there is none
-  SampleParams sampling;
+  vec4 baseColor;
+  vec3 emission;
+  float metallic, roughness;
+  uint flags;
   uint material;
+  uint lightCount;
   float shadowBias;
   uint specularDirect;
-  uint padding;
+  SampleParams sampling;
 };
 
 /// "RE Forward", forward/indirect.comp.
