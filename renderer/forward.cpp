@@ -173,7 +173,10 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       continue;
     Pass pass = frame.pass("RE Forward");
     pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
-    pass.constant(0, shadowKinds(scene)).constant(1, textured).constant(2, std::clamp(shade.pcf, 1u, 5u) | 1u);
+    pass.constant(0, shadowKinds(scene))
+        .constant(1, textured)
+        .constant(2, std::clamp(shade.pcf, 1u, 5u) | 1u)
+        .constant(3, push.lightCount > UNIFORM_LIGHTS);
     pass.read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
               scene.indices, scene.materials, scene.lights, camera);
     pass.sample(shadows.flat, shadows.sampler).sample(shadows.cubes, shadows.sampler);
@@ -184,6 +187,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       linear.mips = linear.linearMips = false;
       pass.sample(*indirect.volume, sampler(frame.context().device, linear));
     }
+    pass.uniform(scene.lights);
     for (const Image* image : {&targets.normal, &targets.geometric, &targets.albedo, &targets.f0, &targets.direct,
                                &targets.highlight, &targets.indirect, &targets.emitted})
       pass.color(*image, first ? std::optional(ClearColor{}) : std::nullopt);

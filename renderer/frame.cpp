@@ -115,10 +115,11 @@ VkDescriptorSet Frame::Impl::allocateSet(VkDescriptorSetLayout layout) {
   for (;;) {
     if (slot->descriptorPool == slot->descriptorPools.size()) {
       const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 512},
-                                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 512}};
+                                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 512},
+                                            {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 64}};
       const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                             .maxSets = 256,
-                                            .poolSizeCount = 2,
+                                            .poolSizeCount = std::size(sizes),
                                             .pPoolSizes = sizes};
       VkDescriptorPool pool = VK_NULL_HANDLE;
       vkCheck(vkCreateDescriptorPool(device, &info, nullptr, &pool), "creating a descriptor pool");

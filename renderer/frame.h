@@ -5,7 +5,8 @@
 // Order is program order. From the declared reads and writes the frame derives the barrier, the debug label, the GPU
 // timer and the row in the timing table. Buffers reach shaders by device address inside the push constants (<= 128 B);
 // images are bound to set 0, binding 0, 1, 2 ... in the order in which the pass names them (read / write: storage
-// image, sample: combined image sampler), checked against the shader's own declarations. Set 1 is the material's.
+// image, sample: combined image sampler), and among them small constant arrays (uniform: uniform block); all are checked
+// against the shader's own declarations. Set 1 is the material's.
 #pragma once
 
 #include <chrono>
@@ -103,6 +104,8 @@ class Pass {
     return *this;
   }
   Pass& sample(const Image& image, VkSampler sampler);
+  /// A buffer as a uniform block: its first 16 KiB (what every device has). For what all lanes read alike.
+  Pass& uniform(const Buffer& buffer);
   /// A storage image bound through its aliasView (e.g. rgba8 as r32ui).
   Pass& writeAlias(const Image& image);
 

@@ -32,16 +32,21 @@ void Pass::use(const Buffer& buffer, bool write) {
 }
 void Pass::use(const Image& image, bool write) {
   IRAD_CHECK(image.handle, "{}: an empty image", stage_);
-  state_->images.push_back({&image, write, false, VK_NULL_HANDLE});
+  state_->bound.push_back({&image, write, false, VK_NULL_HANDLE});
 }
 Pass& Pass::sample(const Image& image, VkSampler sampler) {
   IRAD_CHECK(image.handle && sampler, "{}: sampling an empty image or without a sampler", stage_);
-  state_->images.push_back({&image, false, false, sampler});
+  state_->bound.push_back({&image, false, false, sampler});
+  return *this;
+}
+Pass& Pass::uniform(const Buffer& buffer) {
+  IRAD_CHECK(buffer.handle, "{}: an empty uniform buffer", stage_);
+  state_->bound.push_back({nullptr, false, false, VK_NULL_HANDLE, &buffer});
   return *this;
 }
 Pass& Pass::writeAlias(const Image& image) {
   IRAD_CHECK(image.aliasView, "{}: {} has no alias", stage_, image.desc.name);
-  state_->images.push_back({&image, true, true, VK_NULL_HANDLE});
+  state_->bound.push_back({&image, true, true, VK_NULL_HANDLE});
   return *this;
 }
 Pass& Pass::declare(const Buffer& buffer, Use use) {
@@ -155,8 +160,15 @@ template <class F>
 AtEnd(F) -> AtEnd<F>;
 
 void checkBindings(const std::string& stage, const Pipeline& pipeline, size_t named) {
-  IRAD_CHECK(named == pipeline.images.size(), "{}: the pass names {} images, {} declares {}", stage, named,
-             pipeline.name, pipeline.images.size());
+  IRAD_CHECK(named == pipeline.bindings.size(), "{}: the pass names {} images, {} declares {}", stage, named,
+             pipeline.name, pipeline.bindings.size());
+}
+
+constexpr uint64_t kUniformBytes = 16384;
+
+const char* kindName(VkDescriptorType type) {
+  if (type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER) return "uniform block";
+  return type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE ? "storage image" : "sampler";
 }
 
 }  // namespace
@@ -187,31 +199,37 @@ void Pass::run(const std::function<void(Commands&)>& body) {
   Pipeline& pipeline = context.impl->pipelines.get(s.shaders, s.constants, s.raster);
   s.resolveUses(pipeline.stages);
 
-  // The images of set 0, in the order in which the pass names them.
-  checkBindings(stage_, pipeline, s.images.size());
+  // The bindings of set 0, in the order in which the pass names them.
+  checkBindings(stage_, pipeline, s.bound.size());
   VkDescriptorSet set = VK_NULL_HANDLE;
-  if (!s.images.empty()) {
+  if (!s.bound.empty()) {
     set = frame_->impl_->allocateSet(pipeline.set0);
-    std::vector<VkDescriptorImageInfo> infos(s.images.size());
-    std::vector<VkWriteDescriptorSet> writes(s.images.size());
-    for (uint32_t i = 0; i < s.images.size(); ++i) {
-      const State::ImageUse& image = s.images[i];
-      const ShaderBinding& binding = pipeline.images[i];
+    std::vector<VkDescriptorImageInfo> images(s.bound.size());
+    std::vector<VkDescriptorBufferInfo> buffers(s.bound.size());
+    std::vector<VkWriteDescriptorSet> writes(s.bound.size());
+    for (uint32_t i = 0; i < s.bound.size(); ++i) {
+      const State::Bound& bound = s.bound[i];
+      const ShaderBinding& binding = pipeline.bindings[i];
+      const std::string& name = bound.uniform ? bound.uniform->name : bound.image->desc.name;
+      const VkDescriptorType given = bound.uniform   ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                     : bound.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                                     : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
       IRAD_CHECK(binding.binding == i && binding.count == 1,
-                 "{}: {} declares {} as binding {} x{}; the pass names {} as image {}", stage_, pipeline.name,
-                 binding.name, binding.binding, binding.count, image.image->desc.name, i);
-      IRAD_CHECK(binding.storageImage == (image.sampler == VK_NULL_HANDLE),
-                 "{}: {} is a {} in {}, but the pass gives {} as a {}", stage_, binding.name,
-                 binding.storageImage ? "storage image" : "sampler", pipeline.name, image.image->desc.name,
-                 image.sampler ? "sampler" : "storage image");
-      infos[i] = {image.sampler, image.alias ? image.image->aliasView : image.image->view, VK_IMAGE_LAYOUT_GENERAL};
+                 "{}: {} declares {} as binding {} x{}; the pass names {} as binding {}", stage_, pipeline.name,
+                 binding.name, binding.binding, binding.count, name, i);
+      IRAD_CHECK(descriptorType(binding) == given, "{}: {} is a {} in {}, but the pass gives {} as a {}", stage_,
+                 binding.name, kindName(descriptorType(binding)), pipeline.name, name, kindName(given));
+      if (bound.uniform)
+        buffers[i] = {bound.uniform->handle, 0, std::min(bound.uniform->bytes, kUniformBytes)};
+      else
+        images[i] = {bound.sampler, bound.alias ? bound.image->aliasView : bound.image->view, VK_IMAGE_LAYOUT_GENERAL};
       writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                    .dstSet = set,
                    .dstBinding = i,
                    .descriptorCount = 1,
-                   .descriptorType = binding.storageImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                          : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                   .pImageInfo = &infos[i]};
+                   .descriptorType = given,
+                   .pImageInfo = &images[i],
+                   .pBufferInfo = &buffers[i]};
     }
     vkUpdateDescriptorSets(context.device.handle, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
   }

@@ -36,10 +36,11 @@ struct Pass::State {
     const Buffer* buffer;
     bool write;
   };
-  struct ImageUse {
+  struct Bound {
     const Image* image;
     bool write, alias;
-    VkSampler sampler;  ///< null: a storage image
+    VkSampler sampler;                ///< null: a storage image
+    const Buffer* uniform = nullptr;  ///< in place of an image
   };
   struct Declared {
     ResourceState* state;
@@ -47,7 +48,7 @@ struct Pass::State {
     Use use;
   };
   std::vector<BufferUse> buffers;
-  std::vector<ImageUse> images;  ///< binding 0, 1, 2 ... of set 0
+  std::vector<Bound> bound;  ///< binding 0, 1, 2 ... of set 0
   std::vector<Declared> declared;
 
   struct Color {
@@ -76,7 +77,11 @@ struct Pass::State {
   /// read() and write() turned into uses at these stages.
   void resolveUses(VkPipelineStageFlags2 stages) {
     for (const BufferUse& b : buffers) add(b.buffer->state, nullptr, {stages, b.write ? kStorageWrite : kStorageRead});
-    for (const ImageUse& i : images) {
+    for (const Bound& i : bound) {
+      if (i.uniform) {
+        add(i.uniform->state, nullptr, {stages, VK_ACCESS_2_UNIFORM_READ_BIT});
+        continue;
+      }
       const VkAccessFlags2 storage = i.write ? kStorageWrite : kStorageRead;
       add(i.image->state, i.image, {stages, i.sampler ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : storage});
     }

@@ -38,13 +38,13 @@ std::string keyOf(const std::vector<std::string>& shaders, const std::map<uint32
 }
 
 /// Bindings of set 0 over all stages; stages that name the same binding must agree on its kind.
-std::vector<ShaderBinding> mergedImages(const std::vector<const ShaderModule*>& modules, bool& material) {
+std::vector<ShaderBinding> mergedBindings(const std::vector<const ShaderModule*>& modules, bool& material) {
   std::vector<ShaderBinding> merged;
   for (const ShaderModule* module : modules)
     for (const ShaderBinding& b : module->bindings) {
       if (b.set == 1) {
-        IRAD_CHECK(b.binding < kMaterialTextures && !b.storageImage, "{}: set 1 binding {} ({}) is not a material's",
-                   module->name, b.binding, b.name);
+        IRAD_CHECK(b.binding < kMaterialTextures && !b.storageImage && !b.uniformBlock,
+                   "{}: set 1 binding {} ({}) is not a material's", module->name, b.binding, b.name);
         material = true;
         continue;
       }
@@ -54,8 +54,8 @@ std::vector<ShaderBinding> mergedImages(const std::vector<const ShaderModule*>& 
       if (same == merged.end())
         merged.push_back(b);
       else
-        IRAD_CHECK(same->storageImage == b.storageImage, "{}: binding {} ({}) differs from another stage's {}",
-                   module->name, b.binding, b.name, same->name);
+        IRAD_CHECK(same->storageImage == b.storageImage && same->uniformBlock == b.uniformBlock,
+                   "{}: binding {} ({}) differs from another stage's {}", module->name, b.binding, b.name, same->name);
     }
   std::sort(merged.begin(), merged.end(), [](const auto& a, const auto& b) { return a.binding < b.binding; });
   return merged;
@@ -130,6 +130,11 @@ VkPipeline buildRaster(const Device& device, VkPipelineCache cache, const Pipeli
 
 }  // namespace
 
+VkDescriptorType descriptorType(const ShaderBinding& binding) {
+  if (binding.uniformBlock) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  return binding.storageImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+}
+
 PipelineCache::PipelineCache(const Device& device, const ShaderLibrary& shaders)
     : device_(device), shaders_(shaders), generation_(shaders.generation()) {
   const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
@@ -159,13 +164,12 @@ void PipelineCache::dropPipelines() {
 VkDescriptorSetLayout PipelineCache::setLayout(const std::vector<ShaderBinding>& bindings) {
   std::string key;
   for (const ShaderBinding& b : bindings)
-    key += fmt::format("{}{}x{} ", b.storageImage ? "i" : "s", b.binding, b.count);
+    key += fmt::format("{}:{}x{} ", static_cast<int>(descriptorType(b)), b.binding, b.count);
   if (const auto it = setLayouts_.find(key); it != setLayouts_.end()) return it->second;
   std::vector<VkDescriptorSetLayoutBinding> entries;
   for (const ShaderBinding& b : bindings)
     entries.push_back({.binding = b.binding,
-                       .descriptorType = b.storageImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                        : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                       .descriptorType = descriptorType(b),
                        .descriptorCount = b.count,
                        .stageFlags = kAllStages});
   const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
@@ -218,8 +222,8 @@ std::unique_ptr<Pipeline> PipelineCache::build(const std::vector<std::string>& s
   const bool compute = stageOf(shaders.front()).bit == VK_SHADER_STAGE_COMPUTE_BIT;
   IRAD_CHECK(!compute || shaders.size() == 1, "{}: a compute shader stands alone", pipeline->name);
   pipeline->bindPoint = compute ? VK_PIPELINE_BIND_POINT_COMPUTE : VK_PIPELINE_BIND_POINT_GRAPHICS;
-  pipeline->images = mergedImages(modules, pipeline->material);
-  pipeline->set0 = setLayout(pipeline->images);
+  pipeline->bindings = mergedBindings(modules, pipeline->material);
+  pipeline->set0 = setLayout(pipeline->bindings);
   pipeline->layout = pipelineLayout(pipeline->set0, pipeline->material);
   pipeline->localSize = modules.front()->localSize;
   for (int i = 0; i < 3; ++i)

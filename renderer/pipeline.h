@@ -18,6 +18,8 @@ constexpr uint32_t kMaterialTextures = 5;
 
 enum class Blend { None, Additive, Alpha };
 
+VkDescriptorType descriptorType(const ShaderBinding& binding);
+
 struct RasterState {
   std::vector<VkFormat> colors;
   VkFormat depth = VK_FORMAT_UNDEFINED;
@@ -33,7 +35,7 @@ struct Pipeline {
   VkDescriptorSetLayout set0 = VK_NULL_HANDLE;
   VkPipelineBindPoint bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
   VkPipelineStageFlags2 stages = 0;   ///< shader stages, for barriers
-  std::vector<ShaderBinding> images;  ///< set 0, merged over the stages, sorted by binding
+  std::vector<ShaderBinding> bindings;  ///< set 0, merged over the stages, sorted by binding
   bool material = false;              ///< some stage declares set 1
   uint32_t pushBytes = 0;             ///< the largest push-constant block of the stages
   std::array<uint32_t, 3> localSize{1, 1, 1};

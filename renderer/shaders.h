@@ -15,7 +15,8 @@ namespace irad {
 
 struct ShaderBinding {
   uint32_t set = 0, binding = 0, count = 1;
-  bool storageImage = false;  ///< else: combined image sampler
+  bool storageImage = false;
+  bool uniformBlock = false;  ///< neither: combined image sampler
   std::string name;
   /// As pipelines see it: the name does not matter.
   bool sameAs(const ShaderBinding& o) const {

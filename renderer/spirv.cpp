@@ -49,7 +49,8 @@ enum Decoration : uint32_t {
   Offset = 35
 };
 constexpr size_t kHeaderWords = 5;
-constexpr uint32_t kLocalSize = 17, kLocalSizeId = 38, kWorkgroupSize = 25, kPushConstant = 9, kNone = UINT32_MAX;
+constexpr uint32_t kLocalSize = 17, kLocalSizeId = 38, kWorkgroupSize = 25, kPushConstant = 9, kUniform = 2,
+                   kNone = UINT32_MAX;
 
 struct Type {
   uint32_t op = 0;
@@ -220,12 +221,13 @@ ShaderBinding binding(const Parsed& p, const Variable& variable, const Id& id, c
     type = p.types.at(type).operands[0];
   }
   const uint32_t op = p.types.at(type).op;
-  if (op != OpTypeImage && op != OpTypeSampledImage)
-    throw WorkError(
-        fmt::format("{}: set {} binding {} ({}) is neither image nor combined sampler; buffers travel by "
-                    "address",
-                    module, b.set, b.binding, b.name));
   b.storageImage = op == OpTypeImage;
+  b.uniformBlock = op == OpTypeStruct && variable.storage == kUniform;
+  if (!b.storageImage && !b.uniformBlock && op != OpTypeSampledImage)
+    throw WorkError(
+        fmt::format("{}: set {} binding {} ({}) is neither image nor combined sampler nor uniform block; storage "
+                    "buffers travel by address",
+                    module, b.set, b.binding, b.name));
   return b;
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "shaders/shared/ggx.h"
+#include "shaders/shared/passes.h"
 #include "shaders/shared/sampling.h"
 #include "tests/forward_support.h"
 
@@ -32,6 +33,20 @@ TEST_F(Shading, SunOnPlane) {
   for (const glm::vec4& c : p.linear) {
     EXPECT_NEAR(c.x, 0.5f * 10 * 0.5f / kPi, 1e-4f);
     EXPECT_EQ(c.w, 1);
+  }
+}
+
+TEST_F(Shading, ManyLightsAddUp) {
+  // As many suns as the uniform block holds, and one more, which are read by address: both sum up to one sun of 10 lux.
+  Settings settings;
+  settings.light.shadowResolution = 64;
+  for (const uint32_t count : {UNIFORM_LIGHTS, UNIFORM_LIGHTS + 1}) {
+    SceneBuilder b = floorScene();
+    // Uneven shares, the last light the strongest, so that a light read twice or left out shows.
+    const float unit = 10.0f / (count * (count + 1) / 2);
+    for (uint32_t i = 1; i <= count; ++i) b.addLight(LightType::Sun, i * unit).direction = {0, -1, 0};
+    Stage stage(context(), b.finish(), settings);
+    EXPECT_NEAR(stage.draw(VIEW_LIT, {16, 16}).at(8, 8).x, 0.5f * 10 / kPi, 1e-4f) << count;
   }
 }
 

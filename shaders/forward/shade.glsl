@@ -4,6 +4,7 @@
 layout(constant_id = 0) const uint SHADOW_KINDS = 3u;  ///< as IRAD_SHADOW_KINDS; 0: no lights
 layout(constant_id = 1) const bool TEXTURED = true;    ///< a material of this pass has a texture
 layout(constant_id = 2) const uint PCF = 3u;
+layout(constant_id = 3) const bool MANY_LIGHTS = true;  ///< more than the uniform block holds
 #define IRAD_SHADOW_KINDS SHADOW_KINDS
 #define IRAD_TEXTURED TEXTURED
 
@@ -15,6 +16,9 @@ layout(constant_id = 2) const uint PCF = 3u;
 
 layout(push_constant, scalar) uniform PushBlock {
   ForwardPush push;
+};
+layout(set = 0, binding = IRAD_LIGHTS_BINDING, scalar) uniform LightsBlock {
+  GpuLight lights[UNIFORM_LIGHTS];
 };
 layout(location = 0) in vec3 local;
 layout(location = 1) in vec3 normal;
@@ -95,7 +99,8 @@ void main() {
   vec3 direct = vec3(0.0);
   vec3 highlight = vec3(0.0);
   for (uint i = 0u; SHADOW_KINDS != 0u && i < push.lightCount; ++i) {
-    GpuLight light = push.lights.at[i];
+    GpuLight light = lights[MANY_LIGHTS ? 0u : i];
+    if (MANY_LIGHTS) light = push.lights.at[i];
     vec3 l = lightDirection(light, local);
     float nl = dot(n, l);
     vec3 e = nl > 0.0 ? lightIntensity(light, local) * nl : vec3(0.0);

@@ -23,6 +23,9 @@ struct DepthPush {
   uint padding;
 };
 
+/// Lights that "RE Forward" reads through a uniform block; with more of them all are read by address.
+IRAD_CONST uint UNIFORM_LIGHTS = 64u;
+
 /// "RE Forward", drawing. What untextured fragments need of the material travels along: as constants it is read once,
 /// not per lane.
 struct ForwardPush {
