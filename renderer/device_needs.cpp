@@ -1,6 +1,6 @@
 // What irad needs of a device, in words, and which of its wishes a device grants.
-#include <cstring>
-#include <utility>
+#include <algorithm>
+#include <string_view>
 
 #include "renderer/error.h"
 #include "renderer/instance.h"
@@ -99,9 +99,8 @@ bool hasExtension(VkPhysicalDevice device, const char* name) {
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
   vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-  for (const auto& e : extensions)
-    if (!std::strcmp(e.extensionName, name)) return true;
-  return false;
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const VkExtensionProperties& e) { return std::string_view(e.extensionName) == name; });
 }
 
 uint32_t graphicsComputeFamily(VkPhysicalDevice device) {
@@ -117,8 +116,10 @@ uint32_t graphicsComputeFamily(VkPhysicalDevice device) {
 
 std::vector<std::string> missingNeeds(VkPhysicalDevice device, bool presentable) {
   std::vector<std::string> missing;
-  VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(device, &properties);
+  VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+  VkPhysicalDeviceProperties2 all{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
+  vkGetPhysicalDeviceProperties2(device, &all);
+  const VkPhysicalDeviceProperties& properties = all.properties;
   if (properties.apiVersion < VK_API_VERSION_1_3)
     return {fmt::format("Vulkan 1.3 (it has {}.{})", VK_API_VERSION_MAJOR(properties.apiVersion),
                         VK_API_VERSION_MINOR(properties.apiVersion))};
@@ -128,9 +129,6 @@ std::vector<std::string> missingNeeds(VkPhysicalDevice device, bool presentable)
     if (feature.needed && !*feature.member(has)) missing.push_back(fmt::format("feature {}", feature.name));
   if (graphicsComputeFamily(device) == UINT32_MAX) missing.emplace_back("a queue for both graphics and compute");
 
-  VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-  VkPhysicalDeviceProperties2 properties2{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
-  vkGetPhysicalDeviceProperties2(device, &properties2);
   constexpr VkSubgroupFeatureFlags kOperations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
                                                  VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   if ((subgroup.supportedOperations & kOperations) != kOperations ||

@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "renderer/error.h"
@@ -43,6 +44,17 @@ void fullBarrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags ima
                               .imageMemoryBarrierCount = image ? 1u : 0u,
                               .pImageMemoryBarriers = &transition};
   vkCmdPipelineBarrier2(commands, &info);
+}
+
+/// Move assignment, given the members as a tuple of references. What `to` held goes now, not with `from`.
+template <class Resource, class Members>
+Resource& take(Resource& to, Resource& from, Members members) noexcept {
+  if (&to == &from) return to;
+  Resource old;
+  auto mine = members(to), given = members(from), none = members(old);
+  mine.swap(given);
+  given.swap(none);
+  return to;
 }
 
 }  // namespace
@@ -131,21 +143,9 @@ Buffer::Buffer(Buffer&& other) noexcept {
 }
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
-  if (this == &other) return *this;
-  const auto exchange = [](Buffer& a, Buffer& b) {
-    std::swap(a.handle, b.handle);
-    std::swap(a.address, b.address);
-    std::swap(a.bytes, b.bytes);
-    std::swap(a.mapped, b.mapped);
-    std::swap(a.name, b.name);
-    std::swap(a.state, b.state);
-    std::swap(a.device_, b.device_);
-    std::swap(a.allocation_, b.allocation_);
-  };
-  exchange(*this, other);
-  Buffer old;  // what this object held goes now, not with `other`
-  exchange(old, other);
-  return *this;
+  return take(*this, other, [](Buffer& b) {
+    return std::tie(b.handle, b.address, b.bytes, b.mapped, b.name, b.state, b.device_, b.allocation_);
+  });
 }
 
 // --- Image ---
@@ -310,21 +310,9 @@ Image::Image(Image&& other) noexcept {
 }
 
 Image& Image::operator=(Image&& other) noexcept {
-  if (this == &other) return *this;
-  const auto exchange = [](Image& a, Image& b) {
-    std::swap(a.handle, b.handle);
-    std::swap(a.view, b.view);
-    std::swap(a.aliasView, b.aliasView);
-    std::swap(a.layerViews, b.layerViews);
-    std::swap(a.desc, b.desc);
-    std::swap(a.state, b.state);
-    std::swap(a.device_, b.device_);
-    std::swap(a.allocation_, b.allocation_);
-  };
-  exchange(*this, other);
-  Image old;  // what this object held goes now, not with `other`
-  exchange(old, other);
-  return *this;
+  return take(*this, other, [](Image& i) {
+    return std::tie(i.handle, i.view, i.aliasView, i.layerViews, i.desc, i.state, i.device_, i.allocation_);
+  });
 }
 
 uint64_t Image::bytes() const {
