@@ -1,0 +1,214 @@
+// What a solid voxel holds: the sides of walls and sheets, normals, offsets, albedo, emission, masks (METHOD section
+// 2).
+#include <limits>
+#include <random>
+
+#include "gi/oracle/voxels.h"
+#include "shaders/shared/voxelize.h"
+#include "tests/voxels_fixture.h"
+
+namespace irad::test {
+namespace {
+
+using VoxelFacetsTest = VoxelsTest;
+
+TEST_F(VoxelFacetsTest, ThinWallsKeepBothSidesInEitherOrder) {
+  // A wall of 0 to 3 voxels between two rooms, at several phases: wherever the wall is, a facet faces each room, and
+  // the list is the same whatever the triangles' order.
+  constexpr uint32_t n = 24;
+  for (const float thickness : {0.0f, 0.25f, 0.5f, 1.0f, 1.5f, 2.0f, 3.0f})
+    for (const float phase : {0.0f, 0.3f, 0.5f, 0.9f}) {
+      Soup soup;
+      const uint32_t room = soup.diffuse(glm::vec3(0.5f)), left = soup.diffuse({0.9f, 0, 0}),
+                     right = soup.diffuse({0, 0.9f, 0});
+      soup.box(room, glm::vec3(-0.5f * n), glm::vec3(0.5f * n), true);
+      const float x = phase - 0.37f;
+      soup.quad(left, {x, -0.5f * n, -0.5f * n}, {0, 0, n}, {0, n, 0});               // faces -x
+      soup.quad(right, {x + thickness, -0.5f * n, -0.5f * n}, {0, n, 0}, {0, 0, n});  // faces +x
+      const Result result = run(soup.build(), with(n, 2));
+      // Away from the room's own corners, where perpendicular walls tie.
+      const auto wall = [](std::vector<Facet> facets) {
+        std::erase_if(facets, [](const Facet& f) {
+          return f.voxel.x < 8 || f.voxel.x > 18 || f.voxel.y < 3 || f.voxel.y > 22 || f.voxel.z < 3 || f.voxel.z > 22;
+        });
+        return sorted(facets);
+      };
+      const std::vector<Facet> facets = wall(result.facets);
+      uint32_t toLeft = 0, toRight = 0;
+      for (const Facet& f : facets) {
+        const bool faces = f.normal() == glm::vec3(-1, 0, 0);
+        ASSERT_TRUE(faces || f.normal() == glm::vec3(1, 0, 0));
+        EXPECT_EQ(f.albedo, packAlbedo(faces ? glm::vec3(0.9f, 0, 0) : glm::vec3(0, 0.9f, 0)));
+        ++(faces ? toLeft : toRight);
+      }
+      EXPECT_EQ(toLeft, 20u * 20u) << thickness << ' ' << phase;
+      EXPECT_EQ(toRight, 20u * 20u) << thickness << ' ' << phase;
+      EXPECT_EQ(wall(run(soup.build(true), with(n, 2)).facets), facets) << thickness << ' ' << phase;
+    }
+}
+
+TEST_F(VoxelFacetsTest, OrderOfTrianglesWithDistinctAreasDoesNotMatter) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  const auto random = [&] { return glm::vec3(uniform(engine), uniform(engine), uniform(engine)); };
+  Soup soup;
+  const uint32_t white = soup.diffuse(glm::vec3(0.5f));
+  for (int i = 0; i < 60; ++i) soup.triangle(white, random(), random(), random());
+  const Result a = run(soup.build(), with(24, 2)), b = run(soup.build(true), with(24, 2));
+  ASSERT_EQ(a.solid, b.solid);
+  // The best key is the same in both orders. Only its last bits, which decide between equals, name another triangle:
+  // one that fills the voxel as much (half a face being full) to the step of the key.
+  const Scene scene = soup.build();
+  const auto area = [&](uint32_t t, uint32_t voxel) {
+    const glm::vec3* p = &scene.positions[3 * t];
+    return std::min(
+        0.5, oracle::areaInside(oracle::toVoxels(a.grid, p[0], p[1], p[2]), glm::ivec3(voxelOf(voxel, a.grid.dims))));
+  };
+  uint32_t same = 0;
+  for (uint32_t i = 0; i < a.grid.voxels; ++i) {
+    if (!a.solid[i]) continue;
+    ASSERT_EQ(a.keys[i] >> 24, b.keys[i] >> 24);
+    const uint32_t winner = keyTriangle(a.keys[i]), other = 59 - keyTriangle(b.keys[i]);
+    if (winner == other)
+      ++same;
+    else
+      EXPECT_NEAR(area(winner, i), area(other, i), 1.0 / 62 + 1e-4) << i;
+  }
+  EXPECT_GT(same, a.solidCount() / 2);
+}
+
+TEST_F(VoxelFacetsTest, SheetsHaveTheSidesTheirMaterialHas) {
+  const auto sheet = [&](bool doubleSided, uint32_t slots) {
+    Soup soup;
+    soup.quad(soup.diffuse(glm::vec3(0.5f), doubleSided), {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});  // faces +y
+    return run(soup.build(), with(16, slots));
+  };
+  for (const uint32_t slots : {1u, 2u}) {
+    const Result single = sheet(false, slots);
+    EXPECT_EQ(single.facets.size(), 256u);
+    for (const Facet& f : single.facets) {
+      EXPECT_EQ(f.normal(), glm::vec3(0, 1, 0));
+      EXPECT_EQ(f.voxel.y, 1u) << "the one inner layer";
+      EXPECT_EQ(f.shape & FACET_DOUBLE_SIDED, 0u);
+      EXPECT_NEAR(facetOffset(f.shape), 0.0f, 1e-4f) << "a flat scene lies in the middle of its voxels";
+    }
+  }
+  EXPECT_EQ(sheet(true, 1).facets.size(), 256u);
+  const Result both = sheet(true, 2);
+  ASSERT_EQ(both.facets.size(), 512u);
+  for (size_t i = 0; i < 512; i += 2) {
+    EXPECT_EQ(both.facets[i].normal(), glm::vec3(0, 1, 0));
+    EXPECT_EQ(both.facets[i + 1].normal(), glm::vec3(0, -1, 0));
+    EXPECT_EQ(both.facets[i].voxel, both.facets[i + 1].voxel);
+    EXPECT_NE(both.facets[i].shape & FACET_DOUBLE_SIDED, 0u);
+  }
+}
+
+TEST_F(VoxelFacetsTest, PlaneOffsetIsTheDistanceFromTheVoxelsCentre) {
+  Soup soup;
+  const uint32_t white = soup.diffuse(glm::vec3(0.5f));
+  soup.box(white, glm::vec3(-8), glm::vec3(8), true);
+  soup.quad(white, {-6, 0.25f, -6}, {0, 0, 12}, {12, 0, 0});  // y = 0.25: a quarter of voxel 9 of [1, 17), centre 0.5
+  const Result result = run(soup.build(), with(16, 1));
+  uint32_t seen = 0;
+  for (const Facet& f : result.facets) {
+    if (f.voxel.y != 9 || f.voxel.x < 4 || f.voxel.x > 13 || f.voxel.z < 4 || f.voxel.z > 13) continue;
+    EXPECT_NEAR(facetOffset(f.shape), -0.25f, 0.5f / 127 + 1e-3f);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 100u);
+}
+
+TEST_F(VoxelFacetsTest, MaterialsGiveAlbedoAndExitance) {
+  Soup soup;
+  Material metal;
+  metal.baseColor = {0.8f, 0.6f, 0.4f, 1};
+  metal.metallic = 0.25f;
+  metal.emission = {1, 2, 0};
+  soup.quad(soup.material(metal), {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  Scene scene = soup.build();
+  for (glm::vec4& color : scene.colors) color = {0.5f, 1, 1, 1};
+  const Result result = run(scene, with(8, 1));
+  ASSERT_EQ(result.facets.size(), 64u);
+  for (const Facet& f : result.facets) {
+    // base colour x vertex colour x (1 - metallic); M = pi x radiance.
+    EXPECT_NEAR(unpackAlbedo(f.albedo).x, 0.8f * 0.5f * 0.75f, 2e-5f);
+    EXPECT_NEAR(unpackAlbedo(f.albedo).y, 0.45f, 2e-5f);
+    EXPECT_NEAR(unpackAlbedo(f.albedo).z, 0.3f, 2e-5f);
+    EXPECT_NEAR(f.emission.x, M_PI, 1e-5);
+    EXPECT_NEAR(f.emission.y, 2 * M_PI, 1e-5);
+    EXPECT_EQ(f.emission.z, 0.0f);
+  }
+  EXPECT_EQ(result.clamped, 0u);
+}
+
+TEST_F(VoxelFacetsTest, AlbedoOutOfRangeIsClampedAndCounted) {
+  Soup soup;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  soup.quad(soup.diffuse({1, 0.5f, 0.98f}), {-4, 0, -4}, {0, 0, 8}, {4, 0, 0});
+  soup.quad(soup.diffuse({nan, -1, 7}), {0, 0, -4}, {0, 0, 8}, {4, 0, 0});
+  const Result result = run(soup.build(), with(8, 1));
+  ASSERT_EQ(result.facets.size(), 64u);
+  EXPECT_EQ(result.clamped, 64u);
+  for (const Facet& f : result.facets) {
+    const glm::vec3 expected = f.voxel.x <= 4 ? glm::vec3(0.98f, 0.5f, 0.98f) : glm::vec3(0, 0, 0.98f);
+    EXPECT_EQ(f.albedo, packAlbedo(expected)) << f.voxel.x;
+  }
+}
+
+TEST_F(VoxelFacetsTest, TexturesAreSampledAtTheVoxelsPlace) {
+  // 8 x 8 texels over 8 x 8 voxels: base colour green = row, one lit texel in the emissive texture, metal in the left
+  // half.
+  std::vector<uint8_t> color, lit, metal;
+  for (int row = 0; row < 8; ++row)
+    for (int column = 0; column < 8; ++column) {
+      color.insert(color.end(), {255, static_cast<uint8_t>(row * 20), 0, 255});
+      const uint8_t on = row == 2 && column == 5 ? 255 : 0;
+      lit.insert(lit.end(), {on, on, on, 255});
+      metal.insert(metal.end(), {0, 255, static_cast<uint8_t>(column < 4 ? 255 : 0), 255});
+    }
+  Soup soup;
+  Material m;
+  m.baseColor = {0.5f, 1, 1, 1};
+  m.baseColorTexture.image = soup.image(8, 8, color);
+  m.metallicRoughnessTexture.image = soup.image(8, 8, metal);
+  m.emissiveTexture.image = soup.image(8, 8, lit);
+  m.emission = glm::vec3(3);
+  soup.quad(soup.material(m), {-4, 0, -4}, {8, 0, 0}, {0, 0, 8});  // u along x, v along z; faces -y
+  const Result result = run(soup.build(), with(8, 1));
+  ASSERT_EQ(result.facets.size(), 64u);
+  for (const Facet& f : result.facets) {
+    const uint32_t column = f.voxel.x - 1, row = f.voxel.z - 1;
+    const glm::vec3 albedo = unpackAlbedo(f.albedo);
+    // Cut by the diagonal, a voxel is sampled off its centre by up to a third of a texel; metalness blends there too.
+    if (column == row) continue;
+    EXPECT_NEAR(albedo.x, column < 4 ? 0.0f : 0.5f, 0.01f) << column << ' ' << row;
+    if (column >= 4) {
+      EXPECT_NEAR(albedo.y, row * 20 / 255.0f, 0.01f) << row;
+    }
+    EXPECT_NEAR(f.emission.x, row == 2 && column == 5 ? 3 * M_PI : 0.0, 0.1) << column << ' ' << row;
+  }
+}
+
+TEST_F(VoxelFacetsTest, AlphaMaskCutsAway) {
+  // Left half transparent; the cutoff is not the value half way between two texels.
+  std::vector<uint8_t> rgba;
+  for (int i = 0; i < 64; ++i) rgba.insert(rgba.end(), {255, 255, 255, static_cast<uint8_t>(i % 8 < 4 ? 0 : 255)});
+  for (const VoxelMethod method : {VoxelMethod::conservative, VoxelMethod::raster}) {
+    Soup soup;
+    Material m;
+    m.metallic = 0;
+    m.alpha = AlphaMode::Mask;
+    m.alphaCutoff = 0.6f;
+    m.doubleSided = true;
+    m.baseColorTexture.image = soup.image(8, 8, rgba);
+    m.baseColorTexture.sampler.u = m.baseColorTexture.sampler.v = Wrap::Clamp;
+    soup.quad(soup.material(m), {-4, 0, -4}, {8, 0, 0}, {0, 0, 8});
+    const Result result = run(soup.build(), with(8, 2, method));
+    EXPECT_EQ(result.facets.size(), 64u) << "32 voxels, two sides";
+    for (const Facet& f : result.facets) EXPECT_GE(f.voxel.x, 5u);
+  }
+}
+
+}  // namespace
+}  // namespace irad::test
