@@ -214,6 +214,25 @@ TEST_F(Views, MirrorShowsTheWall) {
   }
 }
 
+TEST_F(Views, RimsOfThinSlabsAreLit) {
+  // A slab a third of a voxel thick, seen from above: its voxels keep the two sides, none the rim. Every facet has H
+  // = 1.
+  SceneBuilder b;
+  b.addBox({-1, -1, -0.02f}, {1, 1, 0.02f});
+  b.addCamera({0, 4, 0}, {0, 0, 0}, 0.4f, {0, 0, -1});
+  Settings settings = smallSettings();
+  Lit lit(context(), b.finish(), settings);
+  const std::vector<glm::vec4> h(lit.facets.count, glm::vec4(1));
+  upload(context(), lit.light.shaded, std::as_bytes(std::span(h)));
+  uint32_t rim = 0;
+  for (const glm::vec4& c : lit.draw(VIEW_IRRADIANCE, {640, 640}).linear) {
+    if (c.w == 0) continue;
+    ++rim;
+    ASSERT_NEAR(c.x, 1, 1e-4);
+  }
+  EXPECT_GT(rim, 1000u);
+}
+
 TEST_F(Views, RaysToEmittersKeepTheMeanAndQuietIt) {
   // A glossy metal floor before a small bright panel. Sent along the lobe alone, a few rays in a hundred meet it.
   SceneBuilder b;

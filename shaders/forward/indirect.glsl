@@ -85,6 +85,24 @@ uint nearestFacet(FacetMap map, vec3 p, vec3 n) {
   return best;
 }
 
+/// The rim of a slab thinner than a voxel has no facet, because its voxels keep the slab's two sides: it takes the mean
+/// of the facets around that do not face away, the nearer the more.
+vec3 facetsBeside(FacetMap map, Vec4Array values, vec3 p, vec3 n) {
+  ivec3 centre = ivec3(floor(p));
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 54; ++i) {
+    ivec3 v = centre + ivec3((i / 2) % 3, (i / 6) % 3, i / 18) - 1;
+    uint entry = facetEntry(map, v);
+    if (entry == NO_FACET || (i % 2 == 1 && (entry & SECOND_FACET) == 0u)) continue;
+    uint facet = (entry & ~SECOND_FACET) + uint(i % 2);
+    uint shape = map.shape.at[facet];
+    vec3 m = decodeNormal(shape & 0xFFFFu, map.encoding);
+    vec3 d = vec3(v) + 0.5 + m * facetOffset(shape) - p;
+    if (dot(m, n) > -0.5) sum += vec4(values.at[facet].xyz, 1.0) / (0.1 + dot(d, d));
+  }
+  return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
+}
+
 /// Gated lookup of shading at `p` (voxel units), offset along the normal (METHOD section 7).
 vec3 facetIndirect(FacetMap map, Vec4Array values, SampleParams sampling, vec3 p, vec3 n) {
   if (sampling.filter_ != FILTER_NEAREST) {
@@ -92,7 +110,7 @@ vec3 facetIndirect(FacetMap map, Vec4Array values, SampleParams sampling, vec3 p
     if (sum.w >= 1.0 / 256.0) return sum.rgb / sum.w;
   }
   uint facet = nearestFacet(map, p, n);
-  return facet != NO_FACET ? values.at[facet].xyz : vec3(0.0);
+  return facet != NO_FACET ? values.at[facet].xyz : facetsBeside(map, values, p, n);
 }
 
 /// The value at `p` on the surface of `facet`, whose normal is `n`; its own where nothing else agrees.
