@@ -149,6 +149,16 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   drawDepth(frame, scene,
             {.stage = "RE Depth", .target = targets.depth, .projections = camera, .clear = 1, .cull = true});
 
+  // Background: zero in every target.
+  const auto shadedTargets = {&targets.normal, &targets.geometric, &targets.albedo,   &targets.f0,
+                              &targets.direct, &targets.highlight, &targets.indirect, &targets.emitted};
+  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp};
+  nearest.linearMag = nearest.linearMin = nearest.mips = nearest.linearMips = false;
+  Pass background = frame.pass("RE Forward");
+  background.shader("forward/background.comp").sample(targets.depth, sampler(frame.context().device, nearest));
+  for (const Image* image : shadedTargets) background.write(*image);
+  background.dispatch(uint64_t{targets.size.x} * targets.size.y);
+
   // Shading, material by material.
   ForwardPush push{};
   push.scene = scene.record.address;
@@ -165,11 +175,9 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
 
   // What the scene does not have is left out of the shader. Untextured materials have a pass of their own: a device
   // that runs both sides of a branch would otherwise fetch five textures that are not there.
-  bool first = true;
   for (const bool textured : {false, true}) {
     if (std::none_of(draws.begin(), draws.end(),
-                     [&](const Draw& d) { return hasFlag(scene, d, kAnyTexture) == textured; }) &&
-        !(first && textured))
+                     [&](const Draw& d) { return hasFlag(scene, d, kAnyTexture) == textured; }))
       continue;
     Pass pass = frame.pass("RE Forward");
     pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
@@ -188,10 +196,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       pass.sample(*indirect.volume, sampler(frame.context().device, linear));
     }
     pass.uniform(scene.lights);
-    for (const Image* image : {&targets.normal, &targets.geometric, &targets.albedo, &targets.f0, &targets.direct,
-                               &targets.highlight, &targets.indirect, &targets.emitted})
-      pass.color(*image, first ? std::optional(ClearColor{}) : std::nullopt);
-    first = false;
+    for (const Image* image : shadedTargets) pass.color(*image);
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
         if (hasFlag(scene, draw, kAnyTexture) != textured) continue;

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "RE Forward": the targets are zero where the depth prepass left nothing. Clears of whole targets would go through the
+// raster units, which are few on some devices.
+#include "shared/types.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform sampler2D depthTarget;
+layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D normalTarget;
+layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D geometricTarget;
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D albedoTarget;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D f0Target;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D directTarget;
+layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D highlightTarget;
+layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D indirectTarget;
+layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D emittedTarget;
+
+void main() {
+  uvec2 size = uvec2(textureSize(depthTarget, 0));
+  uint i = irad_index();
+  ivec2 pixel = ivec2(i % size.x, i / size.x);
+  if (i >= size.x * size.y || texelFetch(depthTarget, pixel, 0).r < 1.0) return;
+  imageStore(normalTarget, pixel, vec4(0.0));
+  imageStore(geometricTarget, pixel, vec4(0.0));
+  imageStore(albedoTarget, pixel, vec4(0.0));
+  imageStore(f0Target, pixel, vec4(0.0));
+  imageStore(directTarget, pixel, vec4(0.0));
+  imageStore(highlightTarget, pixel, vec4(0.0));
+  imageStore(indirectTarget, pixel, vec4(0.0));
+  imageStore(emittedTarget, pixel, vec4(0.0));
+}
