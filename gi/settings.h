@@ -185,7 +185,7 @@ void visit(Settings& s, F&& f) {
   f(BoolRef{s.sample.gpu.gated}, Meta{"sample.gated", 0, 1, "", "Take only facets that face the same way, so that walls do not leak.", Scatter});
   f(s.sample.gpu.normalOffset, Meta{"sample.normal_offset", 0, 2, "voxels", "Offset of the lookup along the normal.", Shade});
   f(s.specular.mode, Meta{"specular.mode", 0, 0, "", "Where specular rays are traced: in the forward fragment shader (T 5.11) or in compute over the G-buffer.", Shade});
-  f(s.specular.gpu.rays, Meta{"specular.rays", 1, 64, "rays", "Specular rays per pixel.", Shade});
+  f(s.specular.gpu.rays, Meta{"specular.rays", 1, 64, "rays", "Specular rays per pixel; a quarter as many more go to emissive faces.", Shade});
   f(EnumRef<Traversal>{s.specular.gpu.traversal}, Meta{"specular.traversal", 0, 0, "", "Traversal of specular rays.", Shade});
   f(s.specular.gpu.maxRoughness, Meta{"specular.max_roughness", 0, 1, "", "Rougher surfaces take the diffuse irradiance instead of rays.", Shade});
   f(s.specular.gpu.fade, Meta{"specular.fade", 0, 1, "", "Width of the blend below max_roughness.", Shade});

@@ -11,7 +11,8 @@
 
 namespace irad {
 
-/// Per-pixel results of the forward pass. fp32 where light is held, so that emission from 1e-6 to 1e6 survives.
+/// Per-pixel results of the forward pass. fp32 where light is held, so that emission from 1e-6 to 1e6 survives. Between
+/// the fragment stage and forward/indirect.comp, `indirect` holds the local position and `emitted` the lookup's normal.
 struct Targets {
   Targets() = default;
   Targets(Context& context, glm::uvec2 size);
@@ -24,7 +25,7 @@ struct Targets {
   Image direct;     ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
   Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
   Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2
-  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M)
+  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M); 0 where no view asks
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   Buffer glossy;    ///< pixels that trace specular rays (shaders/shared/passes.h)
   Image linear;     ///< RGBA32F: the view's result, before exposure and tone curve

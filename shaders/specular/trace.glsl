@@ -40,9 +40,9 @@ bool emitterPoint(EmitterTable table, FacetArrays facets, uvec2 u, out vec3 poin
 }
 
 /// Mean reflected radiance before the lobe's reflectance. Rays follow visible normals of GGX (Heitz 2018), each
-/// weighted with F G2 / G1 and the sum divided by the weights; with emitters a quarter as many go to points of these,
-/// and what either kind finds there is weighted by the balance heuristic (Veach and Guibas 1995): a small bright face
-/// in the lobe's tail is otherwise met by few rays, each of which is a white dot. `shift` decorrelates pixels.
+/// weighted with F G2 / G1 and the sum divided by the weights; with emitters a quarter as many more go to points of
+/// these, and what either kind finds there is weighted by the balance heuristic (Veach and Guibas 1995): a small bright
+/// face in the lobe's tail is otherwise met by few rays, each of which is a white dot. `shift` decorrelates pixels.
 vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
   FacetMap map = FacetMap(world.facets.shape, world.facets.reverse, world.dims, TRACE_NORMALS);
   float alpha = s.roughness * s.roughness;
