@@ -22,6 +22,7 @@ void allocate(const Device& device, FacetList& list) {
 }
 
 void makeRecord(Context& context, FacetList& list) {
+  list.around = Buffer(context.device, "facet neighbours", Subsystem::Facets, 4ull * list.count);
   const FacetArrays arrays = list.addresses();
   list.record = makeBuffer<FacetArrays>(context, "facet record", Subsystem::Facets, std::span(&arrays, 1));
 }
@@ -120,6 +121,7 @@ FacetArrays FacetList::addresses() const {
   arrays.albedo = albedo.address;
   arrays.emission = emission.address;
   arrays.reverse = reverse.address;
+  arrays.around = around.address;
   arrays.count = count;
   arrays.hasEmission = hasEmission;
   return arrays;

@@ -20,7 +20,7 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
       .constant(0, method)
       .constant(1, hitRule)
       .constant(2, encoding)
-      .read(facets.record, facets.voxel, facets.shape, facets.reverse);
+      .read(facets.voxel, facets.shape, facets.reverse, facets.around);
   if (field.chebyshev) pass.read(field.chebyshev);
   if (jfa)
     pass.sample(field.jfaDistance, sampler(device, {.u = Wrap::Clamp,
@@ -42,7 +42,7 @@ void markCorners(Context& context, FacetList& list) {
       .shader("gi/facet_corners.comp")
       .constant(0, static_cast<uint32_t>(list.encoding))
       .read(list.record, list.voxel, list.reverse)
-      .write(list.shape)
+      .write(list.shape, list.around)
       .push(push)
       .dispatch(list.count);
   frame.submit();

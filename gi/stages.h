@@ -43,7 +43,7 @@ struct FacetList {
   uint32_t count = 0;  ///< facets
   uint32_t solidVoxels = 0;
   uint32_t clampedAlbedo = 0;  ///< facets whose albedo was outside [0, .98] or not a number
-  Buffer voxel, shape, albedo, emission, reverse;
+  Buffer voxel, shape, albedo, emission, reverse, around;
   Buffer record;  ///< one FacetArrays
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
@@ -51,7 +51,8 @@ struct FacetList {
 };
 /// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
-/// Sets FACET_CORNER in the list's shape words; the last step of the two functions that make lists.
+/// Sets FACET_CORNER, the clear distance and the joints in the list's shape words, and fills `around`; the last step of
+/// the two functions that make lists.
 void markCorners(Context& context, FacetList& list);
 /// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.
 FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,

@@ -1,8 +1,10 @@
 // Rays on the device against the double-precision oracle, and the traversals against each other (METHOD sections 3, 5).
+#include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gi/oracle/rays.h"
 #include "gi/ray_kernel.h"
+
 #include "tests/gi_fixture.h"
 
 namespace irad::test {
@@ -32,8 +34,12 @@ class Trace : public GiTest {
   }
 
   oracle::Facets facets(const FacetList& list) {
-    return {list.grid, static_cast<uint32_t>(list.encoding), downloadAs<uint32_t>(context(), list.voxel),
-            downloadAs<uint32_t>(context(), list.shape), downloadAs<uint32_t>(context(), list.reverse)};
+    return {list.grid,
+            static_cast<uint32_t>(list.encoding),
+            downloadAs<uint32_t>(context(), list.voxel),
+            downloadAs<uint32_t>(context(), list.shape),
+            downloadAs<uint32_t>(context(), list.reverse),
+            downloadAs<uint32_t>(context(), list.around)};
   }
 
   static size_t differing(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
@@ -109,12 +115,22 @@ TEST_F(Trace, CornersAreMarkedWhereWallsMeet) {
   settings.voxel.resolution = 16;
   const World w = world(furnaceBox(0.5f), settings);
   const oracle::Facets host = facets(w.facets);
-  // A box of 16 voxels: exactly the cells that touch two walls are corners.
+  // A box of 16 voxels: exactly the cells that touch two walls are corners, and ask one voxel for each wall they do not
+  // record; the plane is clear up to two voxels before those.
   for (uint32_t f = 0; f < w.facets.count; ++f) {
-    const glm::uvec3 v = unpackVoxel(host.voxel[f]);
-    int walls = 0;
-    for (int a = 0; a < 3; ++a) walls += v[a] == 1 || v[a] == 16;
+    const glm::ivec3 v(unpackVoxel(host.voxel[f]));
+    int walls = 0, nearest = 100;
+    for (int a = 0; a < 3; ++a) {
+      const int away = std::min(v[a] - 1, 16 - v[a]);
+      walls += away == 0;
+      if (std::abs(host.normal(f)[a]) < 0.5) nearest = std::min(nearest, away);
+    }
     EXPECT_EQ((host.shape[f] & FACET_CORNER) != 0, walls >= 2) << v.x << ' ' << v.y << ' ' << v.z;
+    EXPECT_EQ(std::popcount(host.around[f]), walls - 1) << v.x << ' ' << v.y << ' ' << v.z;
+    // The next wall's nearest recorded face may be one row further, where this wall records the edge itself.
+    const int clear = static_cast<int>(facetClear(host.shape[f]));
+    EXPECT_GE(clear, std::clamp(nearest - 2, 0, 2)) << v.x << ' ' << v.y << ' ' << v.z;
+    EXPECT_LE(clear, std::clamp(nearest - 1, 0, 2)) << v.x << ' ' << v.y << ' ' << v.z;
   }
 }
 

@@ -113,7 +113,7 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
   };
   for (bool first = true; inside(facets, walk.cell) && hit.facet == TRACE_ESCAPED; first = false) {
     double nearest = 1e30;
-    bool corner = false;
+    uint32_t around = 0;
     const auto consider = [&](uint32_t f, bool recorded) {
       const Answer answer = ask(f, recorded);
       const double cross = -facets.distance(f, ray.origin) / glm::dot(facets.normal(f), ray.direction);
@@ -131,13 +131,13 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
     };
     for (const uint32_t f : facetsAt(facets, walk.cell)) {
       consider(f, /*recorded=*/true);
-      corner = corner || (facets.shape[f] & FACET_CORNER);
+      if (facets.shape[f] & FACET_CORNER) around |= facets.around[f];
     }
-    if (corner && hit.facet == TRACE_ESCAPED) {
+    if (around != 0 && hit.facet == TRACE_ESCAPED) {
       bool behind = false, before = false;
       for (int i = 0; i < 27; ++i) {
         const ivec3 side = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-        if (side == ivec3(0)) continue;
+        if ((around >> i & 1) == 0) continue;
         for (const uint32_t f : facetsAt(facets, walk.cell + side)) {
           consider(f, /*recorded=*/false);
           const double start = facets.distance(f, ray.origin);

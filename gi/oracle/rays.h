@@ -14,7 +14,7 @@ namespace irad::oracle {
 struct Facets {
   Grid grid;
   uint32_t encoding = 3;
-  std::vector<uint32_t> voxel, shape, reverse;
+  std::vector<uint32_t> voxel, shape, reverse, around;
   glm::dvec3 normal(uint32_t facet) const;
   /// Signed distance of `p` (voxel units) from the facet's plane.
   double distance(uint32_t facet, const glm::dvec3& p) const;

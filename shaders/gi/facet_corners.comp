@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI CompactList", last step: which facets share their voxel with surfaces that only the voxels around record.
+// "GI CompactList", last step: which facets share their voxel with surfaces that only the voxels around record, and how
+// far around a facet there is nothing but its own plane.
 #include "shared/grid.h"
 #include "shared/normals.h"
 #include "shared/trace.h"
@@ -9,6 +10,8 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { FacetCornersPush p; };
 
+const int SEARCH = 3;       // voxels
+const float SAME = 0.02f;    // voxels: planes of one code this near are one plane
 const float REACH = 0.9f;  // voxels: half a cell's diagonal and what planes are known to
 
 void main() {
@@ -16,24 +19,54 @@ void main() {
   FacetArrays f = p.facets.at[0];
   if (facet >= f.count) return;
   uint shape = f.shape.at[facet];
-  vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
+  uint code = shape & 0xFFFFu;
+  vec3 normal = decodeNormal(code, NORMALS);
+  vec3 point = normal * facetOffset(shape);  // of the own plane, from the voxel's centre
   ivec3 voxel = ivec3(unpackVoxel(f.voxel.at[facet]));
-  bool corner = false;
-  for (int i = 0; i < 27; ++i) {
-    ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
-    ivec3 at = voxel + step_;
-    if (i == 13 || any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(p.dims)))) continue;
-    uint entry = f.reverse.at[voxelIndex(uvec3(at), p.dims)];
-    if (entry == NO_FACET) continue;
-    uint first = entry & ~SECOND_FACET;
-    uint last = entry >= SECOND_FACET ? first + 1u : first;
-    for (uint other = first; other <= last; ++other) {
-      // Neighbours may be setting their own bit meanwhile; the bits read here do not change.
-      uint otherShape = f.shape.at[other];
-      vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
-      float centre = -dot(otherNormal, vec3(step_)) - facetOffset(otherShape);
-      corner = corner || (dot(normal, otherNormal) < TRACE_OWN_NORMAL && abs(centre) < REACH);
+  uint around = 0u;
+  uint planes = 0u;  // kept so far: one voxel per plane is enough to ask
+  uint keptCode[4];
+  float keptDistance[4];
+  int other_ = SEARCH + 1;  // distance of the nearest face of another plane
+  for (int radius = 0; radius <= SEARCH && radius < other_; ++radius) {
+    int width = 2 * radius + 1;
+    for (int i = 0; i < width * width * width; ++i) {
+      ivec3 step_ = ivec3(i % width, (i / width) % width, i / (width * width)) - radius;
+      ivec3 away = abs(step_);
+      ivec3 at = voxel + step_;
+      if (max(away.x, max(away.y, away.z)) != radius) continue;  // of the shell alone
+      if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(p.dims)))) continue;
+      uint entry = f.reverse.at[voxelIndex(uvec3(at), p.dims)];
+      if (entry == NO_FACET) continue;
+      uint first = entry & ~SECOND_FACET;
+      uint last = entry >= SECOND_FACET ? first + 1u : first;
+      for (uint other = first; other <= last; ++other) {
+        // Neighbours may be setting their own bits meanwhile; the bits read here do not change.
+        uint otherShape = f.shape.at[other];
+        vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
+        float centre = -dot(otherNormal, vec3(step_)) - facetOffset(otherShape);  // of the own voxel, from its plane
+        float distance_ = centre + dot(otherNormal, point);
+        float alike = dot(normal, otherNormal);
+        bool same = (otherShape & 0xFFFFu) == code && abs(distance_) < SAME;
+        bool back = alike < -0.999f && distance_ < SAME;
+        if (!same && !back) other_ = min(other_, radius);
+        if (radius != 1 || alike >= TRACE_OWN_NORMAL || abs(centre) >= REACH) continue;
+        bool known = false;
+        for (uint k = 0u; k < min(planes, 4u); ++k)
+          known = known || (keptCode[k] == (otherShape & 0xFFFFu) && abs(keptDistance[k] - centre) < SAME);
+        if (known) continue;
+        if (planes < 4u) {
+          keptCode[planes] = otherShape & 0xFFFFu;
+          keptDistance[planes] = centre;
+        }
+        ++planes;
+        around |= 1u << i;
+      }
     }
   }
-  if (corner) atomicOr(f.shape.at[facet], FACET_CORNER);
+  // Voxels next to a face of another plane may be corners: they are not stepped over.
+  uint bits = uint(max(other_ - 2, 0)) << FACET_CLEAR_SHIFT;
+  if (around != 0u) bits |= FACET_CORNER;
+  f.around.at[facet] = around;
+  if (bits != 0u) atomicOr(f.shape.at[facet], bits);
 }

@@ -131,13 +131,15 @@ TracePlane tracePlane(TraceWorld world, TraceWalk w, vec3 cell, uint shape) {
   return p;
 }
 
-/// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of the 26 cells
-/// around are asked whether their planes, extended, cross this cell.
-TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
+/// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of cells around
+/// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the origin's cell there is
+/// only the own plane.
+TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   uint passed = TRACE_ESCAPED;  // last face passed closely in front of, for rays that slip through a joint
   float passedAt = 0.0f;
-  bool first = true;
+  bool first = clear == 0u;
+  if (!first) traceAdvance(w, float(clear) + 1.0f);
   while (traceToSolid(world, w, hit.steps)) {
     vec3 bounds = traceBounds(w, 1.0f);
     float leave = min(bounds.x, min(bounds.y, bounds.z));
@@ -145,11 +147,12 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
     uint facet = entry & ~SECOND_FACET;
     uint left = entry >= SECOND_FACET ? 2u : 1u;
     vec3 at = w.cell;
-    int around = -1;  // which of the cells around is asked; -1: the cell itself
-    bool corner = false;
+    bool recorded = true;  // in this cell; later: in those around
+    uint ask = 0u;         // cells around that may know of more
     float nearest = 1e30f;
     uint met = TRACE_ESCAPED;
     bool behind = false, before = false;  // of faces around the first cell
+    uint over = 0u;
     for (;;) {
       if (left > 0u) {
         uint shape = world.facets.shape.at[facet];
@@ -159,8 +162,9 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
         float cross = -p.start / p.slope;
         float alike = dot(p.normal, ownNormal);
         bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
-        bool recorded = around < 0;
-        corner = corner || (recorded && (shape & FACET_CORNER) != 0u);
+        // On the own plane: nothing around can be met as far as this facet's plane is clear.
+        if (recorded && alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
+        if (recorded && (shape & FACET_CORNER) != 0u) ask |= world.facets.around.at[facet];
         // The own sheet's other side, whose plane this is too, cannot be met from here.
         if (p.slope < 0.0f && p.start > (alike < -TRACE_OWN_NORMAL ? TRACE_ON_PLANE : -TRACE_BEHIND)) {
           if (leaveS <= TRACE_ON_PLANE && (recorded || enterS >= -TRACE_ON_PLANE)) {
@@ -190,16 +194,14 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
         ++facet;
       }
       if (left == 0u) {
-        if (!corner || around == 26 || (around < 0 && met != TRACE_ESCAPED)) break;
-        ++around;
+        if (ask == 0u || (recorded && met != TRACE_ESCAPED)) break;
+        recorded = false;
+        int around = findLSB(ask);
+        ask &= ask - 1u;
         at = w.cell + vec3(ivec3(around % 3, (around / 3) % 3, around / 9) - 1);
-        if (around != 13 && all(greaterThanEqual(at, vec3(0.0f))) && all(lessThan(at, vec3(world.dims)))) {
-          uint other = world.facets.reverse.at[traceIndex(at, world.dims)];
-          if (other != NO_FACET) {
-            facet = other & ~SECOND_FACET;
-            left = other >= SECOND_FACET ? 2u : 1u;
-          }
-        }
+        uint other = world.facets.reverse.at[traceIndex(at, world.dims)];
+        facet = other & ~SECOND_FACET;
+        left = other >= SECOND_FACET ? 2u : 1u;
       }
     }
     if (first && behind && !before) met = TRACE_INVALID;
@@ -209,7 +211,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal) {
       hit.t = max(nearest, 0.0f);
       break;
     }
-    traceAdvance(w, 1.0f);
+    traceAdvance(w, 1.0f + float(over));
     ++hit.steps;
   }
   // Left the grid, or met a back, right after passing closely in front of a face: it slipped through a joint.
@@ -250,7 +252,14 @@ TraceHit traceThesis(TraceWorld world, TraceWalk w) {
 TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
   TraceWalk w = traceStart(origin, direction);
   if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
-  return traceRobust(world, w, normal);
+  return traceRobust(world, w, normal, 0u);
+}
+
+/// The same for a ray that starts on the facet `shape` of `voxel`, whose surroundings are known.
+TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal, uvec3 voxel, uint shape) {
+  TraceWalk w = traceStart(origin, direction);
+  if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
+  return traceRobust(world, w, normal, w.cell == vec3(voxel) ? facetClear(shape) : 0u);
 }
 
 #endif

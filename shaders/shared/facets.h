@@ -15,6 +15,10 @@ IRAD_CONST uint FACET_DOUBLE_SIDED = 1u << 24;
 /// Bit 25: another surface, recorded only in a neighbouring voxel, may pass through this one (edges and corners: a voxel
 /// holds two facets at most). Set by markCorners; rays that meet no recorded face there look around (gi/trace.glsl).
 IRAD_CONST uint FACET_CORNER = 1u << 25;
+/// Bits 26-27: within this many voxels every face lies in the facet's own plane (or is that sheet's back), and no voxel is
+/// a corner: rays that start in the plane step over them. Set by markCorners.
+IRAD_CONST uint FACET_CLEAR_SHIFT = 26u;
+IRAD_FN uint facetClear(uint shape) { return (shape >> FACET_CLEAR_SHIFT) & 3u; }
 IRAD_FN float facetOffset(uint shape) { return (float((shape >> 16) & 255u) - 128.0f) * (1.0f / 127.0f); }
 IRAD_FN uint packFacetOffset(float offset) {
   float clamped = offset < -1.0f ? -1.0f : (offset > 1.0f ? 1.0f : offset);
@@ -37,6 +41,7 @@ struct FacetArrays {
   Uvec2Array albedo;    ///< packAlbedo, clamped to [0, .98]
   Vec3Array emission;   ///< exitance M = pi x emitted radiance, W/m^2
   UintArray reverse;    ///< one per voxel (linear index)
+  UintArray around;     ///< FACET_CORNER: which of the 27 voxels around (bit x + 3 y + 9 z, 13 is its own) to look into
   uint count;
   uint hasEmission;     ///< 0: `emission` must not be read
 };
