@@ -24,6 +24,7 @@ void main() {
   vec3 point = normal * facetOffset(shape);  // of the own plane, from the voxel's centre
   ivec3 voxel = ivec3(unpackVoxel(f.voxel.at[facet]));
   uint around = 0u;
+  float joint = 0.0f;
   uint planes = 0u;  // kept so far: one voxel per plane is enough to ask
   uint keptCode[4];
   float keptDistance[4];
@@ -50,6 +51,12 @@ void main() {
         bool same = (otherShape & 0xFFFFu) == code && abs(distance_) < SAME;
         bool back = alike < -0.999f && distance_ < SAME;
         if (!same && !back) other_ = min(other_, radius);
+        if (radius == 1 && alike >= TRACE_OWN_NORMAL) {
+          // Where the two faces join, about half-way between their middles.
+          vec3 across = 0.5f * (vec3(step_) + otherNormal * facetOffset(otherShape) - point);
+          float gap = abs(dot(normal + otherNormal, across));
+          if (gap < TRACE_JOINT) joint = max(joint, gap);
+        }
         if (radius != 1 || alike >= TRACE_OWN_NORMAL || abs(centre) >= REACH) continue;
         bool known = false;
         for (uint k = 0u; k < min(planes, 4u); ++k)
@@ -65,7 +72,7 @@ void main() {
     }
   }
   // Voxels next to a face of another plane may be corners: they are not stepped over.
-  uint bits = uint(max(other_ - 2, 0)) << FACET_CLEAR_SHIFT;
+  uint bits = packFacetJoint(joint) | uint(max(other_ - 2, 0)) << FACET_CLEAR_SHIFT;
   if (around != 0u) bits |= FACET_CORNER;
   f.around.at[facet] = around;
   if (bits != 0u) atomicOr(f.shape.at[facet], bits);

@@ -131,9 +131,20 @@ TracePlane tracePlane(TraceWorld world, TraceWalk w, vec3 cell, uint shape) {
   return p;
 }
 
+/// The plane of `p` as x, y, z, w of n . x + w = 0, in voxel units.
+vec4 planeEquation(TracePlane p, TraceWalk w) { return vec4(p.normal, p.start - dot(p.normal, w.origin)); }
+
+/// Whether the extension of a face around, whose middle is given, still exists where the ray crosses it: it ends at the
+/// plane of the face recorded here, beyond which its middle does not lie.
+bool reaches(vec4 recorded, vec3 middle, vec3 crossing) {
+  float side = dot(recorded.xyz, middle) + recorded.w;
+  float here = dot(recorded.xyz, crossing) + recorded.w;
+  return side < 0.0f ? here <= TRACE_ON_PLANE : here >= -TRACE_ON_PLANE;
+}
+
 /// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of cells around
-/// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the origin's cell there is
-/// only the own plane.
+/// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the origin's
+/// cell there is only the own plane.
 TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   uint passed = TRACE_ESCAPED;  // last face passed closely in front of, for rays that slip through a joint
@@ -151,7 +162,11 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
     uint ask = 0u;         // cells around that may know of more
     float nearest = 1e30f;
     uint met = TRACE_ESCAPED;
-    bool behind = false, before = false;  // of faces around the first cell
+    float back = 1e30f;  // the same of the faces met from behind
+    uint backMet = TRACE_ESCAPED;
+    vec2 backPlane = vec2(0.0f);
+    vec4 planes[2] = vec4[2](vec4(0.0f), vec4(0.0f));  // of the recorded faces
+    bool behind = false, before = false;               // of faces around the first cell
     uint over = 0u;
     for (;;) {
       if (left > 0u) {
@@ -161,30 +176,41 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         float leaveS = p.start + p.slope * leave;
         float cross = -p.start / p.slope;
         float alike = dot(p.normal, ownNormal);
+        vec3 middle = at + 0.5f + p.normal * facetOffset(shape);
+        float rise = dot(ownNormal, middle - w.origin);  // of the face's middle above the own plane
         bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
-        // On the own plane: nothing around can be met as far as this facet's plane is clear.
-        if (recorded && alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
-        if (recorded && (shape & FACET_CORNER) != 0u) ask |= world.facets.around.at[facet];
-        // The own sheet's other side, whose plane this is too, cannot be met from here.
-        if (p.slope < 0.0f && p.start > (alike < -TRACE_OWN_NORMAL ? TRACE_ON_PLANE : -TRACE_BEHIND)) {
-          if (leaveS <= TRACE_ON_PLANE && (recorded || enterS >= -TRACE_ON_PLANE)) {
+        if (recorded) {
+          // On the own plane: nothing around can be met as far as this facet's plane is clear.
+          if (alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
+          if ((shape & FACET_CORNER) != 0u) ask |= world.facets.around.at[facet];
+          planes[1] = planes[0];
+          planes[0] = planeEquation(p, w);
+        }
+        // A face that looks back at this one, but does not stand clearly in front of it, is the own sheet's other side.
+        bool otherSide = alike < -TRACE_OWN_NORMAL && min(rise, p.start) < TRACE_ON_PLANE;
+        if (p.slope < 0.0f && p.start > -TRACE_BEHIND && !otherSide) {
+          // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface.
+          float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
+          if (leaveS <= slack && enterS >= -slack &&
+              (recorded || (reaches(planes[0], middle, w.origin + cross * w.direction) &&
+                            reaches(planes[1], middle, w.origin + cross * w.direction)))) {
             if (cross < nearest) {
               nearest = cross;
               met = facet;
             }
-          } else if (recorded && leaveS <= TRACE_JOINT) {
+          } else if (recorded && leaveS <= TRACE_JOINT && enterS > 0.0f) {
             passed = facet;
             passedAt = leave;
           }
         } else if (p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE && leaveS > TRACE_ON_PLANE &&
-                   cross < nearest) {
-          nearest = cross;
-          met = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
+                   cross < back) {
+          back = cross;
+          backPlane = vec2(p.start, p.slope);
+          backMet = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
         }
         // An origin behind a face that rises in front of the own plane is inside the wall beyond a concave edge. Where
         // the surface is convex, every neighbour's plane lies in front of the origin, and that says nothing.
-        vec3 middle = at + 0.5f + p.normal * facetOffset(shape);
-        if (first && !recorded && !own && dot(ownNormal, middle - w.origin) > TRACE_CONCAVE) {
+        if (first && !recorded && !own && rise > TRACE_CONCAVE) {
           if (p.start < -TRACE_ON_PLANE)
             behind = true;
           else
@@ -194,6 +220,12 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         ++facet;
       }
       if (left == 0u) {
+        // The back of a sheet whose front is met in the same cell lies in the same plane: only one well in front counts.
+        if (recorded && backMet != TRACE_ESCAPED &&
+            (met == TRACE_ESCAPED || backPlane.x + backPlane.y * nearest > TRACE_JOINT)) {
+          met = backMet;
+          nearest = back;
+        }
         if (ask == 0u || (recorded && met != TRACE_ESCAPED)) break;
         recorded = false;
         int around = findLSB(ask);

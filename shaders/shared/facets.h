@@ -19,6 +19,13 @@ IRAD_CONST uint FACET_CORNER = 1u << 25;
 /// a corner: rays that start in the plane step over them. Set by markCorners.
 IRAD_CONST uint FACET_CLEAR_SHIFT = 26u;
 IRAD_FN uint facetClear(uint shape) { return (shape >> FACET_CLEAR_SHIFT) & 3u; }
+/// Bits 28-31: how far the planes of the same surface's faces around gape at the joints, in 1/64 voxel. Set by markCorners.
+IRAD_CONST uint FACET_JOINT_SHIFT = 28u;
+IRAD_FN uint packFacetJoint(float gap) {
+  uint steps = uint(floor(gap * 64.0f + 0.99f));
+  return (steps > 15u ? 15u : steps) << FACET_JOINT_SHIFT;
+}
+IRAD_FN float facetJoint(uint shape) { return float(shape >> FACET_JOINT_SHIFT) * (1.0f / 64.0f); }
 IRAD_FN float facetOffset(uint shape) { return (float((shape >> 16) & 255u) - 128.0f) * (1.0f / 127.0f); }
 IRAD_FN uint packFacetOffset(float offset) {
   float clamped = offset < -1.0f ? -1.0f : (offset > 1.0f ? 1.0f : offset);

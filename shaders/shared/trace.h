@@ -18,9 +18,10 @@ IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;     ///< started behind a surface: 
 IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
 
 // The robust rule's lengths, in voxels.
-IRAD_CONST float TRACE_ON_PLANE = 0.05f;  ///< planes are known to about this (offset 1/254, normal 1 degree)
+IRAD_CONST float TRACE_ON_PLANE = 0.05f;  ///< planes extended beyond their cell are known to about this
+IRAD_CONST float TRACE_PLANE = 0.02f;    ///< a plane inside its own cell is known to about this
 IRAD_CONST float TRACE_BEHIND = 0.02f;    ///< an origin this far behind a face cannot meet its front
-IRAD_CONST float TRACE_JOINT = 0.2f;      ///< a ray passing a face this closely may have slipped through a joint
+IRAD_CONST float TRACE_JOINT = 0.2f;      ///< planes of one surface gape at most this; more is a step
 IRAD_CONST float TRACE_OWN_PLANE = 1.5f;  ///< backs of faces this near the own plane are not met
 IRAD_CONST float TRACE_CONCAVE =
     0.25f;                           ///< a face whose middle is this far in front of the own plane meets it concavely
