@@ -51,7 +51,7 @@ Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& t
     std::fill_n(groupOf.begin() + draw.firstIndex / 3, draw.indexCount / 3, static_cast<uint32_t>(order.groups.size()));
     order.groups.push_back({draw.material, true});
   }
-  for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~SECOND_FACET]].count;
+  for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~BACK_SIDE]].count;
   std::vector<uint32_t> next;
   uint32_t first = 0;
   for (Group& group : order.groups) {
@@ -60,7 +60,7 @@ Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& t
     first += group.count;
   }
   order.facets.resize(triangles.size());
-  for (uint32_t i = 0; i < triangles.size(); ++i) order.facets[next[groupOf[triangles[i] & ~SECOND_FACET]]++] = i;
+  for (uint32_t i = 0; i < triangles.size(); ++i) order.facets[next[groupOf[triangles[i] & ~BACK_SIDE]]++] = i;
   return order;
 }
 

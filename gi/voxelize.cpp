@@ -82,6 +82,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   push.scene = scene.record.address;
   push.grid = voxels.gridRecord.address;
   push.keys = voxels.keys.address;
+  push.slots = voxels.slots;
   std::vector<Range> ranges = triangles > 0 ? triangleRanges(scene) : std::vector<Range>{};
   const bool raster = settings.voxel.method == VoxelMethod::raster;
   Buffer tileStarts;

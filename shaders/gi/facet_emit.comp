@@ -5,6 +5,8 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { CompactPush push; };
 
+uint facetTriangle(uint key) { return keyTriangle(key) | (keyBack(key) ? BACK_SIDE : 0u); }
+
 void main() {
   uint block = irad_index();
   if (block >= push.blocks) return;
@@ -17,18 +19,18 @@ void main() {
     uvec3 v = corner + inBlock(code);
     if (any(greaterThanEqual(v, dims))) continue;
     uint index = voxelIndex(v, dims);
-    uint front = push.keys.at[index];
+    uint first = push.keys.at[index];
     uint entry = NO_FACET;
-    if (front != 0u) {
+    if (first != 0u) {
       entry = facet;
       push.voxel.at[facet] = packVoxel(v);
-      push.triangle.at[facet] = keyTriangle(front);
+      push.triangle.at[facet] = facetTriangle(first);
       ++facet;
-      uint back = push.slots == 2u ? push.keys.at[voxels + index] : 0u;
-      if (back != 0u) {
+      uint second = push.slots == 2u ? push.keys.at[voxels + index] : 0u;
+      if (second != 0u) {
         entry |= SECOND_FACET;
         push.voxel.at[facet] = packVoxel(v);
-        push.triangle.at[facet] = keyTriangle(back) | SECOND_FACET;
+        push.triangle.at[facet] = facetTriangle(second);
         ++facet;
       }
     }

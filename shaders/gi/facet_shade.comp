@@ -19,8 +19,7 @@ void main() {
   if (index >= push.count) return;
   uint facet = push.order.at[push.first + index];
   uint entry = push.triangle.at[facet];
-  bool second = (entry & SECOND_FACET) != 0u;
-  uint triangle = entry & ~SECOND_FACET;
+  uint triangle = entry & ~BACK_SIDE;
   uint flags = triangleFlags(push.scene, triangle);
 
   vec3 cell = vec3(unpackVoxel(push.voxel.at[facet]));
@@ -29,12 +28,7 @@ void main() {
   clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
   MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
 
-  // The second facet of a two-sided triangle is the side that faces against the first facet.
-  vec3 facing = normalize(t.normal);
-  if (second) {
-    vec3 winner = triangleNormal(push.scene, push.grid, push.triangle.at[facet - 1u]);
-    if (dot(t.normal, winner) > 0.0) facing = -facing;
-  }
+  vec3 facing = normalize(t.normal) * ((entry & BACK_SIDE) != 0u ? -1.0 : 1.0);
   Vec3Array normals = push.scene.at[0].normals;
   vec3 normal = normals.at[p.vertex.x] * p.weight.x + normals.at[p.vertex.y] * p.weight.y +
                 normals.at[p.vertex.z] * p.weight.z;

@@ -1,14 +1,12 @@
 // Raster voxelization (T 5.1.2): a fragment is the voxel that the triangle's plane passes through at the pixel's centre
 // (T eq. 14), which leaves pin-holes. The thesis lets the last writer win; here the same ordered key as in
-// gi/voxelize.comp decides, the area being that of the plane over the whole column.
+// gi/voxelize.comp decides: all fragments lie on the middle line of their voxel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
 
 #include "voxel_material.glsl"
-layout(push_constant, scalar) uniform Push {
-  VoxelizePush push;
-};
+layout(push_constant, scalar) uniform Push { VoxelizePush push; };
 layout(location = 0) flat in uvec2 triangleAxis;
 layout(location = 1) flat in vec3 plane;
 layout(location = 2) flat in vec2 corner;
@@ -26,20 +24,23 @@ void main() {
   vec3 offset = dominantLast(point - vec3(cell) - 0.5, d);
   float depth = offset.z - dot(plane.xy, offset.xy);
   float columnArea = sqrt(1.0 + dot(plane.xy, plane.xy));
-  float side = (triangleAxis.y & RASTER_FACES_UP) != 0u ? 1.0 : -1.0;
-  // Only a second facet and a masked material need the triangle itself.
-  if (push.slot == 1u || SAMPLES_TEXTURES != 0u) {
+  float front = ((triangleAxis.y & RASTER_FACES_UP) != 0u ? depth : -depth) / columnArea;
+  uint place = push.slot * push.grid.at[0].voxels + voxel;
+  bool back = false;
+  // One facet of an opaque material needs nothing of the triangle itself.
+  if (push.slots == 2u || SAMPLES_TEXTURES != 0u) {
     uint flags = triangleFlags(push.scene, triangle);
     VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
     if (push.slot == 1u) {
       uint winner = push.keys.at[voxel];
       if (winner == 0u) return;
-      vec3 winnerNormal = triangleNormal(push.scene, push.grid, keyTriangle(winner));
-      if (!opposes(t.normal, flags, winnerNormal)) return;
-      if (dot(t.normal, winnerNormal) > 0.0) side = -side;
+      vec3 facing = winnerFacing(push.scene, push.grid, winner);
+      if (!opposes(t.normal, flags, facing)) return;
+      back = dot(t.normal, facing) > 0.0;
     }
     if (masked(push.scene, t, triangle, flags, point)) return;
+    if (push.slot == 0u && push.slots == 2u && (flags & MATERIAL_DOUBLE_SIDED) != 0u)
+      atomicMax(push.keys.at[place], middleKey(-front, true, triangle));
   }
-  atomicMax(push.keys.at[push.slot * push.grid.at[0].voxels + voxel],
-            voxelKey(columnArea, side * depth / columnArea, triangle));
+  atomicMax(push.keys.at[place], middleKey(back ? -front : front, back, triangle));
 }

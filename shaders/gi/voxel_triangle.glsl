@@ -38,9 +38,10 @@ VoxelTriangle loadTriangle(SceneArray scenes, GridArray grids, uint triangle) {
 
 bool degenerate(VoxelTriangle t) { return t.normal == vec3(0.0); }
 
-/// Facing of the winner of a voxel's first facet, for the second: normal of `triangle`, not normalized.
-vec3 triangleNormal(SceneArray scenes, GridArray grids, uint triangle) {
-  return loadTriangle(scenes, grids, triangle).normal;
+/// Where the winner of a voxel's first facet faces, for the second; not normalized.
+vec3 winnerFacing(SceneArray scenes, GridArray grids, uint key) {
+  vec3 normal = loadTriangle(scenes, grids, keyTriangle(key)).normal;
+  return keyBack(key) ? -normal : normal;
 }
 
 uint triangleFlags(SceneArray scenes, uint triangle) {

@@ -50,6 +50,7 @@ void main() {
   float wholeArea = 0.5 * length(normal);
   float columnArea = length(normal) / abs(normal.z);
   bool oneCell = lo == hi;
+  uint sides = push.slot == 0u && push.slots == 2u && (flags & MATERIAL_DOUBLE_SIDED) != 0u ? 2u : 1u;
 
   uvec2 tiles;
   int edge = int(tileEdge(uvec2(hi.xy - lo.xy + 1), tiles));
@@ -60,12 +61,12 @@ void main() {
     for (int x = first.x; x <= last.x; ++x) {
       vec2 c = vec2(x, y);
       bool touches = true;
-      bool covers = true;
+      bool holdsMiddle = true;  // the triangle's projection that of the column's middle line
       for (int i = 0; i < 3; ++i) {
         float e = dot(inward[i], c - corner[i].xy);
         float slack = SLACK * (abs(inward[i].x) + abs(inward[i].y));
         touches = touches && e + max(inward[i].x, 0.0) + max(inward[i].y, 0.0) >= -slack;
-        covers = covers && e + min(inward[i].x, 0.0) + min(inward[i].y, 0.0) >= slack;
+        holdsMiddle = holdsMiddle && e + 0.5 * (inward[i].x + inward[i].y) >= -slack;
       }
       if (!touches) continue;
       float depth = corner[0].z + dot(slope, c - corner[0].xy);
@@ -75,30 +76,35 @@ void main() {
         vec3 base = vec3(x, y, z);
         uvec3 cell = uvec3(originalAxes(ivec3(x, y, z), t.axis));
         uint voxel = voxelIndex(cell, dims);
-        float side = 1.0;  // -1: the triangle's back is the candidate
+        bool back = false;  // the triangle's back is the candidate
         if (push.slot == 1u) {
           uint winner = push.keys.at[voxel];
           if (winner == 0u) continue;  // cut away by its alpha mask
-          vec3 winnerNormal = triangleNormal(push.scene, push.grid, keyTriangle(winner));
-          if (!opposes(t.normal, flags, winnerNormal)) continue;
-          if (dot(t.normal, winnerNormal) > 0.0) side = -1.0;
+          vec3 facing = winnerFacing(push.scene, push.grid, winner);
+          if (!opposes(t.normal, flags, facing)) continue;
+          back = dot(t.normal, facing) > 0.0;
         }
-        vec3 centre;
-        float area;
-        if (oneCell) {
-          area = wholeArea;
-          centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
-        } else if (covers && depth + depthLow >= base.z && depth + depthHigh <= base.z + 1.0) {
-          area = columnArea;
-          centre = vec3(0.5, 0.5, depth + 0.5 * (slope.x + slope.y) - base.z);
-        } else {
-          area = clipToCell(corner[0] - base, corner[1] - base, corner[2] - base, centre);
-          if (area < 0.0) continue;
+        float middle = depth + 0.5 * (slope.x + slope.y) - base.z;  // where the plane crosses the middle line
+        bool crosses = holdsMiddle && middle >= 0.0 && middle < 1.0;
+        vec3 centre = vec3(0.5, 0.5, middle);
+        float area = 0.0;
+        if (!crosses) {
+          if (oneCell) {
+            area = wholeArea;
+            centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
+          } else {
+            area = clipToCell(corner[0] - base, corner[1] - base, corner[2] - base, centre);
+            if (area < 0.0) continue;
+          }
         }
         if (masked(push.scene, t, triangle, flags, originalAxes(centre + base, t.axis))) continue;
-        vec3 offset = centre - 0.5;
-        float front = side * orientation * (offset.z - dot(slope, offset.xy)) / columnArea;
-        atomicMax(push.keys.at[push.slot * voxels + voxel], voxelKey(area, front, triangle));
+        float front = orientation * (middle - 0.5) / columnArea;
+        uint place = push.slot * voxels + voxel;
+        for (uint side = 0u; side < sides; ++side) {
+          atomicMax(push.keys.at[place], crosses ? middleKey(back ? -front : front, back, triangle)
+                                                 : sliverKey(area, back, triangle));
+          back = true;
+        }
       }
     }
   }

@@ -6,21 +6,25 @@
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
-/// Ordered key of a triangle in a voxel, resolved by atomicMax: bits 27-31 the area inside the voxel, up to half a face
-/// (more counts the same); bits 24-26 how far in front it lies along its own facing; bits 0-23 the triangle's
-/// complement, so that equals go to the lower triangle. Of two faces that both fill a voxel, such as a lamp just below
-/// a ceiling, the visible one wins; a sliver of the front one does not. 0 is empty: the lower bits are never 0. `area`:
-/// voxel faces, [0, sqrt 2]; `front`: (centre of the part - centre of the voxel) . unit facing, voxels.
+/// Ordered key of one side of a triangle in a voxel, resolved by atomicMax; 0 is empty. Bit 31: the triangle crosses the
+/// voxel's middle line along the triangle's dominant axis, which of a surface just one triangle does, however finely it
+/// is divided. Bits 25-30 where it does: `front`, the distance of the crossing's plane from the voxel's centre along the
+/// side's facing, voxels, so that of a lamp just below a ceiling, or a curtain before a wall, the visible face wins;
+/// where it does not: `area` inside the voxel, voxel faces, half a face being full, so that the largest of slivers wins.
+/// Bit 24: the front side. Bits 0-23: the triangle's complement, so that equals go to the lower triangle.
 IRAD_CONST uint MAX_TRIANGLES = 0xFFFFFEu;
-IRAD_FN uint voxelKey(float area, float front, uint triangle) {
-  float a = floor(area * 62.0f + 0.5f);
-  float f = floor((front + 0.875f) * (8.0f / 1.75f));
-  f = f < 0.0f ? 0.0f : (f > 7.0f ? 7.0f : f);
-  return (uint(a < 31.0f ? a : 31.0f) << 27) | (uint(f) << 24) | (0xFFFFFFu - triangle);
+IRAD_CONST uint KEY_MIDDLE = 1u << 31;
+IRAD_CONST uint KEY_FRONT_SIDE = 1u << 24;
+IRAD_FN uint keySteps(float steps) { return uint(steps < 0.0f ? 0.0f : (steps > 63.0f ? 63.0f : steps)) << 25; }
+IRAD_FN uint keySide(bool back, uint triangle) { return (back ? 0u : KEY_FRONT_SIDE) | (0xFFFFFFu - triangle); }
+IRAD_FN uint middleKey(float front, bool back, uint triangle) {
+  return KEY_MIDDLE | keySteps(floor(front * 64.0f + 32.0f)) | keySide(back, triangle);
 }
-IRAD_FN uint keyTriangle(uint key) {
-  return 0xFFFFFFu - (key & 0xFFFFFFu);
+IRAD_FN uint sliverKey(float area, bool back, uint triangle) {
+  return keySteps(floor(area * 126.0f + 0.5f)) | keySide(back, triangle);
 }
+IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
+IRAD_FN bool keyBack(uint key) { return (key & KEY_FRONT_SIDE) == 0u; }
 
 /// The second facet of a voxel faces against the first: n . n' below this. Perpendicular walls (a corner) are not
 /// opposed.
@@ -43,8 +47,11 @@ struct VoxelizePush {
   uint endTriangle;
   uint firstTile;
   uint tileCount;
-  uint slot;  ///< 0: the best triangle of all; 1: the best that faces against it
+  uint slot;   ///< 0: the best side of all; 1: the best that faces against it
+  uint slots;  ///< 2: both sides of a double-sided triangle may be the first facet
 };
+
+IRAD_CONST uint BACK_SIDE = 0x80000000u;
 
 struct CompactPush {
   GridArray grid;
@@ -52,7 +59,7 @@ struct CompactPush {
   UintArray blockCounts;  ///< facets per block of 4 x 4 x 4 voxels (64 Morton codes), then their exclusive prefix sum
   UintArray totals;       ///< [0] facets (from the prefix sum), [1] solid voxels
   UintArray voxel;
-  UintArray triangle;  ///< winner | SECOND_FACET for the second facet of a voxel
+  UintArray triangle;  ///< winner | BACK_SIDE where its back is the facet
   UintArray reverse;
   uint blocks;
   uint slots;
