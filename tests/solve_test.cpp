@@ -1,6 +1,7 @@
 // Jacobi and scatter on the device against the oracle and closed forms (METHOD sections 1, 6, 7; HARD_CASES).
 #include <glm/gtc/packing.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "gi/oracle/rays.h"
 #include "shaders/shared/sampling.h"
@@ -89,6 +90,22 @@ TEST_F(Solve, FurnaceSphere) {
   fmt::print("sphere: B (1 - rho) mean {:.5f} min {:.5f} max {:.5f}; escaped {} invalid {} of {}\n", b.mean * 0.5,
              b.least * 0.5, b.most * 0.5, m.stats.escaped, m.stats.invalid, m.stats.rays);
   EXPECT_NEAR(b.mean * 0.5, 1.0, 5e-3);
+}
+
+TEST_F(Solve, FurnaceTilted) {
+  Settings settings = at(64, 384);
+  const World w = world(furnaceTilted(0.5f), settings);
+  const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
+  Lighting light = makeLighting(context(), w.facets, settings);
+  solve(context(), w.facets, m, light, settings, 1000);
+  std::vector<float> b;
+  for (const glm::vec4& v : values(light.radiosity)) b.push_back(0.5f * v.x);
+  std::sort(b.begin(), b.end());
+  const double mean = std::accumulate(b.begin(), b.end(), 0.0) / static_cast<double>(b.size());
+  fmt::print("tilted: B (1 - rho) mean {:.5f} min {:.5f} 1st percentile {:.5f}; escaped {} invalid {} of {}\n", mean,
+             b.front(), b.at(b.size() / 100), m.stats.escaped, m.stats.invalid, m.stats.rays);
+  EXPECT_NEAR(mean, 1.0, 0.01);
+  EXPECT_GE(b.at(b.size() / 100), 0.97);
 }
 
 TEST_F(Solve, SweepsEqualTheOracle) {

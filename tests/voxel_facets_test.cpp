@@ -47,7 +47,7 @@ TEST_F(VoxelFacetsTest, ThinWallsKeepBothSidesInEitherOrder) {
     }
 }
 
-TEST_F(VoxelFacetsTest, OrderOfTrianglesWithDistinctAreasDoesNotMatter) {
+TEST_F(VoxelFacetsTest, OrderOfTrianglesDecidesBetweenEqualsOnly) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<float> uniform(-1, 1);
   const auto random = [&] { return glm::vec3(uniform(engine), uniform(engine), uniform(engine)); };
@@ -56,25 +56,14 @@ TEST_F(VoxelFacetsTest, OrderOfTrianglesWithDistinctAreasDoesNotMatter) {
   for (int i = 0; i < 60; ++i) soup.triangle(white, random(), random(), random());
   const Result a = run(soup.build(), with(24, 2)), b = run(soup.build(true), with(24, 2));
   ASSERT_EQ(a.solid, b.solid);
-  // The best key is the same in both orders. Only its last bits, which decide between equals, name another triangle:
-  // one that fills the voxel as much (half a face being full) to the step of the key.
-  const Scene scene = soup.build();
-  const auto area = [&](uint32_t t, uint32_t voxel) {
-    const glm::vec3* p = &scene.positions[3 * t];
-    return std::min(
-        0.5, oracle::areaInside(oracle::toVoxels(a.grid, p[0], p[1], p[2]), glm::ivec3(voxelOf(voxel, a.grid.dims))));
-  };
+  // The best key is the same in both orders. Only its last bits, which decide between equals, name another triangle.
   uint32_t same = 0;
   for (uint32_t i = 0; i < a.grid.voxels; ++i) {
     if (!a.solid[i]) continue;
     ASSERT_EQ(a.keys[i] >> 24, b.keys[i] >> 24);
-    const uint32_t winner = keyTriangle(a.keys[i]), other = 59 - keyTriangle(b.keys[i]);
-    if (winner == other)
-      ++same;
-    else
-      EXPECT_NEAR(area(winner, i), area(other, i), 1.0 / 62 + 1e-4) << i;
+    if (keyTriangle(a.keys[i]) == 59 - keyTriangle(b.keys[i])) ++same;
   }
-  EXPECT_GT(same, a.solidCount() / 2);
+  EXPECT_GT(same, a.solidCount() * 9 / 10);
 }
 
 TEST_F(VoxelFacetsTest, SheetsHaveTheSidesTheirMaterialHas) {

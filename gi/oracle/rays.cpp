@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -84,8 +85,31 @@ Hit traceThesis(const Facets& facets, const Ray& ray) {
   return hit;
 }
 
-/// One face asked by the robust rule.
-enum class Answer { Misses, Near, Front, Back };
+/// The faces that `around` of a facet in a voxel names.
+std::vector<uint32_t> facetsAround(const Facets& facets, const ivec3& voxel, uint32_t around) {
+  std::vector<uint32_t> list;
+  for (; around != 0; around &= around - 1) {
+    const int i = std::countr_zero(around);
+    for (const uint32_t f : facetsAt(facets, voxel + ivec3(i % 3, i / 3 % 3, i / 9) - 1)) list.push_back(f);
+  }
+  return list;
+}
+
+/// Whether the ray's origin lies beyond a wall that meets its facet's surface.
+template <class Less>
+bool startsInside(const Facets& facets, const Ray& ray, const Less& less) {
+  if ((facets.shape[ray.facet] & FACET_CORNER) == 0) return false;
+  const auto near = facetsAround(facets, ivec3(unpackVoxel(facets.voxel[ray.facet])), facets.around[ray.facet]);
+  const auto behind = [&](uint32_t f, const dvec3& p) {
+    return !less(-double{TRACE_ON_PLANE}, glm::dot(facets.normal(f), p - facets.middle(f)));
+  };
+  return std::any_of(near.begin(), near.end(), [&](uint32_t wall) {
+    return behind(wall, ray.origin) && !less(glm::dot(ray.normal, facets.middle(wall) - ray.origin), TRACE_CONCAVE) &&
+           !less(TRACE_OWN_NORMAL, glm::dot(facets.normal(wall), ray.normal)) &&
+           std::none_of(near.begin(), near.end(),
+                        [&](uint32_t side) { return !behind(side, ray.origin) && behind(wall, facets.middle(side)); });
+  });
+}
 
 Hit traceRobust(const Facets& facets, const Ray& ray) {
   Hit hit{TRACE_ESCAPED};
@@ -97,67 +121,71 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
     hit.margin = std::min(hit.margin, std::abs(a - b));
     return a < b;
   };
-  const auto ask = [&](uint32_t f, bool recorded) {
-    const double start = facets.distance(f, ray.origin), slope = glm::dot(facets.normal(f), ray.direction);
-    const double enter = start + slope * walk.enter, leave = start + slope * walk.leave;
-    if (less(slope, 0)) {
-      const bool ownBack = less(glm::dot(facets.normal(f), ray.normal), -double{TRACE_OWN_NORMAL});
-      if (!less(ownBack ? TRACE_ON_PLANE : -double{TRACE_BEHIND}, start)) return Answer::Misses;
-      if (!less(TRACE_ON_PLANE, leave) && (recorded || !less(enter, -double{TRACE_ON_PLANE}))) return Answer::Front;
-      return recorded && !less(TRACE_JOINT, leave) ? Answer::Near : Answer::Misses;
-    }
-    const bool own =
-        less(TRACE_OWN_NORMAL, glm::dot(facets.normal(f), ray.normal)) && less(std::abs(start), TRACE_OWN_PLANE);
-    const bool crosses = recorded && less(enter, -double{TRACE_ON_PLANE}) && less(TRACE_ON_PLANE, leave);
-    return crosses && !own ? Answer::Back : Answer::Misses;
+  if (ray.facet != NO_FACET && startsInside(facets, ray, less)) {
+    hit.facet = TRACE_INVALID;
+    return hit;
+  }
+  struct Met {
+    double t = 1e30;
+    uint32_t facet = TRACE_ESCAPED;
   };
-  for (bool first = true; inside(facets, walk.cell) && hit.facet == TRACE_ESCAPED; first = false) {
-    double nearest = 1e30;
+  while (inside(facets, walk.cell) && hit.facet == TRACE_ESCAPED) {
+    Met front, back;
     uint32_t around = 0;
-    const auto consider = [&](uint32_t f, bool recorded) {
-      const Answer answer = ask(f, recorded);
-      const double cross = -facets.distance(f, ray.origin) / glm::dot(facets.normal(f), ray.direction);
-      if (answer == Answer::Near) {
-        passed = f;
-        passedAt = walk.leave;
+    const std::vector<uint32_t> here = facetsAt(facets, walk.cell);
+    // The extension of a face around ends at the planes recorded here, beyond which its middle does not lie.
+    const auto reaches = [&](uint32_t f, double t) {
+      for (const uint32_t mine : here) {
+        const double crossing = facets.distance(mine, ray.origin + t * ray.direction);
+        if (less(facets.distance(mine, facets.middle(f)), 0) ? less(TRACE_ON_PLANE, crossing)
+                                                             : less(crossing, -double{TRACE_ON_PLANE}))
+          return false;
       }
-      if ((answer != Answer::Front && answer != Answer::Back) || !less(cross, nearest)) return;
-      nearest = cross;
-      hit.t = std::max(cross, 0.0);
-      if (answer == Answer::Front || (facets.shape[f] & FACET_DOUBLE_SIDED))
-        hit.facet = f;
-      else
-        hit.facet = less(cross, TRACE_NEAR) ? TRACE_INVALID : TRACE_BLOCKED;
+      return true;
     };
-    for (const uint32_t f : facetsAt(facets, walk.cell)) {
-      consider(f, /*recorded=*/true);
+    const auto own = [&](uint32_t f) {
+      return less(TRACE_OWN_NORMAL, glm::dot(facets.normal(f), ray.normal)) &&
+             less(std::abs(facets.distance(f, ray.origin)), TRACE_OWN_PLANE);
+    };
+    const auto rise = [&](uint32_t f) { return glm::dot(ray.normal, facets.middle(f) - ray.origin); };
+    const auto ask = [&](uint32_t f, bool recorded) {
+      const double start = facets.distance(f, ray.origin), slope = glm::dot(facets.normal(f), ray.direction);
+      const double enter = start + slope * walk.enter, leave = start + slope * walk.leave, cross = -start / slope;
+      const bool otherSide = less(glm::dot(facets.normal(f), ray.normal), -double{TRACE_OWN_NORMAL}) &&
+                             less(std::min(rise(f), start), TRACE_ON_PLANE);
+      if (less(slope, 0) && less(-double{TRACE_BEHIND}, start) && !otherSide) {
+        const double slack = recorded ? TRACE_PLANE + facetJoint(facets.shape[f]) : TRACE_ON_PLANE;
+        if (!less(slack, leave) && !less(enter, -slack) &&
+            (recorded || reaches(f, std::clamp(cross, walk.enter, walk.leave)))) {
+          if (less(cross, front.t)) front = {cross, f};
+        } else if (recorded && !less(TRACE_JOINT, leave) && less(0, enter)) {
+          passed = f;
+          passedAt = walk.leave;
+        }
+      } else if (!less(slope, 0) && recorded && !own(f) && less(enter, -double{TRACE_ON_PLANE}) &&
+                 less(TRACE_ON_PLANE, leave) && less(cross, back.t)) {
+        back = {cross, f};
+      }
+    };
+    for (const uint32_t f : here) {
+      ask(f, /*recorded=*/true);
       if (facets.shape[f] & FACET_CORNER) around |= facets.around[f];
     }
-    if (around != 0 && hit.facet == TRACE_ESCAPED) {
-      bool behind = false, before = false;
-      for (int i = 0; i < 27; ++i) {
-        const ivec3 side = ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-        if ((around >> i & 1) == 0) continue;
-        for (const uint32_t f : facetsAt(facets, walk.cell + side)) {
-          consider(f, /*recorded=*/false);
-          const double start = facets.distance(f, ray.origin);
-          const bool own =
-              glm::dot(facets.normal(f), ray.normal) > TRACE_OWN_NORMAL && std::abs(start) < TRACE_OWN_PLANE;
-          const glm::dvec3 middle =
-              glm::dvec3(walk.cell + side) + 0.5 + facets.normal(f) * double(facetOffset(facets.shape[f]));
-          if (!first || own || !less(TRACE_CONCAVE, glm::dot(ray.normal, middle - ray.origin))) continue;
-          if (less(start, -double{TRACE_ON_PLANE}))
-            behind = true;
-          else
-            before = true;
-        }
-      }
-      if (behind && !before) {
-        hit.facet = TRACE_INVALID;
-        hit.t = 1e30;
-      }
+    if (back.facet != TRACE_ESCAPED &&
+        (front.facet == TRACE_ESCAPED ||
+         less(TRACE_JOINT, facets.distance(back.facet, ray.origin + front.t * ray.direction)))) {
+      front = back;
+      if (!(facets.shape[back.facet] & FACET_DOUBLE_SIDED))
+        front.facet = less(back.t, TRACE_NEAR) ? TRACE_INVALID : TRACE_BLOCKED;
     }
-    if (hit.facet == TRACE_ESCAPED) walk.next();
+    if (front.facet == TRACE_ESCAPED)
+      for (const uint32_t f : facetsAround(facets, walk.cell, around)) ask(f, /*recorded=*/false);
+    if (front.facet != TRACE_ESCAPED) {
+      hit.facet = front.facet;
+      hit.t = std::max(front.t, 0.0);
+    } else {
+      walk.next();
+    }
   }
   if (hit.facet > TRACE_LAST_FACET && passed != TRACE_ESCAPED) {
     const double end = hit.facet == TRACE_ESCAPED ? walk.enter : hit.t;
@@ -176,6 +204,10 @@ dvec3 Facets::normal(uint32_t facet) const {
   return dvec3(decodeNormal(shape[facet] & 0xFFFFu, encoding));
 }
 
+dvec3 Facets::middle(uint32_t facet) const {
+  return dvec3(unpackVoxel(voxel[facet])) + 0.5 + normal(facet) * double{facetOffset(shape[facet])};
+}
+
 double Facets::distance(uint32_t facet, const dvec3& p) const {
   return glm::dot(normal(facet), p - (dvec3(unpackVoxel(voxel[facet])) + 0.5)) - double{facetOffset(shape[facet])};
 }
@@ -189,7 +221,7 @@ Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParam
       params.hitRule == HIT_RULE_THESIS
           ? glm::vec3(voxel) + 0.5f + n
           : facetPoint(voxel, n, facetOffset(facets.shape[facet]), facetJitter(k, glm::uvec2(shifts.z, shifts.w)));
-  return {dvec3(origin), dvec3(direction), dvec3(n)};
+  return {dvec3(origin), dvec3(direction), dvec3(n), facet};
 }
 
 Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule) {

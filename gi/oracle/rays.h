@@ -16,13 +16,16 @@ struct Facets {
   uint32_t encoding = 3;
   std::vector<uint32_t> voxel, shape, reverse, around;
   glm::dvec3 normal(uint32_t facet) const;
+  /// The point of the plane nearest to the voxel's centre, voxel units.
+  glm::dvec3 middle(uint32_t facet) const;
   /// Signed distance of `p` (voxel units) from the facet's plane.
   double distance(uint32_t facet, const glm::dvec3& p) const;
 };
 
 struct Ray {
   glm::dvec3 origin, direction;  ///< voxel units
-  glm::dvec3 normal;             ///< of the facet it leaves
+  glm::dvec3 normal;             ///< of the surface it leaves
+  uint32_t facet = NO_FACET;     ///< that it leaves, if it starts on one
 };
 /// Ray k of a facet, from the shared sampling functions.
 Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params);

@@ -73,8 +73,45 @@ double areaInside(const Triangle& triangle, glm::ivec3 cell) {
   return 0.5 * glm::length(sum);
 }
 
+namespace {
+/// Where the plane of a triangle crosses the middle line of a cell, if the triangle does so.
+struct Crossing {
+  Cover cover = Cover::No;
+  double front = 0;
+};
+
+Crossing crossMiddle(const Triangle& t, const glm::ivec3& cell) {
+  constexpr double kDoubt = 2.5e-3;  // voxels; the shader's own slack is 1e-3
+  Crossing best;
+  const glm::dvec3 n = glm::cross(t[1] - t[0], t[2] - t[0]), m = glm::abs(n);
+  const double largest = std::max({m.x, m.y, m.z});
+  if (largest == 0) return best;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (m[axis] < largest * (1 - 1e-4)) continue;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const bool tie = std::count_if(&m.x, &m.x + 3, [&](double a) { return a >= largest * (1 - 1e-4); }) > 1;
+    double inside = 1e9;  // distance to the nearest edge, positive inside
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 &a = t[i], &b = t[(i + 1) % 3];
+      const glm::dvec2 inward = glm::dvec2(a[v] - b[v], b[u] - a[u]) * (n[axis] >= 0 ? 1.0 : -1.0);
+      const double e = inward.x * (cell[u] + 0.5 - a[u]) + inward.y * (cell[v] + 0.5 - a[v]);
+      inside = std::min(inside, e / (std::abs(inward.x) + std::abs(inward.y)));
+    }
+    const double depth =
+        t[0][axis] - cell[axis] - (n[u] * (cell[u] + 0.5 - t[0][u]) + n[v] * (cell[v] + 0.5 - t[0][v])) / n[axis];
+    const double within = std::min({inside, depth, 1 - depth});
+    if (within < -kDoubt) continue;
+    const Cover cover = within < kDoubt || tie ? Cover::Unsure : Cover::Yes;
+    if (cover <= best.cover) continue;
+    best = {cover, (depth - 0.5) * n[axis] / glm::length(n)};
+  }
+  return best;
+}
+}  // namespace
+
 Coverage voxelize(const Grid& grid, const std::vector<glm::vec3>& positions, const std::vector<uint32_t>& indices) {
-  Coverage result{std::vector<Cover>(grid.voxels, Cover::No), std::vector<double>(grid.voxels, 0.0)};
+  Coverage result{std::vector<Cover>(grid.voxels, Cover::No), std::vector<double>(grid.voxels, 0.0),
+                  std::vector<double>(grid.voxels, -1.0), std::vector<double>(grid.voxels, -1.0)};
   const double band = coverBand(grid);
   for (size_t i = 0; i + 2 < indices.size(); i += 3) {
     const Triangle t = toVoxels(grid, positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]);
@@ -87,6 +124,10 @@ Coverage voxelize(const Grid& grid, const std::vector<glm::vec3>& positions, con
           const Cover c = cover(t, {x, y, z}, band);
           result.cover[voxel] = std::max(result.cover[voxel], c);
           if (c != Cover::No) result.area[voxel] = std::max(result.area[voxel], areaInside(t, {x, y, z}));
+          const Crossing crossing = crossMiddle(t, {x, y, z});
+          if (crossing.cover == Cover::No) continue;
+          result.possibleFront[voxel] = std::max(result.possibleFront[voxel], crossing.front);
+          if (crossing.cover == Cover::Yes) result.sureFront[voxel] = std::max(result.sureFront[voxel], crossing.front);
         }
   }
   return result;

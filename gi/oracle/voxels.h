@@ -29,6 +29,10 @@ double coverBand(const Grid& grid);
 struct Coverage {
   std::vector<Cover> cover;  ///< per voxel: Yes if some triangle is sure to cover it, No if none can
   std::vector<double> area;  ///< per voxel: the largest area of one triangle inside
+  /// Per voxel: how far in front of its centre, along its facing, the frontmost triangle lies that crosses the voxel's
+  /// middle line along the triangle's dominant axis; -1 where none does. `sure`: beyond the doubt of fp32; `possible`:
+  /// doubtful ones too.
+  std::vector<double> sureFront, possibleFront;
 };
 Coverage voxelize(const Grid& grid, const std::vector<glm::vec3>& positions, const std::vector<uint32_t>& indices);
 

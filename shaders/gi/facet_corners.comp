@@ -10,8 +10,8 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { FacetCornersPush p; };
 
-const int SEARCH = 3;       // voxels
-const float SAME = 0.02f;    // voxels: planes of one code this near are one plane
+const int SEARCH = 3;      // voxels
+const float SAME = 0.02f;  // voxels: planes of one code this near are one plane
 const float REACH = 0.9f;  // voxels: half a cell's diagonal and what planes are known to
 
 void main() {
@@ -25,7 +25,10 @@ void main() {
   ivec3 voxel = ivec3(unpackVoxel(f.voxel.at[facet]));
   uint around = 0u;
   float joint = 0.0f;
-  uint planes = 0u;  // kept so far: one voxel per plane is enough to ask
+  // One voxel per plane is enough to ask: the one that stands highest above the own plane.
+  uint planes = 0u;
+  int keptPlace[4];
+  float keptRise[4];
   uint keptCode[4];
   float keptDistance[4];
   int other_ = SEARCH + 1;  // distance of the nearest face of another plane
@@ -58,19 +61,23 @@ void main() {
           if (gap < TRACE_JOINT) joint = max(joint, gap);
         }
         if (radius != 1 || alike >= TRACE_OWN_NORMAL || abs(centre) >= REACH) continue;
-        bool known = false;
-        for (uint k = 0u; k < min(planes, 4u); ++k)
-          known = known || (keptCode[k] == (otherShape & 0xFFFFu) && abs(keptDistance[k] - centre) < SAME);
-        if (known) continue;
-        if (planes < 4u) {
-          keptCode[planes] = otherShape & 0xFFFFu;
-          keptDistance[planes] = centre;
+        float rise = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape) - point);
+        uint k = 0u;
+        while (k < planes && (keptCode[k] != (otherShape & 0xFFFFu) || abs(keptDistance[k] - centre) >= SAME)) ++k;
+        if (k < planes && rise <= keptRise[k]) continue;
+        if (k == 4u) {
+          around |= 1u << i;
+          continue;
         }
-        ++planes;
-        around |= 1u << i;
+        planes = max(planes, k + 1u);
+        keptCode[k] = otherShape & 0xFFFFu;
+        keptDistance[k] = centre;
+        keptPlace[k] = i;
+        keptRise[k] = rise;
       }
     }
   }
+  for (uint k = 0u; k < planes; ++k) around |= 1u << keptPlace[k];
   // Voxels next to a face of another plane may be corners: they are not stepped over.
   uint bits = packFacetJoint(joint) | uint(max(other_ - 2, 0)) << FACET_CLEAR_SHIFT;
   if (around != 0u) bits |= FACET_CORNER;

@@ -131,8 +131,14 @@ TracePlane tracePlane(TraceWorld world, TraceWalk w, vec3 cell, uint shape) {
   return p;
 }
 
+vec3 facetMiddle(vec3 cell, vec3 normal, uint shape) {
+  return cell + 0.5f + normal * facetOffset(shape);
+}
+
 /// The plane of `p` as x, y, z, w of n . x + w = 0, in voxel units.
-vec4 planeEquation(TracePlane p, TraceWalk w) { return vec4(p.normal, p.start - dot(p.normal, w.origin)); }
+vec4 planeEquation(TracePlane p, TraceWalk w) {
+  return vec4(p.normal, p.start - dot(p.normal, w.origin));
+}
 
 /// Whether the extension of a face around, whose middle is given, still exists where the ray crosses it: it ends at the
 /// plane of the face recorded here, beyond which its middle does not lie.
@@ -143,14 +149,13 @@ bool reaches(vec4 recorded, vec3 middle, vec3 crossing) {
 }
 
 /// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of cells around
-/// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the origin's
-/// cell there is only the own plane.
+/// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the
+/// origin's cell there is only the own plane.
 TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   uint passed = TRACE_ESCAPED;  // last face passed closely in front of, for rays that slip through a joint
   float passedAt = 0.0f;
-  bool first = clear == 0u;
-  if (!first) traceAdvance(w, float(clear) + 1.0f);
+  if (clear > 0u) traceAdvance(w, float(clear) + 1.0f);
   while (traceToSolid(world, w, hit.steps)) {
     vec3 bounds = traceBounds(w, 1.0f);
     float leave = min(bounds.x, min(bounds.y, bounds.z));
@@ -166,7 +171,6 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
     uint backMet = TRACE_ESCAPED;
     vec2 backPlane = vec2(0.0f);
     vec4 planes[2] = vec4[2](vec4(0.0f), vec4(0.0f));  // of the recorded faces
-    bool behind = false, before = false;               // of faces around the first cell
     uint over = 0u;
     for (;;) {
       if (left > 0u) {
@@ -176,7 +180,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         float leaveS = p.start + p.slope * leave;
         float cross = -p.start / p.slope;
         float alike = dot(p.normal, ownNormal);
-        vec3 middle = at + 0.5f + p.normal * facetOffset(shape);
+        vec3 middle = facetMiddle(at, p.normal, shape);
         float rise = dot(ownNormal, middle - w.origin);  // of the face's middle above the own plane
         bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
         if (recorded) {
@@ -192,8 +196,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
           // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface.
           float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
           if (leaveS <= slack && enterS >= -slack &&
-              (recorded || (reaches(planes[0], middle, w.origin + cross * w.direction) &&
-                            reaches(planes[1], middle, w.origin + cross * w.direction)))) {
+              (recorded || (reaches(planes[0], middle, w.origin + clamp(cross, w.t, leave) * w.direction) &&
+                            reaches(planes[1], middle, w.origin + clamp(cross, w.t, leave) * w.direction)))) {
             if (cross < nearest) {
               nearest = cross;
               met = facet;
@@ -208,19 +212,12 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
           backPlane = vec2(p.start, p.slope);
           backMet = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
         }
-        // An origin behind a face that rises in front of the own plane is inside the wall beyond a concave edge. Where
-        // the surface is convex, every neighbour's plane lies in front of the origin, and that says nothing.
-        if (first && !recorded && !own && rise > TRACE_CONCAVE) {
-          if (p.start < -TRACE_ON_PLANE)
-            behind = true;
-          else
-            before = true;
-        }
         --left;
         ++facet;
       }
       if (left == 0u) {
-        // The back of a sheet whose front is met in the same cell lies in the same plane: only one well in front counts.
+        // The back of a sheet whose front is met in the same cell lies in the same plane: only one well in front
+        // counts.
         if (recorded && backMet != TRACE_ESCAPED &&
             (met == TRACE_ESCAPED || backPlane.x + backPlane.y * nearest > TRACE_JOINT)) {
           met = backMet;
@@ -236,8 +233,6 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         left = other >= SECOND_FACET ? 2u : 1u;
       }
     }
-    if (first && behind && !before) met = TRACE_INVALID;
-    first = false;
     if (met != TRACE_ESCAPED) {
       hit.facet = met;
       hit.t = max(nearest, 0.0f);
@@ -287,10 +282,52 @@ TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
   return traceRobust(world, w, normal, 0u);
 }
 
-/// The same for a ray that starts on the facet `shape` of `voxel`, whose surroundings are known.
-TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal, uvec3 voxel, uint shape) {
+/// One of the faces that `around` of a facet names: the next is taken off the list.
+uint nextAround(TraceWorld world, vec3 voxel, inout uint around, inout bool second, out vec3 at) {
+  int i = findLSB(around);
+  at = voxel + vec3(ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+  uint entry = world.facets.reverse.at[traceIndex(at, world.dims)];
+  uint facet = (entry & ~SECOND_FACET) + (second ? 1u : 0u);
+  second = entry >= SECOND_FACET && !second;
+  if (!second) around &= around - 1u;
+  return facet;
+}
+
+/// Whether a point of a facet, jittered over its voxel, lies beyond a wall that meets the facet there: behind a face
+/// that rises in front of the own plane, and not in front of another side of the same solid (one whose middle is behind
+/// that face).
+bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, vec3 ownNormal, uint around) {
+  uint wall = around;
+  bool wallSecond = false;
+  while (wall != 0u) {
+    vec3 at;
+    uint shape = world.facets.shape.at[nextAround(world, voxel, wall, wallSecond, at)];
+    vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+    vec3 middle = facetMiddle(at, normal, shape);
+    if (dot(normal, origin - middle) > -TRACE_ON_PLANE || dot(ownNormal, middle - origin) < TRACE_CONCAVE ||
+        dot(normal, ownNormal) > TRACE_OWN_NORMAL)
+      continue;
+    bool outside = false;
+    uint side = around;
+    bool sideSecond = false;
+    while (side != 0u && !outside) {
+      shape = world.facets.shape.at[nextAround(world, voxel, side, sideSecond, at)];
+      vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+      vec3 other = facetMiddle(at, facing, shape);
+      outside = dot(facing, origin - other) > -TRACE_ON_PLANE && dot(normal, other - middle) < -TRACE_ON_PLANE;
+    }
+    if (!outside) return true;
+  }
+  return false;
+}
+
+/// The same for a ray that starts on a facet, whose surroundings are known.
+TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal, uvec3 voxel, uint facet) {
   TraceWalk w = traceStart(origin, direction);
   if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
+  uint shape = world.facets.shape.at[facet];
+  if ((shape & FACET_CORNER) != 0u && startsInside(world, vec3(voxel), origin, normal, world.facets.around.at[facet]))
+    return TraceHit(TRACE_INVALID, 0.0f, 0u);
   return traceRobust(world, w, normal, w.cell == vec3(voxel) ? facetClear(shape) : 0u);
 }
 

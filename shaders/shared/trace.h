@@ -23,8 +23,7 @@ IRAD_CONST float TRACE_PLANE = 0.02f;    ///< a plane inside its own cell is kno
 IRAD_CONST float TRACE_BEHIND = 0.02f;    ///< an origin this far behind a face cannot meet its front
 IRAD_CONST float TRACE_JOINT = 0.2f;      ///< planes of one surface gape at most this; more is a step
 IRAD_CONST float TRACE_OWN_PLANE = 1.5f;  ///< backs of faces this near the own plane are not met
-IRAD_CONST float TRACE_CONCAVE =
-    0.25f;                           ///< a face whose middle is this far in front of the own plane meets it concavely
+IRAD_CONST float TRACE_CONCAVE = 0.1f;    ///< a face whose middle rises this far above the own plane meets it concavely
 IRAD_CONST float TRACE_NEAR = 4.0f;  ///< a back face nearer than this makes the ray invalid
 IRAD_CONST float TRACE_OWN_NORMAL = 0.8f;  ///< cosine above which two faces lie in one plane
 
