@@ -210,6 +210,29 @@ TEST_F(Solve, SameBitsTwiceAndWarmStartIsAtRest) {
   EXPECT_LE(run(a).sweeps, 2u);
 }
 
+TEST_F(Solve, FirstGatherAndSweepsHaveTimingRowsOfTheirOwn) {
+  const Settings settings = at(16, 32);
+  const World w = world(room(), settings);
+  ASSERT_TRUE(w.facets.hasEmission);
+  const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
+  Lighting light = makeLighting(context(), w.facets, settings);
+  Timings& timings = context().timings;
+  const auto stages = [&](uint32_t sweeps) {
+    context().device.waitIdle();
+    context().begin().submitAndWait();  // delivers what is under way
+    timings.reset();
+    solve(context(), w.facets, m, light, settings, sweeps);
+    timings.endFrame(0, /*setup=*/false, 0);
+    std::vector<std::string> names;
+    for (const auto& [stage, ms] : timings.frames().back().stages)
+      if (stage != "Readback") names.push_back(stage);
+    return names;
+  };
+  EXPECT_EQ(stages(1), (std::vector<std::string>{"GI Solve Emitters", "GI Solve"}));
+  EXPECT_EQ(stages(1), (std::vector<std::string>{"GI Solve"}));  // F M is kept
+  timings.reset();
+}
+
 TEST_F(Solve, DivergenceIsNoticed) {
   Settings settings = at(16, 32);
   settings.solver.gpu.lambda = 2.0f;  // x .9: gain 1.8
