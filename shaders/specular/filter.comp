@@ -17,9 +17,9 @@ layout(set = 0, binding = 4, rgba32f) uniform readonly image2D from;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D to;
 
 void main() {
+  GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
   ivec2 pixel;
   if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
-  GpuCamera camera = push.camera.at[0];
   vec4 centre = imageLoad(from, pixel);
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);

@@ -10,10 +10,11 @@ layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D tracedTarget;
 
 void main() {
+  GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
+  Grid grid = push.grid;
+  TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
   ivec2 pixel;
   if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
-  GpuCamera camera = push.camera.at[0];
-  Grid grid = push.grid;
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);
   float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);
@@ -30,6 +31,5 @@ void main() {
   uvec2 first = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
   uvec4 shift =
       uvec4(first, pixel.x * 2447445414u + pixel.y * 3242174889u, pixel.x * 1847517997u + pixel.y * 2447445414u);
-  TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
   imageStore(tracedTarget, pixel, vec4(traceLobe(world, s, shift), z));
 }
