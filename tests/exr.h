@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -40,6 +41,28 @@ inline Picture readExr(const std::filesystem::path& path, const std::string& lay
   for (size_t i = 0; i < out.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) out.pixels[i][c] = all[i * spec.nchannels + channel[c]];
   return out;
+}
+
+/// Root of the mean of (a - b)^2, channels averaged.
+inline double rmse(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
+    sum += glm::dot(d, d);
+  }
+  return std::sqrt(sum / (3.0 * static_cast<double>(a.pixels.size())));
+}
+
+/// The largest |a - b| of any channel; NaN where any is.
+inline double worstPixel(const Picture& a, const Picture& b) {
+  double worst = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double d = std::abs(double(a.pixels[i][c]) - b.pixels[i][c]);
+      if (std::isnan(d)) return d;
+      worst = std::max(worst, d);
+    }
+  return worst;
 }
 
 /// Mean of (a - b)^2 / (b^2 + epsilon), channels averaged.
