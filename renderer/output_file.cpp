@@ -37,7 +37,7 @@ void OutputFile::fail(const char* doing, int error) {
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write", errno);
+  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write", errno);
 }
 
 void OutputFile::commit() {
