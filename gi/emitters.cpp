@@ -1,4 +1,5 @@
 // The table of emissive facets that specular rays are sent to.
+#include <algorithm>
 #include <numeric>
 
 #include "gi/stages.h"
@@ -42,6 +43,7 @@ Emitters listEmitters(Context& context, const FacetList& list) {
   for (uint32_t i = 0; i < list.count; ++i) {
     const float exitance = luminance(emission[i]);
     if (!(exitance > 0)) continue;
+    emitters.brightest = std::max(emitters.brightest, exitance);
     facets.push_back(i);
     powers.push_back(static_cast<double>(exitance) *
                      footprintArea(decodeNormal(shapes[i] & 0xFFFFu, static_cast<uint32_t>(list.encoding))));

@@ -192,6 +192,7 @@ void buildPadded(Context& context, const FacetList& facets, const Field& field, 
     frame.submit();
   }
   const RayKernel kernel = rayKernel(facets, field, params);
+  const uint32_t slice = device.isCpu ? 64 : params.rays;  // lavapipe's limit of turns: gi/padded_rows.glsl
   const uint64_t chunk = std::clamp<uint64_t>(raysPerSubmission(device) * 4 / params.rays, 64, segmentRows);
   for (uint32_t first = 0; first < rows;) {
     const uint64_t segment = first >> arrays.segmentShift;
@@ -206,17 +207,20 @@ void buildPadded(Context& context, const FacetList& facets, const Field& field, 
     push.jfaMax = field.jfaMax;
     push.firstRow = first;
     push.rows = static_cast<uint32_t>(end - first);
-    push.rays = params.rays;
     push.jitter = params.jitter;
     push.seed = params.seed;
     push.segmentRow = static_cast<uint32_t>(first & (segmentRows - 1));
     Frame frame = context.begin();
     frame.pass(kStage).fill(sums, 0);
-    Pass pass = frame.pass(kStage);
-    kernel.configure(pass, device, "padded_rows")
-        .write(matrix.segments[segment], matrix.rowInfo, sums)
-        .push(push)
-        .dispatch(push.rows);
+    for (uint32_t ray = 0; ray < params.rays; ray += slice) {
+      push.slice = params.rays | ray << 16;
+      Pass pass = frame.pass(kStage);
+      kernel.configure(pass, device, "padded_rows")
+          .constant(3, slice)
+          .write(matrix.segments[segment], matrix.rowInfo, sums)
+          .push(push)
+          .dispatch(push.rows);
+    }
     ChunkCounts found{};
     frame.readback(sums, 0, sizeof(found),
                    [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });

@@ -39,6 +39,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.albedo, 8 * s);
   if (facets.hasEmission) buffer(facets.emission, 12 * s);
   buffer(facets.reverse, 4 * V);
+  buffer(facets.around, 4 * s);
   // Fields: one byte per voxel each; JFA seeds one word, and every kept pass another.
   buffer(field.chebyshev, (V + 3) / 4 * 4);
   image(field.jfaDistance, V);
@@ -54,6 +55,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   for (const Buffer* b : {&lighting.direct, &lighting.emitted, &lighting.indirect, &lighting.radiosity,
                           &lighting.radiosityNext, &lighting.shaded, &lighting.shadedEmitted})
     buffer(*b, 16 * s);
+  buffer(lighting.correction, 16 * s);
   image(lighting.volume, 8 * V);
   return out;
 }

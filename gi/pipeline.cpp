@@ -97,7 +97,8 @@ struct Pipeline::Impl {
       gather(frame, onDevice, *shadows, *facets, *light, settings);
       frame.submitAndWait();
     }
-    if (first <= Redo::Solve) light->report = solve(context, *facets, *matrix, *light, settings, maxSweeps);
+    if (first <= Redo::Solve)
+      light->report = solve(context, *facets, *matrix, *light, settings, maxSweeps, {&*emitters, &*field});
     Frame frame = context.begin(frameIndex);
     scatter(frame, *facets, *light, settings);
     frame.submitAndWait();
@@ -139,6 +140,10 @@ const Settings& Pipeline::settings() const {
 Redo Pipeline::set(const Settings& settings) {
   const Redo first = difference(impl_->settings, settings);
   if (impl_->settings.light.shadowResolution != settings.light.shadowResolution) impl_->shadowsDirty = true;
+  // F M depends on how emitters are sampled, which no other stage does.
+  const MatrixSettings &before = impl_->settings.matrix, &now = settings.matrix;
+  if (impl_->light && (before.emitterSampling != now.emitterSampling || before.emitterSamples != now.emitterSamples))
+    impl_->light->emittedCurrent = false;
   impl_->settings = settings;
   impl_->dirty = std::min(impl_->dirty, first);
   return impl_->dirty;

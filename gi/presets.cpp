@@ -15,6 +15,7 @@ void thesis(Settings& s) {
   s.field.method = FieldMethod::jfa;
   s.matrix.format = MatrixFormat::padded;
   s.matrix.gpu.rays = 384;
+  s.matrix.emitterSampling = EmitterSampling::off;
   s.matrix.gpu.hitRule = HIT_RULE_THESIS;
   s.matrix.gpu.traversal = TRAVERSAL_DDA;
   s.matrix.gpu.jitter = 1;  // "a jittered Hammersley sequence" (T 5.4)

@@ -21,6 +21,7 @@ enum class HitRule : uint32_t { thesis, robust };
 enum class SampleFilter : uint32_t { nearest, linear, blur };
 enum class SpecularMode : uint32_t { off, fragment, compute };
 enum class ToneCurve : uint32_t { linear, neutral };
+enum class EmitterSampling : uint32_t { off, automatic, on };
 enum class SolverKernel : uint32_t { automatic, tree, subgroup, row };
 
 /// The first stage that has to run again when a setting changes; later ones follow. Ordered.
@@ -53,6 +54,8 @@ struct FieldSettings {
 struct MatrixSettings {
   MatrixFormat format = MatrixFormat::csr;
   MatrixParams gpu{128, HIT_RULE_ROBUST, TRAVERSAL_SDF, 1, 0};
+  EmitterSampling emitterSampling = EmitterSampling::automatic;
+  uint32_t emitterSamples = 32;  ///< per facet
 };
 struct GatherSettings {
   uint32_t samples = 4;  ///< shadow lookups per facet and light
@@ -141,6 +144,10 @@ struct EnumNames<Redo> {
   static constexpr std::array names{"voxels", "field", "matrix", "gather", "solve", "scatter", "shade", "nothing"};
 };
 template <>
+struct EnumNames<EmitterSampling> {
+  static constexpr std::array names{"off", "auto", "on"};
+};
+template <>
 struct EnumNames<SolverKernel> {
   static constexpr std::array names{"auto", "tree", "subgroup", "row"};
 };
@@ -170,6 +177,8 @@ void visit(Settings& s, F&& f) {
   f(EnumRef<HitRule>{s.matrix.gpu.hitRule}, Meta{"matrix.hit_rule", 0, 0, "", "Which faces a ray starts from and stops at.", Matrix});
   f(EnumRef<Traversal>{s.matrix.gpu.traversal}, Meta{"matrix.traversal", 0, 0, "", "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix});
   f(BoolRef{s.matrix.gpu.jitter}, Meta{"matrix.jitter", 0, 1, "", "Shift the direction set per voxel (Cranley-Patterson).", Matrix});
+  f(s.matrix.emitterSampling, Meta{"matrix.emitter_sampling", 0, 0, "", "First gather from emissive facets by samples of them instead of the row's rays; auto: where they are less than a tenth of all and the sum agrees with the rays'.", Solve});
+  f(s.matrix.emitterSamples, Meta{"matrix.emitter_samples", 1, 256, "rays", "Rays per facet to the emitters.", Solve});
   f(s.matrix.gpu.seed, Meta{"matrix.seed", 0, 4294967295.0, "", "Seed of the ray directions (--seed).", Matrix});
   f(s.gather.samples, Meta{"gather.samples", 1, 16, "samples", "Shadow lookups per facet and light.", Gather});
   f(s.solver.gpu.lambda, Meta{"solver.lambda", 0, 2, "", "Artistic gain of T 4.3; 1 leaves the physics alone.", Solve});

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 
-#include "gi/stages.h"
+#include "gi/ray_kernel.h"
 #include "renderer/error.h"
 
 namespace irad {
@@ -65,6 +66,7 @@ class Sweep {
         .write(output)
         .push(push);
     for (const Buffer& segment : matrix_.segments) pass.read(segment);
+    if (light.correction) pass.read(light.correction);
     if (work != SOLVE_PRODUCT) pass.write(light.indirect);
     if (work == SOLVE_WATCH) pass.write(light.residual);
     switch (kernel_) {
@@ -112,10 +114,60 @@ void judge(SolveReport& report, const SolveResidual& r, const SolverParams& para
   report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
 }
 
+/// Whether the emitters are few enough to be low-probability, high-energy (T 5.6).
+bool sampleEmitters(const Settings& settings, const EmitterSource& source, uint32_t facets) {
+  if (!source.emitters || source.emitters->count == 0) return false;
+  if (settings.matrix.emitterSampling != EmitterSampling::automatic)
+    return settings.matrix.emitterSampling == EmitterSampling::on;
+  return source.emitters->count < facets / 10;
+}
+
+/// Compares the sums over all facets of F M by samples and by rays, and says whether the samples may stand in. They see
+/// emissive facets alone, rays also a face's extension into voxels that other faces took: where a lamp's edges are a
+/// good part of it, as in a strip along a wall, that is too much to lose.
+bool agrees(Context& context, const FormFactors& matrix, const Emitters& emitters, Lighting& light) {
+  constexpr double kLoss = 0.05;
+  const auto sampled = downloadAs<glm::vec4>(context, light.emitted);
+  const auto correction = downloadAs<glm::vec4>(context, light.correction);
+  double bySamples = 0, byRays = 0;
+  for (size_t i = 0; i < sampled.size(); ++i) {
+    bySamples += luminance(sampled[i]);
+    byRays += luminance(sampled[i] - correction[i]);
+  }
+  const double hits = byRays / emitters.brightest * matrix.rays;  // at least
+  light.sampledShare = byRays > 0 ? static_cast<float>(bySamples / byRays) : 0;
+  return std::abs(bySamples - byRays) <= byRays * (kLoss + 3 / std::sqrt(std::max(hits, 1.0)));
+}
+
+/// light.emitted becomes F M by samples, light.correction what that adds to F M by rays.
+void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
+                   const Settings& settings, Lighting& light) {
+  const RayKernel kernel = rayKernel(facets, *source.field, settings.matrix.gpu);
+  light.correction = Buffer(frame.context().device, "emitters' correction", Subsystem::Solver, 16ull * facets.count);
+  SampleEmittersPush push{};
+  push.matrix = matrix.record.address;
+  push.facets = facets.record.address;
+  push.chebyshev = kernel.chebyshev();
+  push.emitters = source.emitters->record.address;
+  push.emitted = light.emitted.address;
+  push.correction = light.correction.address;
+  push.dims = facets.grid.dims;
+  push.jfaMax = source.field->jfaMax;
+  push.samples = settings.matrix.emitterSamples;
+  push.seed = settings.matrix.gpu.seed;
+  Pass pass = frame.pass(kEmittersStage);
+  kernel.configure(pass, frame.context().device, "sample_emitters")
+      .constant(3, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
+      .read(facets.record, facets.emission, matrix.record, matrix.rowStart, matrix.rowInfo, source.emitters->record,
+            source.emitters->entries);
+  for (const Buffer& segment : matrix.segments) pass.read(segment);
+  pass.write(light.emitted).write(light.correction).push(push).dispatch(facets.count);
+}
+
 }  // namespace
 
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
-                  const Settings& settings, uint32_t maxSweeps) {
+                  const Settings& settings, uint32_t maxSweeps, const EmitterSource& source) {
   IRAD_CHECK_OP(matrix.rows, ==, facets.count);
   SolveReport report;
   if (facets.count == 0) {
@@ -134,23 +186,40 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   sweep.push.flush = params.flush;
 
   if (!light.emittedCurrent) {
-    Frame frame = context.begin();
-    if (facets.hasEmission) {
-      // M as a vector, in the spare half of B's double buffer; then one product.
-      frame.pass(kEmittersStage)
-          .shader("gi/emission.comp")
-          .read(facets.record, facets.emission)
-          .write(light.radiosityNext)
-          .push(EmissionPush{facets.record.address, light.radiosityNext.address})
-          .dispatch(facets.count);
-      sweep.begin(frame, kEmittersStage, light.radiosityNext);
-      sweep.record(frame, kEmittersStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
-    } else {
-      frame.pass(kEmittersStage).fill(light.emitted, 0);
+    light.correction = Buffer();
+    light.sampledShare = 0;
+    const auto byRays = [&] {
+      Frame frame = context.begin();
+      if (facets.hasEmission) {
+        // M as a vector, in the spare half of B's double buffer; then one product.
+        frame.pass(kEmittersStage)
+            .shader("gi/emission.comp")
+            .read(facets.record, facets.emission)
+            .write(light.radiosityNext)
+            .push(EmissionPush{facets.record.address, light.radiosityNext.address})
+            .dispatch(facets.count);
+        sweep.begin(frame, kEmittersStage, light.radiosityNext);
+        sweep.record(frame, kEmittersStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
+      } else {
+        frame.pass(kEmittersStage).fill(light.emitted, 0);
+      }
+      frame.submit();
+    };
+    byRays();
+    if (sampleEmitters(settings, source, facets.count)) {
+      Frame frame = context.begin();
+      recordSamples(frame, facets, matrix, source, settings, light);
+      frame.submitAndWait();
+      const bool forced = settings.matrix.emitterSampling == EmitterSampling::on;
+      if (!agrees(context, matrix, *source.emitters, light) && !forced) {
+        light.correction = Buffer();
+        byRays();
+      }
     }
-    frame.submit();
     light.emittedCurrent = true;
   }
+  sweep.push.correction = light.correction.address;
+  sweep.push.corrected = light.correction ? 1 : 0;
 
   // A CPU device sweeps slowly: short submissions. The first is short too, a warm start is often at its goal.
   const uint32_t longest = context.device.isCpu ? 4 : kBatch;

@@ -91,6 +91,16 @@ struct FormFactors {
 FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
                         const std::function<bool(float)>& progress = {});
 
+/// The facets that emit, to be drawn in proportion to their power. count 0: none, and no buffers.
+struct Emitters {
+  uint32_t count = 0;
+  float brightest = 0;  ///< largest luminance(M), W/m^2
+  Buffer entries, record;  ///< Emitter per facet, one EmitterTable
+};
+Emitters listEmitters(Context& context, const FacetList& facets);
+/// Vose's alias table of facets[i] with probability powers[i] / sum; powers > 0.
+std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const std::vector<double>& powers);
+
 // ---- 6. Relight (T 5.7-5.9) -----------------------------------------------------------------------------------------
 struct SolveReport {
   uint32_t sweeps = 0;
@@ -106,7 +116,10 @@ struct SolveReport {
 struct Lighting {
   Buffer direct;    ///< D
   Buffer emitted;   ///< F M: first gather from emissive facets alone (the part of H that is direct light of emitters)
-  Buffer indirect;  ///< H
+  Buffer correction;  ///< what samples of the emitters add to F M by rays; none where they are not sampled
+  /// Sum of F M by samples over that by rays; 0: not sampled. Far from 1 the samples are not used (solve.cpp).
+  float sampledShare = 0;
+  Buffer indirect;    ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer
   Buffer shaded;         ///< H as shading samples it (blurred over neighbours that face the same way, or edge-removed)
   Buffer shadedEmitted;  ///< `emitted` likewise
@@ -122,21 +135,16 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
 void addVolume(Context& context, const FacetList& facets, Lighting& light);
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
             Lighting& light, const Settings& settings);
+/// F M by samples of the emitters in place of rays; empty: by rays.
+struct EmitterSource {
+  const Emitters* emitters = nullptr;
+  const Field* field = nullptr;
+};
 /// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity. Blocking.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
-                  const Settings& settings, uint32_t maxSweeps);
+                  const Settings& settings, uint32_t maxSweeps, const EmitterSource& source = {});
 /// `shaded` and `shadedEmitted`; and the volume where it exists: H, or B with ungated sampling (T 5.9), or B - lambda
 /// (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a voxel, alpha 1.
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
-
-// ---- 8. Specular ----------------------------------------------------------------------------------------------------
-/// The facets that emit, to be drawn in proportion to their power. count 0: none, and no buffers.
-struct Emitters {
-  uint32_t count = 0;
-  Buffer entries, record;  ///< Emitter per facet, one EmitterTable
-};
-Emitters listEmitters(Context& context, const FacetList& facets);
-/// Vose's alias table of facets[i] with probability powers[i] / sum; powers > 0.
-std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const std::vector<double>& powers);
 
 }  // namespace irad

@@ -1,8 +1,10 @@
 // "GI BuildMatrix", thesis layout (T Fig. 7, T 5.4-5.6): one invocation per row traces its rays one after another and
-// appends every hit as (column, weight), unmerged, to the row's fixed stride.
+// appends every hit as (column, weight), unmerged, to the row's fixed stride. A dispatch may trace a slice of the rays:
+// lavapipe's loops end after 65,535 turns in all of an invocation, whatever their condition says.
 #include "shared/matrix_build.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 3) const uint SLICE = 0xFFFFu;  // rays of one dispatch
 layout(push_constant, scalar) uniform Push { PaddedRowsPush p; };
 
 #include "gi/trace.glsl"
@@ -18,11 +20,15 @@ void main() {
   vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
   uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
   TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
-  uint base = (p.segmentRow + index) * p.rays;
-  uint weight = floatBitsToUint(1.0f / float(p.rays));
-  uint hits = 0u, escaped = 0u, invalid = 0u;
-  for (uint k = 0u; k < p.rays; ++k) {
-    vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), normal);
+  uint rays = p.slice & 0xFFFFu;
+  uint first = p.slice >> 16;
+  uint last = min(first + SLICE, rays);
+  uint base = (p.segmentRow + index) * rays;
+  uint weight = floatBitsToUint(1.0f / float(rays));
+  uint before = first > 0u ? p.rowInfo.at[row].x : 0u;
+  uint hits = before & 0xFFFFu, escaped = 0u, invalid = before >> 16;
+  for (uint k = first; k < last; ++k) {
+    vec3 direction = toWorld(cosineDirection(hammersley(k, rays, shifts.xy)), normal);
     vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS
                       ? vec3(voxel) + 0.5f + normal
                       : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
@@ -37,13 +43,13 @@ void main() {
     }
   }
   // The robust rule weighs by the rays that count.
-  if (invalid > 0u) {
-    weight = floatBitsToUint(invalid < p.rays ? 1.0f / float(p.rays - invalid) : 0.0f);
+  if (invalid > 0u && last == rays) {
+    weight = floatBitsToUint(invalid < rays ? 1.0f / float(rays - invalid) : 0.0f);
     for (uint i = 0u; i < hits; ++i) p.segment.at[base + i].y = weight;
   }
   p.rowInfo.at[row] = uvec2(hits | (invalid << 16), weight);
-  atomicAdd(p.sums.at[0].hits, hits);
+  atomicAdd(p.sums.at[0].hits, hits - (before & 0xFFFFu));
   atomicAdd(p.sums.at[0].escaped, escaped);
-  atomicAdd(p.sums.at[0].invalid, invalid);
+  atomicAdd(p.sums.at[0].invalid, invalid - (before >> 16));
   atomicMax(p.sums.at[0].largestRow, hits);
 }

@@ -25,24 +25,7 @@ void putOutput(uint row, vec3 value) {
 #endif
 }
 
-struct Row {
-  UintArray entries;   ///< csr
-  Uvec2Array places;   ///< padded
-  uint start, count;
-  float weight;        ///< of one hit
-};
-
-Row openRow(MatrixArrays m, uint row) {
-  Row r;
-  UintArray segment = m.segments.at[row >> m.segmentShift];
-  uvec2 info = m.rowInfo.at[row];
-  r.entries = segment;
-  r.places = Uvec2Array(uint64_t(segment));
-  r.start = FORMAT == SOLVE_CSR ? m.rowStart.at[row] : (row & ((1u << m.segmentShift) - 1u)) * m.stride;
-  r.count = rowEntries(info);
-  r.weight = FORMAT == SOLVE_CSR ? uintBitsToFloat(info.y) : 1.0f;
-  return r;
-}
+#include "gi/matrix_row.glsl"
 
 /// Entry i's share of the row's sum: xyz = F_ij x_j over the row's weight, w = F_ij likewise.
 vec4 entryTerm(Row r, uint columnBits, uint i) {
@@ -75,6 +58,8 @@ Watch finishRow(uint row, vec4 sum) {
   vec3 source = rho * p.direct.at[row].xyz;
   if (f.hasEmission != 0u) source += f.emission.at[row];
   vec3 h = sum.xyz;
+  // The emitters' share of the row's rays replaced by that of the samples; below 0 by rounding alone.
+  if (p.corrected != 0u) h = max(h + p.correction.at[row].xyz, vec3(0.0f));
   h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
   vec3 now = p.lambda * (source + rho * h);
   vec3 old = vec3(0.0f);

@@ -39,7 +39,9 @@ struct PaddedRowsPush {
   ChunkCountsArray sums;
   uvec3 dims;
   float jfaMax;
-  uint firstRow, rows, rays, jitter, seed;
+  uint firstRow, rows;
+  uint slice;  ///< bits 0-15: rays per row; bits 16-31: the first ray of this dispatch
+  uint jitter, seed;
   uint segmentRow;  ///< firstRow's place in the segment
 };
 

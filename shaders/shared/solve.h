@@ -1,10 +1,12 @@
 // The relight kernels' records (METHOD section 6).
 #ifndef IRAD_SHARED_SOLVE_H
 #define IRAD_SHARED_SOLVE_H
+#include "shared/emitters.h"
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/matrix.h"
 #include "shared/scene_gpu.h"
+#include "shared/trace.h"
 IRAD_BEGIN
 
 /// What one sweep reduces. Floats >= 0 as bits, so that the largest is the same whatever the order; counts alike.
@@ -35,8 +37,9 @@ struct SolvePush {
   Vec4Array output_;   ///< B' (or F input)
   Vec4Array indirect;  ///< H
   ResidualArray residual;
+  Vec4Array correction;  ///< added to F B where `corrected`: the emitters' light by samples less that by rays
   float lambda, omega, flush;
-  uint pad;
+  uint corrected;
 };
 
 /// gi/solve_image.comp: a vector of facets as an image, row by row.
@@ -68,6 +71,22 @@ struct EmissionPush {
   FacetRecord facets;
   Vec4Array output_;
 };
+
+/// gi/sample_emitters.comp: F M by samples of the emitters.
+struct SampleEmittersPush {
+  MatrixRecord matrix;
+  FacetRecord facets;
+  ByteArray chebyshev;
+  EmitterRecord emitters;
+  Vec4Array emitted;     ///< F M by rays; becomes that by samples
+  Vec4Array correction;  ///< the difference
+  uvec3 dims;
+  float jfaMax;
+  uint samples, seed;
+};
+/// Emitters nearer than this, in voxels from centre to centre, are left to the rays: a sample of a face in front of
+/// one's nose weighs too much.
+IRAD_CONST float EMITTERS_NEAR = 4.0f;
 
 /// gi/scatter_facets.comp: H (and F M) as shading samples them.
 struct ScatterFacetsPush {

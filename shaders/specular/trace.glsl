@@ -1,6 +1,7 @@
 // Specular rays of one pixel through the voxels (METHOD section 8, T 5.11). Radiance at a hit is B / pi; what escapes
 // sees nothing.
 #include "forward/indirect.glsl"
+#include "gi/emitter_point.glsl"
 #include "gi/trace.glsl"
 #include "shared/sampling.h"
 #include "specular/surface.glsl"
@@ -21,22 +22,6 @@ struct Surface {
 
 TraceHit traceFrom(TraceWorld world, Surface s, vec3 direction) {
   return traceRay(world, s.position + s.face * RAY_LIFT, direction, s.face);
-}
-
-/// Point `u` of an emissive facet drawn in proportion to power; false where it lies outside the facet's cell.
-bool emitterPoint(EmitterTable table, FacetArrays facets, uvec2 u, out vec3 point) {
-  uint i, rest;
-  umulExtended(u.x, table.count, i, rest);
-  Emitter e = table.entries.at[i];
-  float x = unitFloat(rest);
-  bool own = x < e.keep;
-  uint facet = own ? e.facet : e.other;
-  x = own ? x / e.keep : (x - e.keep) / (1.0 - e.keep);
-  uint shape = facets.shape.at[facet];
-  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
-  uvec3 voxel = unpackVoxel(facets.voxel.at[facet]);
-  point = facetPoint(voxel, normal, facetOffset(shape), vec2(x, unitFloat(u.y)));
-  return all(lessThanEqual(abs(point - vec3(voxel) - 0.5), vec3(0.5)));
 }
 
 /// Mean reflected radiance before the lobe's reflectance. Rays follow visible normals of GGX (Heitz 2018), each
@@ -66,7 +51,9 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
     if (EMITTERS && k >= rays) {
       vec3 point;
       uvec2 u = shift.zw + uvec2((2u * (k - rays) + 1u) * (0x80000000u / aimed), reverseBits(k - rays));
-      if (!emitterPoint(table, world.facets, u, point)) continue;
+      uint emitter;
+      vec3 facing;
+      if (!emitterPoint(table, world.facets, TRACE_NORMALS, u, emitter, point, facing)) continue;
       direction = point - (s.position + s.face * RAY_LIFT);
       reach = length(direction);
       direction /= reach;
