@@ -178,7 +178,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, settings);
   makeRecord(context, list);
-  markCorners(context, list);
+  if (settings.matrix.gpu.hitRule == HIT_RULE_ROBUST) markCorners(context, list);  // the thesis's rule asks for none
   voxels.keys = Buffer();
   return list;
 }

@@ -174,7 +174,7 @@ void visit(Settings& s, F&& f) {
   f(s.field.keepPasses, Meta{"field.keep_passes", 0, 1, "", "Keep every jump-flood pass for viewing.", Field});
   f(s.matrix.format, Meta{"matrix.format", 0, 0, "", "padded: fixed stride, 8 B per hit (T Fig. 7); csr: exact size, 4 B per distinct column.", Matrix});
   f(s.matrix.gpu.rays, Meta{"matrix.rays", 1, 4096, "rays", "Rays per facet (N of METHOD section 5).", Matrix});
-  f(EnumRef<HitRule>{s.matrix.gpu.hitRule}, Meta{"matrix.hit_rule", 0, 0, "", "Which faces a ray starts from and stops at.", Matrix});
+  f(EnumRef<HitRule>{s.matrix.gpu.hitRule}, Meta{"matrix.hit_rule", 0, 0, "", "Which faces a ray starts from and stops at.", Voxels});
   f(EnumRef<Traversal>{s.matrix.gpu.traversal}, Meta{"matrix.traversal", 0, 0, "", "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix});
   f(BoolRef{s.matrix.gpu.jitter}, Meta{"matrix.jitter", 0, 1, "", "Shift the direction set per voxel (Cranley-Patterson).", Matrix});
   f(s.matrix.emitterSampling, Meta{"matrix.emitter_sampling", 0, 0, "", "First gather from emissive facets by samples of them instead of the row's rays; auto: where they are less than a tenth of all and the sum agrees with the rays'.", Solve});
