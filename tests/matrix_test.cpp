@@ -271,6 +271,22 @@ TEST_F(Matrix, ThesisRuleLosesLightInCorners) {
   EXPECT_LT(least, 0.9);
 }
 
+TEST_F(Matrix, RowSumsOfTheBoxSceneAreShares) {
+  const Settings settings = at(40, 64);
+  const World w = world(loadScene(std::filesystem::path(IRAD_SOURCE_DIR) / "assets/box.glb"), settings);
+  const FormFactors m = build(w, settings);
+  double most = 0, mean = 0;
+  for (const HostRow& r : hostRows(context(), m)) {
+    ASSERT_GE(r.sum(), 0.0);
+    most = std::max(most, r.sum());
+    mean += r.sum() / m.rows;
+  }
+  fmt::print("box.glb: row sums up to {:.7f}, mean {:.4f}; escaped {}, invalid {} of {}\n", most, mean, m.stats.escaped,
+             m.stats.invalid, m.stats.rays);
+  EXPECT_LE(most, 1 + 4e-6);
+  EXPECT_GT(mean, 0.7) << "its front is open";
+}
+
 TEST_F(Matrix, EmptyListGivesAnEmptyMatrix) {
   const Settings settings = at(8, 16);
   const Grid grid = makeGrid(glm::vec3(0), glm::vec3(1), 8);

@@ -75,9 +75,13 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSeconds) {
+  return runProgram(IRAD_BINARY, arguments, timeoutSeconds);
+}
+
+RunResult runProgram(const std::string& program, const std::vector<std::string>& arguments, double timeoutSeconds) {
   const TemporaryFolder folder;
   const std::string out = folder.path / "out", err = folder.path / "err";
-  std::vector<std::string> words{IRAD_BINARY};
+  std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -89,11 +93,11 @@ RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSecon
   posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   pid_t pid = 0;
-  const int failed = posix_spawn(&pid, IRAD_BINARY, &actions, nullptr, argv.data(), environ);
+  const int failed = posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   RunResult result;
   if (failed) {
-    result.err = fmt::format("{}: cannot be started ({})", IRAD_BINARY, failed);
+    result.err = fmt::format("{}: cannot be started ({})", program, failed);
     return result;
   }
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeoutSeconds);

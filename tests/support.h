@@ -48,5 +48,8 @@ struct RunResult {
   std::string out, err;
 };
 RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSeconds = 600);
+/// The same with another program, by its path.
+RunResult runProgram(const std::string& program, const std::vector<std::string>& arguments,
+                     double timeoutSeconds = 600);
 
 }  // namespace irad::test

@@ -1,0 +1,68 @@
+// The headless binary for another Linux, which ./test builds beside the full one (build-portable/irad).
+#include <fstream>
+#include <sstream>
+
+#include "exr.h"
+#include "tests/support.h"
+
+namespace irad::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Portable : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(program_)) GTEST_SKIP() << program_ << " is not built: cmake --preset portable (./test does)";
+  }
+  const fs::path program_ = fs::path(IRAD_SOURCE_DIR) / "build-portable" / "irad";
+};
+
+Picture readPfm(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string magic;
+  Picture out;
+  double scale = 0;
+  in >> magic >> out.width >> out.height >> scale;
+  in.get();
+  if (magic != "PF" || scale != -1) throw std::runtime_error(path.string() + " is no little-endian colour PFM");
+  out.pixels.resize(static_cast<size_t>(out.width) * out.height);
+  for (uint32_t y = out.height; y-- > 0;)  // bottom row first
+    in.read(reinterpret_cast<char*>(&out.pixels[static_cast<size_t>(y) * out.width]), 12ll * out.width);
+  if (!in) throw std::runtime_error(path.string() + " is cut short");
+  return out;
+}
+
+TEST_F(Portable, NeedsTheCLibraryAlone) {
+  const RunResult read = runProgram("/usr/bin/readelf", {"-d", program_.string()});
+  ASSERT_EQ(read.status, 0) << read.err;
+  std::istringstream lines(read.out);
+  int needed = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("(NEEDED)") == std::string::npos) continue;
+    ++needed;
+    EXPECT_TRUE(line.find("[libc.so.6]") != std::string::npos || line.find("[libm.so.6]") != std::string::npos ||
+                line.find("[ld-linux-x86-64.so.2]") != std::string::npos)
+        << line;
+  }
+  EXPECT_GT(needed, 0);
+}
+
+TEST_F(Portable, RendersTheFullBuildsPictureFromItsCache) {
+  const TemporaryFolder folder;
+  const std::string cache = folder.path / "box.irscene", full = folder.path / "full", small = folder.path / "small";
+  const RunResult exported = runIrad({"export", "box", "--cache", cache, "--out", full});
+  ASSERT_EQ(exported.status, 0) << exported.err;
+  for (const auto& [program, out] : {std::pair{std::string(IRAD_BINARY), full}, std::pair{program_.string(), small}}) {
+    const RunResult run = runProgram(program, {"render", cache, "--view", "lit", "--size", "48x48", "--set",
+                                               "voxel.resolution=24", "--set", "matrix.rays=32", "--out", out});
+    ASSERT_EQ(run.status, 0) << program << ": " << run.err;
+  }
+  const Picture a = readExr(fs::path(full) / "lit.exr"), b = readPfm(fs::path(small) / "lit.pfm");
+  ASSERT_EQ(a.pixels.size(), b.pixels.size());
+  EXPECT_EQ(a.pixels, b.pixels) << "same device, same shaders, same bits";
+  EXPECT_GT(a.mean().x, 0.01);
+}
+
+}  // namespace
+}  // namespace irad::test
