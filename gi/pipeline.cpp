@@ -90,7 +90,8 @@ struct Pipeline::Impl {
   /// holds, then H to where shading reads it.
   void relight(Redo first, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
-    if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
+    // A new list has no light yet: given up now it would stay black.
+    if (progress && !progress("GI Solve", 0) && light) throw WorkError("cancelled");
     if (!light) light = makeLighting(context, *facets, settings);
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);

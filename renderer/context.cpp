@@ -6,7 +6,6 @@ namespace irad {
 namespace {
 
 constexpr size_t kFramesInFlight = 2;
-constexpr uint32_t kMaterialSetsPerPool = 64;
 constexpr uint64_t kStagingKept = 4 * 1024 * 1024;  // larger readback chunks go back when their frame is done
 
 }  // namespace
@@ -26,50 +25,51 @@ Context::~Context() {
 Context::Impl::~Impl() {
   for (auto& slot : inFlight) destroy(*slot);
   for (auto& slot : idle) destroy(*slot);
-  for (const VkDescriptorPool pool : materialPools)
-    device.retire([device = device.handle, pool] { vkDestroyDescriptorPool(device, pool, nullptr); });
 }
 
 VkDescriptorSetLayout Context::materialLayout() const {
   return impl->pipelines.materialLayout();
 }
 
-VkDescriptorSet Context::materialSet(std::span<const VkImageView> views, std::span<const VkSampler> samplers) {
-  IRAD_CHECK_OP(views.size(), ==, size_t{kMaterialTextures});
-  IRAD_CHECK_OP(samplers.size(), ==, size_t{kMaterialTextures});
-  if (impl->materialSetsLeft == 0) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                    kMaterialSetsPerPool * kMaterialTextures};
-    const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                          .maxSets = kMaterialSetsPerPool,
-                                          .poolSizeCount = 1,
-                                          .pPoolSizes = &size};
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    vkCheck(vkCreateDescriptorPool(device.handle, &info, nullptr, &pool), "creating a material descriptor pool");
-    impl->materialPools.push_back(pool);
-    impl->materialSetsLeft = kMaterialSetsPerPool;
-  }
-  const VkDescriptorSetLayout layout = materialLayout();
+MaterialSets::MaterialSets(const Context& context, std::span<const MaterialTextures> materials) {
+  if (materials.empty()) return;
+  constexpr uint32_t kTextures = std::tuple_size_v<decltype(MaterialTextures::views)>;
+  static_assert(kTextures == kMaterialTextures);
+  const VkDevice device = context.device.handle;
+  const auto count = static_cast<uint32_t>(materials.size());
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * kTextures};
+  const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                        .maxSets = count,
+                                        .poolSizeCount = 1,
+                                        .pPoolSizes = &size};
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  vkCheck(vkCreateDescriptorPool(device, &info, nullptr, &pool), "creating a material descriptor pool");
+  pool_ = {pool, Retire{&context.device}};
+  const std::vector<VkDescriptorSetLayout> layouts(count, context.materialLayout());
   const VkDescriptorSetAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                             .descriptorPool = impl->materialPools.back(),
-                                             .descriptorSetCount = 1,
-                                             .pSetLayouts = &layout};
-  VkDescriptorSet set = VK_NULL_HANDLE;
-  vkCheck(vkAllocateDescriptorSets(device.handle, &allocate, &set), "allocating a material's descriptor set");
-  --impl->materialSetsLeft;
-  VkDescriptorImageInfo images[kMaterialTextures];
-  VkWriteDescriptorSet writes[kMaterialTextures];
-  for (uint32_t i = 0; i < kMaterialTextures; ++i) {
-    images[i] = {samplers[i], views[i], VK_IMAGE_LAYOUT_GENERAL};
-    writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                 .dstSet = set,
-                 .dstBinding = i,
-                 .descriptorCount = 1,
-                 .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                 .pImageInfo = &images[i]};
+                                             .descriptorPool = pool,
+                                             .descriptorSetCount = count,
+                                             .pSetLayouts = layouts.data()};
+  sets_.resize(count);
+  vkCheck(vkAllocateDescriptorSets(device, &allocate, sets_.data()), "allocating the materials' descriptor sets");
+  for (uint32_t m = 0; m < count; ++m) {
+    VkDescriptorImageInfo images[kTextures];
+    VkWriteDescriptorSet writes[kTextures];
+    for (uint32_t i = 0; i < kTextures; ++i) {
+      images[i] = {materials[m].samplers[i], materials[m].views[i], VK_IMAGE_LAYOUT_GENERAL};
+      writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                   .dstSet = sets_[m],
+                   .dstBinding = i,
+                   .descriptorCount = 1,
+                   .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                   .pImageInfo = &images[i]};
+    }
+    vkUpdateDescriptorSets(device, kTextures, writes, 0, nullptr);
   }
-  vkUpdateDescriptorSets(device.handle, kMaterialTextures, writes, 0, nullptr);
-  return set;
+}
+
+void MaterialSets::Retire::operator()(VkDescriptorPool pool) const {
+  device->retire([handle = device->handle, pool] { vkDestroyDescriptorPool(handle, pool, nullptr); });
 }
 
 std::unique_ptr<FrameSlot> Context::Impl::takeSlot() {

@@ -5,10 +5,11 @@
 // Order is program order. From the declared reads and writes the frame derives the barrier, the debug label, the GPU
 // timer and the row in the timing table. Buffers reach shaders by device address inside the push constants (<= 128 B);
 // images are bound to set 0, binding 0, 1, 2 ... in the order in which the pass names them (read / write: storage
-// image, sample: combined image sampler), and among them small constant arrays (uniform: uniform block); all are checked
-// against the shader's own declarations. Set 1 is the material's.
+// image, sample: combined image sampler), and among them small constant arrays (uniform: uniform block); all are
+// checked against the shader's own declarations. Set 1 is the material's.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <functional>
@@ -38,8 +39,6 @@ class Context {
   /// VK_DESCRIPTOR_SET_LAYOUT of set 1: five combined image samplers (base colour, metallic-roughness, normal,
   /// occlusion, emissive), visible to all stages.
   VkDescriptorSetLayout materialLayout() const;
-  /// A set of that layout, alive as long as the context. Order as in materialLayout; `views` and `samplers` hold 5.
-  VkDescriptorSet materialSet(std::span<const VkImageView> views, std::span<const VkSampler> samplers);
   Frame begin(uint64_t frameIndex = 0);
   Frame beginUntimed();  ///< whose passes get no row in the timing table: transfers, tests
   /// Delivers what finished frames owe, readbacks and times, in order; finish() waits for those in flight first.
@@ -48,6 +47,28 @@ class Context {
 
   struct Impl;
   std::unique_ptr<Impl> impl;
+};
+
+/// What a material's set 1 holds, in the order of Context::materialLayout.
+struct MaterialTextures {
+  std::array<VkImageView, 5> views{};
+  std::array<VkSampler, 5> samplers{};
+};
+
+/// The descriptor sets of a scene's materials and the pool they come from.
+class MaterialSets {
+ public:
+  MaterialSets() = default;
+  MaterialSets(const Context& context, std::span<const MaterialTextures> materials);
+  VkDescriptorSet at(size_t material) const { return sets_.at(material); }
+
+ private:
+  struct Retire {
+    const Device* device;
+    void operator()(VkDescriptorPool pool) const;
+  };
+  std::unique_ptr<std::remove_pointer_t<VkDescriptorPool>, Retire> pool_;
+  std::vector<VkDescriptorSet> sets_;
 };
 
 /// Commands inside one pass, for passes that dispatch or draw more than once (per material, per light). No barrier is

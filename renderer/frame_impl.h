@@ -52,8 +52,6 @@ struct Context::Impl {
   PipelineCache pipelines;
   std::vector<std::unique_ptr<FrameSlot>> idle;
   std::deque<std::unique_ptr<FrameSlot>> inFlight;  ///< in order of submission
-  std::vector<VkDescriptorPool> materialPools;
-  uint32_t materialSetsLeft = 0;
 
   std::unique_ptr<FrameSlot> takeSlot();
   /// Delivers what finished frames owe: readbacks and timings, in order of submission.

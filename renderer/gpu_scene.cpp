@@ -128,19 +128,19 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   textures.push_back(constantTexture(context, "white", {255, 255, 255, 255}));
   const size_t flat = textures.size();
   textures.push_back(constantTexture(context, "flat normal", {128, 128, 255, 255}));
+  std::vector<MaterialTextures> bound;
   for (const Material& m : scene.materials) {
-    std::array<VkImageView, kTextures> views{};
-    std::array<VkSampler, kTextures> samplers{};
+    MaterialTextures& set = bound.emplace_back();
     const auto uses = texturesOf(m);
     for (uint32_t i = 0; i < kTextures; ++i) {
       const size_t image = uses[i]->image >= 0   ? static_cast<size_t>(uses[i]->image)
                            : i == TEXTURE_NORMAL ? flat
                                                  : white;
-      views[i] = textures.at(image).view;
-      samplers[i] = sampler(context.device, uses[i]->sampler);
+      set.views[i] = textures.at(image).view;
+      set.samplers[i] = sampler(context.device, uses[i]->sampler);
     }
-    materialSets.push_back(context.materialSet(views, samplers));
   }
+  materialSets = MaterialSets(context, bound);
   for (const Draw& draw : scene.draws) {
     anyEmission = anyEmission || emits(scene, scene.materials.at(draw.material));
     anyAlphaMask = anyAlphaMask || (materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;

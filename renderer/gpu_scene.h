@@ -17,9 +17,9 @@ class SceneOnDevice {
   Buffer positions, normals, tangents, uv0, uv1, colors, indices, triangleMaterials, materials, lights;
   Buffer record;  ///< one GpuScene
   std::vector<Image> textures;
-  std::vector<VkDescriptorSet> materialSets;  ///< per material, set 1
-  std::vector<GpuMaterial> materialValues;    ///< as uploaded
-  std::vector<GpuLight> lightValues;          ///< as uploaded; ShadowMaps fills in layers and matrices
+  MaterialSets materialSets;                ///< per material, set 1
+  std::vector<GpuMaterial> materialValues;  ///< as uploaded
+  std::vector<GpuLight> lightValues;        ///< as uploaded; ShadowMaps fills in layers and matrices
   bool anyEmission = false;  ///< a factor and a texel of its texture (a texture's maximum counts) are > 0
   bool anyAlphaMask = false;
 
