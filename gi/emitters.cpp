@@ -1,4 +1,4 @@
-// The table of emissive facets that specular rays are sent to.
+// The table of emissive facets: specular rays and the samples of the first gather are sent to them.
 #include <algorithm>
 #include <numeric>
 

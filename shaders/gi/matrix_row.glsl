@@ -22,4 +22,19 @@ Row openRow(MatrixArrays m, uint row) {
   return r;
 }
 
+/// Entry i of a row: `weight` in units of the row's weight (csr: its hits).
+struct RowEntry {
+  uint column;
+  float weight;
+};
+
+RowEntry rowEntry(Row r, uint columnBits, uint i) {
+  if (FORMAT == SOLVE_CSR) {
+    uint e = r.entries.at[r.start + i];
+    return RowEntry(e & ((1u << columnBits) - 1u), float(e >> columnBits));
+  }
+  uvec2 place = r.places.at[r.start + i];
+  return RowEntry(place.x, uintBitsToFloat(place.y));
+}
+
 #endif

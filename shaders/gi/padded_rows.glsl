@@ -32,7 +32,7 @@ void main() {
     vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS
                       ? vec3(voxel) + 0.5f + normal
                       : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
-    uint met = traceFacetRay(world, origin, direction, normal, voxel, row).facet;
+    uint met = traceFacetRay(world, origin, direction, normal, voxel, row, shape).facet;
     if (met <= TRACE_LAST_FACET) {
       p.segment.at[base + hits] = uvec2(met, weight);
       ++hits;

@@ -23,19 +23,9 @@ vec3 nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
   Row r = openRow(m, row);
   vec3 sum = vec3(0.0f);
   for (uint i = 0u; i < r.count; ++i) {
-    uint column;
-    float weight;
-    if (FORMAT == SOLVE_CSR) {
-      uint entry = r.entries.at[r.start + i];
-      column = entry & ((1u << m.columnBits) - 1u);
-      weight = float(entry >> m.columnBits);
-    } else {
-      uvec2 place = r.places.at[r.start + i];
-      column = place.x;
-      weight = uintBitsToFloat(place.y);
-    }
-    vec3 exitance = f.emission.at[column];
-    if (exitance != vec3(0.0f) && near(voxel, unpackVoxel(f.voxel.at[column]))) sum += weight * exitance;
+    RowEntry e = rowEntry(r, m.columnBits, i);
+    vec3 exitance = f.emission.at[e.column];
+    if (exitance != vec3(0.0f) && near(voxel, unpackVoxel(f.voxel.at[e.column]))) sum += e.weight * exitance;
   }
   return sum * r.weight;
 }
@@ -67,7 +57,7 @@ void main() {
     vec3 direction = way / reach;
     float cosines = max(dot(normal, direction), 0.0f) * max(-dot(facing, direction), 0.0f);
     if (cosines == 0.0f) continue;
-    TraceHit hit = traceFacetRay(world, origin, direction, normal, voxel, facet);
+    TraceHit hit = traceFacetRay(world, origin, direction, normal, voxel, facet, shape);
     if (hit.facet == TRACE_INVALID) --valid;
     if (hit.facet > TRACE_LAST_FACET) continue;
     vec3 exitance = f.emission.at[emitter];

@@ -29,14 +29,8 @@ void putOutput(uint row, vec3 value) {
 
 /// Entry i's share of the row's sum: xyz = F_ij x_j over the row's weight, w = F_ij likewise.
 vec4 entryTerm(Row r, uint columnBits, uint i) {
-  if (FORMAT == SOLVE_CSR) {
-    uint e = r.entries.at[r.start + i];
-    float hits = float(e >> columnBits);
-    return vec4(inputAt(e & ((1u << columnBits) - 1u)) * hits, hits);
-  }
-  uvec2 place = r.places.at[r.start + i];
-  float weight = uintBitsToFloat(place.y);
-  return vec4(inputAt(place.x) * weight, weight);
+  RowEntry e = rowEntry(r, columnBits, i);
+  return vec4(inputAt(e.column) * e.weight, e.weight);
 }
 
 /// What a row hands to the reductions.

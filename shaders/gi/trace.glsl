@@ -131,6 +131,12 @@ TracePlane tracePlane(TraceWorld world, TraceWalk w, vec3 cell, uint shape) {
   return p;
 }
 
+/// The first of the cells around `cell` that are set in `around` (FacetArrays::around).
+vec3 cellAround(vec3 cell, uint around) {
+  int i = findLSB(around);
+  return cell + vec3(ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+}
+
 vec3 facetMiddle(vec3 cell, vec3 normal, uint shape) {
   return cell + 0.5f + normal * facetOffset(shape);
 }
@@ -225,9 +231,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         }
         if (ask == 0u || (recorded && met != TRACE_ESCAPED)) break;
         recorded = false;
-        int around = findLSB(ask);
+        at = cellAround(w.cell, ask);
         ask &= ask - 1u;
-        at = w.cell + vec3(ivec3(around % 3, (around / 3) % 3, around / 9) - 1);
         uint other = world.facets.reverse.at[traceIndex(at, world.dims)];
         facet = other & ~SECOND_FACET;
         left = other >= SECOND_FACET ? 2u : 1u;
@@ -284,8 +289,7 @@ TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
 
 /// One of the faces that `around` of a facet names: the next is taken off the list.
 uint nextAround(TraceWorld world, vec3 voxel, inout uint around, inout bool second, out vec3 at) {
-  int i = findLSB(around);
-  at = voxel + vec3(ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+  at = cellAround(voxel, around);
   uint entry = world.facets.reverse.at[traceIndex(at, world.dims)];
   uint facet = (entry & ~SECOND_FACET) + (second ? 1u : 0u);
   second = entry >= SECOND_FACET && !second;
@@ -321,11 +325,11 @@ bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, vec3 ownNormal, uin
   return false;
 }
 
-/// The same for a ray that starts on a facet, whose surroundings are known.
-TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal, uvec3 voxel, uint facet) {
+/// The same for a ray that starts on a facet (its shape word is `shape`), whose surroundings are known.
+TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal, uvec3 voxel, uint facet,
+                       uint shape) {
   TraceWalk w = traceStart(origin, direction);
   if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
-  uint shape = world.facets.shape.at[facet];
   if ((shape & FACET_CORNER) != 0u && startsInside(world, vec3(voxel), origin, normal, world.facets.around.at[facet]))
     return TraceHit(TRACE_INVALID, 0.0f, 0u);
   return traceRobust(world, w, normal, w.cell == vec3(voxel) ? facetClear(shape) : 0u);

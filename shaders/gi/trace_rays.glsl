@@ -23,5 +23,5 @@ void main() {
                     ? vec3(voxel) + 0.5f + normal
                     : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
   TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
-  p.hits.at[ray] = traceFacetRay(world, origin, direction, normal, voxel, row).facet;
+  p.hits.at[ray] = traceFacetRay(world, origin, direction, normal, voxel, row, shape).facet;
 }

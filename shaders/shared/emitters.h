@@ -1,5 +1,5 @@
 // The emissive facets as a table from which one is drawn in proportion to its power (Walker's alias method, 1977), so
-// that specular rays can be sent to them.
+// that specular rays and the samples of the first gather can be sent to them.
 #ifndef IRAD_SHARED_EMITTERS_H
 #define IRAD_SHARED_EMITTERS_H
 #include "shared/types.h"
