@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <mutex>
 
 #include "renderer/scene/gltf_document.h"
 
@@ -56,7 +57,12 @@ DecodeResult decodeImage(std::span<const uint8_t> bytes, uint64_t maxBytes, Scen
     name = file->path.string();
   }
   const auto problem = [&] { return DecodeResult{false, fmt::format("cannot be decoded ({})", input->geterror())}; };
-  if (!input->open(name, spec, config)) return problem();
+  {
+    // One at a time: OpenImageIO 2.4's ICC reader fills its tables at first use without a lock.
+    static std::mutex opening;
+    const std::lock_guard lock(opening);
+    if (!input->open(name, spec, config)) return problem();
+  }
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
       spec.width > static_cast<int>(gltf::kMaxImageExtent) || spec.height > static_cast<int>(gltf::kMaxImageExtent))
     return {false, fmt::format("is {} x {} pixels; at most {} a side are accepted", spec.width, spec.height,
