@@ -63,7 +63,8 @@ struct CsrBuild {
     const uint32_t done = chunk.firstRow + chunk.rows;
     const uint64_t expected =
         static_cast<uint64_t>(4.0 * static_cast<double>(matrix.stats.entries) / done * (rows - chunk.firstRow));
-    context.device.memory().check(fmt::format("matrix entries (csr, rows {} to {})", chunk.firstRow, rows), expected);
+    context.device.memory().check(Subsystem::Matrix, fmt::format("csr entries of rows {} to {}", chunk.firstRow, rows),
+                                  expected);
     return matrix.segments.emplace_back(
         context.device, fmt::format("matrix entries {}", chunk.firstRow >> segmentShift), Subsystem::Matrix, 4 * words);
   }
@@ -166,10 +167,9 @@ void buildPadded(Context& context, const FacetList& facets, const Field& field, 
   const uint32_t rows = matrix.rows;
   const uint64_t capacity = std::bit_ceil(rows);
   const uint64_t rowBytes = 8ull * params.rays;
-  const std::string what = fmt::format("the padded matrix ({} rows x {} places x 8 B = {:.0f} MiB)", capacity,
-                                       params.rays, mebibytes(capacity * rowBytes));
+  const std::string what = fmt::format("the padded matrix of {} rows x {} places x 8 B", capacity, params.rays);
   try {
-    device.memory().check(what, capacity * rowBytes);
+    device.memory().check(Subsystem::Matrix, what, capacity * rowBytes);
   } catch (const DeviceError& error) {
     throw DeviceError(fmt::format("{}; matrix.format=csr keeps only the entries that exist (about {:.0f} MiB at most)",
                                   error.what(), mebibytes(4ull * rows * params.rays)));

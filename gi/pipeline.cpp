@@ -33,16 +33,38 @@ struct Pipeline::Impl {
   Redo dirty = Redo::Voxels;
   bool shadowsDirty = true;
 
-  // One member per stage's product. Each is replaced only once its successor is complete.
+  /// One member per stage's product; all of one facet list.
+  struct Products {
+    std::optional<FacetList> facets;
+    Buffer gridRecord;  ///< one Grid
+    std::optional<Field> field;
+    std::optional<FormFactors> matrix;
+    std::optional<Emitters> emitters;
+    std::optional<Lighting> light;
+  };
+  Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
-  std::optional<FacetList> facets;
-  std::optional<Field> field;
-  std::optional<FormFactors> matrix;
-  std::optional<Emitters> emitters;
-  std::optional<Lighting> light;
+
+  void prepare(uint32_t maxSweeps, const Progress& progress) {
+    if (dirty <= Redo::Voxels) {
+      // The new list's products replace the old ones together, once they are lit. Until then the old picture stays.
+      Products fresh;
+      build(fresh, Redo::Voxels, progress);
+      relight(fresh, Redo::Gather, maxSweeps, progress);
+      now = std::move(fresh);
+    } else {
+      if (dirty <= Redo::Matrix) {
+        build(now, dirty, progress);
+        dirty = Redo::Gather;
+      }
+      if (dirty > Redo::Scatter && now.light->report.converged) return;
+      relight(now, dirty <= Redo::Scatter ? dirty : Redo::Solve, maxSweeps, progress);
+    }
+    dirty = Redo::Nothing;
+  }
 
   /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
-  void build(Redo first, const Progress& progress) {
+  void build(Products& p, Redo first, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     const auto report = [&](const char* stage, float fraction) {
       if (progress && !progress(stage, fraction)) throw WorkError("cancelled");
@@ -50,76 +72,66 @@ struct Pipeline::Impl {
 
     // 2. Voxels: which triangle fills which voxel, with what albedo, normal and emission.  4. Facets: the solid ones,
     // compacted in Morton order, with the map back from voxels.
-    std::optional<FacetList> newFacets;
     if (first <= Redo::Voxels) {
       report("GI Voxelization", 0);
       Voxels voxels = voxelize(context, onDevice, settings);
       report("GI CompactList", 0);
-      newFacets = compactFacets(context, voxels, settings);
+      p.facets = compactFacets(context, voxels, settings);
+      p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
+      p.emitters = listEmitters(context, *p.facets);
     }
-    const FacetList& list = newFacets ? *newFacets : *facets;
 
     // 3. Distance to the nearest solid voxel, for every voxel.
-    std::optional<Field> newField;
+    std::optional<Field> field;
     if (first <= Redo::Field) {
       report("GI SDF", 0);
-      newField = buildField(context, list, settings);
+      field = buildField(context, *p.facets, settings);
     }
-    const Field& distance = newField ? *newField : *field;
 
     // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
     report("GI BuildMatrix", 0);
     // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first.
-    if (newFacets) matrix.reset();
-    FormFactors newMatrix = buildMatrix(context, list, distance, settings, [&](float fraction) {
-      return !progress || progress("GI BuildMatrix", fraction);
-    });
-
-    if (newFacets) {
-      emitters = listEmitters(context, *newFacets);
-      facets = std::move(newFacets);
-      light.reset();  // belongs to the old list
-    }
-    if (newField) field = std::move(newField);
-    matrix = std::move(newMatrix);
-    if (light) light->emittedCurrent = false;  // F M of the old F
+    if (first <= Redo::Voxels) now.matrix.reset();
+    p.matrix = buildMatrix(context, *p.facets, field ? *field : *p.field, settings,
+                           [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); });
+    if (field) p.field = std::move(field);
+    if (p.light) p.light->emittedCurrent = false;  // F M of the old F
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
   /// T's "per-frame" set, on the lights as they are: D, then H <- F B and B <- M + rho (D + H) until the error bound
   /// holds, then H to where shading reads it.
-  void relight(Redo first, uint32_t maxSweeps, const Progress& progress) {
+  void relight(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     // A new list has no light yet: given up now it would stay black.
-    if (progress && !progress("GI Solve", 0) && light) throw WorkError("cancelled");
-    if (!light) light = makeLighting(context, *facets, settings);
+    if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
+    if (!p.light) p.light = makeLighting(context, *p.facets, settings);
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
-      gather(frame, onDevice, *shadows, *facets, *light, settings);
+      gather(frame, onDevice, *shadows, *p.facets, *p.light, settings);
       frame.submitAndWait();
     }
     if (first <= Redo::Solve)
-      light->report = solve(context, *facets, *matrix, *light, settings, maxSweeps, {&*emitters, &*field});
+      p.light->report = solve(context, *p.facets, *p.matrix, *p.light, settings, maxSweeps, {&*p.emitters, &*p.field});
     Frame frame = context.begin(frameIndex);
-    scatter(frame, *facets, *light, settings);
+    scatter(frame, *p.facets, *p.light, settings);
     frame.submitAndWait();
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
   }
 
   IndirectInputs indirectInputs(View view) const {
     IndirectInputs in;
-    if (!facets || facets->count == 0 || !light) return in;
-    in.grid = &gridRecord;
-    in.shape = &facets->shape;
-    in.reverse = &facets->reverse;
-    in.shaded = &light->shaded;
-    if (view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) in.shadedEmitted = &light->shadedEmitted;
-    in.volume = light->volume ? &light->volume : nullptr;
-    in.normalEncoding = static_cast<uint32_t>(facets->encoding);
+    if (!now.facets || now.facets->count == 0 || !now.light) return in;
+    in.grid = &now.gridRecord;
+    in.shape = &now.facets->shape;
+    in.reverse = &now.facets->reverse;
+    in.shaded = &now.light->shaded;
+    if (view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) in.shadedEmitted = &now.light->shadedEmitted;
+    in.volume = now.light->volume ? &now.light->volume : nullptr;
+    in.normalEncoding = static_cast<uint32_t>(now.facets->encoding);
     in.sample = settings.sample.gpu;
     return in;
   }
-  Buffer gridRecord;
 };
 
 Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings)
@@ -142,9 +154,10 @@ Redo Pipeline::set(const Settings& settings) {
   const Redo first = difference(impl_->settings, settings);
   if (impl_->settings.light.shadowResolution != settings.light.shadowResolution) impl_->shadowsDirty = true;
   // F M depends on how emitters are sampled, which no other stage does.
-  const MatrixSettings &before = impl_->settings.matrix, &now = settings.matrix;
-  if (impl_->light && (before.emitterSampling != now.emitterSampling || before.emitterSamples != now.emitterSamples))
-    impl_->light->emittedCurrent = false;
+  const MatrixSettings &before = impl_->settings.matrix, &after = settings.matrix;
+  if (impl_->now.light &&
+      (before.emitterSampling != after.emitterSampling || before.emitterSamples != after.emitterSamples))
+    impl_->now.light->emittedCurrent = false;
   impl_->settings = settings;
   impl_->dirty = std::min(impl_->dirty, first);
   return impl_->dirty;
@@ -168,19 +181,11 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
     p.shadowsDirty = false;
     p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
   }
-  if (p.dirty <= Redo::Matrix) {
-    p.build(p.dirty, progress);
-    p.dirty = Redo::Gather;
-    p.gridRecord = makeBuffer<Grid>(p.context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
-  }
-  if (p.dirty <= Redo::Scatter || !p.light->report.converged) {
-    p.relight(p.dirty <= Redo::Scatter ? p.dirty : Redo::Solve, sweeps, progress);
-    p.dirty = Redo::Nothing;
-  }
+  p.prepare(sweeps, progress);
 }
 
 bool Pipeline::asleep() const {
-  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->light && impl_->light->report.converged;
+  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->now.light && impl_->now.light->report.converged;
 }
 
 void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets) {
@@ -195,26 +200,26 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
 
   ViewInputs inputs;
   inputs.scene = &p.onDevice;
-  if (p.facets) inputs.facets = &*p.facets;
-  if (p.field) inputs.field = &*p.field;
-  if (p.matrix) inputs.matrix = &*p.matrix;
-  if (p.light) inputs.lighting = &*p.light;
-  if (p.emitters) inputs.emitters = &*p.emitters;
+  if (p.now.facets) inputs.facets = &*p.now.facets;
+  if (p.now.field) inputs.field = &*p.now.field;
+  if (p.now.matrix) inputs.matrix = &*p.now.matrix;
+  if (p.now.light) inputs.lighting = &*p.now.light;
+  if (p.now.emitters) inputs.emitters = &*p.now.emitters;
   traceSpecular(frame, inputs, p.camera, p.settings, targets);
   drawView(frame, view, inputs, p.camera, p.settings, targets);
 }
 
 const FacetList& Pipeline::facets() const {
-  return *impl_->facets;
+  return *impl_->now.facets;
 }
 const Field& Pipeline::field() const {
-  return *impl_->field;
+  return *impl_->now.field;
 }
 const FormFactors& Pipeline::matrix() const {
-  return *impl_->matrix;
+  return *impl_->now.matrix;
 }
 const Lighting& Pipeline::lighting() const {
-  return *impl_->light;
+  return *impl_->now.light;
 }
 const ShadowMaps& Pipeline::shadows() const {
   return *impl_->shadows;

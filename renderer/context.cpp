@@ -14,8 +14,8 @@ Context::Context(const Device& device, ShaderLibrary& shaders, Timings& timings)
     : device(device), shaders(shaders), timings(timings), impl(std::make_unique<Impl>(device, shaders)) {}
 
 Context::~Context() {
+  if (!device.settle()) return;  // whoever met the loss has reported it
   try {
-    device.waitIdle();
     impl->collect(timings);
   } catch (const Error& error) {
     fmt::print(stderr, "irad: {}\n", error.what());

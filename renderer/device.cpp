@@ -195,6 +195,12 @@ void Device::recordingEnded() const {
   impl_->retiredWhileRecording.clear();
 }
 
+/// Counts a submission or a wait; true from the one on that DeviceOptions::loseDevice names.
+bool Device::losesHere() const {
+  if (++counters.exchanges == options.loseDevice) impl_->lost = true;
+  return impl_->lost;
+}
+
 uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore presentWait, VkSemaphore presentSignal) const {
   uint64_t value = 0;
   {
@@ -219,7 +225,8 @@ uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore presentWait, VkSem
                              .pCommandBufferInfos = &buffer,
                              .signalSemaphoreInfoCount = presentSignal ? 2u : 1u,
                              .pSignalSemaphoreInfos = signals};
-    vkCheck(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "submitting commands");
+    vkCheck(losesHere() ? VK_ERROR_DEVICE_LOST : vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE),
+            "submitting commands");
     impl_->submitted = value;
     ++counters.submits;
   }
@@ -232,19 +239,24 @@ void Device::wait(uint64_t value) const {
                                  .semaphoreCount = 1,
                                  .pSemaphores = &impl_->timeline,
                                  .pValues = &value};
-  vkCheck(vkWaitSemaphores(handle, &info, UINT64_MAX), "waiting for the device");
+  vkCheck(losesHere() ? VK_ERROR_DEVICE_LOST : vkWaitSemaphores(handle, &info, UINT64_MAX), "waiting for the device");
   impl_->collect(handle);
 }
 
 bool Device::finished(uint64_t value) const {
   uint64_t done = 0;
-  vkCheck(vkGetSemaphoreCounterValue(handle, impl_->timeline, &done), "asking the device for its progress");
+  vkCheck(impl_->lost ? VK_ERROR_DEVICE_LOST : vkGetSemaphoreCounterValue(handle, impl_->timeline, &done),
+          "asking the device for its progress");
   return done >= value;
 }
 
 void Device::waitIdle() const {
-  vkCheck(vkDeviceWaitIdle(handle), "waiting for the device");
+  vkCheck(losesHere() ? VK_ERROR_DEVICE_LOST : vkDeviceWaitIdle(handle), "waiting for the device");
   impl_->collect(handle);
+}
+
+bool Device::settle() const noexcept {
+  return vkDeviceWaitIdle(handle) == VK_SUCCESS && !impl_->lost;
 }
 
 std::vector<std::string> Device::validationMessages() const {

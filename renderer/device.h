@@ -17,10 +17,14 @@ class Allocator;
 struct SamplerDesc;
 
 struct DeviceOptions {
-  std::string select;        ///< index or part of a name (case-insensitive); empty: the best suitable device
-  bool validate = false;     ///< core + synchronization validation; every message is counted and kept
-  bool presentable = false;  ///< enable the surface and swapchain extensions (GLFW names them)
-  bool poison = false;       ///< fill all fresh device memory with NaN bit patterns
+  std::string select;         ///< index or part of a name (case-insensitive); empty: the best suitable device
+  bool validate = false;      ///< core + synchronization validation; every message is counted and kept
+  bool presentable = false;   ///< enable the surface and swapchain extensions (GLFW names them)
+  bool poison = false;        ///< fill all fresh device memory with NaN bit patterns
+  uint64_t memoryBudget = 0;  ///< bytes that may be taken of the device's own heap; 0: what the heap allows
+  // Failures to provoke, to see what follows them. They are compared with `counters`: set anew, they strike again.
+  uint64_t failResource = 0;  ///< the buffer or image of this number finds no memory, from 1; 0: none
+  uint64_t loseDevice = 0;    ///< the device is lost at the submission or wait of this number, from 1; 0: never
 };
 
 /// One physical device as `--list-devices` shows it.
@@ -35,6 +39,8 @@ struct DeviceInfo {
 /// Counts of what was asked of the device, for tests and `irad plan --prove`.
 struct DeviceCounters {
   std::atomic<uint64_t> dispatches{0}, draws{0}, submits{0}, allocations{0};
+  std::atomic<uint64_t> resources{0};  ///< buffers and images that asked for memory
+  std::atomic<uint64_t> exchanges{0};  ///< submissions and waits
 };
 
 class Device {
@@ -72,18 +78,22 @@ class Device {
   /// Brackets the recording of a command buffer: what is retired meanwhile may be used by it. Frames call these.
   void recordingBegan() const;
   void recordingEnded() const;
+  // The next four throw WorkError once the device is lost (driver reset, hang, removal): nothing brings it back.
   /// Submits `commands`; returns the timeline value that `wait` takes. `presentWait`/`presentSignal` may be null.
   uint64_t submit(VkCommandBuffer commands, VkSemaphore presentWait = VK_NULL_HANDLE,
                   VkSemaphore presentSignal = VK_NULL_HANDLE) const;
-  void wait(uint64_t timelineValue) const;  ///< throws WorkError on device loss
+  void wait(uint64_t timelineValue) const;
   bool finished(uint64_t timelineValue) const;
   void waitIdle() const;
+  /// waitIdle for destructors. False: the device is lost, and runs nothing any more.
+  bool settle() const noexcept;
 
   /// Validation messages of severity >= WARNING, PERFORMANCE and loader messages excluded. A test fails on any.
   std::vector<std::string> validationMessages() const;
 
  private:
   Device();
+  bool losesHere() const;
   friend VkSampler sampler(const Device& device, const SamplerDesc& desc);
   struct Impl;
   std::unique_ptr<Impl> impl_;

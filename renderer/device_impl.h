@@ -13,6 +13,7 @@ struct Device::Impl {
   ValidationLog log;
   Instance instance;
   VkSemaphore timeline = VK_NULL_HANDLE;
+  std::atomic<bool> lost = false;  ///< DeviceOptions::loseDevice has struck
 
   std::mutex mutex;  ///< guards what follows
   uint64_t submitted = 0;

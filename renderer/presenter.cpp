@@ -206,7 +206,7 @@ void Presenter::attach(Context& context) {
 
 void Presenter::detach() {
   if (!impl_->context) return;
-  impl_->device().waitIdle();
+  impl_->device().settle();
   impl_->drop();
   for (const VkSemaphore semaphore : *impl_->idle) vkDestroySemaphore(impl_->device().handle, semaphore, nullptr);
   impl_->idle->clear();

@@ -23,7 +23,7 @@ class Buffer {
  public:
   Buffer() = default;
   /// Storage + transfer + device address (+ indirect). `bytes` of 0 allocates 16 so that an address always exists.
-  /// Throws DeviceError naming the buffer, its size and the budget when memory does not suffice.
+  /// Throws DeviceError naming the buffer, its subsystem, its size and what is free when memory does not suffice.
   Buffer(const Device& device, std::string name, Subsystem subsystem, uint64_t bytes, Access access = Access::Device);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
@@ -96,9 +96,10 @@ class Allocator {
   std::vector<MemoryRow> rows() const;  ///< live resources, largest first
   uint64_t used() const;
   uint64_t peak() const;
-  uint64_t budget() const;  ///< bytes this process may use on the device-local heap (heap size less a reserve)
-  /// Throws DeviceError "NAME needs A MiB, B of C MiB are free" if `bytes` more would exceed the budget.
-  void check(const std::string& name, uint64_t bytes) const;
+  /// Bytes this process may use on the device-local heap: its size less a reserve, DeviceOptions::memoryBudget at most.
+  uint64_t budget() const;
+  /// Throws DeviceError "NAME (SUBSYSTEM) needs A MiB, B of C MiB are free" if `bytes` more would exceed the budget.
+  void check(Subsystem subsystem, const std::string& name, uint64_t bytes) const;
   struct Impl;
 
  private:

@@ -171,13 +171,13 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
     }
     faces.push_back({false, light.shadowLayer, light.shadowMatrix});
   }
-  scene.uploadLights(context);
 
   // Draw. Every triangle casts, whichever side it shows; masked materials look at their textures.
   std::vector<glm::mat4> matrices;
   for (const Face& face : faces) matrices.push_back(face.matrix);
   const Buffer projections =
       makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
+  scene.uploadLights(context);  // once all memory is there: until then the old lights go with the old maps
   Frame frame = context.begin();
   for (size_t i = 0; i < faces.size(); ++i)
     drawDepth(frame, scene,

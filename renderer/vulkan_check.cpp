@@ -12,7 +12,7 @@ void vkCheck(VkResult result, std::string_view what) {
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
       throw DeviceError(fmt::format("{}: out of device memory", what));
     case VK_ERROR_DEVICE_LOST:
-      throw WorkError(fmt::format("{}: the device was lost", what));
+      throw WorkError(fmt::format("{}: the device was lost (its driver was reset, it hung, or it was removed)", what));
     case VK_ERROR_INITIALIZATION_FAILED:
       throw DeviceError(fmt::format("{}: initialization failed", what));
     case VK_ERROR_LAYER_NOT_PRESENT:

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "renderer/error.h"
 #include "renderer/memory/allocator_impl.h"
@@ -10,12 +11,14 @@ namespace irad {
 namespace {
 
 constexpr uint64_t kMiB = 1024 * 1024;
-constexpr uint64_t kBlock = 64 * kMiB;
+constexpr uint64_t kLeastBlock = kMiB, kMostBlock = 64 * kMiB;
 /// Share of a heap left to the driver and to others; a CPU device shares its memory with the whole machine.
 constexpr double kUsableHeap = 0.95, kUsableRam = 0.6;
 
-double mib(uint64_t bytes) {
-  return static_cast<double>(bytes) / static_cast<double>(kMiB);
+std::string amount(uint64_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (bytes < 1024) return fmt::format("{} B", bytes);
+  return bytes < kMiB ? fmt::format("{:.1f} KiB", value / 1024.0) : fmt::format("{:.1f} MiB", value / kMiB);
 }
 uint64_t alignUp(uint64_t value, uint64_t alignment) {
   return (value + alignment - 1) / alignment * alignment;
@@ -32,6 +35,7 @@ Allocator::Impl::Impl(const Device& device) : device(device) {
       deviceHeap = i;
     }
   physicalBytes = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE));
+  blockSize = std::clamp(std::bit_floor(budget() / 16), kLeastBlock, kMostBlock);
   const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                          .queueFamilyIndex = device.queueFamily};
@@ -81,10 +85,13 @@ Allocator::Impl::Block* Allocator::Impl::newBlock(uint32_t type, uint64_t size, 
                                   .allocationSize = size,
                                   .memoryTypeIndex = type};
   auto block = std::make_unique<Block>();
+  const bool own = memory.memoryTypes[type].heapIndex == deviceHeap;
+  if (own && deviceTaken + size > budget()) return nullptr;
   const VkResult result = vkAllocateMemory(device.handle, &info, nullptr, &block->memory);
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) return nullptr;
-  vkCheck(result, fmt::format("allocating {:.1f} MiB for {}", mib(size), name));
+  vkCheck(result, fmt::format("allocating {} for {}", amount(size), name));
   ++device.counters.allocations;
+  if (own) deviceTaken += size;
   block->size = size;
   block->type = type;
   block->images = images;
@@ -119,30 +126,31 @@ Allocator::Impl::Place Allocator::Impl::allocate(const VkMemoryRequirements& nee
   const std::lock_guard lock(mutex);
   const uint32_t type = chooseType(needs.memoryTypeBits, access, row.name);
   const bool deviceLocal = memory.memoryTypes[type].heapIndex == deviceHeap;
-  if (deviceLocal) check(row.name, needs.size);
+  if (deviceLocal) check(row.subsystem, row.name, needs.size);
   if (needs.size > device.maxAllocation)
-    throw DeviceError(fmt::format("{} needs {:.1f} MiB in one piece; the device allocates at most {:.1f} MiB at once",
-                                  row.name, mib(needs.size), mib(device.maxAllocation)));
+    throw DeviceError(fmt::format("{} ({}) needs {} in one piece; the device allocates at most {} at once", row.name,
+                                  toString(row.subsystem), amount(needs.size), amount(device.maxAllocation)));
 
   // Small resources share blocks; a resource of more than half a block gets its own.
   Block* block = nullptr;
   uint64_t offset = 0;
-  const bool dedicated = needs.size > kBlock / 2;
-  if (!dedicated) {
+  const bool dedicated = needs.size > blockSize / 2;
+  const bool refused = ++device.counters.resources == device.options.failResource;
+  if (!dedicated && !refused) {
     for (const auto& candidate : blocks)
       if (!candidate->dedicated && candidate->type == type && candidate->images == image &&
           fit(*candidate, needs.size, needs.alignment, offset)) {
         block = candidate.get();
         break;
       }
-    if (!block && (block = newBlock(type, kBlock, image, false, row.name)))
+    if (!block && (block = newBlock(type, blockSize, image, false, row.name)))
       IRAD_CHECK(fit(*block, needs.size, needs.alignment, offset), "{} bytes in a fresh block", needs.size);
   }
   if (!block) {
-    block = newBlock(type, needs.size, image, true, row.name);
+    if (!refused) block = newBlock(type, needs.size, image, true, row.name);
     if (!block)
-      throw DeviceError(fmt::format("{} needs {:.1f} MiB: the device is out of memory ({:.1f} MiB are in use)",
-                                    row.name, mib(needs.size), mib(used)));
+      throw DeviceError(fmt::format("{} ({}) needs {}: the device is out of memory ({} are in use)", row.name,
+                                    toString(row.subsystem), amount(needs.size), amount(used)));
     IRAD_CHECK(fit(*block, needs.size, 1, offset), "{} bytes in a dedicated block", needs.size);
   }
 
@@ -183,6 +191,7 @@ void Allocator::Impl::free(uint64_t id) {
   if (here->second != block.size) return;
   const auto alike = [&](const auto& b) { return !b->dedicated && b->type == block.type && b->images == block.images; };
   if (!block.dedicated && std::count_if(blocks.begin(), blocks.end(), alike) < 2) return;
+  if (allocation.deviceLocal) deviceTaken -= block.size;
   vkFreeMemory(device.handle, block.memory, nullptr);
   std::erase_if(blocks, [&](const auto& b) { return b.get() == &block; });
 }
@@ -194,6 +203,11 @@ uint64_t Allocator::Impl::bytes(uint64_t id) const {
 }
 
 uint64_t Allocator::Impl::budget() const {
+  const uint64_t wanted = device.options.memoryBudget, usable = heapBudget();
+  return wanted > 0 ? std::min(wanted, usable) : usable;
+}
+
+uint64_t Allocator::Impl::heapBudget() const {
   const uint64_t heap = memory.memoryHeaps[deviceHeap].size;
   if (device.isCpu) return std::min(heap, static_cast<uint64_t>(kUsableRam * static_cast<double>(physicalBytes)));
   const auto usable = static_cast<uint64_t>(kUsableHeap * static_cast<double>(heap));
@@ -206,12 +220,12 @@ uint64_t Allocator::Impl::budget() const {
   return std::min(usable, static_cast<uint64_t>(budget.heapBudget[deviceHeap]));
 }
 
-void Allocator::Impl::check(const std::string& name, uint64_t bytes) const {
+void Allocator::Impl::check(Subsystem subsystem, const std::string& name, uint64_t bytes) const {
   const uint64_t all = budget();
   const uint64_t free = all > deviceUsed ? all - deviceUsed : 0;
   if (bytes > free)
-    throw DeviceError(
-        fmt::format("{} needs {:.1f} MiB, {:.1f} of {:.1f} MiB are free", name, mib(bytes), mib(free), mib(all)));
+    throw DeviceError(fmt::format("{} ({}) needs {}, {} of {} are free", name, toString(subsystem), amount(bytes),
+                                  amount(free), amount(all)));
 }
 
 void Allocator::Impl::runNow(const std::function<void(VkCommandBuffer)>& record) {
@@ -258,9 +272,9 @@ uint64_t Allocator::peak() const {
 uint64_t Allocator::budget() const {
   return impl_->budget();
 }
-void Allocator::check(const std::string& name, uint64_t bytes) const {
+void Allocator::check(Subsystem subsystem, const std::string& name, uint64_t bytes) const {
   const std::lock_guard lock(impl_->mutex);
-  impl_->check(name, bytes);
+  impl_->check(subsystem, name, bytes);
 }
 
 }  // namespace irad

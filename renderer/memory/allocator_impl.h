@@ -41,7 +41,7 @@ struct Allocator::Impl {
   void free(uint64_t id);
   uint64_t bytes(uint64_t id) const;
   uint64_t budget() const;
-  void check(const std::string& name, uint64_t bytes) const;
+  void check(Subsystem subsystem, const std::string& name, uint64_t bytes) const;
 
   /// DeviceOptions::poison: runs `record` on the device and waits.
   void runNow(const std::function<void(VkCommandBuffer)>& record);
@@ -50,16 +50,19 @@ struct Allocator::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   uint32_t deviceHeap = 0;  ///< the largest device-local heap
   uint64_t physicalBytes = 0;
+  uint64_t blockSize = 0;  ///< of shared blocks
 
   mutable std::mutex mutex;
   std::vector<std::unique_ptr<Block>> blocks;
   std::unordered_map<uint64_t, Allocation> live;
-  uint64_t nextId = 1, used = 0, peak = 0, deviceUsed = 0;
+  uint64_t nextId = 1, used = 0, peak = 0;
+  uint64_t deviceUsed = 0, deviceTaken = 0;  ///< of the device's own heap: by resources, by whole blocks
   VkCommandPool pool = VK_NULL_HANDLE;
 
  private:
   uint32_t chooseType(uint32_t allowed, Access access, const std::string& name) const;
   Block* newBlock(uint32_t type, uint64_t size, bool images, bool dedicated, const std::string& name);
+  uint64_t heapBudget() const;
   bool fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset);
 };
 

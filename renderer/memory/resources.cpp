@@ -91,10 +91,15 @@ const char* toString(Subsystem subsystem) {
 
 // --- Buffer ---
 
+// The constructors delegate, so that what they have made so far is destroyed when a later step throws.
+
 Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsystem, uint64_t size, Access access)
-    : bytes(size == 0 ? 16 : size), name(std::move(resourceName)), device_(&device) {
+    : Buffer() {
+  bytes = size == 0 ? 16 : size;
+  name = std::move(resourceName);
+  device_ = &device;
   Allocator::Impl& allocator = *device.memory().impl_;
-  if (access == Access::Device) device.memory().check(name, bytes);
+  if (access == Access::Device) device.memory().check(subsystem, name, bytes);
   const uint64_t allocated = (bytes + 15) / 16 * 16;  // whole words, so that fills reach the end
   const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                 .size = allocated,
@@ -103,18 +108,12 @@ Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsyst
                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT};
   vkCheck(vkCreateBuffer(device.handle, &info, nullptr, &handle), fmt::format("creating buffer {}", name));
-  try {
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(device.handle, handle, &needs);
-    const Allocator::Impl::Place place = allocator.allocate(needs, {name, subsystem, "buffer", 0}, access, false);
-    allocation_ = place.id;
-    if (access != Access::Device) mapped = place.mapped;
-    vkCheck(vkBindBufferMemory(device.handle, handle, place.memory, place.offset), "binding buffer memory");
-  } catch (...) {
-    if (allocation_) allocator.free(allocation_);
-    vkDestroyBuffer(device.handle, handle, nullptr);
-    throw;
-  }
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(device.handle, handle, &needs);
+  const Allocator::Impl::Place place = allocator.allocate(needs, {name, subsystem, "buffer", 0}, access, false);
+  allocation_ = place.id;
+  if (access != Access::Device) mapped = place.mapped;
+  vkCheck(vkBindBufferMemory(device.handle, handle, place.memory, place.offset), "binding buffer memory");
   const VkBufferDeviceAddressInfo addressInfo{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .buffer = handle};
   address = vkGetBufferDeviceAddress(device.handle, &addressInfo);
   device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle), name);
@@ -134,7 +133,7 @@ Buffer::~Buffer() {
   device_->retire(
       [device = device_->handle, allocator = device_->memory().impl_.get(), handle = handle, allocation = allocation_] {
         vkDestroyBuffer(device, handle, nullptr);
-        allocator->free(allocation);
+        if (allocation) allocator->free(allocation);
       });
 }
 
@@ -229,7 +228,9 @@ void poison(VkCommandBuffer commands, VkImage image, const ImageDesc& d) {
 
 }  // namespace
 
-Image::Image(const Device& device, const ImageDesc& wanted) : desc(wanted), device_(&device) {
+Image::Image(const Device& device, const ImageDesc& wanted) : Image() {
+  desc = wanted;
+  device_ = &device;
   const FormatInfo format = formatInfo(desc.format);
   if (desc.depth > 1) desc.volume = true;
   IRAD_CHECK(desc.width > 0 && desc.height > 0 && desc.depth > 0 && desc.layers > 0 && desc.mips > 0, "{}: {}",
@@ -256,21 +257,15 @@ Image::Image(const Device& device, const ImageDesc& wanted) : desc(wanted), devi
                                .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
   checkLimits(device, info, desc);
   const uint64_t texels = uint64_t{desc.width} * desc.height * desc.depth * desc.layers;
-  device.memory().check(desc.name, texels * format.bytes);
+  device.memory().check(desc.subsystem, desc.name, texels * format.bytes);
   vkCheck(vkCreateImage(device.handle, &info, nullptr, &handle), fmt::format("creating image {}", desc.name));
   Allocator::Impl& allocator = *device.memory().impl_;
-  try {
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device.handle, handle, &needs);
-    const Allocator::Impl::Place place =
-        allocator.allocate(needs, {desc.name, desc.subsystem, describe(desc), 0}, Access::Device, true);
-    allocation_ = place.id;
-    vkCheck(vkBindImageMemory(device.handle, handle, place.memory, place.offset), "binding image memory");
-  } catch (...) {
-    if (allocation_) allocator.free(allocation_);
-    vkDestroyImage(device.handle, handle, nullptr);
-    throw;
-  }
+  VkMemoryRequirements needs;
+  vkGetImageMemoryRequirements(device.handle, handle, &needs);
+  const Allocator::Impl::Place place =
+      allocator.allocate(needs, {desc.name, desc.subsystem, describe(desc), 0}, Access::Device, true);
+  allocation_ = place.id;
+  vkCheck(vkBindImageMemory(device.handle, handle, place.memory, place.offset), "binding image memory");
   device.name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(handle), desc.name);
 
   constexpr VkImageUsageFlags kViewable = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
@@ -301,7 +296,7 @@ Image::~Image() {
                    allocation = allocation_, views = std::move(views)] {
     for (const VkImageView v : views) vkDestroyImageView(device, v, nullptr);
     vkDestroyImage(device, handle, nullptr);
-    allocator->free(allocation);
+    if (allocation) allocator->free(allocation);
   });
 }
 

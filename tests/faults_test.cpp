@@ -1,0 +1,195 @@
+// What follows failures: no memory at any one resource, a lost device.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "gi/pipeline.h"
+#include "renderer/error.h"
+#include "tests/support.h"
+
+namespace irad::test {
+namespace {
+
+Settings small(uint32_t resolution, const char* preset = "balanced") {
+  Settings s = defaultSettings(/*cpuDevice=*/true);
+  applyPreset(s, preset, /*cpuDevice=*/true);
+  s.voxel.resolution = resolution;
+  s.matrix.gpu.rays = 16;
+  s.light.shadowResolution = 64;
+  return s;
+}
+
+const Scene& box() {
+  static const Scene scene = loadScene(assets() / "box.glb");
+  return scene;
+}
+
+using Pixels = std::vector<std::byte>;
+
+Pixels draw(Context& context, Pipeline& pipeline) {
+  Targets targets(context, {24, 24});
+  Frame frame = context.begin();
+  pipeline.render(frame, pipeline.scene().cameras.at(0), VIEW_LIT, targets);
+  frame.submitAndWait();
+  return download(context, targets.linear);
+}
+
+/// A picture from nothing: every allocation that a run makes.
+Pixels fresh(Context& context, const Settings& settings) {
+  Pipeline pipeline(context, box(), settings);
+  pipeline.prepare();
+  return draw(context, pipeline);
+}
+
+/// Ends what a test has armed, whatever becomes of it.
+struct Disarm {
+  ~Disarm() { gpu().device->options.failResource = 0; }
+};
+
+/// The message of the DeviceError that `act` ends in where the n-th resource from here finds no memory; empty: it never
+/// came to that resource.
+template <class Act>
+std::string withoutMemoryAt(uint64_t n, Act&& act) {
+  const Device& device = *gpu().device;
+  gpu().device->options.failResource = device.counters.resources + n;
+  const Disarm disarm;
+  std::string message;
+  try {
+    act();
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.exitStatus, 4);
+    message = error.what();
+  }
+  const bool reached = device.counters.resources >= device.options.failResource;
+  EXPECT_EQ(reached, !message.empty()) << "resource " << n << ": the failure was swallowed";
+  return message;
+}
+
+void expectNamed(const std::string& message) {
+  // "NAME (SUBSYSTEM) needs SIZE: the device is out of memory (...)"
+  const size_t needs = message.find(") needs ");
+  EXPECT_NE(needs, std::string::npos) << message;
+  EXPECT_NE(message.find("B: the device is out of memory", needs), std::string::npos) << message;
+}
+
+/// Bytes of everything but what a context keeps for its next frames.
+uint64_t held() {
+  gpu().device->waitIdle();
+  { gpu().context->begin().submitAndWait(); }  // collects what finished frames have retired
+  uint64_t bytes = 0;
+  for (const MemoryRow& row : gpu().device->memory().rows())
+    if (row.subsystem != Subsystem::Staging) bytes += row.bytes;
+  return bytes;
+}
+
+class NoMemory : public GpuTest {
+ protected:
+  /// Runs without memory at each resource in turn; the subsystems that they belong to.
+  std::set<std::string> everyResource(const Settings& settings) {
+    const Pixels expected = fresh(context(), settings);
+    const uint64_t before = held();
+    std::set<std::string> subsystems;
+    for (uint64_t n = 1;; ++n) {
+      Pixels pixels;
+      const std::string message = withoutMemoryAt(n, [&] { pixels = fresh(context(), settings); });
+      EXPECT_EQ(held(), before) << "after resource " << n << ": " << message;
+      if (message.empty()) {
+        EXPECT_TRUE(pixels == expected);
+        std::printf("%u resources\n", static_cast<uint32_t>(n - 1));
+        return subsystems;
+      }
+      expectNamed(message);
+      const size_t end = message.find(") needs"), begin = message.rfind('(', end) + 1;
+      subsystems.insert(message.substr(begin, end - begin));
+    }
+  }
+};
+
+TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
+  std::set<std::string> subsystems = everyResource(small(12));
+  subsystems.merge(everyResource(small(12, "thesis")));
+  EXPECT_EQ(subsystems, (std::set<std::string>{"facets", "field", "matrix", "scene", "shadow", "solver", "specular",
+                                               "staging", "targets", "volumes", "voxels"}));
+  // With the context goes what it kept.
+  gpu().context.reset();
+  gpu().device->waitIdle();
+  EXPECT_EQ(gpu().device->memory().used(), 0u);
+}
+
+TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
+  const Pixels pictures[] = {fresh(context(), small(12)), fresh(context(), small(14))};
+  ASSERT_FALSE(pictures[0] == pictures[1]);
+  Pipeline pipeline(context(), box(), small(12));
+  pipeline.prepare();
+  int shown = 0;
+  uint64_t n = 1;
+  for (;; ++n) {
+    pipeline.set(small(shown == 0 ? 14 : 12));
+    const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
+    if (message.empty()) break;
+    expectNamed(message);
+    ASSERT_FALSE(pipeline.asleep()) << "resource " << n;
+    ASSERT_TRUE(draw(context(), pipeline) == pictures[shown]) << "after resource " << n << ": " << message;
+    pipeline.prepare();
+    shown = 1 - shown;
+    ASSERT_TRUE(draw(context(), pipeline) == pictures[shown]) << "after resource " << n << ": " << message;
+  }
+  EXPECT_GT(n, 30u);
+  EXPECT_TRUE(draw(context(), pipeline) == pictures[1 - shown]);
+}
+
+/// Under a list that stays: what shadow maps, a new matrix and a relight allocate.
+TEST_F(NoMemory, InNewShadowsAndNewRaysCanBeTakenBack) {
+  Settings settings[] = {small(12), small(12)};
+  settings[1].light.shadowResolution = 128;
+  settings[1].matrix.gpu.rays = 24;
+  Pipeline pipeline(context(), box(), settings[0]);
+  pipeline.prepare();
+  const Pixels before = draw(context(), pipeline);
+  uint64_t n = 1;
+  for (;; ++n) {
+    pipeline.set(settings[1]);
+    const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
+    if (message.empty()) break;
+    expectNamed(message);
+    pipeline.set(settings[0]);
+    pipeline.invalidate(Redo::Voxels);
+    pipeline.prepare();
+    ASSERT_TRUE(draw(context(), pipeline) == before) << "after resource " << n << ": " << message;
+  }
+  EXPECT_GT(n, 10u);
+}
+
+// A device stays lost, so each loss takes one of its own.
+TEST(LostDevice, IsAnErrorInWordsWhereverItHappens) {
+  uint32_t losses = 0;
+  for (uint64_t n = 1; n < 1000; n = n * 2 + 1) {
+    const auto device = Device::create({.validate = true, .loseDevice = n});
+    std::string message;
+    {
+      ShaderLibrary shaders;
+      Timings timings;
+      Context context(*device, shaders, timings);
+      try {
+        fresh(context, small(12));
+      } catch (const WorkError& error) {
+        EXPECT_EQ(error.exitStatus, 1);
+        message = error.what();
+      }
+      if (device->counters.exchanges < n) {
+        EXPECT_EQ(message, "");
+        break;
+      }
+      ++losses;
+      EXPECT_NE(message.find("the device was lost"), std::string::npos) << "at exchange " << n << ": " << message;
+      EXPECT_THROW(context.begin().submitAndWait(), WorkError) << "it stays lost";
+    }
+    EXPECT_FALSE(device->settle());
+    EXPECT_EQ(device->memory().used(), 0u) << "at exchange " << n;
+    for (const std::string& text : device->validationMessages()) ADD_FAILURE() << "at exchange " << n << ": " << text;
+  }
+  EXPECT_GE(losses, 6u);
+}
+
+}  // namespace
+}  // namespace irad::test
