@@ -71,7 +71,7 @@ glm::uvec2 PictureArguments::resolveSize(const Config& config) const {
 }
 
 uint32_t PictureArguments::resolveFrames(const Config& config, uint32_t otherwise) const {
-  if (frames) return static_cast<uint32_t>(parseInteger("--frames", *frames, 1, 1'000'000));
+  if (frames) return static_cast<uint32_t>(parseInteger("--frames", *frames, 1, kMaxFrames));
   return config.frames.value_or(otherwise);
 }
 
@@ -114,7 +114,8 @@ uint64_t parseInteger(const std::string& option, const std::string& text, uint64
 glm::uvec2 parseSize(const std::string& text) {
   const size_t x = text.find('x');
   if (x == std::string::npos) throw UsageError(fmt::format("--size: '{}' is not WIDTHxHEIGHT", text));
-  return {parseInteger("--size", text.substr(0, x), 1, 16384), parseInteger("--size", text.substr(x + 1), 1, 16384)};
+  return {parseInteger("--size", text.substr(0, x), 1, kMaxPictureSide),
+          parseInteger("--size", text.substr(x + 1), 1, kMaxPictureSide)};
 }
 
 std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values) {
@@ -166,10 +167,11 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
   if (!wanted)
     throw UsageError(
         fmt::format("no scene given: a .gltf or .glb file, or one of: {}", fmt::join(builtInScenes(), ", ")));
-  if (fs::exists(*wanted)) return *wanted;
+  std::error_code ignored;  // a name that is no path at all does not exist either
+  if (fs::exists(*wanted, ignored)) return *wanted;
   if (fs::path(*wanted).filename() == *wanted && !fs::path(*wanted).has_extension())
     for (const fs::path& folder : assetFolders())
-      if (const fs::path path = folder / (*wanted + ".glb"); fs::exists(path)) return path;
+      if (const fs::path path = folder / (*wanted + ".glb"); fs::exists(path, ignored)) return path;
   throw InputError(fmt::format("{}: no such file; built-in scenes{}", *wanted,
                                builtInScenes().empty() ? ": none found" : suggestion(*wanted, builtInScenes())));
 }

@@ -8,6 +8,7 @@
 
 #include "gi/near_match.h"
 #include "renderer/error.h"
+#include "renderer/json_extent.h"
 
 namespace irad::app {
 namespace {
@@ -22,9 +23,11 @@ Json number(float value) {
 const std::vector<std::string> fields{"name", "position", "orientation", "target", "up",
                                       "yfov", "ymag",     "aspect",      "znear",  "zfar"};
 
-double finite(const Json& value, const std::string& field) {
-  if (!value.is_number() || !std::isfinite(value.get<double>()))
-    throw UsageError(fmt::format("camera: {}: expected a finite number, not {}", field, value.dump()));
+/// Coordinates and lengths: fp32, and so are their squares.
+double number(const Json& value, const std::string& field) {
+  if (!value.is_number() || !(std::abs(value.get<double>()) <= kMaxCoordinate))
+    throw UsageError(
+        fmt::format("camera: {}: expected a number up to {}, not {}", field, kMaxCoordinate, value.dump()));
   return value.get<double>();
 }
 
@@ -33,13 +36,14 @@ glm::vec<n, double> vector(const Json& value, const std::string& field) {
   if (!value.is_array() || value.size() != n)
     throw UsageError(fmt::format("camera: {}: expected {} numbers, not {}", field, n, value.dump()));
   glm::vec<n, double> out;
-  for (int i = 0; i < n; ++i) out[i] = finite(value[static_cast<size_t>(i)], field);
+  for (int i = 0; i < n; ++i) out[i] = number(value[static_cast<size_t>(i)], field);
   return out;
 }
 
 float positive(const Json& value, const std::string& field) {
-  const double v = finite(value, field);
-  if (!(v > 0)) throw UsageError(fmt::format("camera: {}: must be above 0, not {}", field, v));
+  const double v = number(value, field);
+  if (!(v >= 1 / kMaxCoordinate))
+    throw UsageError(fmt::format("camera: {}: must be at least {}, not {}", field, 1 / kMaxCoordinate, v));
   return static_cast<float>(v);
 }
 
@@ -71,6 +75,7 @@ std::string cameraToJson(const Camera& camera) {
 }
 
 Camera cameraFromJson(std::string_view text) {
+  if (jsonExtent(text).depth > kMaxJsonDepth) throw UsageError("camera: JSON nested too deeply");
   Json json;
   try {
     json = Json::parse(text);
@@ -112,10 +117,8 @@ Camera cameraFromJson(std::string_view text) {
   }
   if (json.contains("aspect")) camera.aspect = positive(json["aspect"], "aspect");
   if (json.contains("znear")) {
-    const double znear = finite(json["znear"], "znear");
-    if (znear < 0 || (znear == 0 && !camera.orthographic))
-      throw UsageError(fmt::format("camera: znear: must be above 0, not {}", znear));
-    camera.znear = static_cast<float>(znear);
+    const bool zero = camera.orthographic && number(json["znear"], "znear") == 0;
+    camera.znear = zero ? 0.0f : positive(json["znear"], "znear");
   }
   if (json.contains("zfar")) camera.zfar = positive(json["zfar"], "zfar");
   if (camera.zfar > 0 && !(camera.zfar > camera.znear)) throw UsageError("camera: zfar: must be beyond znear");

@@ -10,6 +10,7 @@
 #include "app/camera_json.h"
 #include "app/version.h"
 #include "renderer/error.h"
+#include "renderer/json_extent.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
@@ -17,10 +18,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr size_t kMaxConfigBytes = 16 << 20;
+
+/// Of a file or a pipe; never more than it may be.
 std::string readWhole(const fs::path& path) {
+  std::error_code error;
   std::ifstream in(path, std::ios::binary);
-  if (!in || fs::is_directory(path)) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  return {std::istreambuf_iterator<char>(in), {}};
+  if (!in || fs::is_directory(path, error)) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  std::string text;
+  for (char part[65536]; in.read(part, sizeof part), in.gcount() > 0;) {
+    text.append(part, static_cast<size_t>(in.gcount()));
+    if (text.size() > kMaxConfigBytes)
+      throw InputError(fmt::format("{}: more than {} MiB", path.string(), kMaxConfigBytes >> 20));
+  }
+  return text;
+}
+
+/// Integers of JSON convert silently: -1, 2.5 and 1e30 would all become some uint32_t.
+uint32_t whole(const fs::path& path, const Json& json, const char* name, uint32_t max) {
+  if (!json.is_number_unsigned() || json.get<uint64_t>() < 1 || json.get<uint64_t>() > max)
+    throw InputError(
+        fmt::format("{}: {}: expected a whole number, 1 to {}, not {}", path.string(), name, max, json.dump()));
+  return json.get<uint32_t>();
 }
 
 template <class T>
@@ -47,9 +66,12 @@ std::vector<Camera> readCameras(const fs::path& path, const Json& json) {
 }  // namespace
 
 Config readConfigFile(const fs::path& path) {
+  const std::string text = readWhole(path);
+  if (jsonExtent(text).depth > kMaxJsonDepth)
+    throw InputError(fmt::format("{}: JSON nested too deeply", path.string()));
   Json json;
   try {
-    json = Json::parse(readWhole(path));
+    json = Json::parse(text);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: not JSON: {}", path.string(), error.what()));
   }
@@ -66,17 +88,19 @@ Config readConfigFile(const fs::path& path) {
     if (scene) {
       // A manifest that travelled together with its scene still finds it.
       const fs::path beside = path.parent_path() / fs::path(*scene).filename();
-      config.scene = !fs::exists(*scene) && fs::exists(beside) ? beside : fs::path(*scene);
+      std::error_code ignored;  // a name that is no path at all does not exist either
+      config.scene = !fs::exists(*scene, ignored) && fs::exists(beside, ignored) ? beside : fs::path(*scene);
     }
     config.sceneSha256 = member<std::string>(path, json["scene"], "sha256");
   }
-  if (const auto size = member<std::vector<uint32_t>>(path, json, "size")) {
-    if (size->size() != 2 || !(*size)[0] || !(*size)[1] || (*size)[0] > 16384 || (*size)[1] > 16384)
-      throw InputError(fmt::format("{}: size: expected [width, height], 1 to 16384", path.string()));
-    config.size = glm::uvec2((*size)[0], (*size)[1]);
+  if (json.contains("size")) {
+    const Json& size = json["size"];
+    if (!size.is_array() || size.size() != 2)
+      throw InputError(fmt::format("{}: size: expected [width, height], not {}", path.string(), size.dump()));
+    config.size =
+        glm::uvec2(whole(path, size[0], "size", kMaxPictureSide), whole(path, size[1], "size", kMaxPictureSide));
   }
-  config.frames = member<uint32_t>(path, json, "frames");
-  if (config.frames && *config.frames == 0) throw InputError(fmt::format("{}: frames: must not be 0", path.string()));
+  if (json.contains("frames")) config.frames = whole(path, json["frames"], "frames", kMaxFrames);
   config.views = member<std::vector<std::string>>(path, json, "views").value_or(std::vector<std::string>{});
   config.cameras = readCameras(path, json);
   return config;

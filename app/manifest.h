@@ -13,6 +13,9 @@
 
 namespace irad::app {
 
+constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
+constexpr uint32_t kMaxFrames = 1'000'000;
+
 /// What --config brings: a settings object, or a manifest that also names scene, cameras, size, views, frames.
 struct Config {
   std::filesystem::path path;

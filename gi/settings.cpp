@@ -10,6 +10,7 @@
 
 #include "gi/near_match.h"
 #include "renderer/error.h"
+#include "renderer/json_extent.h"
 
 namespace irad {
 namespace {
@@ -215,6 +216,7 @@ std::string settingsToJson(const Settings& settings, int indent) {
 }
 
 void settingsFromJson(Settings& settings, std::string_view json) {
+  if (jsonExtent(json).depth > kMaxJsonDepth) throw UsageError("settings: JSON nested too deeply");
   nlohmann::json parsed;
   try {
     parsed = nlohmann::json::parse(json);

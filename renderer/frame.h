@@ -97,7 +97,7 @@ class Commands {
   void pushBytes(const void* bytes, size_t size);
   void checkPushed() const;
   Frame* frame_ = nullptr;
-  struct Pipeline* pipeline_ = nullptr;
+  struct GpuPipeline* pipeline_ = nullptr;
   bool pushed_ = false;
 };
 

@@ -159,7 +159,7 @@ struct AtEnd {
 template <class F>
 AtEnd(F) -> AtEnd<F>;
 
-void checkBindings(const std::string& stage, const Pipeline& pipeline, size_t named) {
+void checkBindings(const std::string& stage, const GpuPipeline& pipeline, size_t named) {
   IRAD_CHECK(named == pipeline.bindings.size(), "{}: the pass names {} images, {} declares {}", stage, named,
              pipeline.name, pipeline.bindings.size());
 }
@@ -196,7 +196,7 @@ void Pass::run(const std::function<void(Commands&)>& body) {
   Context& context = frame_->context();
   for (const State::Color& c : s.colors) s.raster.colors.push_back(c.image->desc.format);
   if (s.depth) s.raster.depth = s.depth->desc.format;
-  Pipeline& pipeline = context.impl->pipelines.get(s.shaders, s.constants, s.raster);
+  GpuPipeline& pipeline = context.impl->pipelines.get(s.shaders, s.constants, s.raster);
   s.resolveUses(pipeline.stages);
 
   // The bindings of set 0, in the order in which the pass names them.

@@ -74,7 +74,7 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
   return state;
 }
 
-VkPipeline buildRaster(const Device& device, VkPipelineCache cache, const Pipeline& pipeline,
+VkPipeline buildRaster(const Device& device, VkPipelineCache cache, const GpuPipeline& pipeline,
                        const std::vector<VkPipelineShaderStageCreateInfo>& stages, const RasterState& raster) {
   const VkPipelineVertexInputStateCreateInfo vertexInput{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};  // vertices are pulled
@@ -194,8 +194,8 @@ VkPipelineLayout PipelineCache::pipelineLayout(VkDescriptorSetLayout set0, bool 
   return layouts_[{set0, material}] = layout;
 }
 
-Pipeline& PipelineCache::get(const std::vector<std::string>& shaders, const std::map<uint32_t, uint32_t>& constants,
-                             const RasterState& raster) {
+GpuPipeline& PipelineCache::get(const std::vector<std::string>& shaders, const std::map<uint32_t, uint32_t>& constants,
+                                const RasterState& raster) {
   IRAD_CHECK(!shaders.empty(), "a pass without a shader");
   if (generation_ != shaders_.generation()) {
     dropPipelines();
@@ -207,10 +207,10 @@ Pipeline& PipelineCache::get(const std::vector<std::string>& shaders, const std:
   return *pipelines_.emplace(key, build(shaders, constants, raster)).first->second;
 }
 
-std::unique_ptr<Pipeline> PipelineCache::build(const std::vector<std::string>& shaders,
-                                               const std::map<uint32_t, uint32_t>& constants,
-                                               const RasterState& raster) {
-  auto pipeline = std::make_unique<Pipeline>();
+std::unique_ptr<GpuPipeline> PipelineCache::build(const std::vector<std::string>& shaders,
+                                                  const std::map<uint32_t, uint32_t>& constants,
+                                                  const RasterState& raster) {
+  auto pipeline = std::make_unique<GpuPipeline>();
   std::vector<const ShaderModule*> modules;
   for (const std::string& name : shaders) {
     modules.push_back(&shaders_.get(name));

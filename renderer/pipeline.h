@@ -28,7 +28,8 @@ struct RasterState {
   Blend blend = Blend::None;
 };
 
-struct Pipeline {
+/// (irad::Pipeline is the method, in gi/.)
+struct GpuPipeline {
   std::string name;
   VkPipeline handle = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -49,12 +50,12 @@ class PipelineCache {
   PipelineCache(const PipelineCache&) = delete;
 
   /// `raster` is ignored for compute. The reference stays valid until the shaders' generation changes.
-  Pipeline& get(const std::vector<std::string>& shaders, const std::map<uint32_t, uint32_t>& constants,
+  GpuPipeline& get(const std::vector<std::string>& shaders, const std::map<uint32_t, uint32_t>& constants,
                 const RasterState& raster);
   VkDescriptorSetLayout materialLayout() const { return material_; }
 
  private:
-  std::unique_ptr<Pipeline> build(const std::vector<std::string>& shaders,
+  std::unique_ptr<GpuPipeline> build(const std::vector<std::string>& shaders,
                                   const std::map<uint32_t, uint32_t>& constants, const RasterState& raster);
   VkDescriptorSetLayout setLayout(const std::vector<ShaderBinding>& bindings);
   VkPipelineLayout pipelineLayout(VkDescriptorSetLayout set0, bool material);
@@ -65,7 +66,7 @@ class PipelineCache {
   uint64_t generation_ = 0;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout material_ = VK_NULL_HANDLE;
-  std::map<std::string, std::unique_ptr<Pipeline>> pipelines_;
+  std::map<std::string, std::unique_ptr<GpuPipeline>> pipelines_;
   std::map<std::string, VkDescriptorSetLayout> setLayouts_;
   std::map<std::pair<VkDescriptorSetLayout, bool>, VkPipelineLayout> layouts_;
 };

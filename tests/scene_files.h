@@ -1,9 +1,8 @@
-// Small glTF files for the loader's suites, and what every loaded scene must satisfy.
+// Small glTF files for the loader's suites.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -80,52 +79,6 @@ inline GltfFile triangleFile() {
   GltfFile file;
   file.attributes()["POSITION"] = file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
   return file;
-}
-
-/// What is wrong with a scene; empty where it is sound.
-inline std::string unsound(const Scene& s) {
-  const size_t n = s.positions.size();
-  if (s.normals.size() != n || s.tangents.size() != n || s.uv0.size() != n || s.uv1.size() != n || s.colors.size() != n)
-    return "arrays of different lengths";
-  for (size_t i = 0; i < n; ++i) {
-    for (int c = 0; c < 3; ++c)
-      if (!std::isfinite(s.positions[i][c])) return "a position is not finite";
-    if (!(std::abs(glm::length(s.normals[i]) - 1.0f) < 1e-4f)) return "a normal is not unit";
-    if (!(std::abs(glm::length(glm::vec3(s.tangents[i])) - 1.0f) < 1e-4f)) return "a tangent is not unit";
-    if (std::abs(s.tangents[i].w) != 1.0f) return "a handedness is not +-1";
-    if (!(std::abs(glm::dot(glm::vec3(s.tangents[i]), s.normals[i])) < 1e-3f)) return "a tangent is not orthogonal";
-    for (int c = 0; c < 4; ++c)
-      if (!(s.colors[i][c] >= 0.0f && s.colors[i][c] <= 1.0f)) return "a vertex colour is out of range";
-    for (int c = 0; c < 2; ++c)
-      if (!std::isfinite(s.uv0[i][c]) || !std::isfinite(s.uv1[i][c])) return "a texture coordinate is not finite";
-  }
-  for (const uint32_t index : s.indices)
-    if (index >= n) return "an index is out of range";
-  uint64_t next = 0;
-  for (const Draw& draw : s.draws) {
-    if (draw.firstIndex != next || draw.indexCount == 0 || draw.indexCount % 3 != 0 ||
-        draw.material >= s.materials.size())
-      return "a draw is out of range";
-    next += draw.indexCount;
-  }
-  if (next != s.indices.size()) return "the draws do not cover the triangles";
-  if (s.materials.empty() || s.cameras.empty()) return "no material or camera";
-  for (const Material& m : s.materials) {
-    for (int c = 0; c < 4; ++c)
-      if (!(m.baseColor[c] >= 0.0f && m.baseColor[c] <= 1.0f)) return "a base colour is out of range";
-    for (int c = 0; c < 3; ++c)
-      if (!(m.emission[c] >= 0.0f && std::isfinite(m.emission[c]))) return "an emission is negative or not finite";
-    for (const TextureUse* use :
-         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
-      if (use->image >= static_cast<int>(s.images.size()) || use->uvSet > 1) return "a texture use is out of range";
-  }
-  for (const SceneImage& image : s.images)
-    if (image.width == 0 || image.rgba.size() != size_t{image.width} * image.height * 4)
-      return "an image has the wrong size";
-  for (const Light& light : s.lights)
-    if (!std::isfinite(light.intensity) || !(std::abs(glm::length(light.direction) - 1.0f) < 1e-4f))
-      return "a light is unsound";
-  return "";
 }
 
 inline bool warns(const Scene& s, const std::string& text) {

@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "renderer/json_extent.h"
 #include "renderer/scene/gltf_document.h"
 
 namespace irad::gltf {
 namespace {
 
 constexpr uint64_t kMaxJsonBytes = 64ull << 20;
-constexpr uint64_t kMaxJsonTokens = 2'500'000;
-constexpr int kMaxJsonDepth = 128;
+constexpr uint64_t kMaxJsonElements = 2'500'000;
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
 uint32_t readU32(ByteSpan bytes, size_t at) {
@@ -50,31 +50,14 @@ void readGlb(Document& doc) {
   }
 }
 
-/// Depth and size of the JSON before any parser sees it: deep nesting overflows recursive parsers' stacks.
-void scanJson(const Document& doc) {
+/// Depth and size of the JSON before any parser sees it.
+void checkJson(const Document& doc) {
   if (doc.json.size() > kMaxJsonBytes)
     doc.fail("JSON", fmt::format("{} bytes, at most {} are accepted", doc.json.size(), kMaxJsonBytes));
-  int depth = 0;
-  uint64_t tokens = 0;
-  bool inString = false;
-  for (size_t i = 0; i < doc.json.size(); ++i) {
-    const uint8_t c = doc.json[i];
-    if (inString) {
-      if (c == '\\') {
-        ++i;
-      } else if (c == '"') {
-        inString = false;
-      }
-      continue;
-    }
-    if (c == '"') inString = true;
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (c == ',' || c == ':' || c == '{' || c == '[') ++tokens;
-    if (depth > kMaxJsonDepth)
-      doc.fail("JSON", fmt::format("nested deeper than {} levels at byte {}", kMaxJsonDepth, i));
-    if (tokens > kMaxJsonTokens) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonTokens));
-  }
+  const JsonExtent extent = jsonExtent({reinterpret_cast<const char*>(doc.json.data()), doc.json.size()});
+  if (extent.depth > kMaxJsonDepth)
+    doc.fail("JSON", fmt::format("nested deeper than {} levels ({})", kMaxJsonDepth, extent.depth));
+  if (extent.elements > kMaxJsonElements) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonElements));
 }
 
 }  // namespace
@@ -134,7 +117,7 @@ void readContainer(Document& doc) {
   } else {
     doc.json = doc.file;
   }
-  scanJson(doc);
+  checkJson(doc);
   // Parse; duplicate keys would make two readers see two scenes, the specification forbids them.
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {

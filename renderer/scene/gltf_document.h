@@ -27,7 +27,6 @@ constexpr uint64_t kMaxTriangles = 1u << 24;
 constexpr uint64_t kMemoryBudget = 1400ull << 20;  ///< bytes of all that one load holds at a time
 constexpr uint64_t kMaxImageBytes = 1ull << 30;    ///< decoded, all images together
 constexpr uint32_t kMaxImageExtent = 16384;        ///< pixels per side
-constexpr double kMaxCoordinate = 1e15;            ///< beyond it squares of fp32 overflow
 constexpr double kMaxLightOrEmission = 1e12;
 
 /// The bytes of a bufferView; `present` is false where its buffer is a placeholder without data.

@@ -56,6 +56,15 @@ glm::dmat3 orthonormal(const glm::dmat4& m) {
   return {glm::cross(y, z), y, z};
 }
 
+/// Where a light or camera stands.
+glm::dvec3 place(const Document& doc, const tinygltf::Node& node, const glm::dmat4& world) {
+  const glm::dvec3 p(world[3]), size = glm::abs(p);
+  if (!(std::max({size.x, size.y, size.z}) <= kMaxCoordinate))
+    doc.fail(fmt::format("node \"{}\"", node.name),
+             fmt::format("its light or camera lies at ({}, {}, {}), further than {}", p.x, p.y, p.z, kMaxCoordinate));
+  return p;
+}
+
 void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world, Scene& scene) {
   const auto extension = node.extensions.find("KHR_lights_punctual");
   if (extension == node.extensions.end()) return;
@@ -67,7 +76,7 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   Light light;
   light.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("light {}", index);
   light.type = in.type == "directional" ? LightType::Sun : in.type == "point" ? LightType::Point : LightType::Spot;
-  light.position = glm::dvec3(world[3]);
+  light.position = place(doc, node, world);
   light.direction = glm::vec3(-orthonormal(world)[2]);
   const auto limited = [&](double value, const char* what) {
     if (value >= 0.0 && value <= kMaxLightOrEmission) return static_cast<float>(value);
@@ -91,7 +100,7 @@ void addCamera(Document& doc, const tinygltf::Node& node, const glm::dmat4& worl
   const tinygltf::Camera& in = doc.model.cameras[static_cast<size_t>(node.camera)];
   Camera camera;
   camera.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("camera {}", node.camera);
-  camera.position = glm::dvec3(world[3]);
+  camera.position = place(doc, node, world);
   camera.orientation = glm::quat(glm::quat_cast(orthonormal(world)));
   camera.orthographic = in.type == "orthographic";
   if (camera.orthographic) {

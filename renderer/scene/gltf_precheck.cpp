@@ -348,8 +348,9 @@ void checkLightsAndCameras(const Document& doc) {
       doc.fail(where + ".type", fmt::format("\"{}\" is neither perspective nor orthographic", type.substr(0, 40)));
     if (!cameras[i].contains(type)) doc.fail(where, fmt::format("has no \"{}\"", type));
     const Json& lens = cameras[i].at(type);
-    if (type == "orthographic" && (lens.at("xmag") == 0.0 || lens.at("ymag") == 0.0))
-      doc.fail(where, "xmag or ymag is 0");
+    for (const char* mag : {"xmag", "ymag"})
+      if (const double size = std::abs(lens.value(mag, 1.0)); size < 1e-15 || size > kMaxCoordinate)
+        doc.fail(where + "." + mag, fmt::format("{} is not from 1e-15 to {}", size, kMaxCoordinate));
     if (lens.contains("zfar") && lens.at("zfar").get<double>() <= lens.at("znear").get<double>())
       doc.fail(where, fmt::format("zfar {} is not beyond znear {}", lens.at("zfar").dump(), lens.at("znear").dump()));
   }

@@ -1,7 +1,8 @@
-// A glTF 2.0 scene as the engine uses it: static, flattened to world space, one vertex and index array, triangles grouped
-// by material. World coordinates are glTF's (right-handed, Y up, metres as the file says); positions are stored in fp32
-// relative to `origin`, which is taken in double precision, so that a scene 10^6 units from the origin keeps its detail.
-// Light units: 1 lux = 1 W/m^2, 1 cd = 1 W/sr; emitted radiance = emissiveFactor x emissiveStrength x texture.
+// A glTF 2.0 scene as the engine uses it: static, flattened to world space, one vertex and index array, triangles
+// grouped by material. World coordinates are glTF's (right-handed, Y up, metres as the file says); positions are stored
+// in fp32 relative to `origin`, which is taken in double precision, so that a scene 10^6 units from the origin keeps
+// its detail. Light units: 1 lux = 1 W/m^2, 1 cd = 1 W/sr; emitted radiance = emissiveFactor x emissiveStrength x
+// texture.
 #pragma once
 
 #include <array>
@@ -16,6 +17,8 @@
 #include "renderer/resources.h"
 
 namespace irad {
+
+constexpr double kMaxCoordinate = 1e15;  ///< of world positions, either sign: squares and their sums fit into fp32
 
 /// A decoded image, RGBA, 8 bits per channel, top row first. `srgb` is decided by use (base colour, emissive: yes).
 struct SceneImage {
@@ -52,11 +55,11 @@ enum class LightType : uint32_t { Sun, Point, Spot };
 struct Light {
   std::string name;
   LightType type = LightType::Sun;
-  glm::dvec3 position{0.0};                 ///< world; point and spot
-  glm::vec3 direction{0.0f, -1.0f, 0.0f};   ///< unit, the way the light shines; sun and spot
-  glm::vec3 color{1.0f};                    ///< linear
-  float intensity = 1.0f;                   ///< sun: lux; point, spot: candela
-  float range = 0.0f;                       ///< 0: unlimited
+  glm::dvec3 position{0.0};                       ///< world; point and spot
+  glm::vec3 direction{0.0f, -1.0f, 0.0f};         ///< unit, the way the light shines; sun and spot
+  glm::vec3 color{1.0f};                          ///< linear
+  float intensity = 1.0f;                         ///< sun: lux; point, spot: candela
+  float range = 0.0f;                             ///< 0: unlimited
   float innerCos = 1.0f, outerCos = 0.70710678f;  ///< spot: cosines of the half-angles
 };
 
@@ -65,9 +68,9 @@ struct Camera {
   glm::dvec3 position{0.0};
   glm::quat orientation{1, 0, 0, 0};  ///< rotates camera space (looks along -Z, Y up) to world
   bool orthographic = false;
-  float yfov = 1.0f;        ///< perspective: vertical angle, radians
-  float ymag = 1.0f;        ///< orthographic: half height
-  float aspect = 0.0f;      ///< 0: that of the viewport
+  float yfov = 1.0f;                ///< perspective: vertical angle, radians
+  float ymag = 1.0f;                ///< orthographic: half height
+  float aspect = 0.0f;              ///< 0: that of the viewport
   float znear = 0.1f, zfar = 0.0f;  ///< zfar 0: chosen from the bounds
 };
 
@@ -77,8 +80,8 @@ struct Draw {
 
 struct Scene {
   std::filesystem::path path;
-  std::string sha256;   ///< of the scene file itself
-  glm::dvec3 origin{0.0};  ///< world position of local (0,0,0): the centre of the bounds
+  std::string sha256;                          ///< of the scene file itself
+  glm::dvec3 origin{0.0};                      ///< world position of local (0,0,0): the centre of the bounds
   glm::vec3 boundsMin{0.0f}, boundsMax{0.0f};  ///< local
 
   // Structure of arrays, one element per vertex; all the same length.
@@ -86,9 +89,10 @@ struct Scene {
   std::vector<glm::vec3> normals;    ///< unit
   std::vector<glm::vec4> tangents;   ///< xyz unit, w = handedness +-1
   std::vector<glm::vec2> uv0, uv1;
-  std::vector<glm::vec4> colors;     ///< linear, multiplies the base colour; 1 where the file has none
-  std::vector<uint32_t> indices;     ///< three per triangle, counter-clockwise seen from the front (mirrored nodes rewound)
-  std::vector<Draw> draws;           ///< at most one per material, in material order; empty ones left out
+  std::vector<glm::vec4> colors;  ///< linear, multiplies the base colour; 1 where the file has none
+  std::vector<uint32_t>
+      indices;              ///< three per triangle, counter-clockwise seen from the front (mirrored nodes rewound)
+  std::vector<Draw> draws;  ///< at most one per material, in material order; empty ones left out
 
   std::vector<Material> materials;  ///< at least one
   std::vector<SceneImage> images;
@@ -102,7 +106,8 @@ struct Scene {
 };
 
 struct LoadOptions {
-  bool lambertian = false;  ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
+  bool lambertian =
+      false;  ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };
 
@@ -113,6 +118,10 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options = 
 
 /// A scene with all images decoded, for machines without image decoders. Little-endian, versioned, written atomically.
 void writeSceneCache(const Scene& scene, const std::filesystem::path& path);
+
+/// What is wrong with a scene, in words; empty where it is sound: arrays of one length, indices inside them, numbers
+/// finite and in range, directions unit. loadScene returns sound scenes only.
+std::string unsound(const Scene& scene);
 
 /// SHA-256 of a file as 64 hex digits; throws InputError when it cannot be read.
 std::string sha256File(const std::filesystem::path& path);

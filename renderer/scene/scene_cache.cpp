@@ -1,8 +1,7 @@
 // .irscene: a loaded scene with its images decoded, for machines without image decoders. Little-endian, fields in the
-// order of Scene. Reading trusts nothing: every length is checked against the bytes left, every index against its
-// array.
+// order of Scene. Reading trusts nothing: every length is checked against the bytes left, and the whole
+// against what a scene must be.
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <type_traits>
@@ -69,8 +68,8 @@ class Reader {
   }
   template <class T, class Each>
   void list(std::vector<T>& values, Each each) {
-    values.resize(size(1));
-    for (T& value : values) each(value);
+    // One by one: an element may be far larger in memory than in the file.
+    for (uint64_t left = size(1); left > 0; --left) each(values.emplace_back());
   }
   bool atEnd() const { return at_ == bytes_.size(); }
 
@@ -148,43 +147,6 @@ void transferScene(Io& io, Ops ops, S& s) {
   ops.choice(s.defaultCamera, 2), ops.choice(s.defaultLight, 2);
 }
 
-template <class Container>
-bool allFinite(const Container& values) {
-  for (const auto& value : values)
-    for (int c = 0; c < static_cast<int>(value.length()); ++c)
-      if (!std::isfinite(value[c])) return false;
-  return true;
-}
-
-void verify(const Scene& s, const Reader& reader) {
-  const size_t n = s.positions.size();
-  if (s.normals.size() != n || s.tangents.size() != n || s.uv0.size() != n || s.uv1.size() != n || s.colors.size() != n)
-    reader.fail("vertex arrays of different lengths");
-  if (!allFinite(s.positions) || !allFinite(s.normals) || !allFinite(s.tangents) || !allFinite(s.uv0) ||
-      !allFinite(s.uv1) || !allFinite(s.colors))
-    reader.fail("vertex data is not finite");
-  for (const uint32_t index : s.indices)
-    if (index >= n) reader.fail(fmt::format("index {} of {} vertices", index, n));
-  uint64_t next = 0;
-  for (const Draw& draw : s.draws) {
-    if (draw.material >= s.materials.size() || draw.firstIndex != next || draw.indexCount % 3 != 0)
-      reader.fail("a draw is out of range");
-    next += draw.indexCount;
-  }
-  if (next != s.indices.size() || s.materials.empty() || s.cameras.empty())
-    reader.fail("draws, materials or cameras are missing");
-  for (const Material& m : s.materials)
-    for (const TextureUse* use :
-         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
-      if (use->image < -1 || use->image >= static_cast<int>(s.images.size()))
-        reader.fail(fmt::format("image {} of {}", use->image, s.images.size()));
-  for (const SceneImage& image : s.images)
-    if (image.width == 0 || image.height == 0 || image.width > gltf::kMaxImageExtent ||
-        image.height > gltf::kMaxImageExtent || image.rgba.size() != uint64_t{image.width} * image.height * 4)
-      reader.fail(fmt::format("image \"{}\" of {} x {} pixels has {} bytes", image.name, image.width, image.height,
-                              image.rgba.size()));
-}
-
 }  // namespace
 
 void writeSceneCache(const Scene& scene, const std::filesystem::path& path) {
@@ -225,7 +187,8 @@ Scene readSceneCache(const std::filesystem::path& path) {
   Scene scene;
   transferScene(io, ReadOps{io}, scene);
   if (!io.atEnd()) io.fail("bytes follow the end of the scene");
-  verify(scene, io);
+  if (const std::string problem = unsound(scene); !problem.empty())
+    throw InputError(fmt::format("{}: {}", path.string(), problem));
   scene.path = path;
   return scene;
 }

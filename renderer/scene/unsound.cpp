@@ -1,0 +1,114 @@
+// What every scene must satisfy before passes may index and divide without asking.
+#include <cmath>
+#include <limits>
+
+#include "renderer/scene/gltf_document.h"
+
+namespace irad {
+namespace {
+
+template <class Vector>
+bool within(const Vector& v, double lo, double hi) {
+  for (int c = 0; c < static_cast<int>(v.length()); ++c)
+    if (!(v[c] >= lo && v[c] <= hi)) return false;
+  return true;
+}
+template <class Vector>
+bool finite(const Vector& v) {
+  return within(v, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
+}
+template <class Vector>
+bool unit(const Vector& v) {
+  return std::abs(glm::length(v) - 1.0f) < 1e-4f;
+}
+template <class Vector>
+bool position(const Vector& v) {
+  return within(v, -kMaxCoordinate, kMaxCoordinate);
+}
+bool brightness(double value) {
+  return value >= 0.0 && value <= static_cast<float>(gltf::kMaxLightOrEmission);
+}
+
+std::string ofVertices(const Scene& s) {
+  const size_t n = s.positions.size();
+  if (s.normals.size() != n || s.tangents.size() != n || s.uv0.size() != n || s.uv1.size() != n || s.colors.size() != n)
+    return "vertex arrays of different lengths";
+  if (!position(s.origin) || !position(s.boundsMin) || !position(s.boundsMax)) return "bounds that are not finite";
+  for (size_t i = 0; i < n; ++i) {
+    const glm::vec3 tangent(s.tangents[i]);
+    if (!finite(s.positions[i])) return fmt::format("position {} is not finite", i);
+    if (!unit(s.normals[i])) return fmt::format("normal {} is not unit", i);
+    if (!unit(tangent)) return fmt::format("tangent {} is not unit", i);
+    if (std::abs(s.tangents[i].w) != 1.0f) return fmt::format("the handedness of tangent {} is not +-1", i);
+    if (!(std::abs(glm::dot(tangent, s.normals[i])) < 1e-3f)) return fmt::format("tangent {} is not orthogonal", i);
+    if (!within(s.colors[i], 0.0, 1.0)) return fmt::format("vertex colour {} is out of range", i);
+    if (!finite(s.uv0[i]) || !finite(s.uv1[i])) return fmt::format("texture coordinate {} is not finite", i);
+  }
+  return "";
+}
+
+std::string ofDraws(const Scene& s) {
+  for (const uint32_t index : s.indices)
+    if (index >= s.positions.size()) return fmt::format("index {} of {} vertices", index, s.positions.size());
+  uint64_t next = 0;
+  for (const Draw& draw : s.draws) {
+    if (draw.firstIndex != next || draw.indexCount == 0 || draw.indexCount % 3 != 0 ||
+        draw.material >= s.materials.size())
+      return "a draw is out of range";
+    next += draw.indexCount;
+  }
+  return next == s.indices.size() ? "" : "the draws do not cover the triangles";
+}
+
+std::string ofMaterials(const Scene& s) {
+  if (s.materials.empty()) return "no material";
+  for (const Material& m : s.materials) {
+    const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, 0.0f);
+    if (!within(m.baseColor, 0.0, 1.0)) return fmt::format("material \"{}\": its base colour is out of range", m.name);
+    if (!within(factors, 0.0, 1.0) || !std::isfinite(m.normalScale) || !std::isfinite(m.alphaCutoff))
+      return fmt::format("material \"{}\": a factor is out of range", m.name);
+    for (int c = 0; c < 3; ++c)
+      if (!brightness(m.emission[c])) return fmt::format("material \"{}\": emits {}", m.name, m.emission[c]);
+    for (const TextureUse* use :
+         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
+      if (use->image < -1 || use->image >= static_cast<int>(s.images.size()) || use->uvSet > 1 ||
+          !finite(use->transform[0]) || !finite(use->transform[1]) || !finite(use->transform[2]))
+        return fmt::format("material \"{}\": a texture is out of range", m.name);
+  }
+  for (const SceneImage& image : s.images)
+    if (image.width == 0 || image.height == 0 || image.width > gltf::kMaxImageExtent ||
+        image.height > gltf::kMaxImageExtent || image.rgba.size() != uint64_t{image.width} * image.height * 4)
+      return fmt::format("image \"{}\" of {} x {} pixels has {} bytes", image.name, image.width, image.height,
+                         image.rgba.size());
+  return "";
+}
+
+std::string ofLights(const Scene& s) {
+  for (const Light& light : s.lights)
+    if (!position(light.position) || !unit(light.direction) || !within(light.color, 0.0, gltf::kMaxLightOrEmission) ||
+        !brightness(light.intensity) || !(light.range >= 0.0f) || !std::isfinite(light.range) ||
+        !(light.innerCos >= light.outerCos && light.outerCos >= -1.0f && light.innerCos <= 1.0f))
+      return fmt::format("light \"{}\" is out of range", light.name);
+  return "";
+}
+
+std::string ofCameras(const Scene& s) {
+  if (s.cameras.empty()) return "no camera";
+  for (const Camera& c : s.cameras) {
+    const bool lens = c.orthographic ? c.ymag > 0.0f && std::isfinite(c.ymag) : c.yfov > 0.0f && c.yfov < 3.1416f;
+    if (!position(c.position) || !unit(c.orientation) || !lens ||
+        !within(glm::vec3(c.aspect, c.znear, c.zfar), 0.0, 1e30))
+      return fmt::format("camera \"{}\" is out of range", c.name);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string unsound(const Scene& scene) {
+  for (const auto check : {ofVertices, ofMaterials, ofDraws, ofLights, ofCameras})
+    if (const std::string problem = check(scene); !problem.empty()) return problem;
+  return "";
+}
+
+}  // namespace irad

@@ -1,0 +1,158 @@
+// Wrong input with known answers: numbers that do not fit, texts nested too deeply, caches that break a scene's
+// promises. (The fuzzer's seeds: fuzz_seeds_test.)
+#include <functional>
+#include <limits>
+
+#include "app/arguments.h"
+#include "app/camera_json.h"
+#include "renderer/json_extent.h"
+#include "tests/scene_files.h"
+
+namespace irad::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+
+/// What an Error says; empty where there is none.
+std::string refusal(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(JsonExtent, CountsBracketsOutsideStrings) {
+  EXPECT_EQ(jsonExtent("").depth, 0u);
+  EXPECT_EQ(jsonExtent(R"({"a": [1, 2, {"b": 3}]})").depth, 3u);
+  EXPECT_EQ(jsonExtent(R"({"a": [1, 2, {"b": 3}]})").elements, 7u);  // three containers, two colons, two commas
+  EXPECT_EQ(jsonExtent(R"(["[[[", "\"[[[", "\\", []])").depth, 2u);
+  EXPECT_EQ(jsonExtent("]]]][").depth, 1u);
+  EXPECT_EQ(jsonExtent("[\"\\").depth, 1u);
+  EXPECT_EQ(jsonExtent(std::string(1000, '[')).depth, 1000u);
+}
+
+TEST(DeepJson, IsRefusedByEveryReader) {
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  Settings settings;
+  EXPECT_NE(refusal([&] { settingsFromJson(settings, R"({"matrix.rays": )" + deep + "}"); }).find("too deeply"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { app::cameraFromJson(R"({"position": )" + deep + "}"); }).find("too deeply"),
+            std::string::npos);
+  TemporaryFolder folder;
+  std::ofstream(folder.path / "deep.json") << R"({"settings": {}, "cameras": )" << deep << "}";
+  const std::string config = refusal([&] { app::readConfigFile(folder.path / "deep.json"); });
+  EXPECT_NE(config.find("deep.json: JSON nested too deeply"), std::string::npos) << config;
+}
+
+TEST(CameraJson, NumbersOutsideFp32AreRefused) {
+  const std::string good = R"({"position": [0, 0, 2], "target": [0, 0, 0], "aspect": 1.5, "yfov": 0.5})";
+  EXPECT_EQ(app::cameraFromJson(good).aspect, 1.5f);
+  for (const char* field : {"aspect", "yfov", "znear", "zfar"})
+    for (const double value : {1e39, 1e300, 0.0, 1e-60, -1.0}) {
+      json camera = json::parse(good);
+      camera[field] = value;
+      const std::string text = refusal([&] { app::cameraFromJson(camera.dump()); });
+      EXPECT_NE(text.find(fmt::format("camera: {}", field)), std::string::npos)
+          << field << " " << value << ": " << text;
+    }
+  json camera = json::parse(good);
+  camera["position"] = {0, 1e30, 0};
+  EXPECT_NE(refusal([&] { app::cameraFromJson(camera.dump()); }).find("position"), std::string::npos);
+}
+
+TEST(Manifest, CountsThatAreNoWholeNumbersAreRefused) {
+  TemporaryFolder folder;
+  const auto read = [&](const char* name, const json& value) {
+    std::ofstream(folder.path / "m.json") << json{{"settings", json::object()}, {name, value}};
+    return refusal([&] { app::readConfigFile(folder.path / "m.json"); });
+  };
+  EXPECT_EQ(read("frames", 3), "");
+  EXPECT_EQ(read("size", {640, 480}), "");
+  for (const json& bad : {json(-1), json(2.5), json(1e39), json(0), json(4294967297), json("3"), json(nullptr)}) {
+    EXPECT_NE(read("frames", bad).find("m.json: frames: "), std::string::npos) << bad;
+    EXPECT_NE(read("size", {640, bad}).find("m.json: size: "), std::string::npos) << bad;
+  }
+  EXPECT_NE(read("size", 640).find("m.json: size: "), std::string::npos);
+}
+
+TEST(Manifest, ASceneWithAnImpossibleNameIsNoSuchFile) {
+  app::Config config;
+  const std::string text = refusal([&] { app::findScene(std::string(10000, 'x') + ".glb", config, std::nullopt); });
+  EXPECT_NE(text.find("no such file"), std::string::npos) << text;
+}
+
+TEST(Gltf, LightsCamerasAndLensesBeyondFp32AreRefused) {
+  TemporaryFolder folder;
+  GltfFile file = triangleFile();
+  file.json["nodes"].push_back({{"camera", 0}});
+  file.json["scenes"][0]["nodes"].push_back(1);
+  file.json["cameras"] = {
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 9}}}}};
+  EXPECT_EQ(unsound(loadScene(file.write(folder.path))), "");
+  GltfFile far = file, wide = file;
+  far.json["nodes"][1]["translation"] = {0, 1e20, 0};
+  expectRefused(far.write(folder.path), "light or camera lies at");
+  wide.json["cameras"][0]["orthographic"]["xmag"] = 1e29;
+  expectRefused(wide.write(folder.path), "cameras[0].xmag");
+}
+
+TEST(SceneCache, UnsoundScenesAreRefused) {
+  TemporaryFolder folder;
+  GltfFile file = triangleFile();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  file.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  const Scene good = loadScene(file.write(folder.path));
+  const std::filesystem::path path = folder.path / "scene.irscene";
+  writeSceneCache(good, path);
+  EXPECT_EQ(unsound(loadScene(path)), "");
+  struct Damage {
+    const char* said;
+    std::function<void(Scene&)> change;
+  };
+  const std::vector<Damage> all{
+      {"position 1 is not finite", [](Scene& s) { s.positions[1].x = kNan; }},
+      {"normal 2 is not unit", [](Scene& s) { s.normals[2] *= 2.0f; }},
+      {"tangent 0 is not unit", [](Scene& s) { s.tangents[0] = glm::vec4(0, 0, 0, 1); }},
+      {"handedness", [](Scene& s) { s.tangents[0].w = 0.5f; }},
+      {"not orthogonal", [](Scene& s) { s.tangents[1] = glm::vec4(s.normals[1], 1.0f); }},
+      {"vertex colour 0", [](Scene& s) { s.colors[0].a = 1.5f; }},
+      {"texture coordinate 2", [](Scene& s) { s.uv1[2].y = kInfinity; }},
+      {"different lengths", [](Scene& s) { s.uv0.pop_back(); }},
+      {"index 3 of 3", [](Scene& s) { s.indices[0] = 3; }},
+      {"a draw is out of range", [](Scene& s) { s.draws[0].material = 9; }},
+      {"do not cover", [](Scene& s) { s.draws.clear(); }},
+      {"bounds", [](Scene& s) { s.boundsMax.y = kInfinity; }},
+      {"bounds", [](Scene& s) { s.origin.z = 1e16; }},
+      {"no material", [](Scene& s) { s.materials.clear(); }},
+      {"base colour", [](Scene& s) { s.materials[0].baseColor.g = -0.5f; }},
+      {"emits", [](Scene& s) { s.materials[0].emission.b = kInfinity; }},
+      {"a factor", [](Scene& s) { s.materials[0].roughness = kNan; }},
+      {"a texture", [](Scene& s) { s.materials[0].normalTexture.image = 0; }},
+      {"a texture", [](Scene& s) { s.materials[0].normalTexture.transform[2].x = kNan; }},
+      {"pixels",
+       [](Scene& s) {
+         s.images.push_back({"x", 2, 2, false, std::vector<uint8_t>(15)});
+       }},
+      {"light", [](Scene& s) { s.lights[0].position.x = 1e300; }},
+      {"light", [](Scene& s) { s.lights[0].intensity = -1.0f; }},
+      {"light", [](Scene& s) { s.lights[0].outerCos = 2.0f; }},
+      {"no camera", [](Scene& s) { s.cameras.clear(); }},
+      {"camera", [](Scene& s) { s.cameras[0].yfov = 0.0f; }},
+      {"camera", [](Scene& s) { s.cameras[0].orientation = glm::quat(0, 0, 0, 0); }},
+      {"camera", [](Scene& s) { s.cameras[0].znear = kNan; }},
+  };
+  for (const Damage& damage : all) {
+    Scene bad = good;
+    damage.change(bad);
+    writeSceneCache(bad, path);
+    expectRefused(path, damage.said);
+  }
+}
+
+}  // namespace
+}  // namespace irad::test
