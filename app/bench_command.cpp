@@ -145,6 +145,7 @@ void run(const Arguments& arguments) {
   const Progress progress = [&](const char* stage, float fraction) { return session.progress(stage, fraction); };
   for (const auto& bench : sets) {
     bench->prepare(progress);
+    session.checkNumbers(bench->pipeline());
     bench->relight();
     for (uint64_t i = 0; i < warmup; ++i) bench->cameraFrame();
     bench->forget();
@@ -158,6 +159,7 @@ void run(const Arguments& arguments) {
   repeat("rebuilds", rebuilds, [](Bench& bench) { bench.rebuild(); });
   repeat("relights", frames, [](Bench& bench) { bench.relight(); });
   repeat("camera frames", frames, [](Bench& bench) { bench.cameraFrame(); });
+  for (const auto& bench : sets) session.checkNumbers(bench->pipeline());  // times of wrong numbers are none
   const double copy = copyBandwidth(*session.context);
   session.progress.finish();
 

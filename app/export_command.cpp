@@ -64,6 +64,7 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   makeFolder(out);
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
   session.prepare(pipeline);
+  session.checkNumbers(pipeline);  // before anything is written: whoever reads an array does not look at it
 
   std::vector<fs::path> written;
   for (const Volume volume : volumes)

@@ -44,13 +44,14 @@ std::string fileName(const Camera& camera, size_t index, std::set<std::string>& 
   return unique;
 }
 
-/// Renders `frames` frames and writes the last.
-void renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, View view, uint32_t frames,
-                   Targets& targets, const fs::path& stem, std::vector<fs::path>& written) {
+/// Renders `frames` frames and writes the last, also where it holds what is no number: the picture shows it (NaN red).
+/// Returns what findBadPixels says.
+std::string renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, const ViewInfo& view,
+                          uint32_t frames, Targets& targets, const fs::path& stem, std::vector<fs::path>& written) {
   for (uint32_t i = 0; i < frames; ++i) {
     const auto start = std::chrono::steady_clock::now();
     Frame frame = session.context->begin(i);
-    pipeline.render(frame, camera, view, targets);
+    pipeline.render(frame, camera, view.view, targets);
     frame.submitAndWait();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     session.timings.endFrame(i, /*setup=*/false, elapsed.count());
@@ -60,8 +61,10 @@ void renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, V
   const size_t pixels = size_t{targets.size.x} * targets.size.y;
   IRAD_CHECK_OP(linear.size(), ==, pixels * sizeof(glm::vec4));
   IRAD_CHECK_OP(display.size(), ==, pixels * sizeof(glm::u8vec4));
+  const std::span values(reinterpret_cast<const glm::vec4*>(linear.data()), pixels);
   written.push_back(writeDisplay(stem, targets.size, {reinterpret_cast<const glm::u8vec4*>(display.data()), pixels}));
-  written.push_back(writeLinear(stem, targets.size, {reinterpret_cast<const glm::vec4*>(linear.data()), pixels}));
+  written.push_back(writeLinear(stem, targets.size, values));
+  return findBadPixels(values, targets.size, view.toneMapped);
 }
 
 double meanSetup(const Timings& timings, std::string_view stage) {
@@ -77,7 +80,8 @@ void summarize(const Session& session, const Pipeline& pipeline) {
   const SolveReport& solve = pipeline.lighting().report;
   const glm::uvec3 dims = facets.grid.dims;
   fmt::print("grid        {} x {} x {} voxels, edge {:.6g}\n", dims.x, dims.y, dims.z, facets.grid.edge);
-  fmt::print("facets      {} in {} solid voxels\n", facets.count, facets.solidVoxels);
+  fmt::print("facets      {} in {} solid voxels{}\n", facets.count, facets.solidVoxels,
+             facets.clampedAlbedo ? fmt::format(", albedo of {} clamped to [0, .98]", facets.clampedAlbedo) : "");
   fmt::print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
              static_cast<double>(matrix.bytesUsed) / (1 << 20), static_cast<double>(matrix.bytesAllocated) / (1 << 20),
              matrix.largestRow);
@@ -87,6 +91,7 @@ void summarize(const Session& session, const Pipeline& pipeline) {
                static_cast<double>(matrix.rays) * 1e-3 / buildMs);
   fmt::print("solve       {} sweeps, bound {:.3g} W/m^2 of largest H {:.4g} W/m^2{}\n", solve.sweeps, solve.bound,
              solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+  if (solve.energy) fmt::print("energy      {}\n", describe(*solve.energy, facets.grid.edge));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);  // ru_maxrss: KiB
   fmt::print("memory      {:.1f} MiB on the device, {:.1f} MiB at the process's peak\n",
@@ -118,11 +123,14 @@ void run(const Arguments& arguments) {
 
   std::vector<fs::path> written;
   std::set<std::string> used;
+  std::vector<std::string> badPictures;
   for (size_t c = 0; c < cameras.size(); ++c) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
     for (const ViewInfo& view : chosen) {
       session.progress(view.name, 0);
-      renderPicture(session, pipeline, cameras[c], view.view, frames, targets, out / (prefix + view.name), written);
+      const std::string bad =
+          renderPicture(session, pipeline, cameras[c], view, frames, targets, out / (prefix + view.name), written);
+      if (!bad.empty()) badPictures.push_back(fmt::format("numerical watch: picture {}{}: {}", prefix, view.name, bad));
     }
   }
 
@@ -151,6 +159,7 @@ void run(const Arguments& arguments) {
   session.progress.finish();
   summarize(session, pipeline);
   for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
+  session.checkNumbers(pipeline, badPictures);
   session.checkValidation();
 }
 

@@ -46,6 +46,15 @@ void Session::prepare(Pipeline& pipeline) {
   }
 }
 
+void Session::checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors) {
+  for (const Finding& finding : pipeline.findings())
+    if (finding.severity == Finding::Severity::Error)
+      errors.insert(errors.begin(), finding.text);  // the cause before its pictures
+    else
+      progress.note("warning: " + finding.text);
+  if (!errors.empty()) throw WorkError(fmt::format("{}", fmt::join(errors, "\n")));
+}
+
 void Session::checkValidation() const {
   if (!device->options.validate) return;
   const std::vector<std::string> messages = device->validationMessages();

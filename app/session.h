@@ -28,6 +28,8 @@ struct Session {
   /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
   /// next smaller ones, in `settings` too.
   void prepare(Pipeline& pipeline);
+  /// Says what the numerical watch warns of; WorkError with what it found wrong, and with `errors`.
+  void checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors = {});
   /// After --validate: WorkError with the messages, if there were any.
   void checkValidation() const;
 

@@ -56,6 +56,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
                           &lighting.radiosityNext, &lighting.shaded, &lighting.shadedEmitted})
     buffer(*b, 16 * s);
   buffer(lighting.correction, 16 * s);
+  buffer(lighting.rowSum, 4 * s);
   image(lighting.volume, 8 * V);
   return out;
 }

@@ -28,6 +28,7 @@ struct Pipeline::Impl {
   SceneOnDevice onDevice;
   Buffer camera;
   uint64_t frameIndex = 0;
+  uint64_t solvedFrame = 0;  ///< of the last solve
 
   /// The first stage that the next prepare() has to run. Later stages follow it.
   Redo dirty = Redo::Voxels;
@@ -57,7 +58,7 @@ struct Pipeline::Impl {
         build(now, dirty, progress);
         dirty = Redo::Gather;
       }
-      if (dirty > Redo::Scatter && now.light->report.converged) return;
+      if (dirty > Redo::Scatter && now.light->report.settled()) return;
       relight(now, dirty <= Redo::Scatter ? dirty : Redo::Solve, maxSweeps, progress);
     }
     dirty = Redo::Nothing;
@@ -111,8 +112,10 @@ struct Pipeline::Impl {
       gather(frame, onDevice, *shadows, *p.facets, *p.light, settings);
       frame.submitAndWait();
     }
-    if (first <= Redo::Solve)
-      p.light->report = solve(context, *p.facets, *p.matrix, *p.light, settings, maxSweeps, {&*p.emitters, &*p.field});
+    if (first <= Redo::Solve) {
+      solve(context, *p.facets, *p.matrix, *p.light, settings, maxSweeps, {&*p.emitters, &*p.field});
+      solvedFrame = frameIndex;
+    }
     Frame frame = context.begin(frameIndex);
     scatter(frame, *p.facets, *p.light, settings);
     frame.submitAndWait();
@@ -185,7 +188,14 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
 }
 
 bool Pipeline::asleep() const {
-  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->now.light && impl_->now.light->report.converged;
+  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->now.light && impl_->now.light->report.settled();
+}
+
+std::vector<Finding> Pipeline::findings() const {
+  const Impl::Products& p = impl_->now;
+  if (!p.light) return {};
+  const Grid& grid = p.facets->grid;
+  return irad::findings(p.light->report, grid, impl_->scene.origin + glm::dvec3(grid.origin), impl_->solvedFrame);
 }
 
 void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets) {

@@ -7,6 +7,7 @@
 
 #include "gi/stages.h"
 #include "gi/views.h"
+#include "gi/watch.h"
 #include "renderer/forward.h"
 
 namespace irad {
@@ -33,8 +34,10 @@ class Pipeline {
   /// Runs what is dirty up to the scatter: blocking. The old state stays usable when it throws or is cancelled.
   /// `maxSweeps` 0: settings.solver.maxSweeps.
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
-  /// True when nothing is dirty and the solver's bound is below the tolerance.
+  /// True when nothing is dirty and the solver is done: its bound is below the tolerance, or the watch stopped it.
   bool asleep() const;
+  /// What the numerical watch has to say about the light as it is.
+  std::vector<Finding> findings() const;
 
   /// One picture of `view` into targets.linear and targets.display.
   void render(Frame& frame, const Camera& camera, View view, Targets& targets);

@@ -16,9 +16,10 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
   light.shaded = Buffer(device, "shaded H", Subsystem::Solver, bytes);
   light.shadedEmitted = Buffer(device, "shaded F M", Subsystem::Solver, bytes);
   light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual));
+  light.rowSum = Buffer(device, "row sums of F", Subsystem::Solver, 4ull * facets.count);
   Frame frame = context.begin();
   for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
-                          &light.shaded, &light.shadedEmitted, &light.residual})
+                          &light.shaded, &light.shadedEmitted, &light.residual, &light.rowSum})
     frame.pass("GI Solve Clear").fill(*b, 0);
   frame.submit();
   if (settings.sample.gpu.gated == 0) addVolume(context, facets, light);
@@ -34,6 +35,7 @@ void addVolume(Context& context, const FacetList& facets, Lighting& light) {
                                         .height = facets.grid.dims.y,
                                         .depth = facets.grid.dims.z,
                                         .volume = true});
+  light.clamped = Buffer(context.device, "clamped voxels", Subsystem::Volumes, sizeof(uint32_t));
 }
 
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
@@ -67,12 +69,17 @@ void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Setti
   push.direct = light.direct.address;
   push.dims = facets.grid.dims;
   push.removal = settings.scatter.edgeRemoval ? settings.solver.gpu.lambda : 0.0f;
+  push.clamped = light.clamped.address;
+  frame.pass("GI Scatter Clear").fill(light.clamped, 0);
   frame.pass(kStage)
       .shader("gi/scatter_volume.comp")
       .read(facets.record, facets.voxel, facets.albedo, facets.emission, facets.reverse, value, light.direct)
-      .write(light.volume)
+      .write(light.volume, light.clamped)
       .push(push)
       .dispatch(facets.count);
+  frame.readback(light.clamped, 0, sizeof(uint32_t), [&count = light.report.clampedVoxels](std::span<const uint8_t> b) {
+    std::memcpy(&count, b.data(), sizeof(count));
+  });
 }
 
 }  // namespace irad

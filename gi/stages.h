@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "gi/settings.h"
@@ -102,15 +104,57 @@ Emitters listEmitters(Context& context, const FacetList& facets);
 std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const std::vector<double>& powers);
 
 // ---- 6. Relight (T 5.7-5.9) -----------------------------------------------------------------------------------------
+/// The first wrong number: of the earliest stage whose product holds one, the facet of the lowest index.
+struct Defect {
+  const char* stage;     ///< METHOD section 11: "GI Gather"
+  const char* quantity;  ///< "direct irradiance"
+  const char* value;     ///< "NaN", "infinite" or "negative"
+  uint32_t facet;
+  glm::uvec3 voxel;
+};
+/// Where the light of a converged solve comes from and goes to, W/m^2 x voxels^2, by colour channel. By reciprocity what
+/// enters is what is absorbed and what escapes; the rest is how far F departs from A_i F_ij = A_j F_ji.
+struct EnergyBalance {
+  glm::dvec3 entering{0};  ///< sum of A (M + D)
+  glm::dvec3 absorbed{0};  ///< sum of A (1 - rho) (D + H)
+  glm::dvec3 escaped{0};   ///< sum of A B (1 - sum_j F_ij)
+  /// (absorbed + escaped - entering) / entering of the channel where it is largest; 0 in the dark.
+  double imbalance() const;
+};
 struct SolveReport {
   uint32_t sweeps = 0;
   float residual = 0;  ///< max |dB| of the last sweep, W/m^2
   float bound = 0;     ///< rho/(1-rho) max|dB|: error bound on B, W/m^2
   float largestH = 0;
   float largestGain = 0;  ///< rho-bar: largest row gain
-  uint32_t nonFinite = 0, negative = 0;
+  uint32_t nonFinite = 0, nan = 0;  ///< components of B that are NaN or infinite; of those, NaN
+  uint32_t negative = 0;            ///< components of M + rho D, H or B, and row sums, below zero
   bool converged = false;
-  bool diverging = false;  ///< gain >= 1 and growing (solver.lambda too large): stopped early
+  bool diverging = false;  ///< growing under any relaxation (solver.lambda too large): stopped, the light before is back
+  bool damped = false;     ///< the guard took omega below solver.omega
+  float omega = 1;         ///< relaxation of the last sweep
+  float growth = 0;        ///< of the residual in the last sweep, as a factor, where it may grow (largestGain >= 1)
+  std::optional<Defect> defect;         ///< with nonFinite or negative
+  std::optional<EnergyBalance> energy;  ///< of a converged solve with solver.lambda 1
+  uint32_t clampedVoxels = 0;           ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
+  /// No sweep more would change anything for the better.
+  bool settled() const { return converged || diverging || nonFinite > 0; }
+};
+/// Steps in where the residual grows. What a sweep multiplies B by, A = lambda rho F, has no negative entry: its spectral
+/// radius r is an eigenvalue (Perron), which a damped sweep turns into 1 - omega + omega r, below 1 only where r is.
+/// Damping therefore mends no true divergence; but where a row gain exceeds 1 and r does not, the residual may grow for
+/// a while, and damping tells the two apart before B has grown far.
+struct DivergenceGuard {
+  static constexpr uint32_t kPatience = 5;  ///< growing sweeps in a row before it halves omega; again, and it gives up
+  float lambda = 0, asked = 0;              ///< the settings that it was begun with
+  float omega = 1;                          ///< in use
+  float step = std::numeric_limits<float>::infinity();  ///< max |dB| / omega: what the last sweep would change undamped
+  float growth = 0;                                     ///< of `step`, as a factor
+  uint32_t growing = 0;
+  bool damped = false, gaveUp = false;
+  Buffer radiosity, indirect;  ///< B and H from before, where lambda lets them diverge
+  /// After a sweep: its largest row gain and residual.
+  void judge(float gain, float residual);
 };
 /// Per-facet light, fp32 vec4 (xyz, w unused): W/m^2.
 struct Lighting {
@@ -125,7 +169,10 @@ struct Lighting {
   Buffer shadedEmitted;  ///< `emitted` likewise
   Image volume;          ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
   Buffer residual;       ///< solver's reductions, see shared/solve.h
+  Buffer rowSum;         ///< sum_j F_ij, one float each
+  Buffer clamped;        ///< counter of the volume's clamped voxels; with the volume
   SolveReport report;
+  DivergenceGuard guard;
   /// solve() computes `emitted` when this is not set, and sets it; clear it when the matrix or the emission changes.
   bool emittedCurrent = false;
   float litH = 0;  ///< largest H since a source last shone: with all sources dark, light below 1e-6 of it is put out
@@ -140,11 +187,13 @@ struct EmitterSource {
   const Emitters* emitters = nullptr;
   const Field* field = nullptr;
 };
-/// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity. Blocking.
+/// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity (from the dark where the last
+/// report has something not finite). Blocking.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
                   const Settings& settings, uint32_t maxSweeps, const EmitterSource& source = {});
 /// `shaded` and `shadedEmitted`; and the volume where it exists: H, or B with ungated sampling (T 5.9), or B - lambda
-/// (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a voxel, alpha 1.
+/// (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a voxel, alpha 1. `light` must stay
+/// where it is until the frame has finished: light.report.clampedVoxels is read back.
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
 
 }  // namespace irad

@@ -21,5 +21,6 @@ void main() {
     if (f.hasEmission != 0u) source += f.emission.at[facet];
     value -= p.removal * source;
   }
-  imageStore(volume, ivec3(voxel), vec4(clamp(value, vec3(0.0f), vec3(65504.0f)), 1.0f));
+  if (any(greaterThan(value, vec3(HALF_MAX)))) atomicAdd(p.clamped.at[0], 1u);
+  imageStore(volume, ivec3(voxel), vec4(clamp(value, vec3(0.0f), vec3(HALF_MAX)), 1.0f));
 }

@@ -36,13 +36,16 @@ vec4 entryTerm(Row r, uint columnBits, uint i) {
 /// What a row hands to the reductions.
 struct Watch {
   float delta, h, gain, source;
-  uint nonFinite, negative;
+  uint nonFinite, nan, negative;
 };
+const Watch NOTHING = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u, 0u);
+
+uint trues(bvec3 b) { return uint(b.x) + uint(b.y) + uint(b.z); }
 
 float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 Watch finishRow(uint row, vec4 sum) {
-  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  Watch w = NOTHING;
   if (WORK == SOLVE_PRODUCT) {
     putOutput(row, sum.xyz);
     return w;
@@ -53,7 +56,10 @@ Watch finishRow(uint row, vec4 sum) {
   if (f.hasEmission != 0u) source += f.emission.at[row];
   vec3 h = sum.xyz;
   // The emitters' share of the row's rays replaced by that of the samples; below 0 by rounding alone.
-  if (p.corrected != 0u) h = max(h + p.correction.at[row].xyz, vec3(0.0f));
+  if (p.corrected != 0u) {
+    h += p.correction.at[row].xyz;
+    h = mix(h, vec3(0.0f), lessThan(h, vec3(0.0f)));  // max() could hide a NaN
+  }
   h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
   vec3 now = p.lambda * (source + rho * h);
   vec3 old = vec3(0.0f);
@@ -63,10 +69,10 @@ Watch finishRow(uint row, vec4 sum) {
   putOutput(row, now);
   p.indirect.at[row] = vec4(h, 0.0f);
   if (WORK == SOLVE_WATCH) {
-    bvec3 bad = bvec3(isnan(now.x) || isinf(now.x), isnan(now.y) || isinf(now.y), isnan(now.z) || isinf(now.z));
-    bvec3 below = lessThan(now, vec3(0.0f));
-    w.nonFinite = uint(bad.x) + uint(bad.y) + uint(bad.z);
-    w.negative = uint(below.x) + uint(below.y) + uint(below.z);
+    p.rowSum.at[row] = sum.w;
+    w.nan = trues(isnan(now));
+    w.nonFinite = w.nan + trues(isinf(now));
+    w.negative = trues(lessThan(min(min(source, h), now), vec3(0.0f))) + uint(sum.w < 0.0f);
     // A maximum with NaN may be either; what is not finite is counted and left out.
     if (w.nonFinite == 0u) {
       w.delta = largest(abs(now - old));
@@ -86,6 +92,7 @@ void report(Watch w) {
   float gain = subgroupMax(w.gain);
   float source = subgroupMax(w.source);
   uint nonFinite = subgroupAdd(w.nonFinite);
+  uint nan = subgroupAdd(w.nan);
   uint negative = subgroupAdd(w.negative);
   if (!subgroupElect()) return;
   // Most rows change nothing: look before locking.
@@ -95,6 +102,7 @@ void report(Watch w) {
   if (floatBitsToUint(gain) > r.at[0].maxGain) atomicMax(r.at[0].maxGain, floatBitsToUint(gain));
   if (floatBitsToUint(source) > r.at[0].maxSource) atomicMax(r.at[0].maxSource, floatBitsToUint(source));
   if (nonFinite > 0u) atomicAdd(r.at[0].nonFinite, nonFinite);
+  if (nan > 0u) atomicAdd(r.at[0].nan, nan);
   if (negative > 0u) atomicAdd(r.at[0].negative, negative);
 }
 

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 void main() {
   MatrixArrays m = p.matrix.at[0];
   uint row = irad_index();
-  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  Watch w = NOTHING;
   if (row < m.rows) {
     Row r = openRow(m, row);
     vec4 sum = vec4(0.0f);

@@ -30,7 +30,7 @@ vec4 rowSum(Row r, uint columnBits) {
 void main() {
   MatrixArrays m = p.matrix.at[0];
   uint row = irad_index();
-  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  Watch w = NOTHING;
   if (row < m.rows) {
     Row r = openRow(m, row);
     w = finishRow(row, rowSum(r, m.columnBits) * r.weight);

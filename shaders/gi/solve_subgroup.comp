@@ -9,7 +9,7 @@ void main() {
   MatrixArrays m = p.matrix.at[0];
   uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   uint subgroups = gl_NumWorkGroups.x * gl_NumWorkGroups.y * gl_NumSubgroups;
-  Watch w = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u);
+  Watch w = NOTHING;
   for (uint row = group * gl_NumSubgroups + gl_SubgroupID; row < m.rows; row += subgroups) {
     Row r = openRow(m, row);
     vec4 sum = vec4(0.0f);
@@ -23,6 +23,7 @@ void main() {
       w.gain = max(w.gain, next.gain);
       w.source = max(w.source, next.source);
       w.nonFinite += next.nonFinite;
+      w.nan += next.nan;
       w.negative += next.negative;
     }
   }

@@ -16,8 +16,9 @@ struct SolveResidual {
   uint maxGain;    ///< largest row gain lambda x max_c rho_c x sum_j F_ij
   uint maxSource;  ///< max |M + rho D|, W/m^2
   uint nonFinite;  ///< components of B' that are NaN or infinite
-  uint negative;   ///< components of B' below zero
-  uint pad0, pad1;
+  uint nan;        ///< of those, NaN
+  uint negative;   ///< components of M + rho D, H or B', and row sums of F, below zero
+  uint pad;
 };
 IRAD_ARRAY(ResidualArray, SolveResidual, 16)
 
@@ -37,6 +38,7 @@ struct SolvePush {
   Vec4Array output_;   ///< B' (or F input)
   Vec4Array indirect;  ///< H
   ResidualArray residual;
+  FloatArray rowSum;   ///< sum_j F_ij, written with SOLVE_WATCH
   Vec4Array correction;  ///< added to F B where `corrected`: the emitters' light by samples less that by rays
   float lambda, omega, flush;
   uint corrected;
@@ -104,7 +106,9 @@ struct ScatterVolumePush {
   Vec4Array direct;    ///< D, read for edge removal
   uvec3 dims;
   float removal;       ///< lambda of T eq. 23, 0: nothing is subtracted
+  UintArray clamped;   ///< counts voxels whose value exceeds what the volume's half floats hold
 };
+IRAD_CONST float HALF_MAX = 65504.0f;
 
 IRAD_END
 #endif

@@ -1,0 +1,101 @@
+// The first gather from emissive facets, F M: one product with the exitance, or samples of the emitters (METHOD section
+// 5).
+#include <algorithm>
+#include <cmath>
+
+#include "gi/ray_kernel.h"
+#include "gi/sweep.h"
+
+namespace irad {
+namespace {
+
+constexpr const char* kStage = "GI Solve Emitters";
+
+/// Whether the emitters are few enough to be low-probability, high-energy (T 5.6).
+bool sampleEmitters(const Settings& settings, const EmitterSource& source, uint32_t facets) {
+  if (!source.emitters || source.emitters->count == 0) return false;
+  if (settings.matrix.emitterSampling != EmitterSampling::automatic)
+    return settings.matrix.emitterSampling == EmitterSampling::on;
+  return source.emitters->count < facets / 10;
+}
+
+/// Compares the sums over all facets of F M by samples and by rays, and says whether the samples may stand in. They see
+/// emissive facets alone, rays also a face's extension into voxels that other faces took: where a lamp's edges are a
+/// good part of it, as in a strip along a wall, that is too much to lose.
+bool agrees(Context& context, const FormFactors& matrix, const Emitters& emitters, Lighting& light) {
+  constexpr double kLoss = 0.05;
+  const auto sampled = downloadAs<glm::vec4>(context, light.emitted);
+  const auto correction = downloadAs<glm::vec4>(context, light.correction);
+  double bySamples = 0, byRays = 0;
+  for (size_t i = 0; i < sampled.size(); ++i) {
+    bySamples += luminance(sampled[i]);
+    byRays += luminance(sampled[i] - correction[i]);
+  }
+  const double hits = byRays / emitters.brightest * matrix.rays;  // at least
+  light.sampledShare = byRays > 0 ? static_cast<float>(bySamples / byRays) : 0;
+  return std::abs(bySamples - byRays) <= byRays * (kLoss + 3 / std::sqrt(std::max(hits, 1.0)));
+}
+
+/// light.emitted becomes F M by samples, light.correction what that adds to F M by rays.
+void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
+                   const Settings& settings, Lighting& light) {
+  const RayKernel kernel = rayKernel(facets, *source.field, settings.matrix.gpu);
+  light.correction = Buffer(frame.context().device, "emitters' correction", Subsystem::Solver, 16ull * facets.count);
+  SampleEmittersPush push{};
+  push.matrix = matrix.record.address;
+  push.facets = facets.record.address;
+  push.chebyshev = kernel.chebyshev();
+  push.emitters = source.emitters->record.address;
+  push.emitted = light.emitted.address;
+  push.correction = light.correction.address;
+  push.dims = facets.grid.dims;
+  push.jfaMax = source.field->jfaMax;
+  push.samples = settings.matrix.emitterSamples;
+  push.seed = settings.matrix.gpu.seed;
+  Pass pass = frame.pass(kStage);
+  kernel.configure(pass, frame.context().device, "sample_emitters")
+      .constant(3, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
+      .read(facets.record, facets.emission, matrix.record, matrix.rowStart, matrix.rowInfo, source.emitters->record,
+            source.emitters->entries);
+  for (const Buffer& segment : matrix.segments) pass.read(segment);
+  pass.write(light.emitted).write(light.correction).push(push).dispatch(facets.count);
+}
+
+}  // namespace
+
+void gatherEmitters(Context& context, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
+                    const Settings& settings, Sweep& sweep, Lighting& light) {
+  light.correction = Buffer();
+  light.sampledShare = 0;
+  const auto byRays = [&] {
+    Frame frame = context.begin();
+    if (facets.hasEmission) {
+      // M as a vector, in the spare half of B's double buffer; then one product.
+      frame.pass(kStage)
+          .shader("gi/emission.comp")
+          .read(facets.record, facets.emission)
+          .write(light.radiosityNext)
+          .push(EmissionPush{facets.record.address, light.radiosityNext.address})
+          .dispatch(facets.count);
+      sweep.begin(frame, kStage, light.radiosityNext);
+      sweep.record(frame, kStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
+    } else {
+      frame.pass(kStage).fill(light.emitted, 0);
+    }
+    frame.submit();
+  };
+  byRays();
+  if (sampleEmitters(settings, source, facets.count)) {
+    Frame frame = context.begin();
+    recordSamples(frame, facets, matrix, source, settings, light);
+    frame.submitAndWait();
+    const bool forced = settings.matrix.emitterSampling == EmitterSampling::on;
+    if (!agrees(context, matrix, *source.emitters, light) && !forced) {
+      light.correction = Buffer();
+      byRays();
+    }
+  }
+  light.emittedCurrent = true;
+}
+
+}  // namespace irad

@@ -1,0 +1,38 @@
+// One Jacobi sweep on the device (shaders/gi/solve*.comp), by the kernel that suits it.
+#pragma once
+
+#include <array>
+
+#include "gi/stages.h"
+#include "shaders/shared/solve.h"
+
+namespace irad {
+
+/// Binds the kernel to a list and a matrix, which it must not outlive.
+class Sweep {
+ public:
+  Sweep(Context& context, const FacetList& facets, const FormFactors& matrix, const SolverSettings& settings);
+
+  /// Before the first record(): `input` is what it will be called with. Later ones take their predecessor's output.
+  void begin(Frame& frame, const char* stage, const Buffer& input);
+  /// `work`: SOLVE_SWEEP, SOLVE_WATCH or SOLVE_PRODUCT of shared/solve.h.
+  void record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
+              const Lighting& light);
+
+  float omega, flush;  ///< of the sweeps recorded next: relaxation; W/m^2 below which light is put out
+
+ private:
+  const FacetList& facets_;
+  const FormFactors& matrix_;
+  float lambda_;
+  SolverKernel kernel_;
+  bool images_ = false;           ///< the vectors as images too, see gi/solve.glsl
+  std::array<Image, 2> vectors_;  ///< input and output, in turn
+  uint32_t current_ = 0;
+};
+
+/// The first gather, light.emitted = F M, and light.correction where the emitters are sampled.
+void gatherEmitters(Context& context, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
+                    const Settings& settings, Sweep& sweep, Lighting& light);
+
+}  // namespace irad

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "GI Solve Energy": the light that enters, is absorbed and escapes, summed over some facets per invocation. No atomics,
+// so that the sums are the same bits in every run; the host adds them up in double.
+#include "shared/energy.h"
+#include "shared/normals.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
+layout(push_constant, scalar) uniform Push { EnergyPush p; };
+
+void main() {
+  uint me = irad_index();
+  if (me >= p.invocations) return;
+  FacetArrays f = p.facets.at[0];
+  EnergySums sum = EnergySums(vec3(0.0f), vec3(0.0f), vec3(0.0f));
+  for (uint facet = me; facet < f.count; facet += p.invocations) {
+    uint shape = f.shape.at[facet];
+    float area = facetArea(decodeNormal(shape & 0xFFFFu, NORMALS), facetOffset(shape));
+    vec3 direct = p.direct.at[facet].xyz;
+    vec3 exitance = f.hasEmission != 0u ? f.emission.at[facet] : vec3(0.0f);
+    sum.entering += area * (exitance + direct);
+    sum.absorbed += area * (vec3(1.0f) - unpackAlbedo(f.albedo.at[facet])) * (direct + p.indirect.at[facet].xyz);
+    sum.escaped += area * (1.0f - p.rowSum.at[facet]) * p.radiosity.at[facet].xyz;
+  }
+  p.sums.at[me] = sum;
+}
