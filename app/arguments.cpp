@@ -48,6 +48,7 @@ bool SettingArguments::sizesAreDefault() const {
 void DeviceArguments::declare(Options& options) {
   options.value("--device", "NAME|INDEX", device, "Vulkan device, by index or part of its name");
   options.flag("--validate", validate, "Run under the validation layers; any message is a failure");
+  options.flag("--poison", poison, "Debugging aid: fill all fresh device memory with NaN; results must not change");
   options.flag("--list-devices", list, "Print the devices and what each lacks");
 }
 
@@ -55,6 +56,7 @@ DeviceOptions DeviceArguments::options() const {
   DeviceOptions out;
   out.select = device.value_or("");
   out.validate = validate;
+  out.poison = poison;
   return out;
 }
 

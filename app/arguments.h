@@ -24,10 +24,10 @@ struct SettingArguments {
   bool sizesAreDefault() const;
 };
 
-/// --device, --validate, --list-devices.
+/// --device, --validate, --poison, --list-devices.
 struct DeviceArguments {
   std::optional<std::string> device;
-  bool validate = false, list = false;
+  bool validate = false, poison = false, list = false;
   void declare(Options& options);
   DeviceOptions options() const;
 };

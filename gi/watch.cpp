@@ -114,8 +114,8 @@ std::vector<Finding> findings(const SolveReport& report, const Grid& grid, glm::
   if (report.diverging)
     out.push_back({Error, fmt::format("numerical watch: GI Solve, frame {}: diverging: the residual still grows by a "
                                       "factor of {:.3g} a sweep with omega damped to {:.3g}, largest row gain {:.3g}; "
-                                      "stopped after {} sweeps, the light from before is kept (lower solver.lambda)",
-                                      frame, report.growth, report.omega, report.largestGain, report.sweeps)});
+                                      "stopped, the light from before is kept (lower solver.lambda)",
+                                      frame, report.growth, report.omega, report.largestGain)});
   else if (report.damped)
     out.push_back(
         {Warning, fmt::format("GI Solve, frame {}: the residual grew for {} sweeps in a row, largest row gain "

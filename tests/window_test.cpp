@@ -294,6 +294,35 @@ TEST_F(WindowTest, ReloadsShadersAndWhatTheyMade) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
+  const std::filesystem::path shaders = copyShaders();
+  start({"--shaders", shaders.string()});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+  const auto top = [this] { return screen_->grab(340, 32, 650, 30); };
+  constexpr uint32_t kAlarm = 0x9E1714;
+  EXPECT_EQ(top().count(kAlarm), 0);
+
+  // One facet's direct light becomes NaN.
+  const std::filesystem::path gather = shaders / "gi/gather.comp";
+  const std::string good = readText(gather), wanted = "vec4(sum / float(p.samples), 0.0f)";
+  std::string bad = good;
+  const size_t at = bad.find(wanted);
+  ASSERT_NE(at, std::string::npos);
+  bad.replace(at, wanted.size(), "vec4(facet == 1000u ? vec3(uintBitsToFloat(0x7FC00000u | facet)) : sum, 0.0f)");
+  std::ofstream(gather) << bad;
+  key("F5");
+  ASSERT_TRUE(settles(top, [&](const ScreenPart& p) { return p.count(kAlarm) > 650 * 30 / 2; })) << "no banner";
+  std::ofstream(gather) << good;
+  key("F5");
+  ASSERT_TRUE(settles(top, [&](const ScreenPart& p) { return p.count(kAlarm) == 0; })) << "the banner stays";
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "the first picture did not come back";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, LoadsAndRebuildsCanBeCancelled) {
   // Large enough for some seconds of work.
   const std::filesystem::path shaders = copyShaders();

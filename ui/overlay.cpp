@@ -33,6 +33,7 @@ State stateOf(const Session& session) {
   if (!session.pipeline) return {theme::dim, "no scene"};
   if (session.halted) return {theme::warning, "not rebuilt"};
   if (session.next < Redo::Shade) return {theme::accent, "next: " + stagesFrom(session.next, arrowGlyph())};
+  if (session.built && session.built->faulty()) return {theme::error, "numerical watch"};
   if (session.paused) return {theme::warning, "paused"};
   if (session.asleep()) return {theme::good, "asleep"};
   return {theme::accent, fmt::format("solving: {} sweeps", withThousands(session.sweepsSinceWake))};
@@ -76,6 +77,22 @@ void drawBar(const Session& session, const Rect& where) {
   ImGui::SameLine(0, gap);
   ImGui::TextColored(theme::dim, "%s", hint.c_str());
   endTile();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+void drawBanner(const Session& session, const Rect& viewport) {
+  if (!session.built || !session.built->faulty()) return;
+  ImGui::SetNextWindowPos({viewport.position.x, viewport.position.y});
+  ImGui::SetNextWindowSizeConstraints({viewport.size.x, 0}, {viewport.size.x, viewport.size.y});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::alarm);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::Begin("##banner", nullptr, kFloating | ImGuiWindowFlags_NoInputs);
+  ImGui::PushTextWrapPos(0);
+  for (const Finding& finding : session.built->findings)
+    if (finding.severity == Finding::Severity::Error) ImGui::TextUnformatted(finding.text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::End();
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }

@@ -7,6 +7,8 @@
 namespace irad {
 
 void drawBar(const Session& session, const Rect& where);
+/// What the numerical watch found wrong, in red across the top of the viewport for as long as it is.
+void drawBanner(const Session& session, const Rect& viewport);
 void drawMessages(Session& session, const Rect& viewport);
 void drawProgress(Session& session, const Rect& viewport);
 void drawHelp(Session& session, const Rect& viewport);

@@ -32,9 +32,12 @@ struct Work {
 /// own products come and go.
 struct Built {
   glm::uvec3 dims{0};
-  uint32_t facets = 0, solidVoxels = 0;
+  uint32_t facets = 0, solidVoxels = 0, clampedAlbedo = 0;
+  double edge = 0;  ///< of a voxel
   SolveReport solve;
-  float tolerance = 0;  ///< share of the largest H at which it sleeps
+  std::vector<Finding> findings;  ///< of the numerical watch, errors first
+  float tolerance = 0;            ///< share of the largest H at which it sleeps
+  bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 
 /// One call of the solver, for the plots.

@@ -9,8 +9,8 @@
 namespace irad {
 namespace theme {
 const ImVec4 text{0.86f, 0.87f, 0.89f, 1}, dim{0.58f, 0.61f, 0.65f, 1}, accent{0.93f, 0.66f, 0.26f, 1},
-    warning{0.95f, 0.77f, 0.36f, 1}, error{0.96f, 0.47f, 0.42f, 1}, good{0.52f, 0.80f, 0.58f, 1},
-    plotFill{0.93f, 0.66f, 0.26f, 0.22f}, plotLine{0.93f, 0.66f, 0.26f, 1};
+    warning{0.95f, 0.77f, 0.36f, 1}, error{0.96f, 0.47f, 0.42f, 1}, alarm{0.62f, 0.09f, 0.08f, 1},
+    good{0.52f, 0.80f, 0.58f, 1}, plotFill{0.93f, 0.66f, 0.26f, 0.22f}, plotLine{0.93f, 0.66f, 0.26f, 1};
 }
 
 namespace {

@@ -19,7 +19,7 @@ const char* arrowGlyph();
 const char* resetGlyph();
 
 namespace theme {
-extern const ImVec4 text, dim, accent, warning, error, good, plotFill, plotLine;
+extern const ImVec4 text, dim, accent, warning, error, alarm, good, plotFill, plotLine;
 }
 
 }  // namespace irad

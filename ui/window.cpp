@@ -309,8 +309,14 @@ void Window::prepare(Pipeline& pipeline) {
   }
   const FacetList& facets = pipeline.facets();
   const SolveReport& report = pipeline.lighting().report;
-  session_.built =
-      Built{facets.grid.dims, facets.count, facets.solidVoxels, report, pipeline.settings().solver.tolerance};
+  session_.built = Built{.dims = facets.grid.dims,
+                         .facets = facets.count,
+                         .solidVoxels = facets.solidVoxels,
+                         .clampedAlbedo = facets.clampedAlbedo,
+                         .edge = facets.grid.edge,
+                         .solve = report,
+                         .findings = pipeline.findings(),
+                         .tolerance = pipeline.settings().solver.tolerance};
   session_.solves.push_back({report.sweeps, report.residual, report.bound});
   if (session_.solves.size() > 400) session_.solves.pop_front();
   session_.sweepsSinceWake += report.sweeps;
@@ -372,6 +378,7 @@ void Window::drawFrame() {
   layer_.beginFrame();
   drawViewport(where.viewport);
   if (!session_.hideUi) drawPanels(where);
+  drawBanner(session_, where.viewport);
   drawMessages(session_, where.viewport);
   drawProgress(session_, where.viewport);
   drawHelp(session_, where.viewport);

@@ -43,6 +43,9 @@ class ScenePanel : public Panel {
     valueRow("grid", fmt::format("{} \u00D7 {} \u00D7 {}", built.dims.x, built.dims.y, built.dims.z));
     valueRow("facets", fmt::format("{} in {}", withThousands(built.facets), withThousands(built.solidVoxels)));
     helpTooltip("Facets in the solid voxels that hold them");
+    if (built.clampedAlbedo == 0) return;
+    valueRow("clamped", fmt::format("albedo of {}", withThousands(built.clampedAlbedo)));
+    helpTooltip("Facets whose albedo was outside 0 to .98, or no number");
   }
 
   static std::string lights(const Scene& scene) {

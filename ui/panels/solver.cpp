@@ -32,8 +32,7 @@ class SolverPanel : public Panel {
     valueRow("target", shortNumber(session.built->tolerance * report.largestH) + " W/m\u00B2");
     helpTooltip("solver.tolerance times the largest H");
     valueRow("row gain \u03C1", shortNumber(report.largestGain));
-    if (report.nonFinite || report.negative)
-      ImGui::TextColored(theme::error, "%u not finite, %u negative", report.nonFinite, report.negative);
+    drawWatch(*session.built);
     settingRow(session.edited, session.defaults, "solver.sweeps_per_frame");
     drawCurves(session);
   }
@@ -41,14 +40,33 @@ class SolverPanel : public Panel {
  private:
   static void drawState(Session& session) {
     const bool asleep = session.asleep();
-    const ImVec4 color = session.paused ? theme::warning : asleep ? theme::good : theme::accent;
+    const auto [color, state] = session.paused            ? std::pair{theme::warning, "paused"}
+                                : session.built->faulty() ? std::pair{theme::error, "stopped: numerical watch"}
+                                : asleep                  ? std::pair{theme::good, "asleep: bound below target"}
+                                                          : std::pair{theme::accent, "awake"};
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(color, "%s", session.paused ? "paused" : asleep ? "asleep: bound below target" : "awake");
+    ImGui::TextColored(color, "%s", state);
     const char* label = session.paused ? "Resume" : "Pause";
     const float width = ImGui::CalcTextSize("Resume").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
     if (ImGui::Button(label, {width, 0})) session.paused = !session.paused;
     helpTooltip("Space");
+  }
+
+  /// The numerical watch.
+  static void drawWatch(const Built& built) {
+    const SolveReport& report = built.solve;
+    valueRow("NaN, Inf, < 0", fmt::format("{}, {}, {}", report.nan, report.nonFinite - report.nan, report.negative));
+    helpTooltip("Components of B that are no number, infinite or negative: all should be 0");
+    valueRow("energy", report.energy ? fmt::format("{:+.2f} %", 100 * report.energy->imbalance()) : "\u2026");
+    helpTooltip(report.energy ? describe(*report.energy, built.edge)
+                              : "Light absorbed and escaping less light entering, as a share of it: known once the "
+                                "solver has converged with solver.lambda 1");
+    ImGui::PushTextWrapPos(0);
+    for (const Finding& finding : built.findings)
+      ImGui::TextColored(finding.severity == Finding::Severity::Error ? theme::error : theme::warning, "%s",
+                         finding.text.c_str());
+    ImGui::PopTextWrapPos();
   }
 
   /// Residual and bound of each call of the solver since it woke, logarithmic.

@@ -1,0 +1,76 @@
+// Fresh memory filled with NaN changes nothing: what is read was written first (HARD_CASES, poison).
+#include <fmt/format.h>
+
+#include "gi/check_scenes.h"
+#include "gi/pipeline.h"
+#include "tests/support.h"
+
+namespace irad::test {
+namespace {
+
+Scene room() {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(0.7f, 0.5f, 0.2f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1));
+  b.box({m, m, m, lamp, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  b.sphere(m, glm::vec3(-0.3f, -0.4f, 0.1f), 0.45f, /*inward=*/false, 24);
+  b.point({0.2, 0.3, 0.1}, 5);
+  b.sun(glm::normalize(glm::vec3(0.3f, -1, 0.2f)), 2);
+  return b.finish("room");
+}
+
+/// Everything that a run computes, in words of 32 bits: per facet, and every view.
+std::vector<std::vector<uint32_t>> results(Context& context, const Settings& settings) {
+  Scene scene = room();
+  const Camera camera = scene.cameras.at(0);
+  Pipeline pipeline(context, std::move(scene), settings);
+  pipeline.prepare();
+  // Again: in memory that others have used.
+  pipeline.invalidate(Redo::Voxels);
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  EXPECT_TRUE(pipeline.findings().empty());
+  std::vector<std::vector<uint32_t>> out;
+  const Lighting& light = pipeline.lighting();
+  const FacetList& facets = pipeline.facets();
+  for (const Buffer* b : {&facets.voxel, &facets.shape, &facets.reverse, &light.direct, &light.indirect,
+                          &light.radiosity, &light.emitted, &light.shaded, &light.rowSum})
+    out.push_back(downloadAs<uint32_t>(context, *b));
+  Targets targets(context, {48, 40});
+  for (const ViewInfo& view : views()) {
+    Frame frame = context.begin();
+    pipeline.render(frame, camera, view.view, targets);
+    frame.submitAndWait();
+    for (const Image* image : {&targets.linear, &targets.display}) {
+      const std::vector<std::byte> bytes = download(context, *image);
+      out.emplace_back(bytes.size() / 4);
+      std::memcpy(out.back().data(), bytes.data(), bytes.size());
+    }
+  }
+  return out;
+}
+
+TEST(Poison, ChangesNoBit) {
+  for (const char* preset : {"default", "thesis"}) {
+    SCOPED_TRACE(preset);
+    Settings settings = defaultSettings(/*cpuDevice=*/true);
+    if (preset != std::string("default")) applyPreset(settings, preset, /*cpuDevice=*/true);
+    settings.voxel.resolution = 24;
+    settings.matrix.gpu.rays = 48;
+    std::vector<std::vector<uint32_t>> runs[2];
+    for (const bool poison : {false, true}) {
+      const auto device = Device::create({.validate = true, .poison = poison});
+      ShaderLibrary shaders;
+      Timings timings;
+      {
+        Context context(*device, shaders, timings);
+        runs[poison] = results(context, settings);
+      }
+      for (const std::string& message : device->validationMessages()) ADD_FAILURE() << message;
+    }
+    ASSERT_EQ(runs[0].size(), runs[1].size());
+    for (size_t i = 0; i < runs[0].size(); ++i) EXPECT_TRUE(runs[0][i] == runs[1][i]) << "product " << i;
+  }
+}
+
+}  // namespace
+}  // namespace irad::test
