@@ -50,6 +50,11 @@ void DeviceArguments::declare(Options& options) {
   options.flag("--validate", validate, "Run under the validation layers; any message is a failure");
   options.flag("--poison", poison, "Debugging aid: fill all fresh device memory with NaN; results must not change");
   options.flag("--list-devices", list, "Print the devices and what each lacks");
+  options.value("--memory-budget", "MIB", memoryBudget,
+                "Device memory to take at most (default: what the device has to give)");
+  options.values("--inject", "oom=N|lost=N", inject,
+                 "Debugging: the N-th buffer or image finds no memory; the device is lost at the N-th submission or "
+                 "wait");
 }
 
 DeviceOptions DeviceArguments::options() const {
@@ -57,6 +62,15 @@ DeviceOptions DeviceArguments::options() const {
   out.select = device.value_or("");
   out.validate = validate;
   out.poison = poison;
+  if (memoryBudget) out.memoryBudget = parseInteger("--memory-budget", *memoryBudget, 1, uint64_t{1} << 24) << 20;
+  for (const std::string& fault : inject) {
+    const size_t equals = std::min(fault.find('='), fault.size());
+    const std::string kind = fault.substr(0, equals);
+    if (equals == fault.size() || (kind != "oom" && kind != "lost"))
+      throw UsageError(fmt::format("--inject: '{}' is neither oom=N nor lost=N", fault));
+    uint64_t& number = kind == "oom" ? out.failResource : out.loseDevice;
+    number = parseInteger("--inject " + kind, fault.substr(equals + 1), 1, UINT64_MAX);
+  }
   return out;
 }
 

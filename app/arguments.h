@@ -24,9 +24,10 @@ struct SettingArguments {
   bool sizesAreDefault() const;
 };
 
-/// --device, --validate, --poison, --list-devices.
+/// --device, --validate, --poison, --list-devices, --memory-budget, --inject.
 struct DeviceArguments {
-  std::optional<std::string> device;
+  std::optional<std::string> device, memoryBudget;
+  std::vector<std::string> inject;
   bool validate = false, poison = false, list = false;
   void declare(Options& options);
   DeviceOptions options() const;

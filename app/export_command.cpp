@@ -66,6 +66,8 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   session.prepare(pipeline);
   session.checkNumbers(pipeline);  // before anything is written: whoever reads an array does not look at it
 
+  // The manifest comes last and vouches for the rest: that of an earlier run goes first.
+  removeFile(out / "manifest.json");
   std::vector<fs::path> written;
   for (const Volume volume : volumes)
     written.push_back(

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/camera_json.h"
 #include "app/version.h"
@@ -63,6 +64,25 @@ std::vector<Camera> readCameras(const fs::path& path, const Json& json) {
   return cameras;
 }
 
+/// A file of a newer program may mean other things by the names it shares with ours.
+void checkFormat(const fs::path& path, const Json& json) {
+  if (!json.contains("format")) return;
+  if (!json["format"].is_number_unsigned())
+    throw InputError(fmt::format("{}: format: unexpected value {}", path.string(), json["format"].dump()));
+  const auto format = json["format"].get<uint64_t>();
+  if (format <= kConfigFormat) return;
+  std::set<std::string> unknown;
+  const Json& settings = json.contains("settings") ? json["settings"] : json;
+  if (settings.is_object())
+    for (const auto& [name, value] : settings.items()) unknown.insert(name);
+  unknown.erase("format");
+  for (const SettingInfo& known : settingInfos(Settings{})) unknown.erase(known.meta.name);
+  throw InputError(
+      fmt::format("{}: is of format {}, written by a newer program; irad {} reads up to format {}{}", path.string(),
+                  format, versionNumber(), kConfigFormat,
+                  unknown.empty() ? "" : fmt::format("; settings it does not know: {}", fmt::join(unknown, ", "))));
+}
+
 }  // namespace
 
 Config readConfigFile(const fs::path& path) {
@@ -76,9 +96,11 @@ Config readConfigFile(const fs::path& path) {
     throw InputError(fmt::format("{}: not JSON: {}", path.string(), error.what()));
   }
   if (!json.is_object()) throw InputError(fmt::format("{}: expected a JSON object", path.string()));
+  checkFormat(path, json);
   Config config;
   config.path = path;
   if (!json.contains("settings")) {  // a plain settings file
+    json.erase("format");
     config.settings = json.dump();
     return config;
   }
@@ -104,6 +126,12 @@ Config readConfigFile(const fs::path& path) {
   config.views = member<std::vector<std::string>>(path, json, "views").value_or(std::vector<std::string>{});
   config.cameras = readCameras(path, json);
   return config;
+}
+
+std::string settingsFile(const Settings& settings) {
+  Json json{{"format", kConfigFormat}};
+  json.update(Json::parse(settingsToJson(settings)));
+  return json.dump(2);
 }
 
 std::string shellQuote(const std::string& word) {
@@ -134,6 +162,7 @@ std::string Manifest::commandLine() const {
 
 std::string Manifest::toJson() const {
   Json json;
+  json["format"] = kConfigFormat;
   json["program"] = {{"name", "irad"}, {"version", versionNumber()}, {"commit", versionCommit()}};
   json["command"] = commandLine();
   if (device)

@@ -16,6 +16,10 @@ namespace irad::app {
 constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
 constexpr uint32_t kMaxFrames = 1'000'000;
 
+/// Version of settings files and manifests, their member "format": raised when older programs would misread them. Files
+/// without one are older than it.
+constexpr uint32_t kConfigFormat = 1;
+
 /// What --config brings: a settings object, or a manifest that also names scene, cameras, size, views, frames.
 struct Config {
   std::filesystem::path path;
@@ -27,8 +31,11 @@ struct Config {
   std::vector<Camera> cameras;
   std::vector<std::string> views;
 };
-/// InputError when the file cannot be read or is not what it should be.
+/// InputError when the file cannot be read, is not what it should be, or is of a newer format.
 Config readConfigFile(const std::filesystem::path& path);
+
+/// Settings as a file that --config takes.
+std::string settingsFile(const Settings& settings);
 
 /// What a run did; writes itself as JSON.
 struct Manifest {

@@ -121,6 +121,8 @@ void run(const Arguments& arguments) {
   session.prepare(pipeline);
   Targets targets(*session.context, size);
 
+  // The manifest comes last and vouches for the rest: that of an earlier run goes first.
+  removeFile(out / "manifest.json");
   std::vector<fs::path> written;
   std::set<std::string> used;
   std::vector<std::string> badPictures;

@@ -58,7 +58,7 @@ std::string table(const Settings& settings) {
 void run(const Arguments& arguments) {
   const Settings settings = arguments.settings.resolve(arguments.settings.readConfig(), /*cpuDevice=*/false);
   if (arguments.values)
-    fmt::print("{}\n", settingsToJson(settings));
+    fmt::print("{}\n", settingsFile(settings));
   else if (arguments.json)
     fmt::print("{}\n", registry(settings).dump(2));
   else

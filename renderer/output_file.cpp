@@ -1,11 +1,15 @@
 #include "renderer/output_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "renderer/error.h"
 
@@ -13,11 +17,41 @@ namespace irad {
 
 static_assert(std::endian::native == std::endian::little, "the file formats here are little-endian");
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTemporary = ".irad-tmp";
+
+/// Removes what killed runs have left in a folder: temporary files that no process holds locked.
+void removeLeftovers(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(kTemporary)) continue;
+    const int file = ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) continue;
+    std::error_code ignored;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) fs::remove(entry->path(), ignored);
+    ::close(file);
+  }
+}
+
+}  // namespace
+
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
+  removeLeftovers(path_.parent_path());
   // The process id keeps two runs into one folder apart.
-  temporary_ = path_.parent_path() / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
-  file_ = std::fopen(temporary_.c_str(), "wb");
-  if (!file_) fail("create", errno);
+  temporary_ = path_.parent_path() / fmt::format(".{}.{}{}", path_.filename().string(), ::getpid(), kTemporary);
+  // Locked as long as it has this name. Another run may take it for a leftover before it is: then it is made again.
+  struct stat status {};
+  do {
+    if (file_) std::fclose(file_);
+    file_ = std::fopen(temporary_.c_str(), "wbe");
+    if (!file_) fail("create", errno);
+    ::flock(::fileno(file_), LOCK_EX);  // fails where the file system has no locks; no leftovers are removed there
+  } while (::fstat(::fileno(file_), &status) == 0 && status.st_nlink == 0);
 }
 
 OutputFile::~OutputFile() {
@@ -41,12 +75,10 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 }
 
 void OutputFile::commit() {
-  if (std::fflush(file_) != 0) fail("write", errno);
-  std::FILE* const file = file_;
-  file_ = nullptr;
-  if (std::fclose(file) != 0) fail("write", errno);
+  if (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0) fail("write", errno);
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("write", errno);
   temporary_.clear();
+  std::fclose(std::exchange(file_, nullptr));  // the lock with it; everything is on disk already
 }
 
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -58,12 +90,20 @@ void writeFile(const std::filesystem::path& path, std::string_view text) {
   writeFile(path, std::as_bytes(std::span(text)));
 }
 
+void removeFile(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw WorkError(fmt::format("cannot remove {}: {}", path.string(), error.message()));
+}
+
 void makeFolder(const std::filesystem::path& path) {
   if (path.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (!error && !std::filesystem::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw WorkError(fmt::format("cannot create folder {}: {}", path.string(), error.message()));
+  if (::access(path.c_str(), W_OK | X_OK) != 0)
+    throw WorkError(fmt::format("cannot write into {}: {}", path.string(), std::strerror(errno)));
 }
 
 template <class T>

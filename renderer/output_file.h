@@ -1,4 +1,5 @@
-// Files that appear whole or not at all: written under a temporary name in the same folder, renamed when complete.
+// Files that appear whole or not at all: written under a temporary name in the same folder (.NAME.PID.irad-tmp),
+// renamed when complete and on disk. What a killed run leaves there, the next one to write into the folder removes.
 // Every failure (no such folder, read-only, disk full) is a WorkError that names the final file and the reason.
 #pragma once
 
@@ -20,7 +21,7 @@ class OutputFile {
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  void commit();  ///< flushes, closes, renames
+  void commit();  ///< to the disk, then under its final name
 
  private:
   [[noreturn]] void fail(const char* doing, int error);
@@ -30,7 +31,9 @@ class OutputFile {
 
 void writeFile(const std::filesystem::path& path, std::string_view text);
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
-/// Makes a folder and its parents.
+/// Removes a file if there is one.
+void removeFile(const std::filesystem::path& path);
+/// Makes a folder and its parents; it can be written into, which is better known before the work than after it.
 void makeFolder(const std::filesystem::path& path);
 
 /// numpy's type strings of the element types that exports use.

@@ -1,4 +1,4 @@
-// What follows failures: no memory at any one resource, a lost device.
+// What follows failures on the device: no memory at any one resource, a budget that does not suffice, a lost device.
 #include <fmt/format.h>
 
 #include <set>
@@ -158,6 +158,35 @@ TEST_F(NoMemory, InNewShadowsAndNewRaysCanBeTakenBack) {
     ASSERT_TRUE(draw(context(), pipeline) == before) << "after resource " << n << ": " << message;
   }
   EXPECT_GT(n, 10u);
+}
+
+/// Budgets from too small for anything to large enough: an error that says what is left, or the right picture.
+TEST_F(NoMemory, ABudgetIsKeptOrRefused) {
+  const Pixels expected = fresh(context(), small(12));
+  uint64_t taken = 0;
+  int refusals = 0;
+  for (uint64_t mib = 1; taken == 0; ++mib) {
+    ASSERT_LE(mib, 256u);
+    const auto device = Device::create({.validate = true, .memoryBudget = mib << 20});
+    {
+      ShaderLibrary shaders;
+      Timings timings;
+      Context own(*device, shaders, timings);
+      try {
+        EXPECT_TRUE(fresh(own, small(12)) == expected) << mib << " MiB";
+        taken = device->memory().peak();
+        EXPECT_LE(taken, mib << 20);
+      } catch (const DeviceError& error) {
+        ++refusals;
+        const std::string free = fmt::format(" of {}.0 MiB are free", mib);
+        EXPECT_NE(std::string(error.what()).find(free), std::string::npos) << error.what();
+      }
+    }
+    device->waitIdle();
+    EXPECT_EQ(device->memory().used(), 0u);
+    for (const std::string& text : device->validationMessages()) ADD_FAILURE() << mib << " MiB: " << text;
+  }
+  EXPECT_GE(refusals, 1);
 }
 
 // A device stays lost, so each loss takes one of its own.

@@ -1,7 +1,7 @@
 // Output files: whole or not at all, and readable by others.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -118,6 +118,35 @@ TEST(OutputFile, AFullDiskLeavesNothingAndKeepsTheOldFile) {
   EXPECT_TRUE(contains(message, path.string())) << message;
   EXPECT_EQ(slurp(path), "old");
   EXPECT_EQ(listing(folder.path), std::vector<std::string>{"big.bin"});
+}
+
+TEST(OutputFile, WhatAKilledRunLeavesGoesWithTheNextFile) {
+  test::TemporaryFolder folder;
+  const fs::path path = folder.path / "a.txt";
+  writeFile(path, "old");
+  const pid_t child = fork();
+  if (child == 0) {
+    OutputFile file(path);
+    file.write(std::string(100'000, 'x'));
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  const std::string leftover = fmt::format(".a.txt.{}.irad-tmp", child);
+  EXPECT_EQ(listing(folder.path), (std::vector<std::string>{leftover, "a.txt"}));
+  EXPECT_EQ(slurp(path), "old");
+
+  // What this run is still writing stays, and so does whatever else has a dot before its name.
+  writeFile(folder.path / ".hidden.irad", "x");
+  fs::create_directory(folder.path / ".folder.irad-tmp");
+  OutputFile open(folder.path / "c.txt");
+  EXPECT_FALSE(fs::exists(folder.path / leftover));
+  writeFile(folder.path / "b.txt", "b");
+  open.write("c");
+  open.commit();
+  EXPECT_EQ(listing(folder.path),
+            (std::vector<std::string>{".folder.irad-tmp", ".hidden.irad", "a.txt", "b.txt", "c.txt"}));
 }
 
 TEST(Npy, HeaderByHand) {

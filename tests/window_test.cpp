@@ -323,6 +323,19 @@ TEST_F(WindowTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, ALostDeviceEndsItWithAMessage) {
+  // In the load, and once pictures are drawn.
+  for (const char* fault : {"lost=30", "lost=400"}) {
+    start({"--inject", fault});
+    for (int i = 0; i < 400 && window_->running(); ++i) {  // something to draw until it happens
+      screen_->xdotool(fmt::format("mousemove {} 510", 360 + i % 2));
+    }
+    EXPECT_EQ(window_->wait(60), 1) << fault;
+    EXPECT_TRUE(says("irad: error: ")) << fault;
+    EXPECT_TRUE(says("the device was lost")) << fault;
+  }
+}
+
 TEST_F(WindowTest, LoadsAndRebuildsCanBeCancelled) {
   // Large enough for some seconds of work.
   const std::filesystem::path shaders = copyShaders();

@@ -148,6 +148,7 @@ Allocator::Impl::Place Allocator::Impl::allocate(const VkMemoryRequirements& nee
   }
   if (!block) {
     if (!refused) block = newBlock(type, needs.size, image, true, row.name);
+    if (!block && !refused && deviceLocal) checkRoom(row.subsystem, row.name, needs.size, deviceTaken);
     if (!block)
       throw DeviceError(fmt::format("{} ({}) needs {}: the device is out of memory ({} are in use)", row.name,
                                     toString(row.subsystem), amount(needs.size), amount(used)));
@@ -221,8 +222,12 @@ uint64_t Allocator::Impl::heapBudget() const {
 }
 
 void Allocator::Impl::check(Subsystem subsystem, const std::string& name, uint64_t bytes) const {
+  checkRoom(subsystem, name, bytes, deviceUsed);
+}
+
+void Allocator::Impl::checkRoom(Subsystem subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const {
   const uint64_t all = budget();
-  const uint64_t free = all > deviceUsed ? all - deviceUsed : 0;
+  const uint64_t free = all > gone ? all - gone : 0;
   if (bytes > free)
     throw DeviceError(fmt::format("{} ({}) needs {}, {} of {} are free", name, toString(subsystem), amount(bytes),
                                   amount(free), amount(all)));

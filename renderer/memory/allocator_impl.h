@@ -63,6 +63,7 @@ struct Allocator::Impl {
   uint32_t chooseType(uint32_t allowed, Access access, const std::string& name) const;
   Block* newBlock(uint32_t type, uint64_t size, bool images, bool dedicated, const std::string& name);
   uint64_t heapBudget() const;
+  void checkRoom(Subsystem subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const;
   bool fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset);
 };
 

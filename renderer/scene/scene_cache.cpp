@@ -3,9 +3,9 @@
 // against what a scene must be.
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <type_traits>
 
+#include "renderer/output_file.h"
 #include "renderer/scene/gltf_document.h"
 #include "renderer/scene/sha256.h"
 
@@ -153,25 +153,7 @@ void writeSceneCache(const Scene& scene, const std::filesystem::path& path) {
   Writer io;
   io(kMagic), io(kVersion);
   transferScene(io, WriteOps{io}, scene);
-  // Under a temporary name first: nothing half-written is left under the final one.
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(io.data.data(), static_cast<std::streamsize>(io.data.size()));
-    out.flush();
-    if (!out) {
-      std::filesystem::remove(temporary, error);
-      throw WorkError(fmt::format("{}: cannot be written", temporary.string()));
-    }
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    const std::string why = error.message();
-    std::filesystem::remove(temporary, error);
-    throw WorkError(fmt::format("{}: cannot be written ({})", path.string(), why));
-  }
+  writeFile(path, io.data);
 }
 
 Scene readSceneCache(const std::filesystem::path& path) {

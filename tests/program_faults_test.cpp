@@ -1,0 +1,358 @@
+// The irad program under faults, from outside: no memory, a lost device, a full disk, a folder that may not be written,
+// a kill in the middle, files of newer programs. Exit statuses of DESIGN.md, errors in words, nothing half-written.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "renderer/error.h"
+#include "renderer/scene/scene.h"
+#include "tests/support.h"
+
+extern char** environ;
+
+namespace irad::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Name -> bytes of every file in a folder; none where there is no folder.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    std::ifstream in(entry.path(), std::ios::binary);
+    out[entry.path().filename().string()] = {std::istreambuf_iterator<char>(in), {}};
+  }
+  return out;
+}
+
+bool isTemporary(const std::string& name) {
+  return name.starts_with(".") && name.ends_with(".irad-tmp");
+}
+
+std::vector<std::string> smallRender(const fs::path& out, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"render", "box",
+                                     "--out",  out.string(),
+                                     "--size", "48x48",
+                                     "--view", "lit,irradiance",
+                                     "--set",  "voxel.resolution=16",
+                                     "--set",  "matrix.rays=16",
+                                     "--set",  "light.shadow_resolution=64"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::vector<std::string> smallExport(const fs::path& out) {
+  return {"export",   "box",
+          "--out",    out.string(),
+          "--volume", "all",
+          "--matrix", "--facets",
+          "--set",    "voxel.resolution=24",
+          "--set",    "matrix.rays=16",
+          "--set",    "light.shadow_resolution=64"};
+}
+
+/// Every file under a final name has the bytes that an undisturbed run gives it; a manifest vouches for all of them.
+void expectWhole(const std::map<std::string, std::string>& files, const std::map<std::string, std::string>& reference) {
+  for (const auto& [name, bytes] : files) {
+    if (isTemporary(name)) continue;
+    ASSERT_TRUE(reference.contains(name)) << name;
+    EXPECT_TRUE(name == "timings.csv" || bytes == reference.at(name)) << name << " is not whole";
+  }
+  if (!files.contains("manifest.json")) return;
+  for (const auto& name : nlohmann::json::parse(files.at("manifest.json"))["files"])
+    EXPECT_TRUE(files.contains(name)) << name;
+}
+
+TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
+  TemporaryFolder folder;
+  const fs::path whole = folder.path / "whole";
+  ASSERT_EQ(runIrad(smallRender(whole, {"--frames", "100"})).status, 0);
+  const auto reference = contents(whole);
+  struct Case {
+    std::string fault;
+    int status;
+    std::string message;
+  };
+  // In the load, in the building, and (of 200 frames) in those of the second picture.
+  const std::vector<Case> cases{{"oom=1", 4, "(scene) needs"},          {"oom=60", 4, ") needs "},
+                                {"lost=1", 1, "the device was lost"},   {"lost=60", 1, "the device was lost"},
+                                {"lost=420", 1, "the device was lost"}, {"oom=100000", 0, ""}};
+  for (const Case& c : cases) {
+    const fs::path out = folder.path / c.fault;
+    const RunResult result = runIrad(smallRender(out, {"--inject", c.fault, "--validate", "--frames", "100"}), 120);
+    EXPECT_EQ(result.status, c.status) << c.fault << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, c.message)) << result.err;
+    const size_t first = result.err.find("irad: ");
+    EXPECT_EQ(first != std::string::npos, c.status != 0) << result.err;
+    EXPECT_EQ(first, result.err.rfind("irad: ")) << "said more than once:\n" << result.err;
+    const auto files = contents(out);
+    expectWhole(files, reference);
+    EXPECT_EQ(files.contains("manifest.json"), c.status == 0) << c.fault;
+    EXPECT_EQ(files.empty(), c.status != 0 && c.fault != "lost=420") << c.fault;
+    EXPECT_TRUE(std::none_of(files.begin(), files.end(), [](const auto& f) { return isTemporary(f.first); }))
+        << c.fault;
+  }
+}
+
+TEST(ProgramFaults, ABudgetIsAnOption) {
+  TemporaryFolder folder;
+  const RunResult tight = runIrad(smallRender(folder.path, {"--memory-budget", "1"}));
+  EXPECT_EQ(tight.status, 4) << tight.err;
+  EXPECT_TRUE(contains(tight.err, " of 1.0 MiB are free")) << tight.err;
+  const RunResult padded = runIrad(
+      smallRender(folder.path, {"--memory-budget", "5", "--set", "matrix.format=padded", "--set", "matrix.rays=512"}));
+  EXPECT_EQ(padded.status, 4) << padded.err;
+  EXPECT_TRUE(contains(padded.err, "the padded matrix of ")) << padded.err;
+  EXPECT_TRUE(contains(padded.err, "matrix.format=csr")) << padded.err;
+  const RunResult huge =
+      runIrad(smallRender(folder.path, {"--memory-budget", "512", "--set", "voxel.resolution=1022"}));
+  EXPECT_EQ(huge.status, 4) << huge.err;
+  EXPECT_TRUE(contains(huge.err, "voxel keys (voxels) needs 8192.0 MiB, 5")) << huge.err;
+  EXPECT_EQ(runIrad(smallRender(folder.path, {"--memory-budget", "64"})).status, 0);
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--memory-budget", "0"},
+                                                                                     {"--memory-budget", "much"},
+                                                                                     {"--inject", "oom"},
+                                                                                     {"--inject", "oom=0"},
+                                                                                     {"--inject", "fire=1"}})
+    EXPECT_EQ(runIrad(smallRender(folder.path, wrong)).status, 2) << wrong[0] << " " << wrong[1];
+}
+
+/// A disk of so many KiB, mounted for one run; the folder's contents when it ended.
+struct SmallDisk {
+  RunResult result;
+  std::map<std::string, std::string> files;
+};
+SmallDisk runOnSmallDisk(const fs::path& folder, int kib, std::vector<std::string> arguments) {
+  const fs::path disk = folder / "disk", copy = folder / fmt::format("copy{}", kib);
+  fs::create_directories(disk);
+  // The mount is this process tree's own and goes with it; what came to lie on it is copied out before.
+  const std::string script = fmt::format(
+      "mount -t tmpfs -o size={}k none \"$1\" || exit 99; copy=$2; disk=$1; shift 2; \"$@\"; status=$?; "
+      "cp -r \"$disk/out\" \"$copy\" 2>/dev/null; exit $status",
+      kib);
+  std::vector<std::string> words{"-m", "sh", "-c", script, "sh", disk.string(), copy.string(), IRAD_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  SmallDisk run{runProgram("/usr/bin/unshare", words, 120), {}};
+  run.files = contents(copy);
+  return run;
+}
+
+TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholeFilesOnly) {
+  TemporaryFolder folder;
+  int full = 0;
+  for (const bool exporting : {false, true}) {
+    const auto arguments = [&](const fs::path& out) { return exporting ? smallExport(out) : smallRender(out); };
+    const fs::path whole = folder.path / (exporting ? "export" : "render");
+    ASSERT_EQ(runIrad(arguments(whole)).status, 0);
+    const auto reference = contents(whole);
+    uint64_t bytes = 0;
+    for (const auto& [name, content] : reference) bytes += content.size();
+    for (const double share : {0.05, 0.4, 0.8, 1.5}) {
+      const int kib = std::max(4, static_cast<int>(share * static_cast<double>(bytes) / 1024));
+      const SmallDisk run = runOnSmallDisk(folder.path, kib, arguments(folder.path / "disk" / "out"));
+      if (run.result.status == 99 || contains(run.result.err, "unshare failed"))
+        GTEST_SKIP() << "no small disk can be mounted here: " << run.result.err;
+      EXPECT_EQ(run.result.status, share < 1 ? 1 : 0) << kib << " KiB\n" << run.result.err;
+      if (share < 1) {
+        ++full;
+        EXPECT_TRUE(contains(run.result.err, "No space left on device")) << run.result.err;
+        EXPECT_TRUE(contains(run.result.err, (folder.path / "disk" / "out").string())) << run.result.err;
+      }
+      EXPECT_EQ(run.files.contains("manifest.json"), share > 1) << kib << " KiB";
+      expectWhole(run.files, reference);
+      for (const auto& [name, content] : run.files) EXPECT_FALSE(isTemporary(name)) << name;
+      fs::remove_all(folder.path / fmt::format("copy{}", kib));
+    }
+  }
+  EXPECT_EQ(full, 6);
+}
+
+TEST(ProgramFaults, AFileSizeLimitIsStatus1) {
+  TemporaryFolder folder;
+  std::vector<std::string> words{"--fsize=20000", IRAD_BINARY};
+  const auto arguments = smallExport(folder.path / "out");
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const RunResult result = runProgram("/usr/bin/prlimit", words, 120);
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "File too large")) << result.err;
+  EXPECT_TRUE(contents(folder.path / "out").empty());
+}
+
+TEST(ProgramFaults, AFolderThatMayNotBeWrittenIsStatus1) {
+  TemporaryFolder folder;
+  fs::permissions(folder.path, fs::perms(0755));
+  const fs::path locked = folder.path / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms(0555));
+  // The superuser may write anywhere: it becomes nobody first.
+  const bool root = geteuid() == 0;
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{"--reuid=65534", "--regid=65534", "--clear-groups", IRAD_BINARY};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return root ? runProgram("/usr/bin/setpriv", words, 120) : runIrad(arguments, 120);
+  };
+  if (run({"--version"}).status != 0) GTEST_SKIP() << "another user cannot run " << IRAD_BINARY;
+  for (const auto& arguments : {smallRender(locked), smallExport(locked), smallRender(locked / "sub")}) {
+    const RunResult result = run(arguments);
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_TRUE(contains(result.err, locked.string())) << result.err;
+    EXPECT_TRUE(contains(result.err, "Permission denied")) << result.err;
+  }
+  EXPECT_TRUE(contents(locked).empty());
+}
+
+/// Starts the program, and kills it with SIGKILL as soon as `now` holds; false: it ended before.
+bool killWhen(const std::vector<std::string>& arguments, const std::function<bool()>& now) {
+  std::vector<std::string> words{IRAD_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
+  pid_t pid = 0;
+  EXPECT_EQ(posix_spawn(&pid, IRAD_BINARY, &actions, nullptr, argv.data(), environ), 0);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  while (waitpid(pid, &status, WNOHANG) == 0)
+    if (now()) {
+      kill(pid, SIGKILL);
+      waitpid(pid, &status, 0);
+      break;
+    } else {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
+/// Killed once k files have their final names and a random moment has passed, for k = 0, step, 2 step...; the next run
+/// finds what is left.
+void killThroughout(size_t step, const std::function<std::vector<std::string>(const fs::path&)>& arguments) {
+  TemporaryFolder folder;
+  const fs::path whole = folder.path / "whole", out = folder.path / "out";
+  ASSERT_EQ(runIrad(arguments(whole)).status, 0);
+  const auto reference = contents(whole);
+  fs::create_directory(out);
+  std::mt19937 random(1);
+  size_t leftovers = 0, killed = 0;
+  size_t runs = 0;
+  for (size_t k = 0; k < reference.size(); k += step, ++runs) {
+    for (const auto& [name, bytes] : reference) fs::remove(out / name);
+    const bool hit = killWhen(arguments(out), [&] {
+      size_t finals = 0, all = 0;
+      for (const auto& entry : fs::directory_iterator(out)) {
+        ++all;
+        finals += !isTemporary(entry.path().filename().string());
+      }
+      if (all == 0 || finals < k) return false;
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % 1000));
+      return true;
+    });
+    const auto files = contents(out);
+    expectWhole(files, reference);
+    killed += hit;
+    const auto temporary =
+        std::count_if(files.begin(), files.end(), [](const auto& file) { return isTemporary(file.first); });
+    EXPECT_LE(temporary, hit ? 2 : 0) << "what earlier runs had left is still there";  // the matrix has two at once
+    leftovers += static_cast<size_t>(temporary);
+  }
+  std::printf("%zu of %zu runs killed, %zu temporary files left\n", killed, runs, leftovers);
+  EXPECT_GE(killed, runs / 2);
+  // A killed run of other files leaves its temporaries to be removed, too.
+  std::ofstream(out / ".another.exr.1.irad-tmp") << "half";
+  ASSERT_EQ(runIrad(arguments(out)).status, 0);
+  const auto files = contents(out);
+  expectWhole(files, reference);
+  EXPECT_EQ(files.size(), reference.size());
+  EXPECT_TRUE(files.contains("manifest.json"));
+}
+
+TEST(ProgramFaults, KilledWhileExportingLeavesWholeFilesOnly) {
+  killThroughout(2, smallExport);
+}
+
+TEST(ProgramFaults, KilledWhileRenderingLeavesWholeFilesOnly) {
+  killThroughout(1, [](const fs::path& out) { return smallRender(out); });
+}
+
+TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
+  // It vouched for files that are partly another run's now.
+  TemporaryFolder folder;
+  ASSERT_EQ(runIrad(smallRender(folder.path)).status, 0);
+  const RunResult failed = runIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=250"}));
+  ASSERT_EQ(failed.status, 1) << failed.err;
+  EXPECT_FALSE(fs::exists(folder.path / "manifest.json"));
+}
+
+// ---- Files of newer programs ----------------------------------------------------------------------------------------
+
+TEST(NewerFiles, SettingsAndManifestsAreStatus3AndSayWhatIsUnknown) {
+  TemporaryFolder folder;
+  const auto run = [&](const char* text, std::vector<std::string> arguments = {"settings"}) {
+    const std::string path = (folder.path / "f.json").string();
+    std::ofstream(path) << text;
+    arguments.insert(arguments.end(), {"--config", path});
+    return runIrad(arguments);
+  };
+  for (
+      const char* newer :
+      {R"({"format": 2, "voxel.resolution": 32, "matrix.wavelengths": 7, "sky.turbidity": 3})",
+       R"({"format": 2, "scene": 5, "settings": {"voxel.resolution": 32, "matrix.wavelengths": 7, "sky.turbidity": 3}})"}) {
+    const RunResult result = run(newer);
+    EXPECT_EQ(result.status, 3) << result.err;
+    EXPECT_TRUE(contains(result.err, "f.json: is of format 2")) << result.err;
+    EXPECT_TRUE(
+        contains(result.err, "reads up to format 1; settings it does not know: matrix.wavelengths, sky.turbidity"))
+        << result.err;
+  }
+  const RunResult known = run(R"({"format": 3, "voxel.resolution": 32})");
+  EXPECT_EQ(known.status, 3) << "what it knows may mean something else";
+  EXPECT_TRUE(contains(known.err, "format 3")) << known.err;
+  EXPECT_EQ(run(R"({"format": "new"})").status, 3);
+  EXPECT_EQ(run(R"({"format": -1})").status, 3);
+
+  // Of this format, and from before there was one.
+  EXPECT_EQ(run(R"({"format": 1, "voxel.resolution": 32})").status, 0);
+  EXPECT_EQ(run(R"({"voxel.resolution": 32})").status, 0);
+  EXPECT_EQ(run(R"({"settings": {"voxel.resolution": 32}})").status, 0);
+  EXPECT_EQ(nlohmann::json::parse(runIrad({"settings", "--values"}).out)["format"], 1);
+}
+
+TEST(NewerFiles, SceneCachesAreInputErrors) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path / "box.irscene";
+  writeSceneCache(loadScene(assets() / "box.glb"), path);
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(8);  // behind the magic: uint32 version
+  file.put(2);
+  file.close();
+  try {
+    loadScene(path);
+    FAIL() << "a cache of version 2 is read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.exitStatus, 3);
+    EXPECT_TRUE(contains(error.what(), "version 2; this program reads 1")) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace irad::test
