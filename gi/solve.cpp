@@ -122,7 +122,8 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     report.growth = guard.growth;
     report.damped = guard.damped;
     report.diverging = guard.gaveUp;
-    batch = report.largestGain >= 1 ? 1 : longest;  // where it may grow, every sweep is watched
+    // Where light may grow it is looked at often, and while it grows after every sweep.
+    batch = report.largestGain < 1 ? longest : guard.growing > 0 || guard.damped ? 1 : std::min(4u, longest);
 
     if (residual.maxSource != 0) {
       light.litH = report.largestH;

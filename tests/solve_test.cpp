@@ -321,6 +321,7 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
   upload(context(), light.indirect, std::as_bytes(std::span(h)));
   upload(context(), light.emitted, std::as_bytes(std::span(h)));
   addVolume(context(), facets, light);
+  light.report.clampedVoxels = 77;  // of a run before
   const auto run = [&] {
     Frame frame = context().begin();
     scatter(frame, facets, light, settings);
@@ -336,6 +337,7 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
         EXPECT_FLOAT_EQ(emitted[i][c], h[i][c]) << i;
       }
   }
+  EXPECT_EQ(light.report.clampedVoxels, 0u);
   // One bright facet on the lower step reaches its 3 x 3 neighbours with the tent's weights: 4, 2, 1 of 16.
   const size_t bright = 4 * 12 + 1;  // z = 8, x = 5: rows of 4 lower facets and 8 of the upper step
   ASSERT_EQ(voxel[bright], packVoxel({5, 5, 8}));
@@ -353,8 +355,10 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
 
   // The volume: first facet of each voxel, alpha 1 exactly where solid, clamped to what fp16 holds.
   h[0] = glm::vec4(1e6f, -1, 0.333f, 0);
+  h[1].z = 65504.0f;  // just held
   upload(context(), light.indirect, std::as_bytes(std::span(h)));
   run();
+  EXPECT_EQ(light.report.clampedVoxels, 1u);
   const std::vector<std::byte> bytes = download(context(), light.volume);
   std::vector<uint64_t> texels(grid.voxels);
   ASSERT_EQ(bytes.size(), texels.size() * 8);

@@ -7,6 +7,7 @@
 #include "gi/pipeline.h"
 #include "shaders/shared/energy.h"
 #include "tests/gi_fixture.h"
+#include "tests/scene_files.h"
 
 namespace irad::test {
 namespace {
@@ -350,6 +351,38 @@ TEST(WatchedCommands, DivergenceEndsWithStatusOne) {
   EXPECT_EQ(r.status, 1);
   EXPECT_NE(r.err.find("numerical watch: GI Solve"), std::string::npos) << r.err;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path / "arrays"));
+}
+
+TEST(WatchedCommands, InfiniteLightIsNamedAndPictured) {
+  const TemporaryFolder folder;
+  // The brightest lamp that a file may hold, candela, half a nanometre before the triangle: beyond fp32.
+  GltfFile file;
+  file.attributes()["POSITION"] = file.vec3({0, 0, 0, 1e-9f, 0, 0, 0, 1e-9f, 0});
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"color", {1e12, 1e12, 1e12}}, {"intensity", 1e12}}};
+  file.json["nodes"].push_back(
+      {{"translation", {2.5e-10, 2.5e-10, 5e-10}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  const std::string scene = file.write(folder.path);
+  const std::vector<std::string> quick{
+      "--set",
+      "voxel.resolution=16",
+      "--set",
+      "matrix.rays=16",
+      "--size",
+      "24x24",
+      "--camera",
+      R"({"position": [2.5e-10, 2.5e-10, 2e-9], "target": [2.5e-10, 2.5e-10, 0], "znear": 1e-10, "zfar": 1e-8})"};
+  std::vector<std::string> arguments{"render", scene, "--out", folder.path / "out"};
+  arguments.insert(arguments.end(), quick.begin(), quick.end());
+  const RunResult r = runIrad(arguments);
+  EXPECT_EQ(r.status, 1) << r.err;
+  EXPECT_NE(r.err.find("numerical watch: GI Gather, frame 0: direct irradiance of facet "), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("is infinite"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("numerical watch: picture lit: "), std::string::npos) << r.err;
+  for (const char* name : {"lit.png", "lit.exr", "manifest.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path / "out" / name)) << name;
 }
 
 }  // namespace
