@@ -31,8 +31,10 @@ class Pipeline {
   /// `from` and the stages after it run again at the next prepare(): repeated measurements.
   void invalidate(Redo from);
 
-  /// Runs what is dirty up to the scatter: blocking. The old state stays usable when it throws or is cancelled.
-  /// `maxSweeps` 0: settings.solver.maxSweeps.
+  /// Runs what is dirty up to the scatter: blocking. When it throws or is cancelled pictures are drawn from the old
+  /// state, and the next prepare() does the rest. Of the old state a rebuild of the facets gives up the matrix, for its
+  /// memory (its views are empty then); a relight that fails leaves the light as far as it came. `maxSweeps` 0:
+  /// settings.solver.maxSweeps.
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
   /// True when nothing is dirty and the solver is done: its bound is below the tolerance, or the watch stopped it.
   bool asleep() const;
@@ -44,7 +46,7 @@ class Pipeline {
 
   const FacetList& facets() const;
   const Field& field() const;
-  const FormFactors& matrix() const;
+  const FormFactors& matrix() const;  ///< after a prepare() that succeeded
   const Lighting& lighting() const;
   const ShadowMaps& shadows() const;
 
