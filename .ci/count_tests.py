@@ -1,7 +1,8 @@
-"""count_tests.py FOLDER STATUS < list of suites (ctest --show-only=json-v1): sums the GoogleTest XML files of FOLDER.
+"""count_tests.py STATUS FOLDER…: sums the GoogleTest XML files of folders; suites.json there (ctest --show-only=json-v1)
+says which suites must have left one.
 
 Prints the failed tests, then one line `N passed, N failed[, N skipped]`. Exits with 1 on a failed test, on no test at
-all, on a suite that left no results (it crashed or ran out of time), and where ctest's own STATUS is not 0.
+all, on a suite that left no results (it crashed or ran out of time), and where STATUS, of all that ran, is not 0.
 """
 
 import json
@@ -11,27 +12,27 @@ from pathlib import Path
 
 
 def main():
-    folder, status = Path(sys.argv[1]), int(sys.argv[2])
+    status, folders = int(sys.argv[1]), [Path(name) for name in sys.argv[2:]]
     passed = failed = skipped = 0
-    for suite in [test["name"] for test in json.load(sys.stdin)["tests"]]:
+    for folder, suite in [(f, t["name"]) for f in folders for t in json.loads((f / "suites.json").read_text())["tests"]]:
         try:
             cases = list(xml.parse(folder / f"{suite}.xml").iter("testcase"))
         except (OSError, xml.ParseError) as error:
             cases = []
-            print(f"{suite}: no results ({error})")
+            print(f"{folder.parent.name}: {suite}: no results ({error})")
         if not cases:
-            print(f"{suite}: FAILED, not one test ran")
+            print(f"{folder.parent.name}: {suite}: FAILED, not one test ran")
             failed += 1
         for case in cases:
             if case.find("failure") is not None or case.find("error") is not None:
-                print(f"{suite}: FAILED {case.get('classname')}.{case.get('name')}")
+                print(f"{folder.parent.name}: {suite}: FAILED {case.get('classname')}.{case.get('name')}")
                 failed += 1
             elif case.get("status") == "notrun" or case.get("result") in ("skipped", "suppressed"):
                 skipped += 1
             else:
                 passed += 1
     if status != 0 and failed == 0:
-        print(f"ctest ended with status {status} although no test reported a failure")
+        print(f"a step ended with status {status} although no test reported a failure")
         failed += 1
     if passed + failed == 0:
         print("no test ran")

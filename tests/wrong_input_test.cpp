@@ -2,10 +2,12 @@
 // promises. (The fuzzer's seeds: fuzz_seeds_test.)
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "app/arguments.h"
 #include "app/camera_json.h"
 #include "renderer/json_extent.h"
+#include "renderer/scene/image_header.h"
 #include "tests/scene_files.h"
 
 namespace irad::test {
@@ -83,6 +85,54 @@ TEST(Manifest, ASceneWithAnImpossibleNameIsNoSuchFile) {
   app::Config config;
   const std::string text = refusal([&] { app::findScene(std::string(10000, 'x') + ".glb", config, std::nullopt); });
   EXPECT_NE(text.find("no such file"), std::string::npos) << text;
+}
+
+/// A PNG's first 29 bytes.
+std::vector<uint8_t> pngHeader(uint32_t width, uint32_t height, uint8_t depth, uint8_t interlaced) {
+  std::vector<uint8_t> out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
+  for (const uint32_t value : {width, height})
+    for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<uint8_t>(value >> shift));
+  out.insert(out.end(), {depth, 6, 0, 0, interlaced});
+  return out;
+}
+
+TEST(ImageHeader, StatesSizeAndCostByFormat) {
+  const std::filesystem::path seeds = IRAD_SOURCE_DIR "/tests/fuzz/seeds/image";
+  const std::map<std::string, std::tuple<std::string, uint32_t, uint32_t>> want{
+      {"grey.png", {"png", 5, 3}},  {"rgba.png", {"png", 7, 3}},   {"grey.jpg", {"jpeg", 9, 5}},
+      {"rgb.jpg", {"jpeg", 17, 9}}, {"rgb.webp", {"webp", 4, 12}}, {"rgba.webp", {"webp", 8, 12}}};
+  for (const auto& [name, expected] : want) {
+    std::ifstream in(seeds / name, std::ios::binary);
+    const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), {});
+    const std::optional<ImageHeader> header = readImageHeader(bytes);
+    ASSERT_TRUE(header) << name;
+    const auto& [format, side, scratch] = expected;
+    EXPECT_EQ(header->format, format) << name;
+    EXPECT_EQ(header->width, side) << name;
+    EXPECT_EQ(header->height, side) << name;
+    EXPECT_EQ(header->scratch, scratch) << name;
+    for (size_t length = 0; length < std::min<size_t>(bytes.size(), 29); ++length)
+      EXPECT_FALSE(readImageHeader(std::span(bytes).first(length))) << name << " " << length;
+  }
+  EXPECT_EQ(readImageHeader(pngHeader(300, 20, 16, 1))->scratch, 11u);
+  EXPECT_EQ(imageTooLarge(*readImageHeader(pngHeader(8192, 8192, 8, 0))), "");
+  EXPECT_NE(imageTooLarge(*readImageHeader(pngHeader(0, 4, 8, 0))), "");
+  EXPECT_NE(imageTooLarge(*readImageHeader(pngHeader(16385, 4, 8, 0))), "");
+  EXPECT_NE(imageTooLarge(*readImageHeader(pngHeader(16384, 16384, 16, 1))), "");
+}
+
+TEST(ImageHeader, AnImageThatStatesGigabytesIsPinkAndTakesNone) {
+  TemporaryFolder folder;
+  const std::vector<uint8_t> png = pngHeader(16384, 16384, 16, 1);
+  std::ofstream(folder.path / "huge.png", std::ios::binary).write(reinterpret_cast<const char*>(png.data()), 29);
+  GltfFile file = triangleFile();
+  file.json["images"] = {{{"uri", "huge.png"}}};
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  file.primitive()["material"] = 0;
+  const Scene s = loadScene(file.write(folder.path));
+  EXPECT_EQ(s.images.at(0).width, 8u);
+  EXPECT_TRUE(warns(s, "16384 x 16384 pixels and needs 2816 MiB to decode; 600 MiB are accepted"));
 }
 
 TEST(Gltf, LightsCamerasAndLensesBeyondFp32AreRefused) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "renderer/error.h"
+#include "renderer/scene/image_header.h"
 #include "renderer/scene/scene.h"
 
 namespace irad::gltf {
@@ -24,9 +25,10 @@ using Bytes = std::vector<uint8_t>;
 using ByteSpan = std::span<const uint8_t>;
 
 constexpr uint64_t kMaxTriangles = 1u << 24;
-constexpr uint64_t kMemoryBudget = 1400ull << 20;  ///< bytes of all that one load holds at a time
-constexpr uint64_t kMaxImageBytes = 1ull << 30;    ///< decoded, all images together
-constexpr uint32_t kMaxImageExtent = 16384;        ///< pixels per side
+constexpr uint64_t kMemoryBudget = 1400ull << 20;    ///< bytes of all that one load holds at a time
+constexpr uint64_t kMaxImageBytes = 1ull << 30;      ///< decoded, all images together
+constexpr uint64_t kMaxImageScratch = 600ull << 20;  ///< beside them while decoding, all images in progress together
+constexpr uint32_t kMaxImageExtent = 16384;          ///< pixels per side
 constexpr double kMaxLightOrEmission = 1e12;
 
 /// The bytes of a bufferView; `present` is false where its buffer is a placeholder without data.
@@ -163,7 +165,8 @@ struct DecodeResult {
   bool ok = false;
   std::string why;
 };
-DecodeResult decodeImage(std::span<const uint8_t> bytes, uint64_t maxBytes, SceneImage& out);
+/// `header` is that of the bytes, and not too large.
+DecodeResult decodeImage(std::span<const uint8_t> bytes, const ImageHeader& header, SceneImage& out);
 
 // defaults.cpp
 void addDefaults(Scene& scene);

@@ -1,5 +1,7 @@
 // Images: found, read, decoded in parallel. What cannot be had becomes pink, with a warning that names it.
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -14,7 +16,30 @@ struct Job {
   std::string name, problem;
   Bytes data;
   ByteSpan bytes;
+  ImageHeader header;
   SceneImage image;
+};
+
+/// Memory for decoding, shared by the threads: who needs more than is left waits for the others.
+class Scratch {
+ public:
+  void take(uint64_t bytes) {
+    std::unique_lock lock(mutex_);
+    freed_.wait(lock, [&] { return left_ >= bytes; });
+    left_ -= bytes;
+  }
+  void give(uint64_t bytes) {
+    {
+      const std::lock_guard lock(mutex_);
+      left_ += bytes;
+    }
+    freed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable freed_;
+  uint64_t left_ = kMaxImageScratch;
 };
 
 /// The encoded bytes of an image: bufferView, data URI or a file beside the scene.
@@ -48,6 +73,32 @@ void locate(Document& doc, int source, Job& job) {
   if (job.name.empty()) job.name = fmt::format("image {}", source);
 }
 
+/// Whether the image may be decoded, by what its first bytes state; `total` sums the results of those that may.
+void measure(Job& job, uint64_t& total) {
+  if (!job.problem.empty()) return;
+  const std::optional<ImageHeader> header = readImageHeader(job.bytes);
+  job.problem = header ? imageTooLarge(*header) : "is neither PNG, JPEG nor WebP";
+  if (!job.problem.empty()) return;
+  if (total + header->resultBytes() > kMaxImageBytes) {
+    job.problem = fmt::format("needs {} MiB, more than is left for images", header->resultBytes() >> 20);
+  } else {
+    job.header = *header;
+    total += header->resultBytes();
+  }
+}
+
+void decode(Job& job, Scratch& scratch) {
+  if (!job.problem.empty()) return;
+  scratch.take(job.header.scratchBytes());
+  try {
+    const DecodeResult result = decodeImage(job.bytes, job.header, job.image);
+    if (!result.ok) job.problem = result.why;
+  } catch (const std::exception& error) {
+    job.problem = error.what();
+  }
+  scratch.give(job.header.scratchBytes());
+}
+
 SceneImage pink() {
   SceneImage image;
   image.width = image.height = 8;
@@ -67,23 +118,14 @@ void loadImages(Document& doc, const std::vector<ImageRequest>& requests, const 
     if (found == sources.end()) sources.push_back(request.source);
   }
   std::vector<Job> jobs(sources.size());
-  for (size_t j = 0; j < jobs.size(); ++j) locate(doc, sources[j], jobs[j]);
+  uint64_t total = 0;
+  for (size_t j = 0; j < jobs.size(); ++j) locate(doc, sources[j], jobs[j]), measure(jobs[j], total);
+  for (const size_t j : jobOf) doc.take(jobs[j].header.resultBytes(), "images");
 
   std::atomic<size_t> next = 0;
-  std::atomic<uint64_t> decoded = 0;
+  Scratch scratch;
   const auto work = [&] {
-    for (size_t j = next++; j < jobs.size(); j = next++) {
-      if (!jobs[j].problem.empty()) continue;
-      try {
-        const uint64_t used = decoded;
-        const DecodeResult result =
-            decodeImage(jobs[j].bytes, used < kMaxImageBytes ? kMaxImageBytes - used : 0, jobs[j].image);
-        if (!result.ok) jobs[j].problem = result.why;
-        decoded += jobs[j].image.rgba.size();
-      } catch (const std::exception& error) {
-        jobs[j].problem = error.what();
-      }
-    }
+    for (size_t j = next++; j < jobs.size(); j = next++) decode(jobs[j], scratch);
   };
   const size_t threadCount = std::min<size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
   {
@@ -97,13 +139,14 @@ void loadImages(Document& doc, const std::vector<ImageRequest>& requests, const 
   for (const size_t j : jobOf) ++uses[j];
   for (size_t i = 0; i < requests.size(); ++i) {
     Job& job = jobs[jobOf[i]];
-    if (!job.problem.empty())
+    if (!job.problem.empty()) {
+      doc.release(job.header.resultBytes());
       doc.warn(fmt::format("{}: {}{}; pink stands in for it", requests[i].user,
                            job.name.empty() ? "" : "image \"" + job.name + "\" ", job.problem));
+    }
     SceneImage image = !job.problem.empty() ? pink() : --uses[jobOf[i]] == 0 ? std::move(job.image) : job.image;
     image.name = job.name;
     image.srgb = requests[i].srgb;
-    doc.take(image.rgba.size(), "images");
     scene.images.push_back(std::move(image));
   }
 }

@@ -4,7 +4,7 @@
 #ifndef IRAD_OIIO
 namespace irad {
 
-DecodeResult decodeImage(std::span<const uint8_t>, uint64_t, SceneImage&) {
+DecodeResult decodeImage(std::span<const uint8_t>, const ImageHeader&, SceneImage&) {
   return {false, "this build has no image decoder (use an .irscene cache written by the full build)"};
 }
 

@@ -3,7 +3,6 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cstring>
 #include <fstream>
 #include <mutex>
 
@@ -11,17 +10,6 @@
 
 namespace irad {
 namespace {
-
-/// The format by its first bytes: a file's MIME type and name may lie.
-const char* sniff(std::span<const uint8_t> bytes) {
-  const auto starts = [&](size_t at, std::string_view magic) {
-    return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
-  };
-  if (starts(0, "\x89PNG\r\n\x1a\n")) return "png";
-  if (starts(0, "\xff\xd8\xff")) return "jpeg";
-  if (starts(0, "RIFF") && starts(8, "WEBP")) return "webp";
-  return nullptr;
-}
 
 /// OpenImageIO's WebP reader opens files only.
 struct TemporaryFile {
@@ -39,16 +27,14 @@ struct TemporaryFile {
 
 }  // namespace
 
-DecodeResult decodeImage(std::span<const uint8_t> bytes, uint64_t maxBytes, SceneImage& out) {
-  const char* format = sniff(bytes);
-  if (format == nullptr) return {false, "is neither PNG, JPEG nor WebP"};
-  auto input = OIIO::ImageInput::create(format);
-  if (!input) return {false, fmt::format("cannot be read: OpenImageIO has no {} reader", format)};
+DecodeResult decodeImage(std::span<const uint8_t> bytes, const ImageHeader& header, SceneImage& out) {
+  auto input = OIIO::ImageInput::create(header.format);
+  if (!input) return {false, fmt::format("cannot be read: OpenImageIO has no {} reader", header.format)};
   OIIO::Filesystem::IOMemReader memory(const_cast<uint8_t*>(bytes.data()), bytes.size());
   OIIO::ImageSpec config, spec;
   config.attribute("oiio:UnassociatedAlpha", 1);
   std::unique_ptr<TemporaryFile> file;
-  std::string name = std::string("memory.") + format;
+  std::string name = std::string("memory.") + header.format;
   if (input->supports("ioproxy")) {
     void* proxy = &memory;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
@@ -63,13 +49,11 @@ DecodeResult decodeImage(std::span<const uint8_t> bytes, uint64_t maxBytes, Scen
     const std::lock_guard lock(opening);
     if (!input->open(name, spec, config)) return problem();
   }
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
-      spec.width > static_cast<int>(gltf::kMaxImageExtent) || spec.height > static_cast<int>(gltf::kMaxImageExtent))
-    return {false, fmt::format("is {} x {} pixels; at most {} a side are accepted", spec.width, spec.height,
-                               gltf::kMaxImageExtent)};
+  if (spec.width != static_cast<int>(header.width) || spec.height != static_cast<int>(header.height) ||
+      spec.depth > 1 || spec.nchannels < 1)
+    return {false, fmt::format("states {} x {} pixels, but holds {} x {} x {} of {} channels", header.width,
+                               header.height, spec.width, spec.height, spec.depth, spec.nchannels)};
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-  if (pixels * 4 > maxBytes)
-    return {false, fmt::format("needs {} MiB, more than is left for images", pixels * 4 >> 20)};
   const int channels = std::min(spec.nchannels, 4);
   std::vector<uint8_t> raw(pixels * static_cast<uint64_t>(channels));
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data())) return problem();

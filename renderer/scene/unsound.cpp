@@ -22,8 +22,8 @@ bool unit(const Vector& v) {
   return std::abs(glm::length(v) - 1.0f) < 1e-4f;
 }
 template <class Vector>
-bool position(const Vector& v) {
-  return within(v, -kMaxCoordinate, kMaxCoordinate);
+bool position(const Vector& v, double limit = kMaxCoordinate) {
+  return within(v, -limit, limit);
 }
 bool brightness(double value) {
   return value >= 0.0 && value <= static_cast<float>(gltf::kMaxLightOrEmission);
@@ -96,8 +96,8 @@ std::string ofCameras(const Scene& s) {
   if (s.cameras.empty()) return "no camera";
   for (const Camera& c : s.cameras) {
     const bool lens = c.orthographic ? c.ymag > 0.0f && std::isfinite(c.ymag) : c.yfov > 0.0f && c.yfov < 3.1416f;
-    if (!position(c.position) || !unit(c.orientation) || !lens ||
-        !within(glm::vec3(c.aspect, c.znear, c.zfar), 0.0, 1e30))
+    if (!position(c.position, /*a fitted one stands beyond the bounds:*/ 10.0 * kMaxCoordinate) ||
+        !unit(c.orientation) || !lens || !within(glm::vec3(c.aspect, c.znear, c.zfar), 0.0, 1e30))
       return fmt::format("camera \"{}\" is out of range", c.name);
   }
   return "";
