@@ -95,7 +95,7 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
       vec2 high = vec2(x + 1u == pcf ? f.x : 1.0, y + 1u == pcf ? f.y : 1.0);
       sum += dot(blocked, vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y));
     }
-  return 1.0 - sum / float(pcf * pcf);
+  return max(1.0 - sum / float(pcf * pcf), 0.0);  // rounding may take the share above 1
 }
 
 float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
@@ -119,7 +119,7 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
       float depth = light.shadowNear / max(at.x, max(at.y, at.z));
       sum += texture(shadowCubes, vec4(tap, float(light.shadowLayer)), clamp(depth, 1e-30, 1.0));
     }
-  return 1.0 - sum / float(pcf * pcf);
+  return max(1.0 - sum / float(pcf * pcf), 0.0);  // rounding may take the share above 1
 }
 
 /// Share of the light that reaches a point of a surface, 0..1: pcf x pcf bilinear comparisons one texel apart. The point
