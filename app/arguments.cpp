@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "app/camera_json.h"
+#include "gi/check/check.h"
 #include "gi/near_match.h"
 #include "renderer/error.h"
 
@@ -183,6 +184,10 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
   if (!wanted)
     throw UsageError(
         fmt::format("no scene given: a .gltf or .glb file, or one of: {}", fmt::join(builtInScenes(), ", ")));
+  if (isCheckScene(*wanted)) {
+    (void)findCheckCase(wanted->substr(wanted->find(':') + 1));
+    return *wanted;
+  }
   std::error_code ignored;  // a name that is no path at all does not exist either
   if (fs::exists(*wanted, ignored)) return *wanted;
   if (fs::path(*wanted).filename() == *wanted && !fs::path(*wanted).has_extension())

@@ -21,6 +21,8 @@ class Options {
                       const std::string& help) = 0;
   /// The bare argument, which may be absent.
   virtual void argument(const std::string& name, std::optional<std::string>& value, const std::string& help) = 0;
+  /// Any number of bare arguments.
+  virtual void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) = 0;
 };
 
 struct Command {
@@ -31,6 +33,7 @@ struct Command {
 
 Command renderCommand();
 Command benchCommand();
+Command checkCommand();
 Command exportCommand();
 Command settingsCommand();
 Command viewCommand();  ///< in builds with IRAD_UI

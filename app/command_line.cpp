@@ -34,6 +34,9 @@ class CliOptions : public Options {
   void argument(const std::string& name, std::optional<std::string>& value, const std::string& help) override {
     app_.add_option(name, value, help)->type_name("");
   }
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) override {
+    app_.add_option(name, values, help)->type_name("");
+  }
 
  private:
   CLI::App& app_;

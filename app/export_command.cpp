@@ -6,6 +6,7 @@
 #include "app/devices.h"
 #include "app/manifest.h"
 #include "app/session.h"
+#include "gi/check/check.h"
 #include "gi/export.h"
 #include "gi/near_match.h"
 #include "gi/pipeline.h"
@@ -110,7 +111,7 @@ void run(const Arguments& arguments) {
     const Settings settings = arguments.settings.resolve(config, /*cpuDevice=*/true);
     LoadOptions options;
     options.lambertian = settings.lambertian;
-    writeSceneCache(loadScene(scenePath, options), *arguments.cache);
+    writeSceneCache(openScene(scenePath, options), *arguments.cache);
     fmt::print("wrote       {}\n", *arguments.cache);
   }
   if (arrays) exportArrays(arguments, volumes, scenePath);

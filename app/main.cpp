@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
 #endif
                         renderCommand(),
                         benchCommand(),
+                        checkCommand(),
                         exportCommand(),
                         settingsCommand(),
                         viewsCommand(),

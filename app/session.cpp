@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "gi/check/check.h"
 #include "gi/sizes.h"
 #include "renderer/error.h"
 
@@ -20,7 +21,7 @@ Scene Session::load(const std::filesystem::path& path) {
   LoadOptions options;
   options.lambertian = settings.lambertian;
   options.progress = [this](float fraction, const char* step) { progress(step, fraction); };
-  Scene scene = loadScene(path, options);
+  Scene scene = openScene(path, options);
   for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
   if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
     progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),

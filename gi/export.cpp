@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/host_matrix.h"
 #include "renderer/error.h"
 #include "renderer/output_file.h"
 #include "shaders/shared/normals.h"
@@ -70,59 +71,6 @@ std::span<const float> floats(const std::vector<glm::vec3>& values) {
   return {reinterpret_cast<const float*>(values.data()), values.size() * 3};
 }
 
-/// One row of the matrix in host memory: columns ascending, each once.
-struct HostRow {
-  std::vector<int32_t> columns;
-  std::vector<float> weights;
-};
-
-HostRow readRow(const FormFactors& matrix, const MatrixArrays& arrays, const std::vector<uint32_t>& segment,
-                uint32_t start, glm::uvec2 info) {
-  HostRow row;
-  const uint32_t count = rowEntries(info);
-  if (matrix.format == MatrixFormat::csr) {
-    const float weight = std::bit_cast<float>(info.y);
-    for (uint32_t i = 0; i < count; ++i) {
-      const uint32_t entry = segment.at(size_t{start} + i);
-      row.columns.push_back(static_cast<int32_t>(entry & ((1u << arrays.columnBits) - 1u)));
-      row.weights.push_back(static_cast<float>(entry >> arrays.columnBits) * weight);
-    }
-    return row;
-  }
-  std::vector<std::pair<uint32_t, float>> places;
-  for (uint32_t i = 0; i < count; ++i) {
-    const size_t place = 2 * (size_t{start} + i);
-    places.emplace_back(segment.at(place), std::bit_cast<float>(segment.at(place + 1)));
-  }
-  std::sort(places.begin(), places.end());
-  for (const auto& [column, weight] : places) {
-    if (!row.columns.empty() && row.columns.back() == static_cast<int32_t>(column)) {
-      row.weights.back() += weight;
-    } else {
-      row.columns.push_back(static_cast<int32_t>(column));
-      row.weights.push_back(weight);
-    }
-  }
-  return row;
-}
-
-/// Calls f(row) for every row, in order; one segment in memory at a time.
-template <class F>
-void forEachRow(Context& context, const FormFactors& matrix, F&& f) {
-  const MatrixArrays arrays = downloadAs<MatrixArrays>(context, matrix.record).at(0);
-  const std::vector<glm::uvec2> info = downloadAs<glm::uvec2>(context, matrix.rowInfo);
-  std::vector<uint32_t> starts;
-  if (matrix.format == MatrixFormat::csr) starts = downloadAs<uint32_t>(context, matrix.rowStart);
-  std::vector<uint32_t> segment;
-  uint32_t held = UINT32_MAX;
-  for (uint32_t r = 0; r < matrix.rows; ++r) {
-    const uint32_t wanted = r >> arrays.segmentShift;
-    if (wanted != held) segment = downloadAs<uint32_t>(context, matrix.segments.at(held = wanted));
-    const uint32_t within = r & ((1u << arrays.segmentShift) - 1u);
-    f(readRow(matrix, arrays, segment, starts.empty() ? within * arrays.stride : starts[r], info[r]));
-  }
-}
-
 }  // namespace
 
 fs::path exportVolume(Context& context, Volume volume, const FacetList& facets, const Field& field,
@@ -160,14 +108,18 @@ fs::path exportVolume(Context& context, Volume volume, const FacetList& facets, 
 std::vector<fs::path> exportMatrix(Context& context, const FormFactors& matrix, const fs::path& folder) {
   // Merged sizes first: a padded row counts its hits, not its distinct columns.
   std::vector<int64_t> indptr{0};
-  forEachRow(context, matrix,
-             [&](const HostRow& row) { indptr.push_back(indptr.back() + static_cast<int64_t>(row.columns.size())); });
+  forEachRow(context, matrix, [&](uint32_t, const HostRow& row) {
+    indptr.push_back(indptr.back() + static_cast<int64_t>(merged(row).columns.size()));
+  });
   const auto entries = static_cast<uint64_t>(indptr.back());
   NpyFile<int32_t> indices(folder / "indices.npy", {entries});
   NpyFile<float> data(folder / "data.npy", {entries});
-  forEachRow(context, matrix, [&](const HostRow& row) {
-    indices.write(row.columns);
-    data.write(row.weights);
+  forEachRow(context, matrix, [&](uint32_t, const HostRow& stored) {
+    const HostRow row = merged(stored);
+    std::vector<float> weights;
+    for (const uint32_t hits : row.hits) weights.push_back(static_cast<float>(hits) * row.weight);
+    indices.write(std::vector<int32_t>(row.columns.begin(), row.columns.end()));
+    data.write(weights);
   });
   writeNpy<int64_t>(folder / "indptr.npy", {indptr.size()}, indptr);
   indices.commit();

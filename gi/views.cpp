@@ -27,7 +27,7 @@ constexpr bool toneMapped(uint32_t kind) {
 
 /// Views that are drawn on the voxels by their own shader.
 bool onVoxels(View view) {
-  return view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS;
+  return (view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS) || view == VIEW_REFERENCE;
 }
 
 }  // namespace
@@ -108,7 +108,12 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
     push.chebyshev = inputs.field->chebyshev.address;
     pass.read(inputs.field->chebyshev);
   }
-  if (inputs.lighting != nullptr) {
+  if (view == VIEW_REFERENCE) {
+    if (inputs.reference != nullptr) {
+      push.values = inputs.reference->address;
+      pass.read(*inputs.reference);
+    }
+  } else if (inputs.lighting != nullptr) {
     const Buffer& values = view == VIEW_RADIOSITY ? inputs.lighting->radiosity : inputs.lighting->indirect;
     push.values = values.address;
     pass.read(values);

@@ -21,7 +21,7 @@ struct ViewInfo {
   const char* unit;   ///< "" where there is none
   bool scalar;        ///< drawn through a colour map with a range
   float rangeMin, rangeMax;
-  bool toneMapped;    ///< light: exposure and tone curve apply to the display image
+  bool toneMapped;  ///< light: exposure and tone curve apply to the display image
 };
 const std::vector<ViewInfo>& views();
 std::optional<View> findView(std::string_view name);
@@ -34,13 +34,14 @@ struct ViewInputs {
   const FormFactors* matrix = nullptr;
   const Lighting* lighting = nullptr;
   const Emitters* emitters = nullptr;
+  const Buffer* reference = nullptr;  ///< vec4 per facet: H by the oracle, W/m^2
 };
 /// Composes `view` from the targets (after drawForward and traceSpecular) into targets.linear and targets.display.
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
               Targets& targets);
 
-/// "RE Specular" in compute over the G-buffer (METHOD section 8): traces settings.specular.rays rays per pixel in the GGX
-/// lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Writes targets.specular.
+/// "RE Specular" in compute over the G-buffer (METHOD section 8): traces settings.specular.rays rays per pixel in the
+/// GGX lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Writes targets.specular.
 void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                    Targets& targets);
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <utility>
 
+#include "gi/check/check.h"
 #include "renderer/error.h"
 #include "renderer/image_io.h"
 #include "renderer/output_file.h"
@@ -230,7 +231,7 @@ void Window::load(const std::filesystem::path& path) {
     load.progress = [this](float fraction, const char* step) {
       if (!progress(step, fraction)) throw WorkError(kCancelled);
     };
-    Scene scene = loadScene(path, load);
+    Scene scene = openScene(path, load);
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
     prepare(*pipeline);
     const bool sameScene = session_.pipeline && session_.pipeline->scene().path == pipeline->scene().path;

@@ -99,6 +99,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;  ///< at least one after addDefaults
 
+  /// Where it is known (check scenes): the indirect irradiance H, W/m^2, at a local point of a surface with this normal.
+  std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)> expectedIrradiance;
+
   std::vector<std::string> warnings;  ///< in words, each once
   bool defaultCamera = false, defaultLight = false;
 

@@ -36,7 +36,8 @@ IRAD_CONST uint VIEW_KIND_SCALAR = 4u;      ///< colour map over the range (high
   X(ROW_OCCUPANCY,      18, "row-occupancy",       "Voxels: row entries / rays",  "",           SCALAR,     0.0f, 1.0f) \
   X(ROW_SUM,            19, "row-sum",             "Voxels: row sum of F",        "",           SCALAR,     0.0f, 1.0f) \
   X(INVALID_RAYS,       20, "invalid-rays",        "Voxels: invalid rays / rays", "",           SCALAR,     0.0f, 0.25f) \
-  X(EMITTER_IRRADIANCE, 21, "emitter-irradiance",  "Irradiance from emitters F M", "W/m^2",     IRRADIANCE, 0.0f, 1.0f)
+  X(EMITTER_IRRADIANCE, 21, "emitter-irradiance",  "Irradiance from emitters F M", "W/m^2",     IRRADIANCE, 0.0f, 1.0f) \
+  X(REFERENCE,          22, "reference",           "Voxels: irradiance H by the oracle", "W/m^2", IRRADIANCE, 0.0f, 1.0f)
 // clang-format on
 
 #define IRAD_VIEW_CONSTANT(constant, number, name, label, unit, kind, low, high) \

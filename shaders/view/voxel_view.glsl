@@ -44,6 +44,7 @@ vec3 facetValue(FacetArrays facets, uint facet, uint count) {
     case VIEW_VOXEL_NORMAL: return decodeNormal(facets.shape.at[facet] & 0xFFFFu, push.normalEncoding);
     case VIEW_VOXEL_EMISSION: return facets.hasEmission != 0u ? facets.emission.at[facet] : vec3(0.0);
     case VIEW_VOXEL_IRRADIANCE:
+    case VIEW_REFERENCE:
     case VIEW_RADIOSITY: return uvec2(push.values) != uvec2(0u) ? push.values.at[facet].xyz : vec3(0.0);
     case VIEW_FACET_COUNT: return vec3(float(count));
   }

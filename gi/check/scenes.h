@@ -19,10 +19,16 @@ class SceneBuilder {
   /// Six walls; `inward`: seen from inside. `materials`: -x +x -y +y -z +z. Points are turned by `rotation` about 0.
   void box(const std::vector<uint32_t>& materials, glm::vec3 lo, glm::vec3 hi, bool inward,
            const glm::mat3& rotation = glm::mat3(1.0f));
-  /// Latitude-longitude sphere with `rings` rings.
+  /// Latitude-longitude sphere with `rings` rings from +y to -y.
   void sphere(uint32_t material, glm::vec3 centre, float radius, bool inward, uint32_t rings = 64);
+  /// Rings `first` to `last` - 1 of that sphere.
+  void zone(uint32_t material, glm::vec3 centre, float radius, bool inward, uint32_t rings, uint32_t first,
+            uint32_t last);
   void sun(glm::vec3 direction, float lux);
   void point(glm::dvec3 position, float candela);
+  /// What finish() would put at the centre of the bounds, looking along -z, otherwise.
+  void camera(glm::dvec3 position, glm::dvec3 target);
+  Material& edit(uint32_t material) { return scene_.materials.at(material); }
   /// Groups the triangles by material, sets bounds and a camera. The builder is empty afterwards.
   Scene finish(std::string name);
 
@@ -38,6 +44,10 @@ Scene furnaceBox(float rho);
 Scene furnaceTilted(float rho);
 /// Closed sphere of radius 1.
 Scene furnaceSphere(float rho);
+/// furnaceTilted of edge 1 around a second one of edge .4, turned the other way, that faces outwards.
+Scene furnaceInner(float rho);
+/// Closed sphere of radius 1, rho = .8, whose upper cap of a quarter of the area emits M = 1.
+Scene sphereCap();
 /// Closed unit cube, rho 0, one material per wall (-x +x -y +y -z +z), so that walls can be told apart.
 Scene unitCube(float rho = 0.0f);
 /// Two unit squares facing each other across `distance`: floor (material 0, emits 1) and ceiling (material 1).

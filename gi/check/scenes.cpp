@@ -1,4 +1,4 @@
-#include "gi/check_scenes.h"
+#include "gi/check/scenes.h"
 
 #include <array>
 #include <cmath>
@@ -61,13 +61,18 @@ void SceneBuilder::box(const std::vector<uint32_t>& materials, glm::vec3 lo, glm
 }
 
 void SceneBuilder::sphere(uint32_t material, glm::vec3 centre, float radius, bool inward, uint32_t rings) {
+  zone(material, centre, radius, inward, rings, 0, rings);
+}
+
+void SceneBuilder::zone(uint32_t material, glm::vec3 centre, float radius, bool inward, uint32_t rings, uint32_t first,
+                        uint32_t last) {
   const uint32_t sectors = 2 * rings;
   const auto at = [&](uint32_t i, uint32_t j) {
     const double theta = std::numbers::pi * j / rings, phi = 2 * std::numbers::pi * (i % sectors) / sectors;
     return centre +
            radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
   };
-  for (uint32_t j = 0; j < rings; ++j)
+  for (uint32_t j = first; j < last; ++j)
     for (uint32_t i = 0; i < sectors; ++i) {
       std::array<glm::vec3, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};  // outward
       if (inward) std::swap(q[1], q[3]);
@@ -83,6 +88,13 @@ void SceneBuilder::sun(glm::vec3 direction, float lux) {
 
 void SceneBuilder::point(glm::dvec3 position, float candela) {
   scene_.lights.push_back({.name = "point", .type = LightType::Point, .position = position, .intensity = candela});
+}
+
+void SceneBuilder::camera(glm::dvec3 position, glm::dvec3 target) {
+  const glm::dvec3 way = glm::normalize(target - position);
+  const glm::dvec3 up = std::abs(way.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+  scene_.cameras.push_back(
+      {.name = "front", .position = position, .orientation = glm::quatLookAt(glm::vec3(way), glm::vec3(up))});
 }
 
 Scene SceneBuilder::finish(std::string name) {
@@ -114,7 +126,7 @@ Scene SceneBuilder::finish(std::string name) {
   }
   corners_.clear();
   const glm::vec3 centre = 0.5f * (scene.boundsMin + scene.boundsMax);
-  scene.cameras.push_back({.name = "front", .position = glm::dvec3(centre)});
+  if (scene.cameras.empty()) scene.cameras.push_back({.name = "front", .position = glm::dvec3(centre)});
   return scene;
 }
 
@@ -125,12 +137,35 @@ Scene furnaceBox(float rho) {
   return b.finish("furnace-box");
 }
 
+namespace {
+glm::mat3 turned(float degrees) {
+  return glm::mat3(glm::rotate(glm::mat4(1.0f), glm::radians(degrees), glm::normalize(glm::vec3(1, 2, 3))));
+}
+}  // namespace
+
 Scene furnaceTilted(float rho) {
   SceneBuilder b;
   const uint32_t m = b.material(glm::vec3(rho), glm::vec3(1.0f));
-  const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), glm::radians(31.0f), glm::normalize(glm::vec3(1, 2, 3))));
-  b.box({m, m, m, m, m, m}, glm::vec3(-0.5f), glm::vec3(0.5f), /*inward=*/true, turn);
+  b.box({m, m, m, m, m, m}, glm::vec3(-0.5f), glm::vec3(0.5f), /*inward=*/true, turned(31));
   return b.finish("furnace-tilted");
+}
+
+Scene furnaceInner(float rho) {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(rho), glm::vec3(1.0f));
+  b.box({m, m, m, m, m, m}, glm::vec3(-0.5f), glm::vec3(0.5f), /*inward=*/true, turned(31));
+  b.box({m, m, m, m, m, m}, glm::vec3(-0.2f), glm::vec3(0.2f), /*inward=*/false, turned(-17));
+  b.camera(glm::dvec3(turned(31) * glm::vec3(0.4f, 0.35f, 0.45f)), glm::dvec3(0));
+  return b.finish("furnace-inner");
+}
+
+Scene sphereCap() {
+  // Archimedes: the zone above y = .5 has a quarter of the area; that is 60 of 180 degrees.
+  SceneBuilder b;
+  const uint32_t lamp = b.material(glm::vec3(0.8f), glm::vec3(1.0f)), rest = b.material(glm::vec3(0.8f));
+  b.zone(lamp, glm::vec3(0.0f), 1.0f, /*inward=*/true, 60, 0, 20);
+  b.zone(rest, glm::vec3(0.0f), 1.0f, /*inward=*/true, 60, 20, 60);
+  return b.finish("sphere-cap");
 }
 
 Scene furnaceSphere(float rho) {

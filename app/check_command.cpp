@@ -1,0 +1,192 @@
+// `irad check`: the catalogue of hard cases on this device.
+#include <fmt/color.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/arguments.h"
+#include "app/devices.h"
+#include "app/session.h"
+#include "app/table.h"
+#include "gi/check/check.h"
+#include "renderer/error.h"
+#include "renderer/output_file.h"
+
+namespace irad::app {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> cases;
+  std::optional<std::string> json, csv, markdown;
+  bool list = false, quick = false, figures = false;
+  SettingArguments settings;
+  DeviceArguments device;
+};
+
+/// A case's outcome in the default mode and, beside it, in the thesis's.
+struct Result {
+  const CheckCase* check;
+  CheckOutcome outcome;
+  std::optional<CheckOutcome> thesis;
+  const char* status() const { return check->run == nullptr ? "pending" : outcome.passed() ? "pass" : "FAIL"; }
+  /// The thesis's value of a figure; NaN where it has none.
+  double thesisValue(const std::string& figure) const {
+    if (thesis)
+      for (const CheckFigure& f : thesis->figures)
+        if (f.name == figure) return f.value;
+    return std::nan("");
+  }
+};
+
+std::string number(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
+}
+
+std::string figureText(const Result& result, const CheckFigure& figure) {
+  std::string text = fmt::format("{} = {}", figure.name, number(figure.value));
+  if (!figure.mark.empty()) text += fmt::format("  (mark {})", figure.mark);
+  if (const double thesis = result.thesisValue(figure.name); !std::isnan(thesis))
+    text += fmt::format("  thesis {}", number(thesis));
+  return text;
+}
+
+void print(const Result& result, bool allFigures) {
+  const CheckOutcome& outcome = result.outcome;
+  std::string line = fmt::format("{:<8}{:<18}{:>8.0f} ms  ", result.status(), result.check->name, outcome.milliseconds);
+  if (result.check->run == nullptr)
+    line += result.check->pending;
+  else if (!outcome.error.empty())
+    line += outcome.error;
+  else if (const CheckFigure* figure = outcome.decisive())
+    line += figureText(result, *figure);
+  fmt::print("{}\n", line);
+  if (allFigures)
+    for (const CheckFigure& figure : outcome.figures)
+      fmt::print("        {} {}\n", figure.passed() ? ' ' : '!', figureText(result, figure));
+  std::fflush(stdout);
+}
+
+void printList() {
+  std::vector<std::vector<std::string>> rows{{"case", "set-up", "oracle", "mark"}};
+  for (const CheckCase& check : checkCases()) rows.push_back({check.name, check.setup, check.oracle, check.mark});
+  fmt::print("{}", formatTable(rows));
+}
+
+nlohmann::ordered_json toJson(const std::vector<Result>& results, const DeviceInfo& device) {
+  nlohmann::ordered_json out{{"device", device.name}, {"driver", device.driver}};
+  for (const Result& r : results) {
+    nlohmann::ordered_json figures = nlohmann::ordered_json::array();
+    const auto value = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(); };
+    for (const CheckFigure& f : r.outcome.figures)
+      figures.push_back({{"name", f.name},
+                         {"value", value(f.value)},
+                         {"mark", f.mark},
+                         {"passed", f.passed()},
+                         {"thesis", value(r.thesisValue(f.name))}});
+    out["cases"].push_back({{"name", r.check->name},
+                            {"setup", r.check->setup},
+                            {"oracle", r.check->oracle},
+                            {"mark", r.check->mark},
+                            {"status", r.status()},
+                            {"error", r.outcome.error},
+                            {"milliseconds", r.outcome.milliseconds},
+                            {"figures", figures}});
+  }
+  return out;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+std::string toCsv(const std::vector<Result>& results) {
+  std::string out = "case,status,figure,value,mark,passed,thesis,milliseconds\n";
+  for (const Result& r : results) {
+    if (r.outcome.figures.empty())
+      out += fmt::format("{},{},{},,,,,{:.3f}\n", r.check->name, r.status(),
+                         quoted(r.check->run == nullptr ? r.check->pending : r.outcome.error), r.outcome.milliseconds);
+    for (const CheckFigure& f : r.outcome.figures)
+      out += fmt::format("{},{},{},{:.9g},{},{},{},{:.3f}\n", r.check->name, r.status(), quoted(f.name), f.value,
+                         quoted(f.mark), f.passed(), number(r.thesisValue(f.name)), r.outcome.milliseconds);
+  }
+  return out;
+}
+
+/// The table of docs/stability.md: the decisive figure of each case.
+std::string toMarkdown(const std::vector<Result>& results, const DeviceInfo& device) {
+  std::string out = fmt::format("Device: {} ({}).\n\n", device.name, device.driver);
+  out += "| case | figure | ours | mark | | thesis | ms |\n|---|---|---|---|---|---|---|\n";
+  for (const Result& r : results) {
+    const CheckFigure* f = r.outcome.decisive();
+    if (f == nullptr || !r.outcome.error.empty())
+      out += fmt::format("| {} | {} | | | {} | | |\n", r.check->name,
+                         r.check->run == nullptr ? r.check->pending : r.outcome.error, r.status());
+    else
+      out += fmt::format("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", r.check->name, f->name, number(f->value),
+                         f->mark, r.status(), number(r.thesisValue(f->name)), r.outcome.milliseconds);
+  }
+  return out;
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.device.list) return printDevices(/*json=*/false);
+  if (arguments.list) return printList();
+  std::vector<const CheckCase*> chosen;
+  for (const std::string& name : arguments.cases) chosen.push_back(&findCheckCase(name));
+  if (chosen.empty())
+    for (const CheckCase& check : checkCases()) chosen.push_back(&check);
+
+  Session session(arguments.settings, arguments.device);
+  Settings settings = session.settings;
+  if (arguments.settings.sizesAreDefault()) applyCheckSizes(settings);
+  CheckOptions options{.quick = arguments.quick, .program = "/proc/self/exe", .scenes = {}};
+  for (const std::string& scene : builtInScenes()) options.scenes.push_back(findScene(scene, {}, std::nullopt));
+  std::vector<Result> results;
+  size_t failed = 0, pending = 0;
+  for (const CheckCase* check : chosen) {
+    Result result{check, {}, {}};
+    if (check->run != nullptr) {
+      session.progress(check->name, static_cast<float>(results.size()) / static_cast<float>(chosen.size()));
+      result.outcome = runCheck(*session.context, *check, settings, options);
+      if (!arguments.quick) result.thesis = runCheck(*session.context, *check, thesisBeside(settings), options);
+      session.progress.finish();
+    }
+    pending += check->run == nullptr;
+    failed += check->run != nullptr && !result.outcome.passed();
+    print(result, arguments.figures);
+    results.push_back(std::move(result));
+  }
+  if (arguments.json) writeFile(*arguments.json, toJson(results, session.device->info).dump(2) + "\n");
+  if (arguments.csv) writeFile(*arguments.csv, toCsv(results));
+  if (arguments.markdown) writeFile(*arguments.markdown, toMarkdown(results, session.device->info));
+  fmt::print("{} passed, {} failed{}\n", results.size() - failed - pending, failed,
+             pending != 0 ? fmt::format(", {} pending", pending) : "");
+  session.checkValidation();
+  if (failed != 0) throw WorkError(fmt::format("{} of {} hard cases failed", failed, results.size()));
+}
+
+}  // namespace
+
+Command checkCommand() {
+  const auto arguments = std::make_shared<Arguments>();
+  return {"check", "Run the hard cases against their oracles",
+          [arguments](Options& options) {
+            options.arguments("CASE", arguments->cases, "Cases to run (default: all); `irad check --list` names them");
+            options.flag("--list", arguments->list, "List the cases with set-up, oracle and mark");
+            options.flag("--quick", arguments->quick,
+                         "Without the thesis's figures, and with fewer frames in long cases");
+            options.flag("--figures", arguments->figures, "Every figure of a case, not the decisive one alone");
+            options.value("--json", "FILE", arguments->json, "Write all figures as JSON");
+            options.value("--csv", "FILE", arguments->csv, "Write all figures as CSV");
+            options.value("--markdown", "FILE", arguments->markdown, "Write the decisive figures as a table");
+            arguments->settings.declare(options);
+            arguments->device.declare(options);
+          },
+          [arguments] { run(*arguments); }};
+}
+
+}  // namespace irad::app

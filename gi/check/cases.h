@@ -1,0 +1,20 @@
+// The groups of the catalogue, one file each.
+#pragma once
+
+#include <vector>
+
+#include "gi/check/check.h"
+
+namespace irad {
+
+std::vector<CheckCase> furnaceCases();     ///< closed rooms whose answer is known everywhere
+std::vector<CheckCase> formFactorCases();  ///< rows of the matrix against Howell's catalogue
+std::vector<CheckCase> energyCases();      ///< conservation, reciprocity, linearity
+std::vector<CheckCase> limitCases();       ///< dark, black, white and worse albedos
+std::vector<CheckCase> rangeCases();       ///< emission, scale, rotation, position
+std::vector<CheckCase> inputCases();       ///< degenerate and damaged geometry
+std::vector<CheckCase> leakCases();        ///< thin walls
+std::vector<CheckCase> samplingCases();    ///< encodings, sampler, traversals
+std::vector<CheckCase> stabilityCases();   ///< the same bits, over time and under toggling, divergence
+
+}  // namespace irad

@@ -1,0 +1,55 @@
+// `irad check`: the catalogue of hard cases, each with its set-up, its oracle (a closed form, a conservation law, a
+// bound, a converged solve) and its marks. A case measures figures; a figure with a mark is judged, others are printed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gi/check/run.h"
+
+namespace irad {
+
+struct CheckCase {
+  const char* name;
+  const char* setup;
+  const char* oracle;
+  const char* mark;
+  void (*run)(CheckRun&) = nullptr;  ///< none: pending
+  /// What `irad view check:NAME` opens; none where the case has no scene (a sampler, an encoding).
+  Scene (*scene)() = nullptr;
+  /// What Scene::expectedIrradiance of `scene` is; none where the oracle does not give it.
+  glm::dvec3 (*expected)(const glm::dvec3& position, const glm::dvec3& normal) = nullptr;
+  const char* pending = nullptr;  ///< why it cannot be run yet
+  bool soak = false;              ///< long: CheckRun::quick shortens it
+};
+
+/// All cases, in the catalogue's order.
+std::span<const CheckCase> checkCases();
+/// UsageError lists near matches of an unknown name.
+const CheckCase& findCheckCase(std::string_view name);
+
+/// "check:NAME", as `irad view` takes it.
+bool isCheckScene(const std::filesystem::path& path);
+/// loadScene, or the scene of a case. UsageError where a case has none.
+Scene openScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+struct CheckOutcome {
+  std::vector<CheckFigure> figures;
+  std::string error;  ///< the case threw: what
+  double milliseconds = 0;
+  bool passed() const;
+  /// The figure that the case's line shows: of the judged ones that with the greatest strain. Null: none.
+  const CheckFigure* decisive() const;
+};
+/// Runs one case. Errors of the program become CheckOutcome::error.
+CheckOutcome runCheck(Context& context, const CheckCase& check, const Settings& settings, const CheckOptions& options);
+
+/// N = 64, 384 rays: the least at which the marks hold.
+void applyCheckSizes(Settings& settings);
+/// The thesis's mode with the sizes and the seed of `settings`, whose figures stand beside.
+Settings thesisBeside(const Settings& settings);
+
+}  // namespace irad

@@ -1,0 +1,27 @@
+#include "gi/host_facets.h"
+
+#include "shaders/shared/normals.h"
+
+namespace irad {
+
+HostFacets hostFacets(Context& context, const FacetList& list) {
+  HostFacets host;
+  host.grid = list.grid;
+  if (list.count == 0) return host;
+  const auto voxel = downloadAs<uint32_t>(context, list.voxel), shape = downloadAs<uint32_t>(context, list.shape);
+  const auto albedo = downloadAs<glm::uvec2>(context, list.albedo);
+  for (uint32_t i = 0; i < list.count; ++i) {
+    host.voxel.push_back(unpackVoxel(voxel[i]));
+    host.normal.emplace_back(decodeNormal(shape[i] & 0xFFFFu, static_cast<uint32_t>(list.encoding)));
+    host.position.push_back(glm::dvec3(list.grid.origin) +
+                            double{list.grid.edge} *
+                                (glm::dvec3(host.voxel[i]) + 0.5 + double{facetOffset(shape[i])} * host.normal[i]));
+    host.albedo.push_back(unpackAlbedo(albedo[i]));
+  }
+  host.emission = list.hasEmission ? downloadAs<glm::vec3>(context, list.emission)
+                                   : std::vector<glm::vec3>(list.count, glm::vec3(0));
+  host.emission.resize(list.count);
+  return host;
+}
+
+}  // namespace irad

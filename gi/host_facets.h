@@ -1,0 +1,20 @@
+// The facet list in host memory: for exports, checks and the oracle's view.
+#pragma once
+
+#include <vector>
+
+#include "gi/stages.h"
+
+namespace irad {
+
+struct HostFacets {
+  Grid grid;
+  std::vector<glm::uvec3> voxel;
+  std::vector<glm::dvec3> position;         ///< the point of the facet's plane nearest to its voxel's centre, local
+  std::vector<glm::dvec3> normal;           ///< as stored
+  std::vector<glm::vec3> albedo, emission;  ///< rho; M, W/m^2
+  size_t count() const { return voxel.size(); }
+};
+HostFacets hostFacets(Context& context, const FacetList& list);
+
+}  // namespace irad
