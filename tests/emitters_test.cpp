@@ -104,6 +104,7 @@ TEST_F(EmitterSamples, SamplesOfEmittersKeepTheMeanOfTheirRays) {
 TEST_F(EmitterSamples, SamplesThatLoseLightAreNotUsed) {
   // The end of a corridor five voxels wide shines: the walls around take the voxels at its rim.
   Settings settings = at(16, 256);
+  settings.voxel.facets = 1;
   SceneBuilder b;
   const uint32_t m = b.material(glm::vec3(0.5f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(30));
   b.box({m, m, m, m, m, lamp}, glm::vec3(-0.3f, -0.3f, -1), glm::vec3(0.3f, 0.3f, 1), /*inward=*/true);

@@ -5,6 +5,7 @@
 #include "gi/stages.h"
 #include "renderer/error.h"
 #include "shaders/shared/normals.h"
+#include "shaders/shared/voxelize.h"
 #include "tests/soup.h"
 #include "tests/support.h"
 
@@ -78,7 +79,7 @@ TEST_F(Facets, MortonOrderAndReverseMap) {
       ASSERT_EQ(list.voxel[next], packVoxel(v));
       const glm::vec3 first = decodeNormal(list.shape[next - 1] & 0xFFFFu, NORMALS_OCT16);
       const glm::vec3 second = decodeNormal(list.shape[next] & 0xFFFFu, NORMALS_OCT16);
-      EXPECT_LT(glm::dot(first, second), 0.0f);
+      EXPECT_LT(glm::dot(first, second), ELSEWHERE_COSINE + 0.05f);  // of smooth normals; the faces' own decide
       ++next;
     }
     EXPECT_EQ(next, list.facets.count);

@@ -88,26 +88,51 @@ Hit traceThesis(const Facets& facets, const Ray& ray) {
 /// The faces that `around` of a facet in a voxel names.
 std::vector<uint32_t> facetsAround(const Facets& facets, const ivec3& voxel, uint32_t around) {
   std::vector<uint32_t> list;
-  for (; around != 0; around &= around - 1) {
+  for (around &= AROUND_VOXELS; around != 0; around &= around - 1) {
     const int i = std::countr_zero(around);
     for (const uint32_t f : facetsAt(facets, voxel + ivec3(i % 3, i / 3 % 3, i / 9) - 1)) list.push_back(f);
   }
   return list;
 }
 
+/// Whether a corner's face has ended before `crossing`, a point of its plane in its cell.
+template <class Less>
+bool cutOff(const Facets& facets, uint32_t facet, const dvec3& crossing, const Less& less) {
+  if ((facets.shape[facet] & FACET_CORNER) == 0) return false;
+  const uint32_t around = facets.around[facet] & AROUND_VOXELS;
+  uint32_t left = around, convex = facets.around[facet] >> AROUND_CONVEX_SHIFT;
+  for (; convex != 0; convex >>= 1, left &= left - 1) {
+    if ((convex & 1) == 0) continue;
+    for (const uint32_t f : facetsAround(facets, ivec3(unpackVoxel(facets.voxel[facet])), left & (~left + 1)))
+      if (glm::dot(facets.normal(f), facets.normal(facet)) < TRACE_OWN_NORMAL)
+        if (less(TRACE_ON_PLANE, facets.distance(f, crossing))) return true;
+  }
+  return false;
+}
+
 /// Whether the ray's origin lies beyond a wall that meets its facet's surface.
 template <class Less>
 bool startsInside(const Facets& facets, const Ray& ray, const Less& less) {
   if ((facets.shape[ray.facet] & FACET_CORNER) == 0) return false;
-  const auto near = facetsAround(facets, ivec3(unpackVoxel(facets.voxel[ray.facet])), facets.around[ray.facet]);
-  const auto behind = [&](uint32_t f, const dvec3& p) {
-    return !less(-double{TRACE_ON_PLANE}, glm::dot(facets.normal(f), p - facets.middle(f)));
-  };
-  return std::any_of(near.begin(), near.end(), [&](uint32_t wall) {
-    return behind(wall, ray.origin) && !less(glm::dot(ray.normal, facets.middle(wall) - ray.origin), TRACE_CONCAVE) &&
+  const uint32_t around = facets.around[ray.facet];
+  std::vector<uint32_t> near, walls;  // faces around, and those of them that do not meet the own one convexly
+  uint32_t place = 0;
+  for (uint32_t left = around & AROUND_VOXELS; left != 0; left &= left - 1, ++place)
+    for (const uint32_t f : facetsAround(facets, ivec3(unpackVoxel(facets.voxel[ray.facet])), left & (~left + 1))) {
+      if (f == ray.facet) continue;
+      near.push_back(f);
+      if (place >= 5 || !(around >> (AROUND_CONVEX_SHIFT + place) & 1)) walls.push_back(f);
+    }
+  return std::any_of(walls.begin(), walls.end(), [&](uint32_t wall) {
+    return !less(-double{TRACE_BEHIND}, facets.distance(wall, ray.origin)) &&
+           !less(glm::dot(ray.normal, facets.middle(wall) - ray.origin), TRACE_CONCAVE) &&
            !less(TRACE_OWN_NORMAL, glm::dot(facets.normal(wall), ray.normal)) &&
-           std::none_of(near.begin(), near.end(),
-                        [&](uint32_t side) { return !behind(side, ray.origin) && behind(wall, facets.middle(side)); });
+           std::none_of(near.begin(), near.end(), [&](uint32_t side) {
+             const bool other = glm::dot(facets.normal(side), facets.normal(wall)) < -TRACE_OWN_NORMAL;
+             const double nearSide = other ? double{TRACE_ON_PLANE} : -double{TRACE_ON_PLANE};
+             return less(-double{TRACE_ON_PLANE}, facets.distance(side, ray.origin)) &&
+                    less(facets.distance(wall, facets.middle(side)), nearSide);
+           });
   });
 }
 
@@ -156,20 +181,22 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
       if (less(slope, 0) && less(-double{TRACE_BEHIND}, start) && !otherSide) {
         const double slack = recorded ? TRACE_PLANE + facetJoint(facets.shape[f]) : TRACE_ON_PLANE;
         if (!less(slack, leave) && !less(enter, -slack) &&
-            (recorded || reaches(f, std::clamp(cross, walk.enter, walk.leave)))) {
+            (recorded ? !cutOff(facets, f, ray.origin + std::clamp(cross, walk.enter, walk.leave) * ray.direction, less)
+                      : reaches(f, std::clamp(cross, walk.enter, walk.leave)))) {
           if (less(cross, front.t)) front = {cross, f};
         } else if (recorded && !less(TRACE_JOINT, leave) && less(0, enter)) {
           passed = f;
           passedAt = walk.leave;
         }
       } else if (!less(slope, 0) && recorded && !own(f) && less(enter, -double{TRACE_ON_PLANE}) &&
-                 less(TRACE_ON_PLANE, leave) && less(cross, back.t)) {
+                 less(TRACE_ON_PLANE, leave) && less(cross, back.t) &&
+                 !cutOff(facets, f, ray.origin + cross * ray.direction, less)) {
         back = {cross, f};
       }
     };
     for (const uint32_t f : here) {
       ask(f, /*recorded=*/true);
-      if (facets.shape[f] & FACET_CORNER) around |= facets.around[f];
+      if (facets.shape[f] & FACET_CORNER) around |= facets.around[f] & ~AROUND_SELF;
     }
     if (back.facet != TRACE_ESCAPED &&
         (front.facet == TRACE_ESCAPED ||

@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform Push { FacetCornersPush p; };
 
 const int SEARCH = 3;      // voxels
 const float SAME = 0.02f;  // voxels: planes of one code this near are one plane
+const float SLAB_COSINE = -0.25f;  // cosine below which the two faces of a voxel are sides of one thing
 const float REACH = 0.9f;  // voxels: half a cell's diagonal and what planes are known to
 
 void main() {
@@ -25,14 +26,18 @@ void main() {
   ivec3 voxel = ivec3(unpackVoxel(f.voxel.at[facet]));
   uint around = 0u;
   float joint = 0.0f;
-  // One voxel per plane is enough to ask: the one that stands highest above the own plane.
+  // One voxel per plane is enough to ask: the one that stands highest above the own plane, or where the planes meet
+  // convexly (most of the other stands below) the own voxel.
   uint planes = 0u;
   int keptPlace[4];
   float keptRise[4];
+  float keptSum[4];
+  bool keptSelf[4];
   uint keptCode[4];
   float keptDistance[4];
   int other_ = SEARCH + 1;  // distance of the nearest face of another plane
-  for (int radius = 0; radius <= SEARCH && radius < other_; ++radius) {
+  bool slab = false;        // the voxel's other face is the other side of something thin
+  for (int radius = 0; radius <= SEARCH && (radius < other_ || (radius == 1 && !slab)); ++radius) {
     int width = 2 * radius + 1;
     for (int i = 0; i < width * width * width; ++i) {
       ivec3 step_ = ivec3(i % width, (i / width) % width, i / (width * width)) - radius;
@@ -54,30 +59,60 @@ void main() {
         bool same = (otherShape & 0xFFFFu) == code && abs(distance_) < SAME;
         bool back = alike < -0.999f && distance_ < SAME;
         if (!same && !back) other_ = min(other_, radius);
+        if (radius == 0 && alike < SLAB_COSINE) slab = true;
         if (radius == 1 && alike >= TRACE_OWN_NORMAL) {
           // Where the two faces join, about half-way between their middles.
           vec3 across = 0.5f * (vec3(step_) + otherNormal * facetOffset(otherShape) - point);
           float gap = abs(dot(normal + otherNormal, across));
           if (gap < TRACE_JOINT) joint = max(joint, gap);
         }
-        if (radius != 1 || alike >= TRACE_OWN_NORMAL || abs(centre) >= REACH) continue;
+        if (radius > 1 || back || (radius == 0 && slab) || alike >= TRACE_OWN_NORMAL || abs(centre) >= REACH) continue;
         float rise = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape) - point);
+        int place = (step_.x + 1) + 3 * (step_.y + 1) + 9 * (step_.z + 1);
         uint k = 0u;
         while (k < planes && (keptCode[k] != (otherShape & 0xFFFFu) || abs(keptDistance[k] - centre) >= SAME)) ++k;
-        if (k < planes && rise <= keptRise[k]) continue;
         if (k == 4u) {
-          around |= 1u << i;
+          around |= 1u << place;
           continue;
         }
-        planes = max(planes, k + 1u);
-        keptCode[k] = otherShape & 0xFFFFu;
-        keptDistance[k] = centre;
-        keptPlace[k] = i;
+        if (k == planes) {
+          ++planes;
+          keptCode[k] = otherShape & 0xFFFFu;
+          keptDistance[k] = centre;
+          keptSum[k] = 0.0f;
+          keptSelf[k] = radius == 0;
+          keptRise[k] = rise - 1.0f;
+        }
+        keptSum[k] += rise;
+        if (rise <= keptRise[k]) continue;
+        keptPlace[k] = place;
         keptRise[k] = rise;
       }
     }
   }
-  for (uint k = 0u; k < planes; ++k) around |= 1u << keptPlace[k];
+  uint convex = 0u;  // places
+  for (uint k = 0u; k < planes; ++k) {
+    bool meets = keptSum[k] < 0.0f;
+    if (meets && keptSelf[k]) keptPlace[k] = 13;
+    around |= 1u << keptPlace[k];
+    if (meets) convex |= 1u << keptPlace[k];
+  }
+  // Places that hold more than that face are left out: which of them would end the own plane is not told.
+  uint flags = 0u;
+  uint listed = around;
+  for (uint n = 0u; n < 5u && listed != 0u; ++n) {
+    int i = findLSB(listed);
+    listed &= listed - 1u;
+    if ((convex & (1u << i)) == 0u) continue;
+    ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+    uint entry = f.reverse.at[voxelIndex(uvec3(voxel + step_), p.dims)];
+    uint first = entry & ~SECOND_FACET;
+    uint others = 0u;
+    for (uint other = first; other <= (entry >= SECOND_FACET ? first + 1u : first); ++other)
+      if (dot(normal, decodeNormal(f.shape.at[other] & 0xFFFFu, NORMALS)) < TRACE_OWN_NORMAL) ++others;
+    if (others == 1u) flags |= 1u << n;
+  }
+  around |= flags << AROUND_CONVEX_SHIFT;
   // Voxels next to a face of another plane may be corners: they are not stepped over.
   uint bits = packFacetJoint(joint) | uint(max(other_ - 2, 0)) << FACET_CLEAR_SHIFT;
   if (around != 0u) bits |= FACET_CORNER;

@@ -154,6 +154,30 @@ bool reaches(vec4 recorded, vec3 middle, vec3 crossing) {
   return side < 0.0f ? here <= TRACE_ON_PLANE : here >= -TRACE_ON_PLANE;
 }
 
+/// Whether a corner's face has ended before `crossing`, a point of its plane in its cell: it lies in front of a face that
+/// meets it convexly.
+bool cutOff(TraceWorld world, vec3 cell, uint facet, vec3 normal, vec3 crossing) {
+  uint around = world.facets.around.at[facet];
+  uint convex = around >> AROUND_CONVEX_SHIFT;
+  around &= AROUND_VOXELS;
+  for (; convex != 0u; convex >>= 1) {
+    if ((convex & 1u) != 0u) {
+      vec3 at = cellAround(cell, around);
+      uint entry = world.facets.reverse.at[traceIndex(at, world.dims)];
+      uint other = entry & ~SECOND_FACET;
+      uint shape = world.facets.shape.at[other];
+      vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+      if (dot(facing, normal) >= TRACE_OWN_NORMAL) {
+        shape = world.facets.shape.at[other + 1u];
+        facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+      }
+      if (dot(facing, crossing - facetMiddle(at, facing, shape)) > TRACE_ON_PLANE) return true;
+    }
+    around &= around - 1u;
+  }
+  return false;
+}
+
 /// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of cells around
 /// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the
 /// origin's cell there is only the own plane.
@@ -192,7 +216,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         if (recorded) {
           // On the own plane: nothing around can be met as far as this facet's plane is clear.
           if (alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
-          if ((shape & FACET_CORNER) != 0u) ask |= world.facets.around.at[facet];
+          if ((shape & FACET_CORNER) != 0u) ask |= world.facets.around.at[facet] & AROUND_VOXELS & ~AROUND_SELF;
           planes[1] = planes[0];
           planes[0] = planeEquation(p, w);
         }
@@ -201,9 +225,10 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         if (p.slope < 0.0f && p.start > -TRACE_BEHIND && !otherSide) {
           // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface.
           float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
+          vec3 crossing = w.origin + clamp(cross, w.t, leave) * w.direction;
           if (leaveS <= slack && enterS >= -slack &&
-              (recorded || (reaches(planes[0], middle, w.origin + clamp(cross, w.t, leave) * w.direction) &&
-                            reaches(planes[1], middle, w.origin + clamp(cross, w.t, leave) * w.direction)))) {
+              (recorded ? (shape & FACET_CORNER) == 0u || !cutOff(world, at, facet, p.normal, crossing)
+                        : reaches(planes[0], middle, crossing) && reaches(planes[1], middle, crossing))) {
             if (cross < nearest) {
               nearest = cross;
               met = facet;
@@ -213,7 +238,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
             passedAt = leave;
           }
         } else if (p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE && leaveS > TRACE_ON_PLANE &&
-                   cross < back) {
+                   cross < back && ((shape & FACET_CORNER) == 0u ||
+                                    !cutOff(world, at, facet, p.normal, w.origin + cross * w.direction))) {
           back = cross;
           backPlane = vec2(p.start, p.slope);
           backMet = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
@@ -287,38 +313,53 @@ TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
   return traceRobust(world, w, normal, 0u);
 }
 
-/// One of the faces that `around` of a facet names: the next is taken off the list.
-uint nextAround(TraceWorld world, vec3 voxel, inout uint around, inout bool second, out vec3 at) {
-  at = cellAround(voxel, around);
+/// The faces that `around` of a facet names, one after the other.
+struct FacesAround {
+  uint around, convex;
+  bool second;
+};
+FacesAround facesAround(uint around) {
+  return FacesAround(around & AROUND_VOXELS, around >> AROUND_CONVEX_SHIFT, false);
+}
+uint nextAround(TraceWorld world, vec3 voxel, inout FacesAround list, out vec3 at, out bool convex) {
+  at = cellAround(voxel, list.around);
+  convex = (list.convex & 1u) != 0u;
   uint entry = world.facets.reverse.at[traceIndex(at, world.dims)];
-  uint facet = (entry & ~SECOND_FACET) + (second ? 1u : 0u);
-  second = entry >= SECOND_FACET && !second;
-  if (!second) around &= around - 1u;
+  uint facet = (entry & ~SECOND_FACET) + (list.second ? 1u : 0u);
+  list.second = entry >= SECOND_FACET && !list.second;
+  if (!list.second) {
+    list.around &= list.around - 1u;
+    list.convex >>= 1;
+  }
   return facet;
 }
 
 /// Whether a point of a facet, jittered over its voxel, lies beyond a wall that meets the facet there: behind a face
-/// that rises in front of the own plane, and not in front of another side of the same solid (one whose middle is behind
-/// that face).
-bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, vec3 ownNormal, uint around) {
-  uint wall = around;
-  bool wallSecond = false;
-  while (wall != 0u) {
+/// that rises in front of the own plane, not convexly, and not in front of another side of the same solid or sheet (one
+/// whose middle is behind that face, or that is its other side).
+bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownNormal, uint around) {
+  FacesAround walls = facesAround(around);
+  while (walls.around != 0u) {
     vec3 at;
-    uint shape = world.facets.shape.at[nextAround(world, voxel, wall, wallSecond, at)];
+    bool convex;
+    uint face = nextAround(world, voxel, walls, at, convex);
+    if (face == own || convex) continue;
+    uint shape = world.facets.shape.at[face];
     vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
     vec3 middle = facetMiddle(at, normal, shape);
-    if (dot(normal, origin - middle) > -TRACE_ON_PLANE || dot(ownNormal, middle - origin) < TRACE_CONCAVE ||
+    if (dot(normal, origin - middle) > -TRACE_BEHIND || dot(ownNormal, middle - origin) < TRACE_CONCAVE ||
         dot(normal, ownNormal) > TRACE_OWN_NORMAL)
       continue;
     bool outside = false;
-    uint side = around;
-    bool sideSecond = false;
-    while (side != 0u && !outside) {
-      shape = world.facets.shape.at[nextAround(world, voxel, side, sideSecond, at)];
+    FacesAround sides = facesAround(around);
+    while (sides.around != 0u && !outside) {
+      face = nextAround(world, voxel, sides, at, convex);
+      if (face == own) continue;
+      shape = world.facets.shape.at[face];
       vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
       vec3 other = facetMiddle(at, facing, shape);
-      outside = dot(facing, origin - other) > -TRACE_ON_PLANE && dot(normal, other - middle) < -TRACE_ON_PLANE;
+      float nearSide = dot(facing, normal) < -TRACE_OWN_NORMAL ? TRACE_ON_PLANE : -TRACE_ON_PLANE;
+      outside = dot(facing, origin - other) > -TRACE_ON_PLANE && dot(normal, other - middle) < nearSide;
     }
     if (!outside) return true;
   }
@@ -330,7 +371,7 @@ TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 norma
                        uint shape) {
   TraceWalk w = traceStart(origin, direction);
   if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
-  if ((shape & FACET_CORNER) != 0u && startsInside(world, vec3(voxel), origin, normal, world.facets.around.at[facet]))
+  if ((shape & FACET_CORNER) != 0u && startsInside(world, vec3(voxel), origin, facet, normal, world.facets.around.at[facet]))
     return TraceHit(TRACE_INVALID, 0.0f, 0u);
   return traceRobust(world, w, normal, w.cell == vec3(voxel) ? facetClear(shape) : 0u);
 }

@@ -27,6 +27,7 @@ void main() {
   float front = ((triangleAxis.y & RASTER_FACES_UP) != 0u ? depth : -depth) / columnArea;
   uint place = push.slot * push.grid.at[0].voxels + voxel;
   bool back = false;
+  float cosine = -1.0;
   // One facet of an opaque material needs nothing of the triangle itself.
   if (push.slots == 2u || SAMPLES_TEXTURES != 0u) {
     uint flags = triangleFlags(push.scene, triangle);
@@ -34,13 +35,13 @@ void main() {
     if (push.slot == 1u) {
       uint winner = push.keys.at[voxel];
       if (winner == 0u) return;
-      vec3 facing = winnerFacing(push.scene, push.grid, winner);
-      if (!opposes(t.normal, flags, facing)) return;
-      back = dot(t.normal, facing) > 0.0;
+      cosine = secondCosine(t.normal, flags, winnerFacing(push.scene, push.grid, winner), back);
+      if (cosine >= ELSEWHERE_COSINE) return;
     }
     if (masked(push.scene, t, triangle, flags, point)) return;
     if (push.slot == 0u && push.slots == 2u && (flags & MATERIAL_DOUBLE_SIDED) != 0u)
       atomicMax(push.keys.at[place], middleKey(-front, true, triangle));
   }
-  atomicMax(push.keys.at[place], middleKey(back ? -front : front, back, triangle));
+  uint key = middleKey(back ? -front : front, back, triangle);
+  atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
 }

@@ -48,11 +48,12 @@ uint triangleFlags(SceneArray scenes, uint triangle) {
   return scenes.at[0].materials.at[scenes.at[0].triangleMaterials.at[triangle]].flags;
 }
 
-/// Whether a triangle may be the second facet beside a winner that faces along `winner`: it faces against it, or its
-/// material has two sides and its back does.
-bool opposes(vec3 normal, uint flags, vec3 winner) {
+/// Cosine between the facing of a winner and that side of a triangle which may be the second facet beside it: of a
+/// double-sided material the one that faces against the winner more.
+float secondCosine(vec3 normal, uint flags, vec3 winner, out bool back) {
   float cosine = dot(normal, winner) * inversesqrt(dot(normal, normal) * dot(winner, winner));
-  return cosine < OPPOSED_COSINE || ((flags & MATERIAL_DOUBLE_SIDED) != 0u && cosine > -OPPOSED_COSINE);
+  back = (flags & MATERIAL_DOUBLE_SIDED) != 0u && cosine > 0.0;
+  return back ? -cosine : cosine;
 }
 
 /// The cells [lo, hi] that the triangle's bounds touch; false when none is in the grid (a wall at p == max of a grid

@@ -77,18 +77,19 @@ void main() {
         uvec3 cell = uvec3(originalAxes(ivec3(x, y, z), t.axis));
         uint voxel = voxelIndex(cell, dims);
         bool back = false;  // the triangle's back is the candidate
+        float cosine = -1.0;  // between it and the voxel's first facet
         if (push.slot == 1u) {
           uint winner = push.keys.at[voxel];
           if (winner == 0u) continue;  // cut away by its alpha mask
-          vec3 facing = winnerFacing(push.scene, push.grid, winner);
-          if (!opposes(t.normal, flags, facing)) continue;
-          back = dot(t.normal, facing) > 0.0;
+          cosine = secondCosine(t.normal, flags, winnerFacing(push.scene, push.grid, winner), back);
+          if (cosine >= ELSEWHERE_COSINE) continue;
         }
         float middle = depth + 0.5 * (slope.x + slope.y) - base.z;  // where the plane crosses the middle line
         bool crosses = holdsMiddle && middle >= 0.0 && middle < 1.0;
         vec3 centre = vec3(0.5, 0.5, middle);
         float area = 0.0;
         if (!crosses) {
+          if (cosine >= OPPOSED_COSINE) continue;
           if (oneCell) {
             area = wholeArea;
             centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
@@ -101,8 +102,8 @@ void main() {
         float front = orientation * (middle - 0.5) / columnArea;
         uint place = push.slot * voxels + voxel;
         for (uint side = 0u; side < sides; ++side) {
-          atomicMax(push.keys.at[place], crosses ? middleKey(back ? -front : front, back, triangle)
-                                                 : sliverKey(area, back, triangle));
+          uint key = crosses ? middleKey(back ? -front : front, back, triangle) : sliverKey(area, back, triangle);
+          atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
           back = true;
         }
       }

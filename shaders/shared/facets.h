@@ -13,8 +13,14 @@ IRAD_CONST uint SECOND_FACET = 0x80000000u;
 /// the surface from the voxel's centre along the normal, in 1/127 voxel, biased by 128; bit 24: double-sided material.
 IRAD_CONST uint FACET_DOUBLE_SIDED = 1u << 24;
 /// Bit 25: another surface, recorded only in a neighbouring voxel, may pass through this one (edges and corners: a voxel
-/// holds two facets at most). Set by markCorners; rays that meet no recorded face there look around (gi/trace.glsl).
+/// holds two facets at most), or its other facet faces elsewhere. Set by markCorners; rays that meet no recorded face
+/// there look around (gi/trace.glsl).
 IRAD_CONST uint FACET_CORNER = 1u << 25;
+/// FacetArrays::around: bits 0-26 the voxels around to look into (bit x + 3 y + 9 z, AROUND_SELF its own); bit 27 + k:
+/// the k-th of them holds one face besides this one's plane, which meets it convexly: the two end where they cross.
+IRAD_CONST uint AROUND_SELF = 1u << 13;
+IRAD_CONST uint AROUND_VOXELS = (1u << 27) - 1u;
+IRAD_CONST uint AROUND_CONVEX_SHIFT = 27u;
 /// Bits 26-27: within this many voxels every face lies in the facet's own plane (or is that sheet's back), and no voxel is
 /// a corner: rays that start in the plane step over them. Set by markCorners.
 IRAD_CONST uint FACET_CLEAR_SHIFT = 26u;
@@ -48,7 +54,7 @@ struct FacetArrays {
   Uvec2Array albedo;    ///< packAlbedo, clamped to [0, .98]
   Vec3Array emission;   ///< exitance M = pi x emitted radiance, W/m^2
   UintArray reverse;    ///< one per voxel (linear index)
-  UintArray around;     ///< FACET_CORNER: which of the 27 voxels around (bit x + 3 y + 9 z, 13 is its own) to look into
+  UintArray around;     ///< FACET_CORNER: which surfaces nearby to look at, AROUND_*
   uint count;
   uint hasEmission;     ///< 0: `emission` must not be read
 };

@@ -26,9 +26,14 @@ IRAD_FN uint sliverKey(float area, bool back, uint triangle) {
 IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
 IRAD_FN bool keyBack(uint key) { return (key & KEY_FRONT_SIDE) == 0u; }
 
-/// The second facet of a voxel faces against the first: n . n' below this. Perpendicular walls (a corner) are not
-/// opposed.
+/// The second facet of a voxel faces against the first: n . n' below this. Where none does, it is the best of those that
+/// face elsewhere (n . n' below ELSEWHERE_COSINE) and cross their middle line: the other wall of a corner.
 IRAD_CONST float OPPOSED_COSINE = -0.25f;
+IRAD_CONST float ELSEWHERE_COSINE = 0.7f;
+/// Key of a second facet: opposed ones first (bit 31), then as `key` has it with half the steps.
+IRAD_FN uint secondKey(uint key, bool opposed) {
+  return (opposed ? 1u << 31 : 0u) | ((key >> 1) & 0x7E000000u) | (key & 0x1FFFFFFu);
+}
 
 /// Conservative voxelization: a triangle's columns (along its dominant axis) are cut into tiles of (4 << level)^2,
 /// level the least for which this many tiles suffice. MAX_TRIANGLES x this < 2^32, so that the prefix sum cannot wrap.
