@@ -1,5 +1,6 @@
 #include "gi/host_facets.h"
 
+#include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 
 namespace irad {
@@ -17,6 +18,8 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
                             double{list.grid.edge} *
                                 (glm::dvec3(host.voxel[i]) + 0.5 + double{facetOffset(shape[i])} * host.normal[i]));
     host.albedo.push_back(unpackAlbedo(albedo[i]));
+    host.area.push_back(double{list.grid.edge} * list.grid.edge *
+                        double{facetArea(glm::vec3(host.normal[i]), facetOffset(shape[i]))});
   }
   host.emission = list.hasEmission ? downloadAs<glm::vec3>(context, list.emission)
                                    : std::vector<glm::vec3>(list.count, glm::vec3(0));

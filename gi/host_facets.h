@@ -13,6 +13,7 @@ struct HostFacets {
   std::vector<glm::dvec3> position;         ///< the point of the facet's plane nearest to its voxel's centre, local
   std::vector<glm::dvec3> normal;           ///< as stored
   std::vector<glm::vec3> albedo, emission;  ///< rho; M, W/m^2
+  std::vector<double> area;                 ///< of the plane inside the voxel, m^2
   size_t count() const { return voxel.size(); }
 };
 HostFacets hostFacets(Context& context, const FacetList& list);

@@ -43,6 +43,7 @@ struct Pipeline::Impl {
     std::optional<FormFactors> matrix;
     std::optional<Emitters> emitters;
     std::optional<Lighting> light;
+    Buffer reference;  ///< H by the oracle, for its view; none where the scene does not know it
   };
   Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
@@ -81,6 +82,7 @@ struct Pipeline::Impl {
       p.facets = compactFacets(context, voxels, settings);
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
+      p.reference = makeReference(*p.facets);
     }
 
     // 3. Distance to the nearest solid voxel, for every voxel.
@@ -93,32 +95,14 @@ struct Pipeline::Impl {
     // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
     report("GI BuildMatrix", 0);
     // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first.
-<<<<<<< HEAD
     if (first <= Redo::Voxels) now.matrix.reset();
     p.matrix = buildMatrix(context, *p.facets, field ? *field : *p.field, settings,
                            [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); });
     if (field) p.field = std::move(field);
     if (p.light) p.light->emittedCurrent = false;  // F M of the old F
-=======
-    if (newFacets) matrix.reset();
-    FormFactors newMatrix = buildMatrix(context, list, distance, settings, [&](float fraction) {
-      return !progress || progress("GI BuildMatrix", fraction);
-    });
-
-    if (newFacets) {
-      emitters = listEmitters(context, *newFacets);
-      reference = makeReference(*newFacets);
-      facets = std::move(newFacets);
-      light.reset();  // belongs to the old list
-    }
-    if (newField) field = std::move(newField);
-    matrix = std::move(newMatrix);
-    if (light) light->emittedCurrent = false;  // F M of the old F
->>>>>>> d68dccf (irad check: the catalogue's frame, furnaces, form factors, energy and limits; check scenes open by name, with the oracle's light as a view)
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
-  /// H by the oracle, for its view; none where the scene does not know it.
   Buffer makeReference(const FacetList& list) {
     if (!scene.expectedIrradiance || list.count == 0) return {};
     const HostFacets host = hostFacets(context, list);
@@ -163,10 +147,6 @@ struct Pipeline::Impl {
     in.sample = settings.sample.gpu;
     return in;
   }
-<<<<<<< HEAD
-=======
-  Buffer gridRecord, reference;
->>>>>>> d68dccf (irad check: the catalogue's frame, furnaces, form factors, energy and limits; check scenes open by name, with the oracle's light as a view)
 };
 
 Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings)
@@ -242,20 +222,12 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
 
   ViewInputs inputs;
   inputs.scene = &p.onDevice;
-<<<<<<< HEAD
   if (p.now.facets) inputs.facets = &*p.now.facets;
   if (p.now.field) inputs.field = &*p.now.field;
   if (p.now.matrix) inputs.matrix = &*p.now.matrix;
   if (p.now.light) inputs.lighting = &*p.now.light;
   if (p.now.emitters) inputs.emitters = &*p.now.emitters;
-=======
-  if (p.facets) inputs.facets = &*p.facets;
-  if (p.field) inputs.field = &*p.field;
-  if (p.matrix) inputs.matrix = &*p.matrix;
-  if (p.light) inputs.lighting = &*p.light;
-  if (p.emitters) inputs.emitters = &*p.emitters;
-  if (p.reference) inputs.reference = &p.reference;
->>>>>>> d68dccf (irad check: the catalogue's frame, furnaces, form factors, energy and limits; check scenes open by name, with the oracle's light as a view)
+  if (p.now.reference) inputs.reference = &p.now.reference;
   traceSpecular(frame, inputs, p.camera, p.settings, targets);
   drawView(frame, view, inputs, p.camera, p.settings, targets);
 }

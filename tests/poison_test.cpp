@@ -1,7 +1,7 @@
 // Fresh memory filled with NaN changes nothing: what is read was written first (HARD_CASES, poison).
 #include <fmt/format.h>
 
-#include "gi/check_scenes.h"
+#include "gi/check/scenes.h"
 #include "gi/pipeline.h"
 #include "tests/support.h"
 

@@ -29,33 +29,29 @@ void reciprocityCase(CheckRun& run) {
   const HostFacets facets = run.facets(*pipeline);
   std::vector<size_t> group;
   for (const glm::vec3& rho : facets.albedo) group.push_back(static_cast<size_t>(std::lround(rho.x * 10)) - 1);
-  std::array<double, 7> area{}, count{};
+  std::array<double, 7> area{};
   for (int axis = 0; axis < 3; ++axis)
     area[2 * axis] = area[2 * axis + 1] = double{kRoom[(axis + 1) % 3]} * kRoom[(axis + 2) % 3];
   area[6] = 4 * std::numbers::pi * kBall * kBall;
 
+  // Means over a group are weighted by what each facet takes of its area.
   std::array<std::array<double, 7>, 7> f{}, hits{};
+  std::array<double, 7> weight{};
   forEachRow(run.context, pipeline->matrix(), [&](uint32_t r, const HostRow& row) {
-    ++count[group[r]];
+    weight[group[r]] += facets.area[r];
     for (size_t e = 0; e < row.columns.size(); ++e) {
       const size_t j = group[row.columns[e]];
-      f[group[r]][j] += row.hits[e] * double{row.weight};
+      f[group[r]][j] += facets.area[r] * row.hits[e] * double{row.weight};
       hits[group[r]][j] += row.hits[e];
     }
   });
   for (size_t i = 0; i < 7; ++i)
     for (size_t j = i + 1; j < 7; ++j) {
-      const double there = area[i] * f[i][j] / count[i], back = area[j] * f[j][i] / count[j];
+      const double there = area[i] * f[i][j] / weight[i], back = area[j] * f[j][i] / weight[j];
       if (there == 0 && back == 0) continue;
       const double sigma = std::sqrt(1 / std::max(hits[i][j], 1.0) + 1 / std::max(hits[j][i], 1.0));
       run.near(fmt::format("A F of {} and {}, ratio", i, j), there / back, 1, std::max(0.02, 3 * sigma));
     }
-}
-
-/// What a plane of normal n takes of the area of each voxel it passes, over all phases: it passes 1 + (the other two
-/// components over the largest) voxels per column, each of which is a facet.
-double meanFacetArea(const glm::dvec3& n, double edge) {
-  return edge * edge / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
 }
 
 /// Power emitted over power absorbed plus escaped.
@@ -67,7 +63,7 @@ void balance(CheckRun& run, const std::string& name, Scene scene) {
                                b = run.read(*pipeline, light.radiosity);
   glm::dvec3 in(0), absorbed(0), escaped(0);
   forEachRow(run.context, pipeline->matrix(), [&](uint32_t i, const HostRow& row) {
-    const double area = meanFacetArea(facets.normal[i], facets.grid.edge);
+    const double area = facets.area[i];
     in += area * glm::dvec3(facets.emission[i] + d[i]);
     absorbed += area * glm::dvec3(1.0f - facets.albedo[i]) * glm::dvec3(d[i] + h[i]);
     escaped += area * glm::dvec3(b[i]) * (1 - row.sum());

@@ -180,7 +180,7 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
                              less(std::min(rise(f), start), TRACE_ON_PLANE);
       if (less(slope, 0) && less(-double{TRACE_BEHIND}, start) && !otherSide) {
         const double slack = recorded ? TRACE_PLANE + facetJoint(facets.shape[f]) : TRACE_ON_PLANE;
-        if (!less(slack, leave) && !less(enter, -slack) &&
+        if (!less(std::min(slack, double{TRACE_PLANE}), leave) && !less(enter, -slack) &&
             (recorded ? !cutOff(facets, f, ray.origin + std::clamp(cross, walk.enter, walk.leave) * ray.direction, less)
                       : reaches(f, std::clamp(cross, walk.enter, walk.leave)))) {
           if (less(cross, front.t)) front = {cross, f};

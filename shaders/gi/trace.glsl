@@ -223,10 +223,11 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         // A face that looks back at this one, but does not stand clearly in front of it, is the own sheet's other side.
         bool otherSide = alike < -TRACE_OWN_NORMAL && min(rise, p.start) < TRACE_ON_PLANE;
         if (p.slope < 0.0f && p.start > -TRACE_BEHIND && !otherSide) {
-          // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface.
+          // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface. One
+          // that is crossed after it is left to the next cell, or ends before.
           float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
           vec3 crossing = w.origin + clamp(cross, w.t, leave) * w.direction;
-          if (leaveS <= slack && enterS >= -slack &&
+          if (leaveS <= min(slack, TRACE_PLANE) && enterS >= -slack &&
               (recorded ? (shape & FACET_CORNER) == 0u || !cutOff(world, at, facet, p.normal, crossing)
                         : reaches(planes[0], middle, crossing) && reaches(planes[1], middle, crossing))) {
             if (cross < nearest) {
