@@ -1,4 +1,5 @@
-// Rays on the device against the double-precision oracle, and the traversals against each other (METHOD sections 3, 5).
+// Rays on the device against the double-precision oracle (METHOD sections 3, 5); the traversals against each other are
+// `irad check traversal`.
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -12,19 +13,6 @@ namespace {
 
 class Trace : public GiTest {
  protected:
-  /// A room with a tilted box, a ball and a thin two-sided shelf: every kind of edge.
-  static Scene room() {
-    SceneBuilder b;
-    const uint32_t m = b.material(glm::vec3(0.5f));
-    const uint32_t shelf = b.material(glm::vec3(0.5f), glm::vec3(0.0f), /*doubleSided=*/true);
-    b.box({m, m, m, m, m, m}, glm::vec3(-1, -0.7f, -1), glm::vec3(1, 0.7f, 1), /*inward=*/true);
-    const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), 0.6f, glm::normalize(glm::vec3(1, 2, 3))));
-    b.box({m, m, m, m, m, m}, glm::vec3(0.2f, -0.3f, 0), glm::vec3(0.6f, 0.2f, 0.5f), /*inward=*/false, turn);
-    b.sphere(m, glm::vec3(-0.45f, -0.2f, -0.3f), 0.35f, /*inward=*/false, 24);
-    b.quad(shelf, {-0.9f, 0.31f, 0.8f}, {0.1f, 0.31f, 0.8f}, {0.1f, 0.31f, 0.3f}, {-0.9f, 0.31f, 0.3f});
-    return b.finish("room");
-  }
-
   std::vector<uint32_t> hits(const World& w, const MatrixParams& params) {
     const Buffer out(context().device, "hits", Subsystem::Matrix, 4ull * w.facets.count * params.rays);
     Frame frame = context().begin();
@@ -41,18 +29,12 @@ class Trace : public GiTest {
             downloadAs<uint32_t>(context(), list.reverse),
             downloadAs<uint32_t>(context(), list.around)};
   }
-
-  static size_t differing(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
-    size_t n = 0;
-    for (size_t i = 0; i < a.size(); ++i) n += a[i] != b[i];
-    return n;
-  }
 };
 
 TEST_F(Trace, HitsEqualTheOracle) {
   Settings settings = defaults();
   settings.voxel.resolution = 32;
-  const World w = world(room(), settings);
+  const World w = world(furnishedRoom(), settings);
   const oracle::Facets host = facets(w.facets);
   MatrixParams params = settings.matrix.gpu;
   params.rays = 1 + 110000 / w.facets.count;
@@ -77,37 +59,6 @@ TEST_F(Trace, HitsEqualTheOracle) {
     EXPECT_LE(wrong, met.size() / 10000);
     EXPECT_GT(found, met.size() / 2);
   }
-}
-
-TEST_F(Trace, TraversalsAgree) {
-  Settings settings = defaults();
-  settings.voxel.resolution = 48;
-  const World w = world(room(), settings);
-  MatrixParams params = settings.matrix.gpu;
-  params.rays = 1 + 500000 / w.facets.count;
-  params.traversal = TRAVERSAL_DDA;
-  const std::vector<uint32_t> dda = hits(w, params);
-  EXPECT_GE(dda.size(), 500000u);
-
-  // The reverse map and the field's zero bytes are the same set: not one ray may differ.
-  World bare = world(room(), settings);
-  bare.field.chebyshev = Buffer();
-  EXPECT_EQ(differing(dda, hits(bare, params)), 0u);
-
-  params.traversal = TRAVERSAL_SDF;
-  const size_t skipped = differing(dda, hits(w, params));
-  fmt::print("chebyshev against dda: {} of {} rays differ\n", skipped, dda.size());
-  EXPECT_LE(skipped, dda.size() / 10000);
-
-  // The thesis's field: UNORM8 distances between centres tunnel (METHOD section 3). The figure is printed, not judged,
-  // but that it is worse than the exact field.
-  Settings jfa = settings;
-  jfa.field.method = FieldMethod::jfa;
-  const World thesis = world(room(), jfa);
-  const size_t marched = differing(dda, hits(thesis, params));
-  fmt::print("jfa against dda: {:.1f} % of rays differ\n", 100.0 * static_cast<double>(marched) / dda.size());
-  EXPECT_GT(marched, skipped);
-  EXPECT_LT(marched, dda.size() / 2);
 }
 
 TEST_F(Trace, CornersAreMarkedWhereWallsMeet) {

@@ -1,5 +1,6 @@
 #include "gi/check/scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -130,6 +131,14 @@ Scene SceneBuilder::finish(std::string name) {
   return scene;
 }
 
+void reverseTriangles(Scene& scene) {
+  const auto count = static_cast<uint32_t>(scene.indices.size());
+  std::reverse(scene.indices.begin(), scene.indices.end());
+  for (uint32_t i = 0; i < count; i += 3) std::swap(scene.indices[i], scene.indices[i + 2]);  // winding as it was
+  for (Draw& draw : scene.draws) draw.firstIndex = count - draw.firstIndex - draw.indexCount;
+  std::reverse(scene.draws.begin(), scene.draws.end());
+}
+
 Scene furnaceBox(float rho) {
   SceneBuilder b;
   const uint32_t m = b.material(glm::vec3(rho), glm::vec3(1.0f));
@@ -199,6 +208,18 @@ Scene parallelSquares(float distance) {
 }
 Scene plates(float gap, float rho0, float rho1) {
   return facingSquares("plates", gap, rho0, rho1);
+}
+
+Scene furnishedRoom() {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(0.5f));
+  const uint32_t shelf = b.material(glm::vec3(0.5f), glm::vec3(0.0f), /*doubleSided=*/true);
+  b.box({m, m, m, m, m, m}, glm::vec3(-1, -0.7f, -1), glm::vec3(1, 0.7f, 1), /*inward=*/true);
+  const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), 0.6f, glm::normalize(glm::vec3(1, 2, 3))));
+  b.box({m, m, m, m, m, m}, glm::vec3(0.2f, -0.3f, 0), glm::vec3(0.6f, 0.2f, 0.5f), /*inward=*/false, turn);
+  b.sphere(m, glm::vec3(-0.45f, -0.2f, -0.3f), 0.35f, /*inward=*/false, 24);
+  b.quad(shelf, {-0.9f, 0.31f, 0.8f}, {0.1f, 0.31f, 0.8f}, {0.1f, 0.31f, 0.3f}, {-0.9f, 0.31f, 0.3f});
+  return b.finish("furnished-room");
 }
 
 double formFactorParallelSquares(double d) {

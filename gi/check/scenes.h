@@ -38,6 +38,9 @@ class SceneBuilder {
   std::vector<std::vector<glm::vec3>> corners_;  ///< three per triangle, per material
 };
 
+/// The same scene with its triangles in opposite order.
+void reverseTriangles(Scene& scene);
+
 /// Closed unit box, every wall albedo rho and exitance M = 1: B = 1 / (1 - rho) everywhere.
 Scene furnaceBox(float rho);
 /// The same turned by 31 degrees about (1, 2, 3).
@@ -54,6 +57,8 @@ Scene unitCube(float rho = 0.0f);
 Scene parallelSquares(float distance);
 /// Two square plates of side 1, `gap` apart, facing each other: albedos .9 and .3, the first emits M = 1.
 Scene plates(float gap, float rho0 = 0.9f, float rho1 = 0.3f);
+/// A room with a tilted box, a ball and a thin two-sided shelf: every kind of edge.
+Scene furnishedRoom();
 
 /// Form factor between two parallel, aligned, unit squares at distance d (Howell's catalogue, C-11).
 double formFactorParallelSquares(double d);
