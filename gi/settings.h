@@ -62,7 +62,7 @@ struct GatherSettings {
 };
 struct SolverSettings {
   SolverParams gpu{1.0f, 1.0f, 1e-12f};
-  float tolerance = 1e-3f;        ///< stop when the error bound is below this share of the largest H
+  float tolerance = 5e-4f;        ///< stop when the error bound is below this share of the largest H
   uint32_t sweepsPerFrame = 4;    ///< interactive; headless runs until the tolerance or maxSweeps
   uint32_t maxSweeps = 1000;
   SolverKernel kernel = SolverKernel::automatic;

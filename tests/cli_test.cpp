@@ -9,6 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support.h"
+#ifdef IRAD_OIIO
+#include "tests/exr.h"
+#endif
 
 namespace irad {
 namespace {
@@ -299,6 +302,57 @@ TEST(Render, SeveralCamerasArePartOfTheNames) {
   const RunResult wrong = runIrad(smallRender(folder.path / "x", {"--camera", "no such camera"}));
   EXPECT_EQ(wrong.status, 2);
   EXPECT_TRUE(contains(wrong.err, "unknown camera 'no such camera'")) << wrong.err;
+}
+
+TEST(CheckCommand, ListsRunsAndFails) {
+  const RunResult list = runIrad({"check", "--list"});
+  EXPECT_EQ(list.status, 0);
+  for (const char* name : {"furnace-box", "facing-mirrors", "divergence"})
+    EXPECT_TRUE(contains(list.out, name)) << list.out;
+  const RunResult slip = runIrad({"check", "furnace-bux"});
+  EXPECT_EQ(slip.status, 2);
+  EXPECT_TRUE(contains(slip.err, "furnace-box")) << slip.err;
+
+  const test::TemporaryFolder folder;
+  const std::string json = (folder.path / "c.json").string(), csv = (folder.path / "c.csv").string();
+  const std::vector<std::string> coarse{"--set", "voxel.resolution=16", "--set", "matrix.rays=32"};
+  std::vector<std::string> good{"check", "furnace-box", "facing-mirrors", "--json", json, "--csv", csv};
+  good.insert(good.end(), coarse.begin(), coarse.end());
+  const RunResult passed = runIrad(good);
+  EXPECT_EQ(passed.status, 0) << passed.err;
+  EXPECT_TRUE(contains(passed.out, "1 passed, 0 failed, 1 pending")) << passed.out;
+  const nlohmann::json report = nlohmann::json::parse(std::ifstream(json));
+  EXPECT_EQ(report.at("cases").at(0).at("status"), "pass");
+  EXPECT_EQ(report.at("cases").at(1).at("status"), "pending");
+  const nlohmann::json& figure = report.at("cases").at(0).at("figures").at(0);
+  EXPECT_NEAR(figure.at("value").get<double>(), 1.0, 0.001);
+  EXPECT_LT(figure.at("thesis").get<double>(), 0.9) << "lambda .8 solves another system";
+  std::ifstream table(csv);
+  std::string heading;
+  std::getline(table, heading);
+  EXPECT_EQ(heading, "case,status,figure,value,mark,passed,thesis,milliseconds");
+
+  // A setting that breaks the physics breaks the case.
+  std::vector<std::string> bad{"check", "furnace-box", "--quick", "--set", "solver.lambda=0.9"};
+  bad.insert(bad.end(), coarse.begin(), coarse.end());
+  const RunResult failed = runIrad(bad);
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_TRUE(contains(failed.out, "FAIL") && contains(failed.out, "0 passed, 1 failed")) << failed.out;
+}
+
+TEST(CheckCommand, ScenesOpenByNameWithTheirOracle) {
+  const test::TemporaryFolder folder;
+  const std::string out = folder.path.string();
+  const RunResult run = runIrad({"render", "check:furnace-box", "--view", "reference,voxel-irradiance", "--size",
+                                 "16x16", "--set", "voxel.resolution=16", "--set", "matrix.rays=64", "--out", out});
+  ASSERT_EQ(run.status, 0) << run.err;
+#ifdef IRAD_OIIO
+  const test::Picture oracle = test::readExr(folder.path / "reference.exr"),
+                      ours = test::readExr(folder.path / "voxel-irradiance.exr");
+  for (const glm::vec3& p : oracle.pixels) EXPECT_EQ(p.x, 2.0f);
+  for (const glm::vec3& p : ours.pixels) EXPECT_NEAR(p.x, 2.0, 0.01);
+#endif
+  EXPECT_EQ(runIrad({"render", "check:sampler-of-nothing", "--out", out}).status, 2);
 }
 
 TEST(ExportCommand, ArraysAndTheirPlaceInTheWorld) {

@@ -15,6 +15,7 @@ std::vector<CheckCase> rangeCases();       ///< emission, scale, rotation, posit
 std::vector<CheckCase> inputCases();       ///< degenerate and damaged geometry
 std::vector<CheckCase> leakCases();        ///< thin walls
 std::vector<CheckCase> samplingCases();    ///< encodings, sampler, traversals
-std::vector<CheckCase> stabilityCases();   ///< the same bits, over time and under toggling, divergence
+std::vector<CheckCase> stabilityCases();   ///< the same bits over time, under toggling, in other memory and processes
+std::vector<CheckCase> guardCases();       ///< capacities, memory, divergence
 
 }  // namespace irad

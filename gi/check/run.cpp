@@ -31,9 +31,25 @@ uint64_t nonFinite(float x) {
 
 }  // namespace
 
+Settings CheckRun::small() const {
+  Settings s = settings;
+  s.voxel.resolution = 24;
+  s.matrix.gpu.rays = 64;
+  s.light.shadowResolution = 256;
+  return s;
+}
+
+DeviceOptions CheckRun::sameDevice() const {
+  DeviceOptions same;
+  same.select = std::to_string(context.device.info.index);
+  same.validate = context.device.options.validate;
+  return same;
+}
+
 void CheckRun::near(std::string name, double value, double expected, double tolerance) {
-  figures.push_back({std::move(name), value, fmt::format("{:.6g} +- {:.3g}", expected, tolerance),
-                     strainOf(std::abs(value - expected), tolerance)});
+  std::string mark = fmt::format("{:.6g}", expected);
+  if (tolerance > 0) mark += fmt::format(" +- {:.3g}", tolerance);
+  figures.push_back({std::move(name), value, std::move(mark), strainOf(std::abs(value - expected), tolerance)});
 }
 
 void CheckRun::atMost(std::string name, double value, double limit) {

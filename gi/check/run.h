@@ -43,6 +43,11 @@ class CheckRun {
   const CheckOptions options;
   std::vector<CheckFigure> figures;
 
+  /// Sizes at which thousands of frames or dozens of rebuilds take seconds on a CPU device.
+  Settings small() const;
+  /// To open this run's device once more.
+  DeviceOptions sameDevice() const;
+
   // ---- Figures ----
   /// |value - expected| <= tolerance.
   void near(std::string name, double value, double expected, double tolerance);
@@ -51,7 +56,7 @@ class CheckRun {
   void atLeast(std::string name, double value, double limit, double ideal = 1);
   /// `differing` things are to be none.
   void none(std::string name, uint64_t differing);
-  void require(std::string name, bool holds) { none(std::move(name), holds ? 0 : 1); }
+  void require(std::string name, bool holds) { near(std::move(name), holds ? 1 : 0, 1, 0); }
   /// Printed beside, not judged.
   void info(std::string name, double value);
 
@@ -65,6 +70,15 @@ class CheckRun {
   void setAlbedo(Pipeline& pipeline, const std::vector<glm::vec3>& albedo) const;
   void setDirect(Pipeline& pipeline, const std::vector<glm::vec3>& direct) const;
   Picture picture(Pipeline& pipeline, const Camera& camera, View view, glm::uvec2 size) const;
+};
+
+/// A device of its own beside the run's.
+struct Apart {
+  explicit Apart(const DeviceOptions& options) : device(Device::create(options)), context(*device, shaders, timings) {}
+  std::unique_ptr<Device> device;
+  ShaderLibrary shaders;
+  Timings timings;
+  Context context;
 };
 
 /// Counts components that are NaN or infinite.

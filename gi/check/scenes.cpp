@@ -222,6 +222,21 @@ Scene furnishedRoom() {
   return b.finish("furnished-room");
 }
 
+Scene mixedRoom() {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(0.7f, 0.5f, 0.2f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1));
+  const uint32_t metal = b.material(glm::vec3(0.9f));
+  b.edit(metal).metallic = 1;
+  b.edit(metal).roughness = 0.2f;
+  b.box({m, m, m, lamp, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  b.sphere(m, glm::vec3(-0.3f, -0.4f, 0.1f), 0.45f, /*inward=*/false, 24);
+  b.sphere(metal, glm::vec3(0.5f, -0.6f, -0.2f), 0.3f, /*inward=*/false, 24);
+  b.point({0.2, 0.3, 0.1}, 5);
+  b.sun(glm::vec3(0.3f, -1, 0.2f), 2);
+  b.camera({0, 0, 0.9}, {0, -0.2, -1});
+  return b.finish("mixed room");
+}
+
 double formFactorParallelSquares(double d) {
   const double x = 1 / d, x2 = 1 + x * x;
   return 2 / (std::numbers::pi * x * x) *

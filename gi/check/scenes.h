@@ -60,6 +60,9 @@ Scene plates(float gap, float rho0 = 0.9f, float rho1 = 0.3f);
 /// A room with a tilted box, a ball and a thin two-sided shelf: every kind of edge.
 Scene furnishedRoom();
 
+/// A room with a lamp, a point light, a sun, a ball and a metal one: something for every stage.
+Scene mixedRoom();
+
 /// Form factor between two parallel, aligned, unit squares at distance d (Howell's catalogue, C-11).
 double formFactorParallelSquares(double d);
 /// Form factor between two perpendicular unit squares with a common edge (C-14).

@@ -1,0 +1,249 @@
+// The same answer over time, under toggled settings, in poisoned memory, in another process.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+#include "gi/check/cases.h"
+#include "gi/check/scenes.h"
+#include "renderer/error.h"
+
+extern char** environ;
+
+namespace irad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr glm::uvec2 kSize(64, 64);
+
+/// Memory that the process occupies, bytes.
+uint64_t resident() {
+  std::ifstream statm("/proc/self/statm");
+  uint64_t total = 0, pages = 0;
+  statm >> total >> pages;
+  return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Device memory taken since `before`, bytes.
+double grown(const CheckRun& run, uint64_t before) {
+  return static_cast<double>(run.context.device.memory().used()) - static_cast<double>(before);
+}
+
+/// How many floats lie between two, those of one sign.
+uint64_t ulps(float a, float b) {
+  const auto ordered = [](float x) {
+    const auto bits = std::bit_cast<int32_t>(x);
+    return int64_t{bits < 0 ? std::numeric_limits<int32_t>::min() - bits : bits};
+  };
+  return static_cast<uint64_t>(std::abs(ordered(a) - ordered(b)));
+}
+
+void soakCase(CheckRun& run) {
+  const uint32_t frames = run.options.quick ? 500 : 10000, settled = frames / 5;
+  const auto pipeline = run.prepare(mixedRoom(), run.small());
+  Targets targets(run.context, kSize);
+  std::vector<glm::vec3> before;
+  uint64_t deviceBefore = 0, processBefore = 0;
+  for (uint32_t i = 0; i < frames; ++i) {
+    if (i == settled) {
+      before = run.read(*pipeline, pipeline->lighting().indirect);
+      deviceBefore = run.context.device.memory().used();
+      processBefore = resident();
+    }
+    pipeline->lightsChanged();  // the same light again: gather, warm start, scatter
+    pipeline->prepare();
+    Frame frame = run.context.begin(i);
+    pipeline->render(frame, pipeline->scene().cameras.at(0), VIEW_LIT, targets);
+    frame.submitAndWait();
+  }
+  const std::vector<glm::vec3> after = run.read(*pipeline, pipeline->lighting().indirect);
+  uint64_t drift = 0;
+  for (size_t i = 0; i < after.size(); ++i)
+    for (int c = 0; c < 3; ++c) drift = std::max(drift, ulps(before[i][c], after[i][c]));
+  run.info("frames", frames);
+  run.atMost("drift of H, ulp", static_cast<double>(drift), 2);
+  run.near("growth of device memory, B", grown(run, deviceBefore), 0, 0);
+  const double growth = static_cast<double>(resident()) - static_cast<double>(processBefore);
+  run.atMost("growth of the process, MiB", std::max(growth, 0.0) / (1 << 20), 4);
+  run.none("H not finite", countNonFinite(after));
+}
+
+/// Another value of a setting: the next of a choice, else one well inside the range and cheap.
+struct Toggle {
+  void operator()(uint32_t& v, const Meta& m) const {
+    v = v / 2 >= static_cast<uint32_t>(m.min) ? v / 2 : v + (m.step > 0 ? static_cast<uint32_t>(m.step) : 1);
+  }
+  void operator()(float& v, const Meta& m) const {
+    v = v * 0.5f >= static_cast<float>(m.min) && v > 0 ? v * 0.5f : static_cast<float>(0.5 * (m.min + m.max));
+  }
+  void operator()(bool& v, const Meta&) const { v = !v; }
+  void operator()(BoolRef v, const Meta&) const { v.value = 1 - v.value; }
+  template <class E>
+  void operator()(EnumRef<E> v, const Meta&) const {
+    v.value = (v.value + 1) % EnumNames<E>::names.size();
+  }
+  template <class E>
+  requires std::is_enum_v<E>
+  void operator()(E& v, const Meta&) const {
+    v = static_cast<E>((static_cast<uint32_t>(v) + 1) % EnumNames<E>::names.size());
+  }
+};
+
+void toggleCase(CheckRun& run) {
+  const Settings settings = run.small();
+  const auto pipeline = run.prepare(mixedRoom(), settings);
+  const auto shot = [&] { return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize); };
+  const Picture untoggled = shot();
+  uint64_t count = 0, bad = 0;
+  const auto round = [&] {
+    Settings names = settings;
+    visit(names, [&](auto&&, const Meta& wanted) {
+      Settings changed = settings;
+      visit(changed, [&](auto&& value, const Meta& meta) {
+        if (std::string_view(meta.name) == wanted.name) Toggle{}(value, meta);
+      });
+      pipeline->set(changed);
+      pipeline->prepare();
+      bad += countNonFinite(shot());
+      ++count;
+    });
+    pipeline->set(settings);
+    pipeline->prepare();
+  };
+  round();
+  // A fresh start, so that the solver comes from where the untoggled one did.
+  const Picture warm = shot();
+  const uint64_t used = run.context.device.memory().used();
+  round();
+  const Picture end = shot();
+  double worst = 0, largest = 0;
+  for (size_t i = 0; i < end.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      worst = std::max(worst, std::abs(double{end.pixels[i][c]} - untoggled.pixels[i][c]));
+      largest = std::max(largest, double{untoggled.pixels[i][c]});
+    }
+  run.info("settings toggled", static_cast<double>(count));
+  run.none("pixels not finite while toggling", bad);
+  run.atMost("largest difference to the untoggled picture / its largest value", worst / largest, 1e-5);
+  run.none("pixels that a second round changes", countDiffering(warm, end));
+  run.near("growth of device memory, B", grown(run, used), 0, 0);
+}
+
+void poisonCase(CheckRun& run) {
+  std::vector<Picture> pictures[2];
+  std::vector<glm::vec3> light[2];
+  for (const bool poison : {false, true}) {
+    DeviceOptions options = run.sameDevice();
+    options.poison = poison;
+    Apart apart(options);
+    CheckRun there(apart.context, run.settings, run.options);
+    const auto pipeline = there.prepare(mixedRoom(), run.small());
+    light[poison] = there.read(*pipeline, pipeline->lighting().indirect);
+    for (const ViewInfo& view : views())
+      pictures[poison].push_back(there.picture(*pipeline, pipeline->scene().cameras.at(0), view.view, kSize));
+  }
+  uint64_t pixels = 0, facets = 0;
+  for (size_t v = 0; v < pictures[0].size(); ++v) pixels += countDiffering(pictures[0][v], pictures[1][v]);
+  for (size_t i = 0; i < light[0].size(); ++i) facets += light[0][i] != light[1][i];
+  run.none("pixels that poison changes, all views", pixels);
+  run.none("facets whose H poison changes", facets);
+}
+
+/// Runs a program with its output thrown away; its exit status.
+int spawn(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw WorkError(fmt::format("{}: cannot be run: {}", program, std::strerror(error)));
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A table's text without its times: everything but numbers with a fraction.
+std::string withoutTimes(const std::string& csv) {
+  std::string out;
+  for (size_t i = 0; i < csv.size(); ++i) {
+    size_t end = i;
+    while (end < csv.size() && (std::isdigit(static_cast<unsigned char>(csv[end])) || csv[end] == '.')) ++end;
+    if (csv.substr(i, end - i).find('.') == std::string::npos) out += csv.substr(i, std::max<size_t>(end - i, 1));
+    i = std::max(end, i + 1) - 1;
+  }
+  return out;
+}
+
+void repeatCase(CheckRun& run) {
+  if (run.options.program.empty()) throw WorkError("needs the program to run it twice");
+  const fs::path folder = fs::temp_directory_path() / fmt::format("irad-repeat-{}", getpid());
+  const auto clean = [&] {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  };
+  clean();
+  for (const char* name : {"a", "b"}) {
+    const auto call = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.end(),
+                       {"--out", (folder / name).string(), "--device", std::to_string(run.context.device.info.index),
+                        "--set", "voxel.resolution=32", "--set", "matrix.rays=128"});
+      if (const int status = spawn(run.options.program, arguments); status != 0) {
+        clean();
+        throw WorkError(fmt::format("irad {} {} ended with status {}", arguments[0], arguments[1], status));
+      }
+    };
+    call({"render", "check:repeat", "--view", "lit,irradiance,specular", "--size", "96x96"});
+    call({"export", "check:repeat", "--matrix", "--facets", "--volume", "radiosity"});
+  }
+  uint64_t files = 0, differing = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "a")) {
+    const fs::path name = entry.path().filename();
+    if (name == "manifest.json") continue;  // names its folder
+    const bool times = name == "timings.csv";
+    const std::string a = contents(entry.path()), b = contents(folder / "b" / name);
+    differing += times ? withoutTimes(a) != withoutTimes(b) : a != b;
+    ++files;
+  }
+  clean();
+  run.info("files of two processes compared", static_cast<double>(files));
+  run.none("files that differ", differing);
+  run.atLeast("files compared", static_cast<double>(files), 15, /*ideal=*/18);
+}
+
+}  // namespace
+
+std::vector<CheckCase> stabilityCases() {
+  std::vector<CheckCase> cases{
+      {"facing-mirrors", "two mirrors, writeback on", "largest B <= 20 E, settles", "finite"},
+      {"soak", "10,000 frames, warm start, relit in each", "fixed point, memory flat", "<= 2 ulp", soakCase, mixedRoom},
+      {"toggle", "every setting toggled in a frame of its own, twice", "the untoggled picture", "1e-5, no growth",
+       toggleCase, mixedRoom},
+      {"poison", "all fresh memory filled with NaN", "the same pictures", "bits equal", poisonCase, mixedRoom},
+      {"repeat", "two processes", "the same files, but for times", "exact", repeatCase, mixedRoom},
+  };
+  cases[0].pending = "writeback does not exist yet";
+  cases[1].soak = cases[2].soak = true;
+  return cases;
+}
+
+}  // namespace irad
