@@ -159,6 +159,8 @@ TEST(Energy, AreaOfAPlaneInACube) {
   EXPECT_FLOAT_EQ(area({0, 0, 1}, 0), 1);
   EXPECT_FLOAT_EQ(area({0, -1, 0}, 0.5f), 1);         // in the cell's very face
   EXPECT_FLOAT_EQ(area({1, 0, 0}, -64 / 127.0f), 1);  // and as far out as its code may put it
+  EXPECT_FLOAT_EQ(area({1e-8f, 0, 1}, 0.5f), 1);      // with a normal as GPUs round it
+  EXPECT_FLOAT_EQ(area({-6e-8f, -1, 3e-8f}, -64 / 127.0f), 1);
   EXPECT_FLOAT_EQ(area({1, 1, 1}, 0.87f), 0);
   EXPECT_NEAR(area({1, 1, 0}, 0), std::sqrt(2.0), 1e-5);
   EXPECT_NEAR(area({1, 0, -1}, 0.25f), std::sqrt(2.0) - 0.5, 1e-5);

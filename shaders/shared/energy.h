@@ -5,26 +5,25 @@
 #include "shared/types.h"
 IRAD_BEGIN
 
-/// Share of the unit square in which p u + q v < t, for p >= q >= 0.
+/// Share of the unit square in which p u + q v < t, for p >= q >= 0, p > 0.
 IRAD_FN float squareBelow(float p, float q, float t) {
-  if (q < 1e-3f * p || p == 0.0f) return clamp((t - 0.5f * q) / max(p, 1e-20f), 0.0f, 1.0f);
+  if (q < 1e-3f * p) return clamp((t - 0.5f * q) / p, 0.0f, 1.0f);
   // The integral over v of clamp((t - q v) / p, 0, 1).
   float x1 = t / p, x0 = (t - q) / p;
   float c1 = clamp(x1, 0.0f, 1.0f), c0 = clamp(x0, 0.0f, 1.0f);
   return p / q * (0.5f * (c1 * c1 - c0 * c0) + max(x1 - 1.0f, 0.0f) - max(x0 - 1.0f, 0.0f));
 }
 
-/// Area of a facet's plane inside its voxel, voxels^2. `offset`: facetOffset; its code may put a wall that lies in the
-/// voxel's very face outside, but a facet's plane is inside.
+/// Area of a facet's plane inside its voxel, voxels^2. `offset`: facetOffset. A facet's plane is inside its voxel, which
+/// decides for walls in the voxel's very face: their offset's code, or the last bit of their normal, may put them outside.
 IRAD_FN float facetArea(vec3 normal, float offset) {
   vec3 a = abs(normal);
   float m = max(a.x, max(a.y, a.z)), q = min(a.x, min(a.y, a.z));
   float p = a.x + a.y + a.z - m - q;
   if (p < q) p = q;  // by rounding
-  float height = abs(offset);
-  if (p < 1e-3f) height = min(height, 0.5f * m);
+  if (p < 1e-3f) return 1.0f / m;
   // Seen along the normal's largest axis: the part of the unit square over which the plane's height is in the voxel.
-  float low = height - 0.5f * m + 0.5f * (p + q);
+  float low = abs(offset) - 0.5f * m + 0.5f * (p + q);
   return (squareBelow(p, q, low + m) - squareBelow(p, q, low)) / m;
 }
 

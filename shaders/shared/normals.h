@@ -13,17 +13,18 @@ IRAD_CONST uint NORMALS_OCT16 = 3u;
 
 IRAD_FN float signNotZero(float x) { return x >= 0.0f ? 1.0f : -1.0f; }
 
-/// Octahedral map of a unit vector to [-1, 1]^2 (T eq. 16-17) and back (T eq. 20-21).
+/// Octahedral map of a unit vector to [-1, 1]^2 (T eq. 16-17) and back (T eq. 20-21), there from a square of half edge
+/// `extent`: whole numbers stay exact in it, and axes and zeros with them, also where a GPU fuses products into sums.
 IRAD_FN vec2 octWrap(vec3 n) {
   float l1 = abs(n.x) + abs(n.y) + abs(n.z);
   vec2 p = vec2(n.x / l1, n.y / l1);
   if (n.z < 0.0f) p = vec2((1.0f - abs(p.y)) * signNotZero(p.x), (1.0f - abs(p.x)) * signNotZero(p.y));
   return p;
 }
-IRAD_FN vec3 octUnwrap(vec2 p) {
-  float z = 1.0f - abs(p.x) - abs(p.y);
-  if (z < 0.0f) p = vec2((1.0f - abs(p.y)) * signNotZero(p.x), (1.0f - abs(p.x)) * signNotZero(p.y));
-  return normalize(vec3(p.x, p.y, z));
+IRAD_FN vec3 octUnwrap(vec2 p, float extent) {
+  float z = extent - abs(p.x) - abs(p.y);
+  if (z < 0.0f) p = vec2((extent - abs(p.y)) * signNotZero(p.x), (extent - abs(p.x)) * signNotZero(p.y));
+  return normalize(vec3(p.x, p.y, z) * (1.0f / extent));
 }
 
 /// Unit vector -> code in [1, 65535] (axis6: 1..6, axis26: 1..26, oct8: 1..255).
@@ -89,9 +90,9 @@ IRAD_FN vec3 decodeNormal(uint code, uint encoding) {
     return normalize(vec3(float(c % 3u) - 1.0f, float((c / 3u) % 3u) - 1.0f, float(c / 9u) - 1.0f));
   }
   if (encoding == NORMALS_OCT8)
-    return octUnwrap(vec2(float(code >> 4), float(code & 15u)) * (2.0f / 15.0f) - vec2(1.0f));
+    return octUnwrap(2.0f * vec2(float(code >> 4), float(code & 15u)) - vec2(15.0f), 15.0f);
   uint c = code - 1u;
-  return octUnwrap((vec2(float(c >> 8), float(c & 255u)) - vec2(127.0f)) * (1.0f / 127.0f));
+  return octUnwrap(vec2(float(c >> 8), float(c & 255u)) - vec2(127.0f), 127.0f);
 }
 
 IRAD_END
