@@ -154,10 +154,9 @@ bool reaches(vec4 recorded, vec3 middle, vec3 crossing) {
   return side < 0.0f ? here <= TRACE_ON_PLANE : here >= -TRACE_ON_PLANE;
 }
 
-/// Whether a corner's face has ended before `crossing`, a point of its plane in its cell: it lies in front of a face that
-/// meets it convexly.
-bool cutOff(TraceWorld world, vec3 cell, uint facet, vec3 normal, vec3 crossing) {
-  uint around = world.facets.around.at[facet];
+/// Whether a face has ended before `crossing`, a point of its plane in its cell: it lies in front of a face that meets it
+/// convexly. `around`: FacetArrays::around of a corner's facet, else 0.
+bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing) {
   uint convex = around >> AROUND_CONVEX_SHIFT;
   around &= AROUND_VOXELS;
   for (; convex != 0u; convex >>= 1) {
@@ -213,37 +212,41 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         vec3 middle = facetMiddle(at, p.normal, shape);
         float rise = dot(ownNormal, middle - w.origin);  // of the face's middle above the own plane
         bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
+        uint around = 0u;
         if (recorded) {
           // On the own plane: nothing around can be met as far as this facet's plane is clear.
           if (alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
-          if ((shape & FACET_CORNER) != 0u) ask |= world.facets.around.at[facet] & AROUND_VOXELS & ~AROUND_SELF;
+          if ((shape & FACET_CORNER) != 0u) around = world.facets.around.at[facet];
+          ask |= around & AROUND_VOXELS & ~AROUND_SELF;
           planes[1] = planes[0];
           planes[0] = planeEquation(p, w);
         }
         // A face that looks back at this one, but does not stand clearly in front of it, is the own sheet's other side.
         bool otherSide = alike < -TRACE_OWN_NORMAL && min(rise, p.start) < TRACE_ON_PLANE;
-        if (p.slope < 0.0f && p.start > -TRACE_BEHIND && !otherSide) {
-          // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface. One
-          // that is crossed after it is left to the next cell, or ends before.
-          float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
+        // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface. One
+        // that is crossed after it is left to the next cell, or ends before.
+        bool front = p.slope < 0.0f && p.start > -TRACE_BEHIND && !otherSide;
+        float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
+        bool crosses = front ? leaveS <= min(slack, TRACE_PLANE) && enterS >= -slack
+                             : p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE &&
+                                   leaveS > TRACE_ON_PLANE && cross < back;
+        if (crosses) {
           vec3 crossing = w.origin + clamp(cross, w.t, leave) * w.direction;
-          if (leaveS <= min(slack, TRACE_PLANE) && enterS >= -slack &&
-              (recorded ? (shape & FACET_CORNER) == 0u || !cutOff(world, at, facet, p.normal, crossing)
-                        : reaches(planes[0], middle, crossing) && reaches(planes[1], middle, crossing))) {
-            if (cross < nearest) {
-              nearest = cross;
-              met = facet;
-            }
-          } else if (recorded && leaveS <= TRACE_JOINT && enterS > 0.0f) {
-            passed = facet;
-            passedAt = leave;
+          crosses = recorded ? !cutOff(world, at, around, p.normal, crossing)
+                             : reaches(planes[0], middle, crossing) && reaches(planes[1], middle, crossing);
+        }
+        if (crosses && front) {
+          if (cross < nearest) {
+            nearest = cross;
+            met = facet;
           }
-        } else if (p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE && leaveS > TRACE_ON_PLANE &&
-                   cross < back && ((shape & FACET_CORNER) == 0u ||
-                                    !cutOff(world, at, facet, p.normal, w.origin + cross * w.direction))) {
+        } else if (crosses) {
           back = cross;
           backPlane = vec2(p.start, p.slope);
           backMet = (shape & FACET_DOUBLE_SIDED) != 0u ? facet : (cross < TRACE_NEAR ? TRACE_INVALID : TRACE_BLOCKED);
+        } else if (front && recorded && leaveS <= TRACE_JOINT && enterS > 0.0f) {
+          passed = facet;
+          passedAt = leave;
         }
         --left;
         ++facet;
