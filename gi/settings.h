@@ -198,7 +198,7 @@ void visit(Settings& s, F&& f) {
   f(EnumRef<Traversal>{s.specular.gpu.traversal}, Meta{"specular.traversal", 0, 0, "", "Traversal of specular rays.", Shade});
   f(s.specular.gpu.maxRoughness, Meta{"specular.max_roughness", 0, 1, "", "Rougher surfaces take the diffuse irradiance instead of rays.", Shade});
   f(s.specular.gpu.fade, Meta{"specular.fade", 0, 1, "", "Width of the blend below max_roughness.", Shade});
-  f(s.specular.gpu.threshold, Meta{"specular.threshold", 0, 1, "W/(m^2 sr)", "No rays where F0 x H / pi is below.", Shade, true});
+  f(s.specular.gpu.threshold, Meta{"specular.threshold", 0, 1, "", "No rays where F0 x H is below this share of the scene's largest H.", Shade, true});
   f(BoolRef{s.specular.gpu.filter_}, Meta{"specular.filter", 0, 1, "", "Edge-aware filter over traced reflections.", Shade});
   f(s.light.shadowResolution, Meta{"light.shadow_resolution", 64, 8192, "texels", "Shadow-map size; point lights use half per cube face.", Gather});
   f(s.camera.exposureEv, Meta{"camera.exposure", -16, 16, "EV", "Exposure of the displayed picture; EXR files stay linear.", Nothing});

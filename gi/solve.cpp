@@ -97,6 +97,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   if (!light.emittedCurrent) gatherEmitters(context, facets, matrix, source, settings, sweep, light);
   begin(context, facets, light, params);
   DivergenceGuard& guard = light.guard;
+  const float litBefore = light.litH;
 
   // A CPU device sweeps slowly: short submissions. The first is short too, a warm start is often at its goal.
   const uint32_t longest = context.device.isCpu ? 4 : kBatch;
@@ -134,7 +135,10 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
       sweep.flush = std::max(params.flush, kDark * light.litH);
     }
   }
-  if (report.diverging) restore(context, facets, light);
+  if (report.diverging) {
+    restore(context, facets, light);
+    light.litH = litBefore;
+  }
   if (report.settled()) guard.radiosity = Buffer(), guard.indirect = Buffer();
   if (report.nonFinite + report.negative > 0) report.defect = findDefect(context, facets, light);
   if (report.converged && params.lambda == 1) report.energy = balance(context, facets, light);

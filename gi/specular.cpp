@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 
 #include "gi/views.h"
 #include "shaders/shared/passes.h"
@@ -22,6 +23,11 @@ uint32_t traceMethod(const Settings& settings, const Field& field) {
   if (settings.specular.gpu.traversal == TRAVERSAL_DDA) return bytes ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
   if (field.method == FieldMethod::jfa && field.jfaDistance) return TRACE_JFA;
   return bytes ? TRACE_SKIP : TRACE_DDA_REVERSE;
+}
+
+/// W/m^2. In the dark no pixel traces rays, but with a threshold of 0.
+float leastReflected(float threshold, float largestH) {
+  return threshold > 0 ? std::max(threshold * largestH, std::numeric_limits<float>::min()) : 0;
 }
 
 }  // namespace
@@ -48,6 +54,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   push.chebyshev = field.chebyshev.address;
   push.params = settings.specular.gpu;
   push.jfaMax = field.jfaMax;
+  push.leastReflected = leastReflected(settings.specular.gpu.threshold, lighting.litH);
   const uint32_t method = traceMethod(settings, field);
   const auto traced = [&](Pass& pass, bool fragment) -> Pass& {
     pass.constant(0, method)

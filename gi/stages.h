@@ -175,7 +175,9 @@ struct Lighting {
   DivergenceGuard guard;
   /// solve() computes `emitted` when this is not set, and sets it; clear it when the matrix or the emission changes.
   bool emittedCurrent = false;
-  float litH = 0;  ///< largest H since a source last shone: with all sources dark, light below 1e-6 of it is put out
+  /// Largest H while sources last shone, W/m^2: in the dark, light below 1e-6 of it is put out; reflections of less than
+  /// specular.threshold of it are not traced.
+  float litH = 0;
 };
 /// All zero. The volume exists when sampling is ungated; addVolume makes it otherwise (views, exports).
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);

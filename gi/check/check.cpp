@@ -18,8 +18,8 @@ constexpr std::string_view kScheme = "check:";
 std::span<const CheckCase> checkCases() {
   static const std::vector<CheckCase> all = [] {
     std::vector<CheckCase> cases;
-    for (const auto group :
-         {furnaceCases, formFactorCases, energyCases, limitCases, samplingCases, stabilityCases, guardCases}) {
+    for (const auto group : {furnaceCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases,
+                             samplingCases, stabilityCases, guardCases}) {
       const std::vector<CheckCase> more = group();
       cases.insert(cases.end(), more.begin(), more.end());
     }

@@ -77,8 +77,10 @@ void SceneBuilder::zone(uint32_t material, glm::vec3 centre, float radius, bool 
     for (uint32_t i = 0; i < sectors; ++i) {
       std::array<glm::vec3, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};  // outward
       if (inward) std::swap(q[1], q[3]);
-      if (j > 0 || inward) triangle(material, q[0], q[1], q[2]);
-      if (j > 0 || !inward) triangle(material, q[0], q[2], q[3]);
+      // Of the squares at the poles one half has no area.
+      const bool top = j == 0, bottom = j + 1 == rings;
+      if (inward ? !bottom : !top) triangle(material, q[0], q[1], q[2]);
+      if (inward ? !top : !bottom) triangle(material, q[0], q[2], q[3]);
     }
 }
 
@@ -109,8 +111,10 @@ Scene SceneBuilder::finish(std::string name) {
     const auto first = static_cast<uint32_t>(scene.positions.size());
     for (size_t i = 0; i < corners_[m].size(); i += 3) {
       const glm::vec3 &a = corners_[m][i], &b = corners_[m][i + 1], &c = corners_[m][i + 2];
-      const glm::vec3 n = glm::normalize(glm::cross(b - a, c - a));
-      const glm::vec3 t = glm::normalize(b - a);
+      const glm::vec3 cross = glm::cross(b - a, c - a);
+      const bool area = glm::dot(cross, cross) > 0;  // without it any will do
+      const glm::vec3 n = area ? glm::normalize(cross) : glm::vec3(0, 0, 1);
+      const glm::vec3 t = area ? glm::normalize(b - a) : glm::vec3(1, 0, 0);
       for (const glm::vec3& p : {a, b, c}) {
         scene.indices.push_back(static_cast<uint32_t>(scene.positions.size()));
         scene.positions.push_back(p);
@@ -235,6 +239,39 @@ Scene mixedRoom() {
   b.sun(glm::vec3(0.3f, -1, 0.2f), 2);
   b.camera({0, 0, 0.9}, {0, -0.2, -1});
   return b.finish("mixed room");
+}
+
+SceneBuilder stillLife(float light) {
+  SceneBuilder b;
+  const uint32_t white = b.material(glm::vec3(0.7f)), red = b.material({0.7f, 0.2f, 0.15f}),
+                 green = b.material({0.2f, 0.6f, 0.2f}), lamp = b.material(glm::vec3(0.1f), light * glm::vec3(20.0f)),
+                 glossy = b.material({0.9f, 0.8f, 0.6f});
+  b.edit(glossy).metallic = 1.0f;
+  b.edit(glossy).roughness = 0.3f;
+  const glm::vec3 lo(-1, 0, -0.75f), hi(1, 1.25f, 0.5f);
+  b.quad(white, {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, lo.y, lo.z}, {lo.x, lo.y, lo.z});  // floor
+  b.quad(white, {lo.x, hi.y, lo.z}, {hi.x, hi.y, lo.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z});  // ceiling
+  b.quad(white, {lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z});  // back
+  b.quad(red, {lo.x, lo.y, hi.z}, {lo.x, lo.y, lo.z}, {lo.x, hi.y, lo.z}, {lo.x, hi.y, hi.z});
+  b.quad(green, {hi.x, lo.y, lo.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, hi.y, lo.z});
+  b.quad(lamp, {-0.25f, 1.125f, -0.375f}, {0.25f, 1.125f, -0.375f}, {0.25f, 1.125f, 0}, {-0.25f, 1.125f, 0});
+  const glm::mat3 turn(glm::rotate(glm::mat4(1.0f), glm::radians(20.0f), glm::vec3(0, 1, 0)));
+  b.box(std::vector<uint32_t>(6, white), {-0.6f, 0, -0.6f}, {-0.1f, 0.5f, -0.1f}, /*inward=*/false, turn);
+  b.sphere(glossy, {0.45f, 0.3f, -0.1f}, 0.25f, /*inward=*/false, 32);
+  b.point({-0.5, 0.875, 0.25}, light * 0.3f);
+  b.camera({0.25, 0.75, 2.25}, {0, 0.5, 0});
+  return b;
+}
+
+double formFactorPolygon(const glm::dvec3& position, const glm::dvec3& normal,
+                         const std::array<glm::dvec3, 4>& corners) {
+  double sum = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const glm::dvec3 a = glm::normalize(corners[i] - position), b = glm::normalize(corners[(i + 1) % 4] - position);
+    const glm::dvec3 c = glm::cross(a, b);
+    sum += glm::dot(glm::normalize(c), normal) * std::atan2(glm::length(c), glm::dot(a, b));
+  }
+  return std::abs(sum) / (2 * std::numbers::pi);
 }
 
 double formFactorParallelSquares(double d) {

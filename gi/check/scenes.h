@@ -1,6 +1,7 @@
 // Small scenes whose light is known in closed form (HARD_CASES), built in code: for `irad check` and the test suites.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,10 +60,15 @@ Scene parallelSquares(float distance);
 Scene plates(float gap, float rho0 = 0.9f, float rho1 = 0.3f);
 /// A room with a tilted box, a ball and a thin two-sided shelf: every kind of edge.
 Scene furnishedRoom();
-
 /// A room with a lamp, a point light, a sun, a ball and a metal one: something for every stage.
 Scene mixedRoom();
+/// A room of 2 x 1.25 x 1.25, open towards +z, seen from there: coloured walls, a lamp, a point light, a turned box and
+/// a glossy ball, to be finished. Exitance and intensity are multiplied by `light`.
+SceneBuilder stillLife(float light = 1.0f);
 
+/// Form factor from a point of a surface to a polygon in front of it (Lambert 1760).
+double formFactorPolygon(const glm::dvec3& position, const glm::dvec3& normal,
+                         const std::array<glm::dvec3, 4>& corners);
 /// Form factor between two parallel, aligned, unit squares at distance d (Howell's catalogue, C-11).
 double formFactorParallelSquares(double d);
 /// Form factor between two perpendicular unit squares with a common edge (C-14).

@@ -47,7 +47,7 @@ struct SpecularParams {
   uint traversal;
   float maxRoughness;  ///< rougher surfaces take H / pi instead of traced rays
   float fade;          ///< width of the blend below maxRoughness
-  float threshold;     ///< skip where F0 x H / pi is below, W/(m^2 sr)
+  float threshold;     ///< skip where F0 x H is below this share of the largest H
   uint filter_;        ///< 1: edge-aware filter over the G-buffer after tracing
 };
 

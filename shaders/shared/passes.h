@@ -72,7 +72,7 @@ struct SpecularPush {
   EmitterRecord emitters;  ///< 0: there are none
   SpecularParams params;
   float jfaMax;
-  uint padding;
+  float leastReflected;  ///< no rays where F0 x H is below, W/m^2
 };
 
 /// Views over the targets (view/debug_view.comp) and over the voxels (view/voxel_view.comp).

@@ -48,6 +48,6 @@ bool glossyPixel(uint invocation, out ivec2 pixel) {
 /// half precision, which some devices truncate: a material at max_roughness would come back below it.
 bool tracesNothing(vec4 f0, float roughness, vec3 irradiance) {
   if (f0.w == 0.0 || roughness * (1.0 + 1.0 / 1024.0) >= push.params.maxRoughness) return true;
-  vec3 reflected = f0.rgb * irradiance * (1.0 / IRAD_PI);
-  return max(reflected.r, max(reflected.g, reflected.b)) < push.params.threshold;
+  vec3 reflected = f0.rgb * irradiance;
+  return max(reflected.r, max(reflected.g, reflected.b)) < push.leastReflected;
 }

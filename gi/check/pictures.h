@@ -1,0 +1,25 @@
+// Scenes moved about, and pictures held against each other.
+#pragma once
+
+#include "gi/check/run.h"
+
+namespace irad {
+
+/// Everything in `scene` that is a length times `s`, so that it looks the same: lights that fall off with distance grow
+/// with its square.
+Scene scaled(Scene scene, float s);
+/// The scene and its cameras under a signed permutation of the axes. Where it mirrors, pictures are flipped left to
+/// right.
+Scene permuted(Scene scene, const glm::mat3& axes);
+Picture flipped(Picture picture);
+
+/// How far a picture is from another, over the other's mean (colour channels).
+struct PictureError {
+  double mean = 0;        ///< of |difference|
+  double largest = 0;     ///< of one channel of one pixel
+  double brightness = 0;  ///< of the means
+};
+/// `picture` / `factor` against `reference`. NaN where either is.
+PictureError compare(const Picture& picture, const Picture& reference, double factor = 1);
+
+}  // namespace irad

@@ -1,0 +1,161 @@
+// The same picture whatever the light's strength, the scene's size, its axes and its place; and light from where rays
+// seldom go.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gi/check/cases.h"
+#include "gi/check/glb.h"
+#include "gi/check/pictures.h"
+#include "gi/check/scenes.h"
+
+namespace irad {
+namespace {
+
+constexpr glm::uvec2 kSize(96);
+
+Scene stillScene() {
+  return stillLife().finish("still life");
+}
+
+Picture lit(CheckRun& run, Scene scene) {
+  const auto pipeline = run.prepare(std::move(scene));
+  return run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, kSize);
+}
+
+void emissionRangeCase(CheckRun& run) {
+  const Picture one = lit(run, stillScene());
+  for (const float e : {1e-6f, 1e6f}) {
+    const PictureError error = compare(lit(run, stillLife(e).finish("still life")), one, e);
+    run.atMost(fmt::format("E = {:g}: largest |image / E - image| / mean", e), error.largest, 1e-3);
+  }
+}
+
+constexpr float kTinyExitance = 1e4f;  ///< W/m^2
+
+/// One face of a voxel of a cube of edge 2: from its floor a ten-thousandth of what there is to be seen (64 voxels).
+std::array<glm::dvec3, 4> tinyLamp(uint32_t resolution) {
+  const Grid grid = makeGrid(glm::vec3(-1), glm::vec3(1), resolution);
+  const double x = grid.dims.x / 2, z = grid.dims.z / 2, y = std::floor(0.875 * resolution) + 1.5;
+  const auto corner = [&](double dx, double dz) {
+    return glm::dvec3(grid.origin) + double{grid.edge} * glm::dvec3(x + dx, y, z + dz);
+  };
+  return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+}
+
+/// The closed cube, rho = 0, with that lamp, which faces down.
+Scene tinyEmitter(uint32_t resolution) {
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(0.0f)), lamp = b.material(glm::vec3(0.0f), glm::vec3(kTinyExitance));
+  b.box({m, m, m, m, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  // A hundredth smaller, so that it touches no other voxel; the facet is the whole face.
+  const std::array<glm::dvec3, 4> face = tinyLamp(resolution);
+  const auto within = [&](int i) { return glm::vec3(glm::mix(face[i], 0.5 * (face[0] + face[2]), 0.01)); };
+  b.quad(lamp, within(0), within(1), within(2), within(3));
+  b.camera({0, 0, 0.95}, {0, -0.5, -1});
+  return b.finish("tiny-emitter");
+}
+
+/// RMS and mean of H on the floor over the closed form, less 1.
+std::pair<double, double> floorError(CheckRun& run, const Pipeline& pipeline) {
+  const std::array<glm::dvec3, 4> lamp = tinyLamp(run.settings.voxel.resolution);
+  const HostFacets facets = run.facets(pipeline);
+  const std::vector<glm::vec3> h = run.read(pipeline, pipeline.lighting().indirect);
+  double squares = 0, sum = 0, n = 0;
+  for (size_t i = 0; i < h.size(); ++i) {
+    if (facets.normal[i].y < 0.99 || facets.position[i].y > -0.9) continue;
+    const double expected = kTinyExitance * formFactorPolygon(facets.position[i], facets.normal[i], lamp);
+    const double error = h[i].x / expected - 1;
+    squares += error * error;
+    sum += error;
+    ++n;
+  }
+  return {std::sqrt(squares / n), sum / n};
+}
+
+void tinyEmitterCase(CheckRun& run) {
+  const auto pipeline = run.prepare(tinyEmitter(run.settings.voxel.resolution));
+  const auto [noise, bias] = floorError(run, *pipeline);
+  run.atMost("RMS of H / (F M) - 1 on the floor", noise, 0.05);
+  run.near("mean of H / (F M) on the floor", 1 + bias, 1, 0.002);
+  Settings rays = run.settings;
+  rays.matrix.emitterSampling = EmitterSampling::off;
+  pipeline->set(rays);
+  pipeline->prepare();
+  run.info("RMS without emitter sampling", floorError(run, *pipeline).first);
+}
+
+Scene tinyEmitterScene() {
+  return tinyEmitter(64);
+}
+/// rho = 0: H is the lamp's light alone, which shines down.
+glm::dvec3 tinyEmitterLight(const glm::dvec3& position, const glm::dvec3& normal) {
+  const std::array<glm::dvec3, 4> lamp = tinyLamp(64);
+  if (position.y >= lamp[0].y || glm::dot(normal, lamp[0] - position) <= 0) return glm::dvec3(0);
+  return glm::dvec3(kTinyExitance * formFactorPolygon(position, normal, lamp));
+}
+
+void scale2Case(CheckRun& run) {
+  const Picture one = lit(run, stillScene());
+  for (const int power : {-10, 13})
+    run.none(fmt::format("pixels that differ at 2^{}", power),
+             countDiffering(lit(run, scaled(stillScene(), std::ldexp(1.0f, power))), one));
+}
+
+void scale10Case(CheckRun& run) {
+  const Picture one = lit(run, stillScene());
+  for (const float s : {1e-3f, 1e4f}) {
+    const PictureError error = compare(lit(run, scaled(stillScene(), s)), one);
+    run.atMost(fmt::format("x {:g}: largest difference / mean", s), error.largest, 1e-3);
+  }
+}
+
+void rotate90Case(CheckRun& run) {
+  const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const Picture upright = lit(run, stillScene());
+  const auto judge = [&](const char* name, const Picture& picture) {
+    const PictureError error = compare(picture, upright);
+    run.atMost(fmt::format("{}: mean |difference| / mean", name), error.mean, 0.01);
+    run.info(fmt::format("{}: difference of the means", name), error.brightness);
+  };
+  judge("about x", lit(run, permuted(stillScene(), glm::mat3(x, z, -y))));
+  judge("about y", lit(run, permuted(stillScene(), glm::mat3(-z, y, x))));
+  judge("about z", lit(run, permuted(stillScene(), glm::mat3(y, -x, z))));
+  judge("mirror", flipped(lit(run, permuted(stillScene(), glm::mat3(-x, y, z)))));
+}
+
+/// Ten units wide; coordinates are multiples of 2^-16, which double precision still holds at 10^6.
+Scene tenUnits() {
+  Scene scene = scaled(stillScene(), 5);
+  for (glm::vec3& p : scene.positions) p = glm::round(p * 65536.0f) / 65536.0f;
+  return scene;
+}
+
+void farAwayCase(CheckRun& run) {
+  const auto load = [](const glm::dvec3& offset) { return throughLoader(tenUnits(), offset); };
+  const Picture centred = lit(run, load({0, 0, 0}));
+  const Scene far = load({1e6, -1e6, 1e6});
+  run.none("warnings", far.warnings.size());
+  const Picture picture = lit(run, far);
+  run.none("pixels that differ", countDiffering(picture, centred));
+  run.near("largest difference / mean", compare(picture, centred).largest, 0, 0);  // NaN, were both black
+}
+
+}  // namespace
+
+std::vector<CheckCase> rangeCases() {
+  return {
+      {"emission-range", "a still life, its lights times 1e-6 ... 1e6", "image / E constant", "1e-3 of the mean",
+       emissionRangeCase, stillScene},
+      {"tiny-emitter", "one voxel shines in a black room, F = 1e-4", "F M by Lambert's formula",
+       "noise <= 5 % with emitter sampling", tinyEmitterCase, tinyEmitterScene, tinyEmitterLight},
+      {"scale-2", "a still life x 2^-10, x 2^13", "the same picture", "bits equal", scale2Case, stillScene},
+      {"scale-10", "a still life x 1e-3 ... 1e4", "the same picture", "1e-3", scale10Case, stillScene},
+      {"rotate-90", "a still life turned by 90 degrees about each axis, and mirrored", "the mapped picture", "mean 1 %",
+       rotate90Case, stillScene},
+      {"far-away", "a still life ten units wide, loaded at 1e6", "the picture of the centred one", "equal", farAwayCase,
+       tenUnits},
+  };
+}
+
+}  // namespace irad
