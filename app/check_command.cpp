@@ -1,9 +1,9 @@
 // `irad check`: the catalogue of hard cases on this device.
-#include <fmt/color.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/arguments.h"
@@ -116,10 +116,12 @@ std::string toCsv(const std::vector<Result>& results) {
   return out;
 }
 
+constexpr std::string_view kTableHead = "| case | figure | ours | mark | | thesis | ms |\n";
+
 /// The table of docs/stability.md: the decisive figure of each case.
-std::string toMarkdown(const std::vector<Result>& results, const DeviceInfo& device) {
-  std::string out = fmt::format("Device: {} ({}).\n\n", device.name, device.driver);
-  out += "| case | figure | ours | mark | | thesis | ms |\n|---|---|---|---|---|---|---|\n";
+std::string toMarkdown(const std::vector<Result>& results) {
+  std::string out(kTableHead);
+  out += "|---|---|--:|---|---|--:|--:|\n";
   for (const Result& r : results) {
     const CheckFigure* f = r.outcome.decisive();
     if (f == nullptr || !r.outcome.error.empty())
@@ -130,6 +132,18 @@ std::string toMarkdown(const std::vector<Result>& results, const DeviceInfo& dev
                          f->mark, r.status(), number(r.thesisValue(f->name)), r.outcome.milliseconds);
   }
   return out;
+}
+
+/// Writes the table in place of the one that the file holds; into a new file otherwise.
+void writeMarkdown(const std::string& path, const std::string& table) {
+  std::ifstream in(path);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const size_t start = text.find(kTableHead);
+  if (!text.empty() && start == std::string::npos)
+    throw UsageError(fmt::format("--markdown: {} exists and holds no table of hard cases", path));
+  size_t end = start;
+  while (end != std::string::npos && end < text.size() && text[end] == '|') end = text.find('\n', end) + 1;
+  writeFile(path, text.empty() ? table : text.replace(start, end - start, table));
 }
 
 void run(const Arguments& arguments) {
@@ -162,7 +176,7 @@ void run(const Arguments& arguments) {
   }
   if (arguments.json) writeFile(*arguments.json, toJson(results, session.device->info).dump(2) + "\n");
   if (arguments.csv) writeFile(*arguments.csv, toCsv(results));
-  if (arguments.markdown) writeFile(*arguments.markdown, toMarkdown(results, session.device->info));
+  if (arguments.markdown) writeMarkdown(*arguments.markdown, toMarkdown(results));
   fmt::print("{} passed, {} failed{}\n", results.size() - failed - pending, failed,
              pending != 0 ? fmt::format(", {} pending", pending) : "");
   session.checkValidation();
@@ -182,7 +196,8 @@ Command checkCommand() {
             options.flag("--figures", arguments->figures, "Every figure of a case, not the decisive one alone");
             options.value("--json", "FILE", arguments->json, "Write all figures as JSON");
             options.value("--csv", "FILE", arguments->csv, "Write all figures as CSV");
-            options.value("--markdown", "FILE", arguments->markdown, "Write the decisive figures as a table");
+            options.value("--markdown", "FILE", arguments->markdown,
+                          "Write the decisive figures as a table, in place of the one in FILE");
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
