@@ -19,8 +19,8 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
 /// "in 3.21, absorbed 3.20, escaped 0.01 W, imbalance -0.05 %": all channels; voxels of this edge.
 std::string describe(const EnergyBalance& energy, double edge);
 
-/// Largest |imbalance| that is passed over in silence. Voxels make 1 % in a Cornell box and .3 % in Sponza at N = 64, 3 %
-/// in the Box scene there and 5 % at N = 32; a light, a bounce or a wall that is lost makes far more.
+/// Largest |imbalance| that is passed over in silence. Voxels make .2 % in Sponza at N = 64, in the Box scene 1.7 % there
+/// and 6 % at N = 24; a light, a bounce or a wall that is lost makes far more.
 inline constexpr double kImbalance = 0.1;
 
 struct Finding {
