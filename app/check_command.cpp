@@ -166,7 +166,10 @@ void run(const Arguments& arguments) {
     if (check->run != nullptr) {
       session.progress(check->name, static_cast<float>(results.size()) / static_cast<float>(chosen.size()));
       result.outcome = runCheck(*session.context, *check, settings, options);
-      if (!arguments.quick) result.thesis = runCheck(*session.context, *check, thesisBeside(settings), options);
+      // Not judged: long cases shortened.
+      CheckOptions beside = options;
+      beside.quick = true;
+      if (!arguments.quick) result.thesis = runCheck(*session.context, *check, thesisBeside(settings), beside);
       session.progress.finish();
     }
     pending += check->run == nullptr;
