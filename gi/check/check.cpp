@@ -18,7 +18,7 @@ constexpr std::string_view kScheme = "check:";
 std::span<const CheckCase> checkCases() {
   static const std::vector<CheckCase> all = [] {
     std::vector<CheckCase> cases;
-    for (const auto group : {furnaceCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases,
+    for (const auto group : {furnaceCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases, leakCases,
                              samplingCases, stabilityCases, guardCases}) {
       const std::vector<CheckCase> more = group();
       cases.insert(cases.end(), more.begin(), more.end());

@@ -128,9 +128,14 @@ bool startsInside(const Facets& facets, const Ray& ray, const Less& less) {
            !less(glm::dot(ray.normal, facets.middle(wall) - ray.origin), TRACE_CONCAVE) &&
            !less(TRACE_OWN_NORMAL, glm::dot(facets.normal(wall), ray.normal)) &&
            std::none_of(near.begin(), near.end(), [&](uint32_t side) {
-             const bool other = glm::dot(facets.normal(side), facets.normal(wall)) < -TRACE_OWN_NORMAL;
-             const double nearSide = other ? double{TRACE_ON_PLANE} : -double{TRACE_ON_PLANE};
-             return less(-double{TRACE_ON_PLANE}, facets.distance(side, ray.origin)) &&
+             const bool opposed = glm::dot(facets.normal(side), facets.normal(wall)) < -TRACE_OWN_NORMAL;
+             const double nearSide = opposed ? double{TRACE_ON_PLANE} : -double{TRACE_ON_PLANE};
+             // A side that the wall stands on goes on behind it.
+             const dvec3 centre = dvec3(unpackVoxel(facets.voxel[wall])) + 0.5;
+             const double extent = voxelExtent(glm::vec3(facets.normal(side)));
+             const bool footing =
+                 !opposed && less(extent - TRACE_BEHIND, glm::dot(facets.normal(side), centre - facets.middle(side)));
+             return !footing && less(-double{TRACE_ON_PLANE}, facets.distance(side, ray.origin)) &&
                     less(facets.distance(wall, facets.middle(side)), nearSide);
            });
   });
@@ -158,15 +163,15 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
     Met front, back;
     uint32_t around = 0;
     const std::vector<uint32_t> here = facetsAt(facets, walk.cell);
-    // The extension of a face around ends at the planes recorded here, beyond which its middle does not lie.
-    const auto reaches = [&](uint32_t f, double t) {
+    // How far the extension of a face around is taken beyond the planes recorded here, at which it ends: its middle
+    // does not lie beyond them.
+    const auto overrun = [&](uint32_t f, double t) {
+      double beyond = 0;
       for (const uint32_t mine : here) {
         const double crossing = facets.distance(mine, ray.origin + t * ray.direction);
-        if (less(facets.distance(mine, facets.middle(f)), 0) ? less(TRACE_ON_PLANE, crossing)
-                                                             : less(crossing, -double{TRACE_ON_PLANE}))
-          return false;
+        beyond = std::max(beyond, less(facets.distance(mine, facets.middle(f)), 0) ? crossing : -crossing);
       }
-      return true;
+      return beyond;
     };
     const auto own = [&](uint32_t f) {
       return less(TRACE_OWN_NORMAL, glm::dot(facets.normal(f), ray.normal)) &&
@@ -180,10 +185,12 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
                              less(std::min(rise(f), start), TRACE_ON_PLANE);
       if (less(slope, 0) && less(-double{TRACE_BEHIND}, start) && !otherSide) {
         const double slack = recorded ? TRACE_PLANE + facetJoint(facets.shape[f]) : TRACE_ON_PLANE;
+        // Of a ray that starts on both planes: a little ahead, which tells the side.
+        const double at = std::min(std::max({cross, double{TRACE_PLANE}, walk.enter}), walk.leave);
+        const double beyond = recorded ? 0 : overrun(f, at);
         if (!less(std::min(slack, double{TRACE_PLANE}), leave) && !less(enter, -slack) &&
-            (recorded ? !cutOff(facets, f, ray.origin + std::clamp(cross, walk.enter, walk.leave) * ray.direction, less)
-                      : reaches(f, std::clamp(cross, walk.enter, walk.leave)))) {
-          if (less(cross, front.t)) front = {cross, f};
+            (recorded ? !cutOff(facets, f, ray.origin + at * ray.direction, less) : !less(TRACE_ON_PLANE, beyond))) {
+          if (less(cross + beyond, front.t)) front = {cross + beyond, f};
         } else if (recorded && !less(TRACE_JOINT, leave) && less(0, enter)) {
           passed = f;
           passedAt = walk.leave;

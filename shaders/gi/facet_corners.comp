@@ -33,6 +33,7 @@ void main() {
   float keptRise[4];
   float keptSum[4];
   bool keptSelf[4];
+  bool keptBefore[4];  // a voxel wholly in front of the own plane has it: they do not end where they meet
   uint keptCode[4];
   float keptDistance[4];
   int other_ = SEARCH + 1;  // distance of the nearest face of another plane
@@ -81,9 +82,11 @@ void main() {
           keptDistance[k] = centre;
           keptSum[k] = 0.0f;
           keptSelf[k] = radius == 0;
+          keptBefore[k] = false;
           keptRise[k] = rise - 1.0f;
         }
         keptSum[k] += rise;
+        keptBefore[k] = keptBefore[k] || dot(normal, vec3(step_) - point) > voxelExtent(normal) + SAME;
         if (rise <= keptRise[k]) continue;
         keptPlace[k] = place;
         keptRise[k] = rise;
@@ -92,7 +95,7 @@ void main() {
   }
   uint convex = 0u;  // places
   for (uint k = 0u; k < planes; ++k) {
-    bool meets = keptSum[k] < 0.0f;
+    bool meets = keptSum[k] < 0.0f && !keptBefore[k];
     if (meets && keptSelf[k]) keptPlace[k] = 13;
     around |= 1u << keptPlace[k];
     if (meets) convex |= 1u << keptPlace[k];

@@ -146,12 +146,12 @@ vec4 planeEquation(TracePlane p, TraceWalk w) {
   return vec4(p.normal, p.start - dot(p.normal, w.origin));
 }
 
-/// Whether the extension of a face around, whose middle is given, still exists where the ray crosses it: it ends at the
-/// plane of the face recorded here, beyond which its middle does not lie.
-bool reaches(vec4 recorded, vec3 middle, vec3 crossing) {
+/// How far the extension of a face around, whose middle is given, is taken beyond its end where the ray crosses it: it
+/// ends at the plane of the face recorded here, beyond which its middle does not lie. Voxels; <= 0: it still exists.
+float overrun(vec4 recorded, vec3 middle, vec3 crossing) {
   float side = dot(recorded.xyz, middle) + recorded.w;
   float here = dot(recorded.xyz, crossing) + recorded.w;
-  return side < 0.0f ? here <= TRACE_ON_PLANE : here >= -TRACE_ON_PLANE;
+  return side < 0.0f ? here : -here;
 }
 
 /// Whether a face has ended before `crossing`, a point of its plane in its cell: it lies in front of a face that meets it
@@ -230,12 +230,16 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         bool crosses = front ? leaveS <= min(slack, TRACE_PLANE) && enterS >= -slack
                              : p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE &&
                                    leaveS > TRACE_ON_PLANE && cross < back;
+        float beyond = 0.0f;
         if (crosses) {
-          vec3 crossing = w.origin + clamp(cross, w.t, leave) * w.direction;
-          crosses = recorded ? !cutOff(world, at, around, p.normal, crossing)
-                             : reaches(planes[0], middle, crossing) && reaches(planes[1], middle, crossing);
+          // Of a ray that starts on both planes: a little ahead, which tells the side.
+          vec3 crossing = w.origin + clamp(max(cross, TRACE_PLANE), w.t, leave) * w.direction;
+          if (!recorded) beyond = max(overrun(planes[0], middle, crossing), overrun(planes[1], middle, crossing));
+          crosses = recorded ? !cutOff(world, at, around, p.normal, crossing) : beyond <= TRACE_ON_PLANE;
         }
         if (crosses && front) {
+          // Of two extensions of one plane, on both sides of a wall, that which needs not pass the wall.
+          cross += max(beyond, 0.0f);
           if (cross < nearest) {
             nearest = cross;
             met = facet;
@@ -340,7 +344,8 @@ uint nextAround(TraceWorld world, vec3 voxel, inout FacesAround list, out vec3 a
 
 /// Whether a point of a facet, jittered over its voxel, lies beyond a wall that meets the facet there: behind a face
 /// that rises in front of the own plane, not convexly, and not in front of another side of the same solid or sheet (one
-/// whose middle is behind that face, or that is its other side).
+/// whose middle is behind that face, or that is its other side; not one that the wall stands on, which goes on behind
+/// it).
 bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownNormal, uint around) {
   FacesAround walls = facesAround(around);
   while (walls.around != 0u) {
@@ -355,6 +360,7 @@ bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownN
         dot(normal, ownNormal) > TRACE_OWN_NORMAL)
       continue;
     bool outside = false;
+    vec3 wallVoxel = at;
     FacesAround sides = facesAround(around);
     while (sides.around != 0u && !outside) {
       face = nextAround(world, voxel, sides, at, convex);
@@ -362,7 +368,10 @@ bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownN
       shape = world.facets.shape.at[face];
       vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
       vec3 other = facetMiddle(at, facing, shape);
-      float nearSide = dot(facing, normal) < -TRACE_OWN_NORMAL ? TRACE_ON_PLANE : -TRACE_ON_PLANE;
+      bool opposed = dot(facing, normal) < -TRACE_OWN_NORMAL;
+      // The wall stands on this one, which goes on behind it.
+      if (!opposed && dot(facing, wallVoxel + 0.5f - other) > voxelExtent(facing) - TRACE_BEHIND) continue;
+      float nearSide = opposed ? TRACE_ON_PLANE : -TRACE_ON_PLANE;
       outside = dot(facing, origin - other) > -TRACE_ON_PLANE && dot(normal, other - middle) < nearSide;
     }
     if (!outside) return true;

@@ -36,6 +36,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Byt
 };
 #endif
 
+/// Half of what a voxel spans along a unit vector, voxels: one whose centre is farther than this in front of a plane has
+/// no point behind it.
+IRAD_FN float voxelExtent(vec3 along) { return 0.5f * (abs(along.x) + abs(along.y) + abs(along.z)); }
+
 /// Where ray k of a facet starts under the robust rule: on the facet's plane, jittered over its cell's footprint along
 /// the normal's largest axis. `jitter` in (0, 1)^2.
 IRAD_FN vec3 facetPoint(uvec3 voxel, vec3 normal, float offset, vec2 jitter) {
