@@ -120,10 +120,20 @@ Scene quarterVoxelScene() {
 
 std::vector<CheckCase> leakCases() {
   return {
-      {"thin-wall", "walls of 0-3 voxels at phases 0 .3 .5 .9 x triangle order, light on one side", "dark side 0",
-       "<= .01 %", thinWallCase, quarterVoxelScene},
-      {"blur-wall", "blur filter across those walls: facets, and pictures from the dark side", "0", "<= .5 %",
-       blurWallCase, quarterVoxelScene},
+      {.name = "thin-wall",
+       .setup = "walls of 0-3 voxels at phases 0 .3 .5 .9 x triangle order, light on one side",
+       .oracle = "dark side 0",
+       .mark = "<= .01 %",
+       .run = thinWallCase,
+       .scene = quarterVoxelScene,
+       .red = "where walls up to a voxel thick stand on a floor, single facets at their foot see past them"},
+      {.name = "blur-wall",
+       .setup = "blur filter across those walls: facets, and pictures from the dark side",
+       .oracle = "0",
+       .mark = "<= .5 %",
+       .run = blurWallCase,
+       .scene = quarterVoxelScene,
+       .red = "the filter knows normal and plane, but no wall between: a lit floor blends into the dark one behind"},
   };
 }
 
