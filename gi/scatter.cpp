@@ -53,7 +53,7 @@ void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Setti
     frame.pass(kStage)
         .shader("gi/scatter_facets.comp")
         .constant(0, static_cast<uint32_t>(facets.encoding))
-        .read(facets.record, facets.voxel, facets.shape, facets.reverse, light.indirect, light.emitted)
+        .read(facets.record, facets.voxel, facets.shape, facets.reverse, facets.around, light.indirect, light.emitted)
         .write(light.shaded, light.shadedEmitted)
         .push(push)
         .dispatch(facets.count);

@@ -133,7 +133,8 @@ std::vector<CheckCase> leakCases() {
        .mark = "<= .5 %",
        .run = blurWallCase,
        .scene = quarterVoxelScene,
-       .red = "the filter knows normal and plane, but no wall between: a lit floor blends into the dark one behind"},
+       .red =
+           "lookups of pixels know normal and plane, but no wall between: a lit floor comes into the dark one behind"},
   };
 }
 
