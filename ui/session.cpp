@@ -23,6 +23,11 @@ void Session::useSceneCamera(int index) {
   viewDirty = true;
 }
 
+void Session::woke() {
+  solves.clear();
+  sweepsSinceWake = 0;
+}
+
 std::string stagesFrom(Redo first, const char* arrow) {
   std::string text;
   for (auto stage = static_cast<uint32_t>(first); stage < static_cast<uint32_t>(Redo::Nothing); ++stage) {

@@ -2,6 +2,7 @@
 // loop (ui/window.cpp) serves between frames.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -23,9 +24,10 @@ struct Message {
 /// A rebuild or a load that is running: shown as a bar with its stage, cancelled by a button.
 struct Work {
   std::string what;  ///< "Loading box.glb", "Rebuilding"
-  std::string stage;
+  std::string stage = {};
   float fraction = 0;
   bool cancel = false;
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 };
 
 /// What the pipeline holds, as of the last completed prepare: panels are drawn in the middle of a rebuild too, when its
@@ -62,6 +64,7 @@ struct Session {
   FlyCamera camera;
   int sceneCamera = 0;  ///< index of the scene's camera that `camera` began as
   Targets targets;
+  Camera shown;           ///< of the picture in targets
   bool viewDirty = true;  ///< the picture must be rendered again
 
   bool paused = false, hideUi = false, showHelp = false;
@@ -79,6 +82,7 @@ struct Session {
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void useSceneCamera(int index);
+  void woke();  ///< the solver begins anew: its plots too
   bool asleep() const { return built && pipeline->asleep(); }
 
  private:

@@ -1,0 +1,48 @@
+// Brings scene, pipeline and light to what the session asks for: loads, rebuilds and relights between the window's
+// frames. Blocking, but the window keeps answering: every step calls back.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "ui/session.h"
+
+namespace irad {
+
+class Builder {
+ public:
+  /// `breathe` is called in the middle of work, often: it may handle events and draw a frame of the old state, and sets
+  /// session.work->cancel to give up.
+  Builder(Context& context, Session& session, std::function<void()> breathe);
+
+  /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded; throws what went
+  /// wrong.
+  void load(const std::filesystem::path& path);
+  /// Hands edits to the pipeline, redoes what they call for, and lets the solver go on until it sleeps. What will be
+  /// redone is on screen for a frame before it starts, and waits for as long as the mouse `holds` the widget.
+  void apply(bool held);
+  /// Compiles what has changed in the folder, and has everything redone that a changed shader had a part in.
+  void reloadShaders(const std::filesystem::path& folder);
+  /// The frame that was just drawn announced what is next.
+  void announced() { shownNext_ = session_.next; }
+  /// Something is to be redone though no setting changed.
+  bool stale() const { return stale_; }
+
+ private:
+  void rebuild();
+  void prepare(Pipeline& pipeline);
+  void begin(std::string what);
+  bool progress(const char* stage, float fraction);
+  void forgetTimes();
+
+  Context& context_;
+  Session& session_;
+  std::function<void()> breathe_;
+  std::vector<double> applied_;  ///< every setting that the pipeline has, as a number
+  bool loadedLambertian_ = false;
+  bool stale_ = false;              ///< shaders have changed that made what the pipeline holds
+  Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced
+};
+
+}  // namespace irad
