@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "app/camera_json.h"
+#include "gi/camera_json.h"
 #include "gi/check/check.h"
 #include "gi/near_match.h"
 #include "renderer/error.h"

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/camera_json.h"
 #include "app/version.h"
+#include "gi/camera_json.h"
 #include "renderer/error.h"
 #include "renderer/json_extent.h"
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "app/arguments.h"
-#include "app/camera_json.h"
+#include "gi/camera_json.h"
 #include "renderer/json_extent.h"
 #include "renderer/scene/image_header.h"
 #include "tests/scene_files.h"
@@ -42,8 +42,7 @@ TEST(DeepJson, IsRefusedByEveryReader) {
   Settings settings;
   EXPECT_NE(refusal([&] { settingsFromJson(settings, R"({"matrix.rays": )" + deep + "}"); }).find("too deeply"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { app::cameraFromJson(R"({"position": )" + deep + "}"); }).find("too deeply"),
-            std::string::npos);
+  EXPECT_NE(refusal([&] { cameraFromJson(R"({"position": )" + deep + "}"); }).find("too deeply"), std::string::npos);
   TemporaryFolder folder;
   std::ofstream(folder.path / "deep.json") << R"({"settings": {}, "cameras": )" << deep << "}";
   const std::string config = refusal([&] { app::readConfigFile(folder.path / "deep.json"); });
@@ -52,18 +51,18 @@ TEST(DeepJson, IsRefusedByEveryReader) {
 
 TEST(CameraJson, NumbersOutsideFp32AreRefused) {
   const std::string good = R"({"position": [0, 0, 2], "target": [0, 0, 0], "aspect": 1.5, "yfov": 0.5})";
-  EXPECT_EQ(app::cameraFromJson(good).aspect, 1.5f);
+  EXPECT_EQ(cameraFromJson(good).aspect, 1.5f);
   for (const char* field : {"aspect", "yfov", "znear", "zfar"})
     for (const double value : {1e39, 1e300, 0.0, 1e-60, -1.0}) {
       json camera = json::parse(good);
       camera[field] = value;
-      const std::string text = refusal([&] { app::cameraFromJson(camera.dump()); });
+      const std::string text = refusal([&] { cameraFromJson(camera.dump()); });
       EXPECT_NE(text.find(fmt::format("camera: {}", field)), std::string::npos)
           << field << " " << value << ": " << text;
     }
   json camera = json::parse(good);
   camera["position"] = {0, 1e30, 0};
-  EXPECT_NE(refusal([&] { app::cameraFromJson(camera.dump()); }).find("position"), std::string::npos);
+  EXPECT_NE(refusal([&] { cameraFromJson(camera.dump()); }).find("position"), std::string::npos);
 }
 
 TEST(Manifest, CountsThatAreNoWholeNumbersAreRefused) {

@@ -1,11 +1,10 @@
 // A camera of the command line as JSON, and that it survives being written to a manifest and read again.
-#include "app/camera_json.h"
+#include "gi/camera_json.h"
 
 #include "tests/fuzz/readers.h"
 
 void irad::fuzz::camera_json(Bytes bytes) {
-  const Camera camera = app::cameraFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  const std::string text = app::cameraToJson(camera);
-  if (app::cameraToJson(app::cameraFromJson(text)) != text)
-    throw Unsound("a camera changes when written and read: " + text);
+  const Camera camera = cameraFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string text = cameraToJson(camera);
+  if (cameraToJson(cameraFromJson(text)) != text) throw Unsound("a camera changes when written and read: " + text);
 }

@@ -1,4 +1,4 @@
-#include "app/camera_json.h"
+#include "gi/camera_json.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "renderer/error.h"
 #include "renderer/json_extent.h"
 
-namespace irad::app {
+namespace irad {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -125,4 +125,4 @@ Camera cameraFromJson(std::string_view text) {
   return camera;
 }
 
-}  // namespace irad::app
+}  // namespace irad

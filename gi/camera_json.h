@@ -8,10 +8,10 @@
 
 #include "renderer/scene/scene.h"
 
-namespace irad::app {
+namespace irad {
 
 std::string cameraToJson(const Camera& camera);
 /// UsageError names the field.
 Camera cameraFromJson(std::string_view json);
 
-}  // namespace irad::app
+}  // namespace irad
