@@ -11,6 +11,7 @@
 #include "app/session.h"
 #include "app/table.h"
 #include "gi/check/check.h"
+#include "renderer/csv.h"
 #include "renderer/error.h"
 #include "renderer/output_file.h"
 
@@ -97,21 +98,16 @@ nlohmann::ordered_json toJson(const std::vector<Result>& results, const DeviceIn
   return out;
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 std::string toCsv(const std::vector<Result>& results) {
   std::string out = "case,status,figure,value,mark,passed,thesis,milliseconds\n";
   for (const Result& r : results) {
     if (r.outcome.figures.empty())
-      out += fmt::format("{},{},{},,,,,{:.3f}\n", r.check->name, r.status(),
-                         quoted(r.check->run == nullptr ? r.check->pending : r.outcome.error), r.outcome.milliseconds);
+      out +=
+          fmt::format("{},{},{},,,,,{:.3f}\n", r.check->name, r.status(),
+                      csvField(r.check->run == nullptr ? r.check->pending : r.outcome.error), r.outcome.milliseconds);
     for (const CheckFigure& f : r.outcome.figures)
-      out += fmt::format("{},{},{},{:.9g},{},{},{},{:.3f}\n", r.check->name, r.status(), quoted(f.name), f.value,
-                         quoted(f.mark), f.passed(), number(r.thesisValue(f.name)), r.outcome.milliseconds);
+      out += fmt::format("{},{},{},{:.9g},{},{},{},{:.3f}\n", r.check->name, r.status(), csvField(f.name), f.value,
+                         csvField(f.mark), f.passed(), number(r.thesisValue(f.name)), r.outcome.milliseconds);
   }
   return out;
 }

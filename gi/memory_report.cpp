@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "renderer/csv.h"
+
 namespace irad {
 namespace {
 
@@ -12,13 +14,6 @@ constexpr const char* kEntries = "matrix entries";
 
 bool isSegment(const FormFactors& matrix, const std::string& name) {
   return std::any_of(matrix.segments.begin(), matrix.segments.end(), [&](const Buffer& b) { return b.name == name; });
-}
-
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 }  // namespace

@@ -17,24 +17,12 @@ namespace irad {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contains;
+using test::contents;
 using test::runIrad;
 using test::RunResult;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Name -> bytes of every file in a folder.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) out[entry.path().filename().string()] = slurp(entry.path());
-  return out;
-}
+using test::slurp;
+using test::smallRender;
 
 std::vector<std::string> names(const std::map<std::string, std::string>& files) {
   std::vector<std::string> out;
@@ -188,19 +176,6 @@ TEST(Cli, ValuesRoundTripThroughAFile) {
   EXPECT_EQ(last["voxel.normals"], "axis26");
   EXPECT_EQ(last["matrix.rays"], 5);
   EXPECT_EQ(last["matrix.seed"], 9);
-}
-
-/// Small enough for a second or two on a CPU device.
-std::vector<std::string> smallRender(const fs::path& out, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"render", "box",
-                                     "--out",  out.string(),
-                                     "--size", "64x48",
-                                     "--view", "lit,irradiance",
-                                     "--set",  "voxel.resolution=24",
-                                     "--set",  "matrix.rays=32",
-                                     "--set",  "light.shadow_resolution=256"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
 }
 
 #ifdef IRAD_OIIO

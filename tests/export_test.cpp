@@ -16,6 +16,7 @@ namespace irad {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contains;
 
 /// Header and elements of a .npy file of type T.
 template <class T>
@@ -31,10 +32,6 @@ struct Npy {
     std::memcpy(values.data(), bytes.data() + 10 + length, values.size() * sizeof(T));
   }
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 class Export : public test::GpuTest {
  protected:

@@ -27,11 +27,8 @@ namespace irad {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::contains;
+using test::slurp;
 
 std::vector<std::string> listing(const fs::path& folder) {
   std::vector<std::string> names;
@@ -48,10 +45,6 @@ std::string workError(const std::function<void()>& act) {
     return error.what();
   }
   return "(no error)";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// Lets no file of this process grow beyond `bytes`: what a full disk looks like, for root too.

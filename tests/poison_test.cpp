@@ -9,10 +9,7 @@ namespace irad::test {
 namespace {
 
 Scene room() {
-  SceneBuilder b;
-  const uint32_t m = b.material(glm::vec3(0.7f, 0.5f, 0.2f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1));
-  b.box({m, m, m, lamp, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  b.sphere(m, glm::vec3(-0.3f, -0.4f, 0.1f), 0.45f, /*inward=*/false, 24);
+  SceneBuilder b = lampRoom();
   b.point({0.2, 0.3, 0.1}, 5);
   b.sun(glm::normalize(glm::vec3(0.3f, -1, 0.2f)), 2);
   return b.finish("room");

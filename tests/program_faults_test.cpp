@@ -1,10 +1,7 @@
 // The irad program under faults, from outside: no memory, a lost device, a full disk, a folder that may not be written,
 // a kill in the middle, files of newer programs. Exit statuses of DESIGN.md, errors in words, nothing half-written.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,46 +13,18 @@
 #include <random>
 #include <thread>
 
+#include "gi/check/process.h"
 #include "renderer/error.h"
 #include "renderer/scene/scene.h"
 #include "tests/support.h"
-
-extern char** environ;
 
 namespace irad::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-/// Name -> bytes of every file in a folder; none where there is no folder.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> out;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    std::ifstream in(entry.path(), std::ios::binary);
-    out[entry.path().filename().string()] = {std::istreambuf_iterator<char>(in), {}};
-  }
-  return out;
-}
-
 bool isTemporary(const std::string& name) {
   return name.starts_with(".") && name.ends_with(".irad-tmp");
-}
-
-std::vector<std::string> smallRender(const fs::path& out, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments{"render", "box",
-                                     "--out",  out.string(),
-                                     "--size", "48x48",
-                                     "--view", "lit,irradiance",
-                                     "--set",  "voxel.resolution=16",
-                                     "--set",  "matrix.rays=16",
-                                     "--set",  "light.shadow_resolution=64"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
 }
 
 std::vector<std::string> smallExport(const fs::path& out) {
@@ -220,28 +189,12 @@ TEST(ProgramFaults, AFolderThatMayNotBeWrittenIsStatus1) {
 
 /// Starts the program, and kills it with SIGKILL as soon as `now` holds; false: it ended before.
 bool killWhen(const std::vector<std::string>& arguments, const std::function<bool()>& now) {
-  std::vector<std::string> words{IRAD_BINARY};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int output : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
-  pid_t pid = 0;
-  EXPECT_EQ(posix_spawn(&pid, IRAD_BINARY, &actions, nullptr, argv.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  while (waitpid(pid, &status, WNOHANG) == 0)
-    if (now()) {
-      kill(pid, SIGKILL);
-      waitpid(pid, &status, 0);
-      break;
-    } else {
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-    }
-  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+  Process process(IRAD_BINARY, arguments);
+  while (!process.poll()) {
+    if (now()) return process.kill() == 128 + SIGKILL;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  return false;
 }
 
 /// Killed once k files have their final names and a random moment has passed, for k = 0, step, 2 step...; the next run

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "gi/check/pictures.h"
 #include "shaders/shared/ggx.h"
 #include "shaders/shared/passes.h"
 #include "shaders/shared/sampling.h"
@@ -112,18 +113,7 @@ TEST_F(Shading, ScaleByPowersOfTwoKeepsTheBits) {
     Light& point = b.addLight(LightType::Point, 20);
     point.position = {-2, 2, 1};
     b.addLight(LightType::Sun, 1).direction = glm::normalize(glm::vec3(1, -2, 0.5f));
-    Scene scene = b.finish();
-    for (glm::vec3& p : scene.positions) p *= s;
-    scene.boundsMin *= s;
-    scene.boundsMax *= s;
-    scene.origin *= s;
-    for (Light& light : scene.lights) {
-      light.position *= s;
-      if (light.type != LightType::Sun) light.intensity *= s * s;
-    }
-    scene.cameras[0].position *= s;
-    scene.cameras[0].znear *= s;
-    Stage stage(context(), std::move(scene));
+    Stage stage(context(), scaled(b.finish(), s));
     const Picture p = stage.draw(VIEW_LIT, {96, 96});
     if (first.empty()) first = p.linear;
     EXPECT_TRUE(first == p.linear) << "x 2^" << power;

@@ -1,7 +1,6 @@
 // Jacobi and scatter on the device against the oracle and closed forms (METHOD sections 1, 6, 7; HARD_CASES).
 #include <array>
 #include <glm/gtc/packing.hpp>
-#include <numbers>
 #include <numeric>
 
 #include "gi/oracle/rays.h"
@@ -42,13 +41,6 @@ class Solve : public GiTest {
     Lighting light = makeLighting(context(), w.facets, settings);
     solve(context(), w.facets, m, light, settings, 1000);
     return {std::move(m), std::move(light)};
-  }
-  static Scene room() {
-    SceneBuilder b;
-    const uint32_t m = b.material(glm::vec3(0.7f, 0.5f, 0.2f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1));
-    b.box({m, m, m, lamp, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-    b.sphere(m, glm::vec3(-0.3f, -0.4f, 0.1f), 0.45f, /*inward=*/false, 24);
-    return b.finish("room");
   }
   static std::vector<glm::vec4> someLight(uint32_t facets) {
     std::vector<glm::vec4> d(facets);
@@ -113,7 +105,7 @@ TEST_F(Solve, FurnaceTilted) {
 
 TEST_F(Solve, SweepsEqualTheOracle) {
   Settings settings = at(20, 48);
-  const World w = world(room(), settings);
+  const World w = world(lampRoom().finish("room"), settings);
   ASSERT_TRUE(w.facets.hasEmission);
   const std::vector<glm::vec4> direct = someLight(w.facets.count);
   std::vector<glm::dvec3> albedo, emission, d;
@@ -198,7 +190,7 @@ TEST_F(Solve, LightsOffEndsInExactZeroAndDarkStaysZero) {
 
 TEST_F(Solve, SameBitsTwiceAndWarmStartIsAtRest) {
   const Settings settings = at(20, 48);
-  const World w = world(room(), settings);
+  const World w = world(lampRoom().finish("room"), settings);
   const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
   const auto run = [&](Lighting& light) {
     setDirect(light, someLight(w.facets.count));
@@ -215,7 +207,7 @@ TEST_F(Solve, SameBitsTwiceAndWarmStartIsAtRest) {
 
 TEST_F(Solve, FirstGatherAndSweepsHaveTimingRowsOfTheirOwn) {
   const Settings settings = at(16, 32);
-  const World w = world(room(), settings);
+  const World w = world(lampRoom().finish("room"), settings);
   ASSERT_TRUE(w.facets.hasEmission);
   const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
   Lighting light = makeLighting(context(), w.facets, settings);
@@ -258,28 +250,7 @@ TEST_F(Solve, Plates) {
   const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
   Lighting light = makeLighting(context(), w.facets, settings);
   EXPECT_TRUE(solve(context(), w.facets, m, light, settings, 1000).converged);
-  const int n = 32;
-  std::vector<double> kernel(n * n);  // F between patches (dx, dz) apart, by 4 x 4 points of the receiver's patch
-  for (int dz = 0; dz < n; ++dz)
-    for (int dx = 0; dx < n; ++dx)
-      for (int s = 0; s < 16; ++s) {
-        const double x = (dx + (s % 4 - 1.5) / 4) / n, z = (dz + (s / 4 - 1.5) / 4) / n;
-        const double r2 = x * x + z * z + double{gap} * gap;
-        kernel[dz * n + dx] += double{gap} * gap / (std::numbers::pi * r2 * r2) / (n * n) / 16;
-      }
-  const auto product = [&](const std::vector<double>& b) {
-    std::vector<double> h(n * n, 0.0);
-    for (int i = 0; i < n * n; ++i)
-      for (int j = 0; j < n * n; ++j) h[i] += kernel[std::abs(i / n - j / n) * n + std::abs(i % n - j % n)] * b[j];
-    return h;
-  };
-  std::vector<double> b0(n * n, 0.0), b1(n * n, 0.0);
-  for (int sweep = 0; sweep < 40; ++sweep) {
-    const std::vector<double> h0 = product(b1), h1 = product(b0);
-    for (int i = 0; i < n * n; ++i) b0[i] = 1 + 0.9 * h0[i], b1[i] = 0.3 * h1[i];
-  }
-  double mean0 = 0, mean1 = 0;
-  for (int i = 0; i < n * n; ++i) mean0 += b0[i] / (n * n), mean1 += b1[i] / (n * n);
+  const auto [mean0, mean1] = plateRadiosity(gap, 0.9, 0.3);
   double sum[2] = {0, 0}, count[2] = {0, 0};
   const std::vector<glm::vec4> b = values(light.radiosity);
   const auto shape = downloadAs<uint32_t>(context(), w.facets.shape);

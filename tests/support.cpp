@@ -1,33 +1,15 @@
 #include "tests/support.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <thread>
 
+#include "gi/check/process.h"
 #include "renderer/error.h"
 
-extern char** environ;
-
 namespace irad::test {
-namespace {
-
-std::string slurp(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-}  // namespace
-
 Gpu& gpu() {
   // Shared by the tests of a suite's process; the order of members is the reverse order of destruction.
   static Gpu shared = [] {
@@ -63,15 +45,21 @@ std::filesystem::path assets() {
   return std::filesystem::path(IRAD_SOURCE_DIR) / "assets";
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "irad-test-XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw WorkError(fmt::format("{}: cannot be made", pattern));
-  path = pattern;
+std::string slurp(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
+std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> out;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    out[entry.path().filename().string()] = slurp(entry.path());
+  return out;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSeconds) {
@@ -81,41 +69,33 @@ RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSecon
 RunResult runProgram(const std::string& program, const std::vector<std::string>& arguments, double timeoutSeconds) {
   const TemporaryFolder folder;
   const std::string out = folder.path / "out", err = folder.path / "err";
-  std::vector<std::string> words{program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  pid_t pid = 0;
-  const int failed = posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
   RunResult result;
-  if (failed) {
-    result.err = fmt::format("{}: cannot be started ({})", program, failed);
+  try {
+    Process process(program, arguments, out, err);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeoutSeconds);
+    while (!process.poll() && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (!process.poll()) result.err = fmt::format("killed after {} s\n", timeoutSeconds);
+    result.status = process.kill();
+  } catch (const WorkError& error) {
+    result.err = error.what();
     return result;
   }
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeoutSeconds);
-  int status = 0;
-  while (waitpid(pid, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      kill(pid, SIGKILL);
-      waitpid(pid, &status, 0);
-      result.err = fmt::format("killed after {} s\n", timeoutSeconds);
-      break;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  // As a shell reports it: 128 + signal.
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = slurp(out);
   result.err += slurp(err);
   return result;
+}
+
+std::vector<std::string> smallRender(const std::filesystem::path& out, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"render", "box",
+                                     "--out",  out.string(),
+                                     "--size", "64x48",
+                                     "--view", "lit,irradiance",
+                                     "--set",  "voxel.resolution=24",
+                                     "--set",  "matrix.rays=16",
+                                     "--set",  "light.shadow_resolution=64"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
 }
 
 }  // namespace irad::test

@@ -1,13 +1,16 @@
-// What the suites share: one headless device with validation per process, the folder of real scenes, temporary folders.
+// What the suites share: one headless device with validation per process, the folder of real scenes, temporary folders,
+// runs of the program.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
 #include "renderer/frame.h"
+#include "renderer/temporary_folder.h"
 
 namespace irad::test {
 
@@ -35,12 +38,13 @@ class GpuTest : public ::testing::Test {
 std::optional<std::filesystem::path> sharedScenes();
 std::filesystem::path assets();
 
-/// A fresh folder, removed with the object.
-struct TemporaryFolder {
-  TemporaryFolder();
-  ~TemporaryFolder();
-  std::filesystem::path path;
-};
+using irad::TemporaryFolder;
+
+/// A file's bytes; none where it cannot be read.
+std::string slurp(const std::filesystem::path& path);
+/// Name -> bytes of every file in a folder; none where there is no folder.
+std::map<std::string, std::string> contents(const std::filesystem::path& folder);
+bool contains(const std::string& text, const std::string& part);
 
 /// Runs the irad binary with these arguments; output and exit status.
 struct RunResult {
@@ -51,5 +55,7 @@ RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSecon
 /// The same with another program, by its path.
 RunResult runProgram(const std::string& program, const std::vector<std::string>& arguments,
                      double timeoutSeconds = 600);
+/// `irad render box` into `out`, two views, so small that a CPU device takes a second or two; and `more` options.
+std::vector<std::string> smallRender(const std::filesystem::path& out, const std::vector<std::string>& more = {});
 
 }  // namespace irad::test

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <thread>
@@ -24,11 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 inline void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
-inline std::string readText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// A child process with its standard error in a file.
@@ -75,7 +69,7 @@ class Process {
   }
   /// Processor time used so far by all its threads, seconds.
   double cpuSeconds() const {
-    const std::string stat = readText(fmt::format("/proc/{}/stat", pid_));
+    const std::string stat = slurp(fmt::format("/proc/{}/stat", pid_));
     std::istringstream fields(stat.substr(stat.rfind(')') + 2));
     std::string skipped;
     for (int i = 3; i < 14; ++i) fields >> skipped;
@@ -83,7 +77,7 @@ class Process {
     fields >> user >> system;
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
-  std::string log() const { return readText(log_); }
+  std::string log() const { return slurp(log_); }
 
  private:
   std::filesystem::path log_;
@@ -166,7 +160,7 @@ class VirtualScreen {
 
   /// The framebuffer is in the XWD format: big-endian header, then rows of BGRX.
   ScreenPart grab(int x, int y, int width, int height) const {
-    const std::string file = readText(folder_.path / "Xvfb_screen0");
+    const std::string file = slurp(folder_.path / "Xvfb_screen0");
     const auto word = [&](size_t i) {
       uint32_t value = 0;
       for (size_t b = 0; b < 4; ++b) value = value << 8 | static_cast<uint8_t>(file.at(4 * i + b));

@@ -269,7 +269,7 @@ TEST_F(WindowTest, ReloadsShadersAndWhatTheyMade) {
 
   // An error: the message names file and line, the old shaders stay.
   const std::filesystem::path facets = shaders / "gi/facet_shade.comp";
-  const std::string good = readText(facets);
+  const std::string good = slurp(facets);
   std::ofstream(facets) << good << "\nmistake\n";
   key("F5");
   EXPECT_TRUE(says("The old shaders stay in use"));
@@ -306,7 +306,7 @@ TEST_F(WindowTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
 
   // One facet's direct light becomes NaN.
   const std::filesystem::path gather = shaders / "gi/gather.comp";
-  const std::string good = readText(gather), wanted = "vec4(sum / float(p.samples), 0.0f)";
+  const std::string good = slurp(gather), wanted = "vec4(sum / float(p.samples), 0.0f)";
   std::string bad = good;
   const size_t at = bad.find(wanted);
   ASSERT_NE(at, std::string::npos);
@@ -352,7 +352,7 @@ TEST_F(WindowTest, LoadsAndRebuildsCanBeCancelled) {
 
   // Another sequence of rays in every row.
   const std::filesystem::path rays = shaders / "shared/sampling.h";
-  std::string text = readText(rays);
+  std::string text = slurp(rays);
   const size_t half = text.find("0.5");
   ASSERT_NE(half, std::string::npos);
   text.replace(half, 3, "0.4");
@@ -372,7 +372,7 @@ TEST_F(WindowTest, ScreenshotOfTheWholeWindow) {
   start({"--exit-after", "3", "--screenshot", "window.png"});
   ASSERT_EQ(window_->wait(120), 0);
   // The PNG header's width and height.
-  const std::string png = readText(folder_.path / "window.png");
+  const std::string png = slurp(folder_.path / "window.png");
   ASSERT_GT(png.size(), 10000u);
   const auto word = [&](size_t at) {
     uint32_t value = 0;

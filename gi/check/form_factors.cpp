@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
@@ -87,33 +86,6 @@ void distanceCase(CheckRun& run) {
 
 constexpr float kGap = 0.1f;
 
-/// Radiosity of two unit plates `gap` apart, the first emitting 1: the double integral over 32 x 32 patches of each.
-std::pair<double, double> plateLight(double gap, double rho0, double rho1) {
-  constexpr int n = 32;
-  std::vector<double> kernel(n * n);  // F between patches (dx, dz) apart, by 4 x 4 points of the receiver's patch
-  for (int dz = 0; dz < n; ++dz)
-    for (int dx = 0; dx < n; ++dx)
-      for (int s = 0; s < 16; ++s) {
-        const double x = (dx + (s % 4 - 1.5) / 4) / n, z = (dz + (s / 4 - 1.5) / 4) / n;
-        const double r2 = x * x + z * z + gap * gap;
-        kernel[dz * n + dx] += gap * gap / (std::numbers::pi * r2 * r2) / (n * n) / 16;
-      }
-  const auto product = [&](const std::vector<double>& b) {
-    std::vector<double> h(n * n, 0.0);
-    for (int i = 0; i < n * n; ++i)
-      for (int j = 0; j < n * n; ++j) h[i] += kernel[std::abs(i / n - j / n) * n + std::abs(i % n - j % n)] * b[j];
-    return h;
-  };
-  std::vector<double> b0(n * n, 0.0), b1(n * n, 0.0);
-  for (int sweep = 0; sweep < 40; ++sweep) {
-    const std::vector<double> h0 = product(b1), h1 = product(b0);
-    for (int i = 0; i < n * n; ++i) b0[i] = 1 + rho0 * h0[i], b1[i] = rho1 * h1[i];
-  }
-  double mean0 = 0, mean1 = 0;
-  for (int i = 0; i < n * n; ++i) mean0 += b0[i] / (n * n), mean1 += b1[i] / (n * n);
-  return {mean0, mean1};
-}
-
 void platesCase(CheckRun& run) {
   const auto pipeline = run.prepare(plates(kGap));
   const std::vector<int> wall = walls(run.facets(*pipeline));
@@ -124,7 +96,7 @@ void platesCase(CheckRun& run) {
     sum[plate] += b[i].x;
     ++count[plate];
   }
-  const auto [first, second] = plateLight(kGap, 0.9, 0.3);
+  const auto [first, second] = plateRadiosity(kGap, 0.9, 0.3);
   run.near("B of the emitting plate", sum[0] / count[0], first, 0.02 * first);
   run.near("B of the other", sum[1] / count[1], second, 0.02 * second);
 }

@@ -1,15 +1,14 @@
 #include "gi/check/glb.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "renderer/error.h"
 #include "renderer/output_file.h"
+#include "renderer/temporary_folder.h"
 
 namespace irad {
 namespace {
@@ -17,21 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr uint32_t kUnsignedInt = 5125, kFloat = 5126;  // componentType
-
-/// Removed with what is in it.
-struct TemporaryFolder {
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "irad-check-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw WorkError(fmt::format("{}: cannot be made", pattern));
-    path = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  std::filesystem::path path;
-};
 
 template <class Vector>
 Json numbers(const Vector& v) {

@@ -25,20 +25,22 @@ double degrees(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
+/// Runs a kernel, a thread for each of `count` elements of `in`.
+template <class Push, class... Out>
+void runOver(Context& context, const char* shader, uint32_t count, const Push& push, const Buffer& in,
+             const Out&... out) {
+  Frame frame = context.begin();
+  frame.pass(kStage).shader(shader).read(in).write(out...).push(push).dispatch(count);
+  frame.submitAndWait();
+}
+
 // ---- encodings ----
 
 std::vector<glm::vec4> roundTrip(Context& context, const std::vector<glm::vec4>& normals, uint32_t encoding) {
   const Buffer in = makeBuffer<glm::vec4>(context, "normals", Subsystem::Staging, normals);
   const Buffer out(context.device, "decoded normals", Subsystem::Staging, 16 * normals.size());
   const auto count = static_cast<uint32_t>(normals.size());
-  Frame frame = context.begin();
-  frame.pass(kStage)
-      .shader("check/encode.comp")
-      .read(in)
-      .write(out)
-      .push(EncodePush{in.address, out.address, count, encoding})
-      .dispatch(count);
-  frame.submitAndWait();
+  runOver(context, "check/encode.comp", count, EncodePush{in.address, out.address, count, encoding}, in, out);
   return downloadAs<glm::vec4>(context, out);
 }
 
@@ -100,14 +102,7 @@ Samples sample(Context& context, const std::vector<glm::uvec4>& points, const gl
   const Buffer u(context.device, "coordinates", Subsystem::Staging, 16 * points.size());
   const Buffer d(context.device, "directions", Subsystem::Staging, 16 * points.size());
   const auto count = static_cast<uint32_t>(points.size());
-  Frame frame = context.begin();
-  frame.pass(kStage)
-      .shader("check/sample.comp")
-      .read(in)
-      .write(u, d)
-      .push(SamplePush{in.address, u.address, d.address, normal, count})
-      .dispatch(count);
-  frame.submitAndWait();
+  runOver(context, "check/sample.comp", count, SamplePush{in.address, u.address, d.address, normal, count}, in, u, d);
   return {downloadAs<glm::vec4>(context, u), downloadAs<glm::vec4>(context, d)};
 }
 

@@ -226,14 +226,19 @@ Scene furnishedRoom() {
   return b.finish("furnished-room");
 }
 
-Scene mixedRoom() {
+SceneBuilder lampRoom() {
   SceneBuilder b;
   const uint32_t m = b.material(glm::vec3(0.7f, 0.5f, 0.2f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1));
+  b.box({m, m, m, lamp, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  b.sphere(m, glm::vec3(-0.3f, -0.4f, 0.1f), 0.45f, /*inward=*/false, 24);
+  return b;
+}
+
+Scene mixedRoom() {
+  SceneBuilder b = lampRoom();
   const uint32_t metal = b.material(glm::vec3(0.9f));
   b.edit(metal).metallic = 1;
   b.edit(metal).roughness = 0.2f;
-  b.box({m, m, m, lamp, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  b.sphere(m, glm::vec3(-0.3f, -0.4f, 0.1f), 0.45f, /*inward=*/false, 24);
   b.sphere(metal, glm::vec3(0.5f, -0.6f, -0.2f), 0.3f, /*inward=*/false, 24);
   b.point({0.2, 0.3, 0.1}, 5);
   b.sun(glm::vec3(0.3f, -1, 0.2f), 2);
@@ -261,32 +266,6 @@ SceneBuilder stillLife(float light) {
   b.point({-0.5, 0.875, 0.25}, light * 0.3f);
   b.camera({0.25, 0.75, 2.25}, {0, 0.5, 0});
   return b;
-}
-
-double formFactorPolygon(const glm::dvec3& position, const glm::dvec3& normal,
-                         const std::array<glm::dvec3, 4>& corners) {
-  double sum = 0;
-  for (size_t i = 0; i < 4; ++i) {
-    const glm::dvec3 a = glm::normalize(corners[i] - position), b = glm::normalize(corners[(i + 1) % 4] - position);
-    const glm::dvec3 c = glm::cross(a, b);
-    sum += glm::dot(glm::normalize(c), normal) * std::atan2(glm::length(c), glm::dot(a, b));
-  }
-  return std::abs(sum) / (2 * std::numbers::pi);
-}
-
-double formFactorParallelSquares(double d) {
-  const double x = 1 / d, x2 = 1 + x * x;
-  return 2 / (std::numbers::pi * x * x) *
-         (0.5 * std::log(x2 * x2 / (1 + 2 * x * x)) + 2 * x * std::sqrt(x2) * std::atan(x / std::sqrt(x2)) -
-          2 * x * std::atan(x));
-}
-
-double formFactorPerpendicularSquares() {
-  // Howell C-14 with H = W = 1.
-  const double atan1 = std::atan(1.0);
-  return (2 * atan1 - std::sqrt(2.0) * std::atan(1 / std::sqrt(2.0)) +
-          0.25 * std::log(4.0 / 3.0 * (3.0 / 4.0) * (3.0 / 4.0))) /
-         std::numbers::pi;
 }
 
 }  // namespace irad

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -60,7 +61,9 @@ Scene parallelSquares(float distance);
 Scene plates(float gap, float rho0 = 0.9f, float rho1 = 0.3f);
 /// A room with a tilted box, a ball and a thin two-sided shelf: every kind of edge.
 Scene furnishedRoom();
-/// A room with a lamp, a point light, a sun, a ball and a metal one: something for every stage.
+/// A room of 2 x 2 x 2 whose ceiling is a lamp, with a ball in it, to be finished.
+SceneBuilder lampRoom();
+/// lampRoom() with a metal ball, a point light and a sun: something for every stage.
 Scene mixedRoom();
 /// A room of 2 x 1.25 x 1.25, open towards +z, seen from there: coloured walls, a lamp, a point light, a turned box and
 /// a glossy ball, to be finished. Exitance and intensity are multiplied by `light`.
@@ -73,5 +76,7 @@ double formFactorPolygon(const glm::dvec3& position, const glm::dvec3& normal,
 double formFactorParallelSquares(double d);
 /// Form factor between two perpendicular unit squares with a common edge (C-14).
 double formFactorPerpendicularSquares();
+/// Mean B of plates(gap, rho0, rho1), W/m^2: the double integral over 32 x 32 patches of each.
+std::pair<double, double> plateRadiosity(double gap, double rho0, double rho1);
 
 }  // namespace irad

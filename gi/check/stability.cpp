@@ -1,9 +1,6 @@
 // The same answer over time, under toggled settings, in poisoned memory, in another process.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,10 +11,10 @@
 #include <numeric>
 
 #include "gi/check/cases.h"
+#include "gi/check/process.h"
 #include "gi/check/scenes.h"
 #include "renderer/error.h"
-
-extern char** environ;
+#include "renderer/temporary_folder.h"
 
 namespace irad {
 namespace {
@@ -159,24 +156,6 @@ void poisonCase(CheckRun& run) {
   run.none("facets whose H poison changes", facets);
 }
 
-/// Runs a program with its output thrown away; its exit status.
-int spawn(const std::string& program, const std::vector<std::string>& arguments) {
-  std::vector<char*> argv{const_cast<char*>(program.c_str())};
-  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw WorkError(fmt::format("{}: cannot be run: {}", program, std::strerror(error)));
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
 std::string contents(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -196,35 +175,27 @@ std::string withoutTimes(const std::string& csv) {
 
 void repeatCase(CheckRun& run) {
   if (run.options.program.empty()) throw WorkError("needs the program to run it twice");
-  const fs::path folder = fs::temp_directory_path() / fmt::format("irad-repeat-{}", getpid());
-  const auto clean = [&] {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  };
-  clean();
+  const TemporaryFolder folder;
   for (const char* name : {"a", "b"}) {
     const auto call = [&](std::vector<std::string> arguments) {
-      arguments.insert(arguments.end(),
-                       {"--out", (folder / name).string(), "--device", std::to_string(run.context.device.info.index),
-                        "--set", "voxel.resolution=32", "--set", "matrix.rays=128"});
-      if (const int status = spawn(run.options.program, arguments); status != 0) {
-        clean();
+      arguments.insert(arguments.end(), {"--out", (folder.path / name).string(), "--device",
+                                         std::to_string(run.context.device.info.index), "--set", "voxel.resolution=32",
+                                         "--set", "matrix.rays=128"});
+      if (const int status = Process(run.options.program, arguments).wait(); status != 0)
         throw WorkError(fmt::format("irad {} {} ended with status {}", arguments[0], arguments[1], status));
-      }
     };
     call({"render", "check:repeat", "--view", "lit,irradiance,specular", "--size", "96x96"});
     call({"export", "check:repeat", "--matrix", "--facets", "--volume", "radiosity"});
   }
   uint64_t files = 0, differing = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "a")) {
+  for (const auto& entry : fs::directory_iterator(folder.path / "a")) {
     const fs::path name = entry.path().filename();
     if (name == "manifest.json") continue;  // names its folder
     const bool times = name == "timings.csv";
-    const std::string a = contents(entry.path()), b = contents(folder / "b" / name);
+    const std::string a = contents(entry.path()), b = contents(folder.path / "b" / name);
     differing += times ? withoutTimes(a) != withoutTimes(b) : a != b;
     ++files;
   }
-  clean();
   run.info("files of two processes compared", static_cast<double>(files));
   run.none("files that differ", differing);
   run.atLeast("files compared", static_cast<double>(files), 15, /*ideal=*/18);

@@ -280,7 +280,7 @@ void writeTexts(const fs::path& folder) {
   write(folder / "camera_json/orthographic.json", box.dump());
   const json manifest = {{"program", {{"name", "irad"}}},
                          {"format", 1},
-                         {"scene", {{"path", "/tmp/a.glb"}, {"sha256", std::string(64, '0')}}},
+                         {"scene", {{"path", "scenes/a.glb"}, {"sha256", std::string(64, '0')}}},
                          {"settings", {{"matrix.rays", 64}, {"solver.omega", 0.7}, {"sample.filter", "blur"}}},
                          {"size", {640, 480}},
                          {"frames", 3},
