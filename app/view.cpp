@@ -11,6 +11,7 @@
 #include "app/devices.h"
 #include "app/views.h"
 #include "renderer/error.h"
+#include "ui/preferences.h"
 #include "ui/window.h"
 
 namespace irad::app {
@@ -71,6 +72,7 @@ void run(const Arguments& arguments) {
   if (arguments.exitAfter)
     options.exitAfter = static_cast<uint32_t>(parseInteger("--exit-after", *arguments.exitAfter, 1, 1'000'000));
   if (arguments.screenshot) options.screenshot = *arguments.screenshot;
+  if (options.exitAfter == 0) options.preferences = preferencesFile();
   options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
 
   DeviceOptions deviceOptions = arguments.device.options();

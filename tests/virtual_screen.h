@@ -146,7 +146,8 @@ class VirtualScreen {
     display_ = fmt::format(":{}", std::atoi(number.c_str()));
   }
   std::map<std::string, std::string> environment() const {
-    return {{"DISPLAY", display_}, {"XDG_SESSION_TYPE", "x11"}};
+    return {
+        {"DISPLAY", display_}, {"XDG_SESSION_TYPE", "x11"}, {"XDG_CONFIG_HOME", (folder_.path / "config").string()}};
   }
 
   const std::string& display() const { return display_; }

@@ -184,6 +184,52 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
+  start();
+  ASSERT_TRUE(viewportSettles(lit));
+  xdotool("mousemove 360 510");
+  const auto left = [this] { return screen_->grab(286, 60, 40, 400); };  // of the left column; then of the viewport
+  const auto background = [this] { return screen_->grab(10, 400, 250, 200).deviation() < 0.01; };
+  ASSERT_FALSE(background());
+  // The edge of the left column, and the header of the settings.
+  xdotool("mousemove 332 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 280 300 sleep 0.5 mouseup 1");
+  const auto black = [](const ScreenPart& p) { return p.count(0x000000) > 0.9 * 40 * 400; };
+  ASSERT_TRUE(settles(left, black)) << "the edge cannot be dragged";
+  xdotool("mousemove 60 258 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  ASSERT_TRUE(settles(left, [&](const ScreenPart&) { return background(); })) << "the settings do not fold";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+
+  start();
+  ASSERT_TRUE(settles(left, black)) << "the column's width is forgotten";
+  EXPECT_TRUE(background()) << "the settings are unfolded again";
+  // View, Reset the layout.
+  xdotool("mousemove 60 15 sleep 0.5 click 1 sleep 0.5 mousemove 80 95 sleep 0.5 click 1 sleep 0.5 mousemove 600 510");
+  ASSERT_TRUE(settles(left, [&](const ScreenPart& p) { return !black(p) && !background(); })) << "not reset";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
+  std::filesystem::copy(assets() / "box.glb", folder_.path / "a.glb");
+  const std::filesystem::path config = screen_->environment().at("XDG_CONFIG_HOME");
+  std::filesystem::create_directories(config / "irad");
+  std::ofstream(config / "irad/window.json") << "{\"format\": 1, \"left\": \"wide\"}";
+  start();
+  EXPECT_TRUE(says("left is \"wide\""));
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  key("o");
+  pause(1);
+  xdotool("mousemove 640 500 sleep 0.4 click 1 sleep 0.4 type --delay 60 " + (folder_.path / "a.glb").string());
+  key("Return");
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart&) {
+    return readText(config / "irad/window.json").find("a.glb") != std::string::npos;
+  })) << "the scene is not loaded, or not remembered";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, FollowsItsSize) {
   start();
   ASSERT_TRUE(viewportSettles(lit));

@@ -23,30 +23,15 @@ void floatAt(const Rect& around, ImVec2 pivot, float margin) {
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
 }
 
-struct State {
-  ImVec4 color;
-  std::string text;
-};
-
-State stateOf(const Session& session) {
-  if (session.work) return {theme::accent, session.work->what};
-  if (!session.pipeline) return {theme::dim, "no scene"};
-  if (session.halted) return {theme::warning, "not rebuilt"};
-  if (session.next < Redo::Shade) return {theme::accent, "next: " + stagesFrom(session.next, arrowGlyph())};
-  if (session.built && session.built->faulty()) return {theme::error, "numerical watch"};
-  if (session.paused) return {theme::warning, "paused"};
-  if (session.asleep()) return {theme::good, "asleep"};
-  return {theme::accent, fmt::format("solving: {} sweeps", withThousands(session.sweepsSinceWake))};
-}
-
 }  // namespace
 
-void beginTile(const char* name, const Rect& where, bool filled, bool scrolls) {
+void beginTile(const char* name, const Rect& where, bool filled, bool scrolls, bool menus) {
   ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                            ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                            ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (!filled) flags |= ImGuiWindowFlags_NoBackground;
   if (!scrolls) flags |= ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+  if (menus) flags |= ImGuiWindowFlags_MenuBar;
   ImGui::SetNextWindowPos({where.position.x, where.position.y});
   ImGui::SetNextWindowSize({where.size.x, where.size.y});
   ImGui::Begin(name, nullptr, flags);
@@ -54,31 +39,6 @@ void beginTile(const char* name, const Rect& where, bool filled, bool scrolls) {
 
 void endTile() {
   ImGui::End();
-}
-
-void drawBar(const Session& session, const Rect& where) {
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
-                      ImVec2(ImGui::GetStyle().WindowPadding.x, (where.size.y - ImGui::GetFontSize()) * 0.5f));
-  beginTile("##bar", where, /*filled=*/true, /*scrolls=*/false);
-  const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
-  const std::string hint = session.hideUi ? "" : "F1 help";
-  const State state = stateOf(session);
-  const float gap = 2 * ImGui::GetFontSize();
-  const float right = ImGui::CalcTextSize(state.text.c_str()).x + gap + ImGui::CalcTextSize(hint.c_str()).x;
-
-  pushHeadingFont();
-  std::string title = "irad";
-  if (session.pipeline) title += "   " + session.pipeline->scene().path.filename().string();
-  clippedText(title, std::max(width * 0.5f, width - right - gap));
-  ImGui::PopFont();
-  ImGui::SameLine(start + std::max(width - right, width * 0.5f));
-  ImGui::TextColored(state.color, "%s", state.text.c_str());
-  ImGui::SameLine(0, gap);
-  ImGui::TextColored(theme::dim, "%s", hint.c_str());
-  endTile();
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
 }
 
 void drawBanner(const Session& session, const Rect& viewport) {

@@ -1,4 +1,4 @@
-// What lies over the panels and the viewport: the bar with the state, messages, progress, help.
+// What lies over the panels and the viewport: messages, progress, help; and the tiles themselves.
 #pragma once
 
 #include "ui/layout.h"
@@ -6,7 +6,6 @@
 
 namespace irad {
 
-void drawBar(const Session& session, const Rect& where);
 /// What the numerical watch found wrong, in red across the top of the viewport for as long as it is.
 void drawBanner(const Session& session, const Rect& viewport);
 void drawMessages(Session& session, const Rect& viewport);
@@ -14,8 +13,8 @@ void drawProgress(Session& session, const Rect& viewport);
 void drawHelp(Session& session, const Rect& viewport);
 
 /// Begins one of the fixed windows that tile the main window. It has the cleared window's colour already; `filled`
-/// draws its own, `scrolls` lets its contents be longer than it is.
-void beginTile(const char* name, const Rect& where, bool filled = false, bool scrolls = true);
+/// draws its own, `scrolls` lets its contents be longer than it is, `menus` begins it with a menu bar.
+void beginTile(const char* name, const Rect& where, bool filled = false, bool scrolls = true, bool menus = false);
 void endTile();
 
 }  // namespace irad

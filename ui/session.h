@@ -12,7 +12,9 @@
 
 #include "gi/pipeline.h"
 #include "renderer/frame.h"
+#include "ui/bindings.h"
 #include "ui/fly_camera.h"
+#include "ui/preferences.h"
 
 namespace irad {
 
@@ -67,7 +69,8 @@ struct Session {
   Camera shown;           ///< of the picture in targets
   bool viewDirty = true;  ///< the picture must be rendered again
 
-  bool paused = false, hideUi = false, showHelp = false;
+  bool paused = false, hideUi = false, showHelp = false, showOpen = false;
+  Preferences preferences;
   std::optional<Work> work;
   std::vector<Message> messages;
 
@@ -75,6 +78,7 @@ struct Session {
   uint64_t sweepsSinceWake = 0;
 
   // Requests.
+  std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene;
   bool reloadShaders = false, capture = false, quit = false, rebuild = false;
 

@@ -15,6 +15,8 @@
 #include "ui/capture.h"
 #include "ui/imgui_layer.h"
 #include "ui/input.h"
+#include "ui/menu.h"
+#include "ui/open_dialog.h"
 #include "ui/overlay.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
@@ -35,11 +37,13 @@ class Window {
 
  private:
   void open(const std::filesystem::path& path);
-  void nameWindow();
+  void sceneOpened();
   void breathe();
   void takeKeys();
   void act(Action action);
   void takeRequests();
+  void readPreferences();
+  void savePreferences();
   void fly();
   void drawFrame();
   void drawPanels(const Layout& layout);
@@ -55,6 +59,7 @@ class Window {
   ImGuiLayer layer_;
   Builder builder_;
   Viewport viewport_;
+  OpenDialog openDialog_;
   std::vector<std::unique_ptr<Panel>> panels_ = makePanels();
   Image image_;          ///< the whole window
   bool visible_ = true;  ///< the last frame had something to be drawn on
@@ -62,6 +67,8 @@ class Window {
   uint32_t settledFrames_ = 0;
   uint64_t frameIndex_ = 0;
   Clock::time_point lastDraw_;
+  Preferences saved_;         ///< as the file has them
+  bool toldUnsaved_ = false;  ///< that it cannot be written
 };
 
 Window::Window(Context& context, const WindowOptions& options)
@@ -76,11 +83,34 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.edited = options.settings;
   session_.defaults = options.defaults;
   session_.view = options.view;
+  readPreferences();
+}
+
+void Window::readPreferences() {
+  if (options_.preferences.empty()) return;
+  try {
+    session_.preferences = irad::readPreferences(options_.preferences);
+  } catch (const Error& error) {
+    session_.error(fmt::format("The layout is that of a first start. {}", error.what()));
+  }
+  saved_ = session_.preferences;
+}
+
+/// Once per change, and not while the mouse is making it. A folder that cannot be written into is told of once.
+void Window::savePreferences() {
+  if (options_.preferences.empty() || session_.preferences == saved_ || ImGui::IsAnyItemActive()) return;
+  saved_ = session_.preferences;
+  try {
+    writePreferences(options_.preferences, saved_);
+  } catch (const Error& error) {
+    if (!std::exchange(toldUnsaved_, true))
+      session_.error(fmt::format("The layout is not remembered. {}", error.what()));
+  }
 }
 
 void Window::run() {
   builder_.load(options_.scene);
-  nameWindow();
+  sceneOpened();
   if (!options_.camera.empty() && session_.pipeline) {
     const std::vector<Camera>& cameras = session_.pipeline->scene().cameras;
     const auto named =
@@ -177,6 +207,9 @@ void Window::act(Action action) {
         session_.useSceneCamera((session_.sceneCamera + 1) %
                                 static_cast<int>(session_.pipeline->scene().cameras.size()));
       break;
+    case Action::Open:
+      session_.showOpen = true;
+      break;
     case Action::Quit:
       session_.quit = true;
       if (session_.work) session_.work->cancel = true;
@@ -185,15 +218,20 @@ void Window::act(Action action) {
 }
 
 void Window::takeRequests() {
+  for (const Action action : std::exchange(session_.actions, {})) act(action);
+  savePreferences();
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
   if (std::exchange(session_.capture, false)) captureView(context_, session_, options_.captures);
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
 }
 
-/// The scene's file in the window's title.
-void Window::nameWindow() {
+/// The scene's file in the window's title, and among those opened lately.
+void Window::sceneOpened() {
   if (!session_.pipeline) return;
+  std::error_code ignored;
+  const std::filesystem::path& path = session_.pipeline->scene().path;
+  if (std::filesystem::exists(path, ignored)) session_.preferences.opened(path);
   const std::string file = session_.pipeline->scene().path.filename().string();
   glfwSetWindowTitle(presenter_.window(), fmt::format("irad \u2014 {}", file).c_str());
 }
@@ -201,7 +239,7 @@ void Window::nameWindow() {
 void Window::open(const std::filesystem::path& path) {
   try {
     builder_.load(path);
-    nameWindow();
+    sceneOpened();
   } catch (const Error& error) {
     session_.error(error.what());
   }
@@ -248,7 +286,7 @@ void Window::drawFrame() {
   glfwGetWindowContentScale(presenter_.window(), &contentScale, &ignored);
   layer_.setScale(contentScale * options_.scale);
 
-  const Layout where = layout(size, layer_.scale(), session_.hideUi);
+  const Layout where = layout(size, layer_.scale(), session_.hideUi, session_.preferences.sizes);
   const glm::uvec2 picture = glm::max(glm::uvec2(where.viewport.size), glm::uvec2(1));
   // While a rebuild runs the last picture is shown, stretched if need be.
   if (!busy && session_.built && session_.targets.size != picture) {
@@ -256,12 +294,15 @@ void Window::drawFrame() {
     session_.viewDirty = true;
   }
   layer_.beginFrame();
+  // First: of windows that focus does not raise, ImGui keeps those on top that were there before.
+  if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
   viewport_.draw(session_, layer_, where.viewport);
   if (!session_.hideUi) drawPanels(where);
   drawBanner(session_, where.viewport);
   drawMessages(session_, where.viewport);
   drawProgress(session_, where.viewport);
   drawHelp(session_, where.viewport);
+  openDialog_.draw(session_);
   builder_.announced();
 
   // Frames of the progress bar stay out of the timings: the rebuild's own passes are being summed there.
@@ -279,7 +320,7 @@ void Window::drawFrame() {
 }
 
 void Window::drawPanels(const Layout& layout) {
-  drawBar(session_, layout.bar);
+  drawMenuBar(session_, panels_, layout.bar);
   const std::pair<Region, Rect> tiles[] = {
       {Region::Left, layout.left}, {Region::Right, layout.right}, {Region::Bottom, layout.bottom}};
   for (const auto& [region, rect] : tiles) {
@@ -290,7 +331,13 @@ void Window::drawPanels(const Layout& layout) {
       bool open = true;
       if (region != Region::Bottom) {  // the strip is low: its table begins at once
         pushHeadingFont();
-        open = ImGui::CollapsingHeader(panel->title(), ImGuiTreeNodeFlags_DefaultOpen);
+        std::set<std::string>& folded = session_.preferences.folded;
+        ImGui::SetNextItemOpen(!folded.contains(panel->title()));
+        open = ImGui::CollapsingHeader(panel->title());
+        if (open)
+          folded.erase(panel->title());
+        else
+          folded.insert(panel->title());
         ImGui::PopFont();
       }
       if (open) panel->draw(session_);

@@ -18,7 +18,8 @@ struct WindowOptions {
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";
-  std::filesystem::path shaders;  ///< sources for F5; empty: not at hand
+  std::filesystem::path preferences;  ///< file that remembers the layout; empty: none is read or written
+  std::filesystem::path shaders;      ///< sources for F5; empty: not at hand
   // For tests.
   uint32_t exitAfter = 0;            ///< > 0: end after so many frames in which nothing was left to do
   std::filesystem::path screenshot;  ///< of the whole window when it ends, .png

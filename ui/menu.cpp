@@ -1,0 +1,135 @@
+#include "ui/menu.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "ui/overlay.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+struct State {
+  ImVec4 color;
+  std::string text;
+};
+
+State stateOf(const Session& session) {
+  if (session.work) return {theme::accent, session.work->what};
+  if (!session.pipeline) return {theme::dim, "no scene"};
+  if (session.halted) return {theme::warning, "not rebuilt"};
+  if (session.next < Redo::Shade) return {theme::accent, "next: " + stagesFrom(session.next, arrowGlyph())};
+  if (session.built && session.built->faulty()) return {theme::error, "numerical watch"};
+  if (session.paused) return {theme::warning, "paused"};
+  if (session.asleep()) return {theme::good, "asleep"};
+  return {theme::accent, fmt::format("solving: {} sweeps", withThousands(session.sweepsSinceWake))};
+}
+
+/// An item that does what a key does.
+void actionItem(Session& session, const char* label, Action action, bool checked = false, bool enabled = true) {
+  const auto all = bindings();
+  const auto binding = std::find_if(all.begin(), all.end(), [&](const Binding& b) { return b.action == action; });
+  if (ImGui::MenuItem(label, binding != all.end() ? binding->keys : nullptr, checked, enabled))
+    session.actions.push_back(action);
+}
+
+void drawFile(Session& session) {
+  actionItem(session, "Open\u2026", Action::Open);
+  if (ImGui::BeginMenu("Open recent", !session.preferences.recent.empty())) {
+    for (const std::filesystem::path& path : session.preferences.recent)
+      if (ImGui::MenuItem(path.string().c_str())) session.openScene = path;
+    ImGui::EndMenu();
+  }
+  if (ImGui::MenuItem("Load again", nullptr, false, session.pipeline != nullptr))
+    session.openScene = session.pipeline->scene().path;
+  ImGui::Separator();
+  actionItem(session, "Save this view", Action::Capture, false, session.built.has_value());
+  ImGui::Separator();
+  actionItem(session, "Quit", Action::Quit);
+}
+
+void drawView(Session& session, const std::vector<std::unique_ptr<Panel>>& panels) {
+  if (session.pipeline && ImGui::BeginMenu("Camera")) {
+    const std::vector<Camera>& cameras = session.pipeline->scene().cameras;
+    for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
+      const std::string& name = cameras[static_cast<size_t>(i)].name;
+      ImGui::PushID(i);
+      if (ImGui::MenuItem(name.empty() ? fmt::format("camera {}", i + 1).c_str() : name.c_str(), nullptr,
+                          i == session.sceneCamera))
+        session.useSceneCamera(i);
+      ImGui::PopID();
+    }
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Panels")) {
+    std::set<std::string>& folded = session.preferences.folded;
+    for (const auto& panel : panels) {
+      if (panel->region() == Region::Bottom) continue;
+      const bool open = !folded.contains(panel->title());
+      if (!ImGui::MenuItem(panel->title(), nullptr, open)) continue;
+      if (open)
+        folded.insert(panel->title());
+      else
+        folded.erase(panel->title());
+    }
+    ImGui::EndMenu();
+  }
+  actionItem(session, "Hide panels", Action::HideUi, session.hideUi);
+  if (ImGui::MenuItem("Reset the layout")) session.preferences.resetLayout();
+}
+
+void drawSolver(Session& session) {
+  actionItem(session, "Paused", Action::Pause, session.paused);
+  if (ImGui::MenuItem("Rebuild", nullptr, false, session.halted)) session.rebuild = true;
+  actionItem(session, "Compile shaders again", Action::ReloadShaders);
+}
+
+}  // namespace
+
+void drawMenuBar(Session& session, const std::vector<std::unique_ptr<Panel>>& panels, const Rect& where) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  // As high as the bar. Menus that open have their own padding.
+  const ImVec2 high{style.FramePadding.x, std::max((where.size.y - ImGui::GetFontSize()) * 0.5f, 0.0f)};
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, high);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.WindowPadding.x, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  beginTile("##bar", where, /*filled=*/true, /*scrolls=*/false, /*menus=*/true);
+  ImGui::PopStyleVar(3);
+  const bool shown = ImGui::BeginMenuBar();
+  ImGui::PopStyleVar();
+  if (shown) {
+    const auto menu = [&](const char* name, auto&& draw) {
+      if (!ImGui::BeginMenu(name)) return;
+      draw();
+      ImGui::EndMenu();
+    };
+    menu("File", [&] { drawFile(session); });
+    menu("View", [&] { drawView(session, panels); });
+    menu("Solver", [&] { drawSolver(session); });
+    menu("Help", [&] { actionItem(session, "Keys and mouse", Action::Help, session.showHelp); });
+
+    // The scene's file between the menus and the state.
+    const State state = stateOf(session);
+    const float gap = 2 * ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x;
+    const float stateWidth = std::min(ImGui::CalcTextSize(state.text.c_str()).x, width * 0.6f);
+    const float start = ImGui::GetCursorPosX();
+    if (session.pipeline) {
+      ImGui::SetCursorPosX(start + gap);
+      ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+      clippedText(session.pipeline->scene().path.filename().string(), std::max(width - stateWidth - 2 * gap, 1.0f));
+      ImGui::PopStyleColor();
+    }
+    ImGui::SetCursorPosX(start + width - stateWidth);
+    ImGui::PushStyleColor(ImGuiCol_Text, state.color);
+    clippedText(state.text, stateWidth + 1);
+    ImGui::PopStyleColor();
+    ImGui::EndMenuBar();
+  }
+  endTile();
+}
+
+}  // namespace irad

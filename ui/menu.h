@@ -1,0 +1,12 @@
+// The menu bar: what the window can do, with the keys that do it too, and the state at its right end.
+#pragma once
+
+#include "ui/layout.h"
+#include "ui/panel.h"
+#include "ui/session.h"
+
+namespace irad {
+
+void drawMenuBar(Session& session, const std::vector<std::unique_ptr<Panel>>& panels, const Rect& where);
+
+}  // namespace irad

@@ -1,0 +1,32 @@
+// What the window remembers between runs: one JSON file in the user's configuration folder.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ui/layout.h"
+
+namespace irad {
+
+struct Preferences {
+  PanelSizes sizes;
+  std::set<std::string> folded;               ///< titles of panels
+  std::vector<std::filesystem::path> recent;  ///< scenes, absolute, the last one first
+
+  bool operator==(const Preferences&) const = default;
+  void resetLayout();  ///< as on the first start; the scenes stay
+  void opened(const std::filesystem::path& scene);
+};
+
+/// irad/window.json in $XDG_CONFIG_HOME, or in ~/.config (XDG Base Directory Specification 0.8); empty where the
+/// environment names no such folder.
+std::filesystem::path preferencesFile();
+
+/// Those of a first start where there is no such file. InputError names file, member and value.
+Preferences readPreferences(const std::filesystem::path& file);
+/// Makes the folder; WorkError where that or the file cannot be written.
+void writePreferences(const std::filesystem::path& file, const Preferences& preferences);
+
+}  // namespace irad
