@@ -110,6 +110,19 @@ bool cutOff(const Facets& facets, uint32_t facet, const dvec3& crossing, const L
   return false;
 }
 
+/// The middle of the facet that a ray leaves, else its origin.
+dvec3 ownMiddle(const Facets& facets, const Ray& ray) {
+  return ray.facet != NO_FACET ? facets.middle(ray.facet) : ray.origin;
+}
+
+/// Whether the ray starts behind a face: where the planes are too uncertain to tell, on the side of its facet's middle.
+template <class Less>
+bool startsBehind(const Facets& facets, const Ray& ray, uint32_t face, const Less& less) {
+  const double start = facets.distance(face, ray.origin);
+  return less(start, -TRACE_BEHIND) ||
+         (less(start, TRACE_BEHIND) && less(facets.distance(face, ownMiddle(facets, ray)), -TRACE_BEHIND));
+}
+
 /// Whether the ray's origin lies beyond a wall that meets its facet's surface.
 template <class Less>
 bool startsInside(const Facets& facets, const Ray& ray, const Less& less) {
@@ -124,7 +137,7 @@ bool startsInside(const Facets& facets, const Ray& ray, const Less& less) {
       if (place >= 5 || !(around >> (AROUND_CONVEX_SHIFT + place) & 1)) walls.push_back(f);
     }
   return std::any_of(walls.begin(), walls.end(), [&](uint32_t wall) {
-    return !less(-double{TRACE_BEHIND}, facets.distance(wall, ray.origin)) &&
+    return startsBehind(facets, ray, wall, less) &&
            !less(glm::dot(ray.normal, facets.middle(wall) - ray.origin), TRACE_CONCAVE) &&
            !less(TRACE_OWN_NORMAL, glm::dot(facets.normal(wall), ray.normal)) &&
            std::none_of(near.begin(), near.end(), [&](uint32_t side) {
@@ -168,8 +181,11 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
     const auto overrun = [&](uint32_t f, double t) {
       double beyond = 0;
       for (const uint32_t mine : here) {
-        const double crossing = facets.distance(mine, ray.origin + t * ray.direction);
-        beyond = std::max(beyond, less(facets.distance(mine, facets.middle(f)), 0) ? crossing : -crossing);
+        // A plane that the ray starts in front of, within what planes are known to, is taken through its origin.
+        const double plane =
+            startsBehind(facets, ray, mine, less) ? 0 : std::min(facets.distance(mine, ray.origin), 0.0);
+        const double crossing = facets.distance(mine, ray.origin + t * ray.direction) - plane;
+        beyond = std::max(beyond, less(facets.distance(mine, facets.middle(f)), plane) ? crossing : -crossing);
       }
       return beyond;
     };
@@ -183,7 +199,7 @@ Hit traceRobust(const Facets& facets, const Ray& ray) {
       const double enter = start + slope * walk.enter, leave = start + slope * walk.leave, cross = -start / slope;
       const bool otherSide = less(glm::dot(facets.normal(f), ray.normal), -double{TRACE_OWN_NORMAL}) &&
                              less(std::min(rise(f), start), TRACE_ON_PLANE);
-      if (less(slope, 0) && less(-double{TRACE_BEHIND}, start) && !otherSide) {
+      if (less(slope, 0) && !startsBehind(facets, ray, f, less) && !otherSide) {
         const double slack = recorded ? TRACE_PLANE + facetJoint(facets.shape[f]) : TRACE_ON_PLANE;
         // Of a ray that starts on both planes: a little ahead, which tells the side.
         const double at = std::min(std::max({cross, double{TRACE_PLANE}, walk.enter}), walk.leave);

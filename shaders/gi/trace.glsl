@@ -141,9 +141,16 @@ vec3 facetMiddle(vec3 cell, vec3 normal, uint shape) {
   return cell + 0.5f + normal * facetOffset(shape);
 }
 
-/// The plane of `p` as x, y, z, w of n . x + w = 0, in voxel units.
-vec4 planeEquation(TracePlane p, TraceWalk w) {
-  return vec4(p.normal, p.start - dot(p.normal, w.origin));
+/// Whether a ray starts behind a face, from the signed distances of its origin and of the middle of the facet that it
+/// leaves: where the planes are too uncertain to tell, the origin is on the side of that middle.
+bool startsBehind(float start, float middle) {
+  return start < (middle < -TRACE_BEHIND ? TRACE_BEHIND : -TRACE_BEHIND);
+}
+
+/// The plane of `p` as x, y, z, w of n . x + w = 0, in voxel units; through the origin of a ray that starts in front of
+/// it within what planes are known to.
+vec4 planeEquation(TracePlane p, TraceWalk w, bool behind) {
+  return vec4(p.normal, (behind ? p.start : max(p.start, 0.0f)) - dot(p.normal, w.origin));
 }
 
 /// How far the extension of a face around, whose middle is given, is taken beyond its end where the ray crosses it: it
@@ -154,8 +161,8 @@ float overrun(vec4 recorded, vec3 middle, vec3 crossing) {
   return side < 0.0f ? here : -here;
 }
 
-/// Whether a face has ended before `crossing`, a point of its plane in its cell: it lies in front of a face that meets it
-/// convexly. `around`: FacetArrays::around of a corner's facet, else 0.
+/// Whether a face has ended before `crossing`, a point of its plane in its cell: it lies in front of a face that meets
+/// it convexly. `around`: FacetArrays::around of a corner's facet, else 0.
 bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing) {
   uint convex = around >> AROUND_CONVEX_SHIFT;
   around &= AROUND_VOXELS;
@@ -179,8 +186,8 @@ bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing
 
 /// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of cells around
 /// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the
-/// origin's cell there is only the own plane.
-TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) {
+/// origin's cell there is only the own plane. `ownMiddle`: of the facet that the ray leaves, else the origin.
+TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMiddle, uint clear) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   uint passed = TRACE_ESCAPED;  // last face passed closely in front of, for rays that slip through a joint
   float passedAt = 0.0f;
@@ -212,6 +219,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
         vec3 middle = facetMiddle(at, p.normal, shape);
         float rise = dot(ownNormal, middle - w.origin);  // of the face's middle above the own plane
         bool own = alike > TRACE_OWN_NORMAL && abs(p.start) < TRACE_OWN_PLANE;
+        bool behind = startsBehind(p.start, dot(p.normal, ownMiddle - middle));
         uint around = 0u;
         if (recorded) {
           // On the own plane: nothing around can be met as far as this facet's plane is clear.
@@ -219,13 +227,13 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, uint clear) 
           if ((shape & FACET_CORNER) != 0u) around = world.facets.around.at[facet];
           ask |= around & AROUND_VOXELS & ~AROUND_SELF;
           planes[1] = planes[0];
-          planes[0] = planeEquation(p, w);
+          planes[0] = planeEquation(p, w, behind);
         }
         // A face that looks back at this one, but does not stand clearly in front of it, is the own sheet's other side.
         bool otherSide = alike < -TRACE_OWN_NORMAL && min(rise, p.start) < TRACE_ON_PLANE;
         // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface. One
         // that is crossed after it is left to the next cell, or ends before.
-        bool front = p.slope < 0.0f && p.start > -TRACE_BEHIND && !otherSide;
+        bool front = p.slope < 0.0f && !behind && !otherSide;
         float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
         bool crosses = front ? leaveS <= min(slack, TRACE_PLANE) && enterS >= -slack
                              : p.slope > 0.0f && !own && recorded && enterS < -TRACE_ON_PLANE &&
@@ -318,7 +326,7 @@ TraceHit traceThesis(TraceWorld world, TraceWalk w) {
 TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
   TraceWalk w = traceStart(origin, direction);
   if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
-  return traceRobust(world, w, normal, 0u);
+  return traceRobust(world, w, normal, origin, 0u);
 }
 
 /// The faces that `around` of a facet names, one after the other.
@@ -346,7 +354,8 @@ uint nextAround(TraceWorld world, vec3 voxel, inout FacesAround list, out vec3 a
 /// that rises in front of the own plane, not convexly, and not in front of another side of the same solid or sheet (one
 /// whose middle is behind that face, or that is its other side; not one that the wall stands on, which goes on behind
 /// it).
-bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownNormal, uint around) {
+bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownNormal, vec3 ownMiddle,
+                  uint around) {
   FacesAround walls = facesAround(around);
   while (walls.around != 0u) {
     vec3 at;
@@ -356,8 +365,8 @@ bool startsInside(TraceWorld world, vec3 voxel, vec3 origin, uint own, vec3 ownN
     uint shape = world.facets.shape.at[face];
     vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
     vec3 middle = facetMiddle(at, normal, shape);
-    if (dot(normal, origin - middle) > -TRACE_BEHIND || dot(ownNormal, middle - origin) < TRACE_CONCAVE ||
-        dot(normal, ownNormal) > TRACE_OWN_NORMAL)
+    if (!startsBehind(dot(normal, origin - middle), dot(normal, ownMiddle - middle)) ||
+        dot(ownNormal, middle - origin) < TRACE_CONCAVE || dot(normal, ownNormal) > TRACE_OWN_NORMAL)
       continue;
     bool outside = false;
     vec3 wallVoxel = at;
@@ -384,9 +393,11 @@ TraceHit traceFacetRay(TraceWorld world, vec3 origin, vec3 direction, vec3 norma
                        uint shape) {
   TraceWalk w = traceStart(origin, direction);
   if (TRACE_HIT_RULE == HIT_RULE_THESIS) return traceThesis(world, w);
-  if ((shape & FACET_CORNER) != 0u && startsInside(world, vec3(voxel), origin, facet, normal, world.facets.around.at[facet]))
+  vec3 middle = facetMiddle(vec3(voxel), normal, shape);
+  if ((shape & FACET_CORNER) != 0u &&
+      startsInside(world, vec3(voxel), origin, facet, normal, middle, world.facets.around.at[facet]))
     return TraceHit(TRACE_INVALID, 0.0f, 0u);
-  return traceRobust(world, w, normal, w.cell == vec3(voxel) ? facetClear(shape) : 0u);
+  return traceRobust(world, w, normal, middle, w.cell == vec3(voxel) ? facetClear(shape) : 0u);
 }
 
 #endif
