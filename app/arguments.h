@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/manifest.h"
+#include "app/config.h"
 #include "gi/settings.h"
 #include "renderer/device.h"
 #include "renderer/scene/scene.h"

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/devices.h"
-#include "app/manifest.h"
 #include "app/session.h"
 #include "gi/check/check.h"
 #include "gi/export.h"
@@ -79,12 +78,7 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   if (arguments.matrix) append(exportMatrix(*session.context, pipeline.matrix(), out));
   if (arguments.facets) append(exportFacets(*session.context, pipeline.facets(), pipeline.lighting(), out));
 
-  Manifest manifest;
-  manifest.subcommand = "export";
-  manifest.device = &session.device->info;
-  manifest.scene = &pipeline.scene();
-  manifest.settings = &session.settings;
-  manifest.cpuDevice = session.device->isCpu;
+  Manifest manifest = session.manifest("export", pipeline);
   for (const Volume volume : volumes) {
     manifest.arguments.emplace_back("--volume");
     manifest.arguments.emplace_back(EnumNames<Volume>::names.at(static_cast<size_t>(volume)));

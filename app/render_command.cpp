@@ -9,13 +9,12 @@
 #include <sstream>
 
 #include "app/devices.h"
-#include "app/manifest.h"
 #include "app/session.h"
 #include "app/views.h"
 #include "gi/memory_report.h"
+#include "gi/picture.h"
 #include "gi/pipeline.h"
 #include "renderer/error.h"
-#include "renderer/image_io.h"
 #include "renderer/output_file.h"
 
 namespace irad::app {
@@ -45,9 +44,8 @@ std::string fileName(const Camera& camera, size_t index, std::set<std::string>& 
 }
 
 /// Renders `frames` frames and writes the last, also where it holds what is no number: the picture shows it (NaN red).
-/// Returns what findBadPixels says.
-std::string renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, const ViewInfo& view,
-                          uint32_t frames, Targets& targets, const fs::path& stem, std::vector<fs::path>& written) {
+PictureFiles renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, const ViewInfo& view,
+                           uint32_t frames, Targets& targets, const fs::path& stem) {
   for (uint32_t i = 0; i < frames; ++i) {
     const auto start = std::chrono::steady_clock::now();
     Frame frame = session.context->begin(i);
@@ -56,15 +54,7 @@ std::string renderPicture(Session& session, Pipeline& pipeline, const Camera& ca
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     session.timings.endFrame(i, /*setup=*/false, elapsed.count());
   }
-  const std::vector<std::byte> linear = download(*session.context, targets.linear);
-  const std::vector<std::byte> display = download(*session.context, targets.display);
-  const size_t pixels = size_t{targets.size.x} * targets.size.y;
-  IRAD_CHECK_OP(linear.size(), ==, pixels * sizeof(glm::vec4));
-  IRAD_CHECK_OP(display.size(), ==, pixels * sizeof(glm::u8vec4));
-  const std::span values(reinterpret_cast<const glm::vec4*>(linear.data()), pixels);
-  written.push_back(writeDisplay(stem, targets.size, {reinterpret_cast<const glm::u8vec4*>(display.data()), pixels}));
-  written.push_back(writeLinear(stem, targets.size, values));
-  return findBadPixels(values, targets.size, view.toneMapped);
+  return writePicture(*session.context, targets, view, stem);
 }
 
 double meanSetup(const Timings& timings, std::string_view stage) {
@@ -130,9 +120,11 @@ void run(const Arguments& arguments) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
     for (const ViewInfo& view : chosen) {
       session.progress(view.name, 0);
-      const std::string bad =
-          renderPicture(session, pipeline, cameras[c], view, frames, targets, out / (prefix + view.name), written);
-      if (!bad.empty()) badPictures.push_back(fmt::format("numerical watch: picture {}{}: {}", prefix, view.name, bad));
+      const PictureFiles files =
+          renderPicture(session, pipeline, cameras[c], view, frames, targets, out / (prefix + view.name));
+      written.insert(written.end(), files.paths.begin(), files.paths.end());
+      if (!files.bad.empty())
+        badPictures.push_back(fmt::format("numerical watch: picture {}{}: {}", prefix, view.name, files.bad));
     }
   }
 
@@ -144,12 +136,7 @@ void run(const Arguments& arguments) {
                                                        pipeline.field(), pipeline.matrix(), pipeline.lighting())));
   written.push_back(out / "memory.csv");
 
-  Manifest manifest;
-  manifest.subcommand = "render";
-  manifest.device = &session.device->info;
-  manifest.scene = &pipeline.scene();
-  manifest.settings = &session.settings;
-  manifest.cpuDevice = session.device->isCpu;
+  Manifest manifest = session.manifest("render", pipeline);
   manifest.size = size;
   manifest.frames = frames;
   manifest.cameras = cameras;

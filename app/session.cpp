@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/version.h"
 #include "gi/check/check.h"
 #include "gi/sizes.h"
 #include "renderer/error.h"
@@ -45,6 +46,15 @@ void Session::prepare(Pipeline& pipeline) {
     device->waitIdle();  // what the attempt held is free from here on
     pipeline.set(settings);
   }
+}
+
+Manifest Session::manifest(std::string subcommand, const Pipeline& pipeline) const {
+  return {.program = {versionNumber(), versionCommit()},
+          .subcommand = std::move(subcommand),
+          .device = &device->info,
+          .scene = &pipeline.scene(),
+          .settings = &settings,
+          .cpuDevice = device->isCpu};
 }
 
 void Session::checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors) {

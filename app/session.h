@@ -6,6 +6,7 @@
 
 #include "app/arguments.h"
 #include "app/progress.h"
+#include "gi/manifest.h"
 #include "gi/pipeline.h"
 #include "renderer/frame.h"
 
@@ -28,6 +29,8 @@ struct Session {
   /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
   /// next smaller ones, in `settings` too.
   void prepare(Pipeline& pipeline);
+  /// Of this program, device, scene and settings; the subcommand adds what it made.
+  Manifest manifest(std::string subcommand, const Pipeline& pipeline) const;
   /// Says what the numerical watch warns of; WorkError with what it found wrong, and with `errors`.
   void checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors = {});
   /// After --validate: WorkError with the messages, if there were any.

@@ -5,6 +5,7 @@
 
 #include "app/arguments.h"
 #include "app/table.h"
+#include "gi/manifest.h"
 
 namespace irad::app {
 namespace {

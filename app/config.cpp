@@ -1,4 +1,4 @@
-#include "app/manifest.h"
+#include "app/config.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +10,7 @@
 
 #include "app/version.h"
 #include "gi/camera_json.h"
+#include "gi/manifest.h"
 #include "renderer/error.h"
 #include "renderer/json_extent.h"
 
@@ -126,65 +127,6 @@ Config readConfigFile(const fs::path& path) {
   config.views = member<std::vector<std::string>>(path, json, "views").value_or(std::vector<std::string>{});
   config.cameras = readCameras(path, json);
   return config;
-}
-
-std::string settingsFile(const Settings& settings) {
-  Json json{{"format", kConfigFormat}};
-  json.update(Json::parse(settingsToJson(settings)));
-  return json.dump(2);
-}
-
-std::string shellQuote(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789_-+=.,:/@%") == std::string::npos;
-  if (plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string Manifest::commandLine() const {
-  std::vector<std::string> words{"irad", subcommand, fs::absolute(scene->path).lexically_normal().string()};
-  if (device) words.insert(words.end(), {"--device", device->name});
-  if (size) words.insert(words.end(), {"--size", fmt::format("{}x{}", size->x, size->y)});
-  for (const Camera& camera : cameras) words.insert(words.end(), {"--camera", cameraToJson(camera)});
-  for (const std::string& view : views) words.insert(words.end(), {"--view", view});
-  if (frames && *frames != 1) words.insert(words.end(), {"--frames", std::to_string(*frames)});
-  const std::vector<SettingInfo> usual = settingInfos(defaultSettings(cpuDevice)), now = settingInfos(*settings);
-  for (size_t i = 0; i < now.size(); ++i)
-    if (now[i].value != usual[i].value)
-      words.insert(words.end(), {"--set", fmt::format("{}={}", now[i].meta.name, now[i].value)});
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  for (std::string& word : words) word = shellQuote(word);
-  return fmt::format("{}", fmt::join(words, " "));
-}
-
-std::string Manifest::toJson() const {
-  Json json;
-  json["format"] = kConfigFormat;
-  json["program"] = {{"name", "irad"}, {"version", versionNumber()}, {"commit", versionCommit()}};
-  json["command"] = commandLine();
-  if (device)
-    json["device"] = {{"name", device->name},
-                      {"type", device->type},
-                      {"driver", device->driver},
-                      {"api", device->apiVersion},
-                      {"memory_bytes", device->memoryBytes}};
-  json["scene"] = {{"path", fs::absolute(scene->path).lexically_normal().string()}, {"sha256", scene->sha256}};
-  json["settings"] = Json::parse(settingsToJson(*settings));
-  json["seed"] = settings->matrix.gpu.seed;
-  if (size) json["size"] = {size->x, size->y};
-  if (frames) json["frames"] = *frames;
-  if (!cameras.empty()) {
-    json["cameras"] = Json::array();
-    for (const Camera& camera : cameras) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
-  }
-  if (!views.empty()) json["views"] = views;
-  for (const auto& [name, text] : details) json[name] = Json::parse(text);
-  json["files"] = files;
-  json["warnings"] = scene->warnings;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace irad::app

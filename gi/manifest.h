@@ -1,44 +1,33 @@
 // manifest.json: everything that made an export, and how to make it again.
 #pragma once
 
-#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gi/settings.h"
 #include "renderer/device.h"
 #include "renderer/scene/scene.h"
 
-namespace irad::app {
-
-constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
-constexpr uint32_t kMaxFrames = 1'000'000;
+namespace irad {
 
 /// Version of settings files and manifests, their member "format": raised when older programs would misread them. Files
 /// without one are older than it.
 constexpr uint32_t kConfigFormat = 1;
 
-/// What --config brings: a settings object, or a manifest that also names scene, cameras, size, views, frames.
-struct Config {
-  std::filesystem::path path;
-  std::optional<std::string> settings;  ///< JSON as settingsFromJson takes it
-  std::optional<std::filesystem::path> scene;
-  std::optional<std::string> sceneSha256;
-  std::optional<glm::uvec2> size;
-  std::optional<uint32_t> frames;
-  std::vector<Camera> cameras;
-  std::vector<std::string> views;
-};
-/// InputError when the file cannot be read, is not what it should be, or is of a newer format.
-Config readConfigFile(const std::filesystem::path& path);
-
 /// Settings as a file that --config takes.
 std::string settingsFile(const Settings& settings);
 
+/// The build that wrote it.
+struct Program {
+  std::string version, commit;
+};
+
 /// What a run did; writes itself as JSON.
 struct Manifest {
+  Program program;
   std::string subcommand;
   const DeviceInfo* device = nullptr;
   const Scene* scene = nullptr;
@@ -57,7 +46,4 @@ struct Manifest {
   std::string commandLine() const;
 };
 
-/// Quoted for a POSIX shell where needed.
-std::string shellQuote(const std::string& word);
-
-}  // namespace irad::app
+}  // namespace irad

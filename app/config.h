@@ -1,0 +1,31 @@
+// What --config takes: a file of settings, or the manifest.json of an export (gi/manifest.h) to replay.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace irad::app {
+
+constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
+constexpr uint32_t kMaxFrames = 1'000'000;
+
+/// What --config brings: a settings object, or a manifest that also names scene, cameras, size, views, frames.
+struct Config {
+  std::filesystem::path path;
+  std::optional<std::string> settings;  ///< JSON as settingsFromJson takes it
+  std::optional<std::filesystem::path> scene;
+  std::optional<std::string> sceneSha256;
+  std::optional<glm::uvec2> size;
+  std::optional<uint32_t> frames;
+  std::vector<Camera> cameras;
+  std::vector<std::string> views;
+};
+/// InputError when the file cannot be read, is not what it should be, or is of a newer format.
+Config readConfigFile(const std::filesystem::path& path);
+
+}  // namespace irad::app

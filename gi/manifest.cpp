@@ -1,0 +1,84 @@
+#include "gi/manifest.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "gi/camera_json.h"
+#include "gi/check/check.h"
+
+namespace irad {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What the command line takes for the scene, in any folder.
+std::string sceneArgument(const Scene& scene) {
+  return isCheckScene(scene.path) ? scene.path.string() : fs::absolute(scene.path).lexically_normal().string();
+}
+
+/// Quoted for a POSIX shell where needed.
+std::string shellQuote(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-+=.,:/@%") == std::string::npos;
+  if (plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::string settingsFile(const Settings& settings) {
+  Json json{{"format", kConfigFormat}};
+  json.update(Json::parse(settingsToJson(settings)));
+  return json.dump(2);
+}
+
+std::string Manifest::commandLine() const {
+  std::vector<std::string> words{"irad", subcommand, sceneArgument(*scene)};
+  if (device) words.insert(words.end(), {"--device", device->name});
+  if (size) words.insert(words.end(), {"--size", fmt::format("{}x{}", size->x, size->y)});
+  for (const Camera& camera : cameras) words.insert(words.end(), {"--camera", cameraToJson(camera)});
+  for (const std::string& view : views) words.insert(words.end(), {"--view", view});
+  if (frames && *frames != 1) words.insert(words.end(), {"--frames", std::to_string(*frames)});
+  const std::vector<SettingInfo> usual = settingInfos(defaultSettings(cpuDevice)), now = settingInfos(*settings);
+  for (size_t i = 0; i < now.size(); ++i)
+    if (now[i].value != usual[i].value)
+      words.insert(words.end(), {"--set", fmt::format("{}={}", now[i].meta.name, now[i].value)});
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  for (std::string& word : words) word = shellQuote(word);
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::string Manifest::toJson() const {
+  Json json;
+  json["format"] = kConfigFormat;
+  json["program"] = {{"name", "irad"}, {"version", program.version}, {"commit", program.commit}};
+  json["command"] = commandLine();
+  if (device)
+    json["device"] = {{"name", device->name},
+                      {"type", device->type},
+                      {"driver", device->driver},
+                      {"api", device->apiVersion},
+                      {"memory_bytes", device->memoryBytes}};
+  json["scene"] = {{"path", sceneArgument(*scene)}, {"sha256", scene->sha256}};
+  json["settings"] = Json::parse(settingsToJson(*settings));
+  json["seed"] = settings->matrix.gpu.seed;
+  if (size) json["size"] = {size->x, size->y};
+  if (frames) json["frames"] = *frames;
+  if (!cameras.empty()) {
+    json["cameras"] = Json::array();
+    for (const Camera& camera : cameras) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
+  }
+  if (!views.empty()) json["views"] = views;
+  for (const auto& [name, text] : details) json[name] = Json::parse(text);
+  json["files"] = files;
+  json["warnings"] = scene->warnings;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace irad

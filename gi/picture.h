@@ -1,0 +1,20 @@
+// A rendered view as files: what `irad render` and the window's captures share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gi/views.h"
+
+namespace irad {
+
+struct PictureFiles {
+  std::vector<std::filesystem::path> paths;
+  std::string bad;  ///< what findBadPixels says of it; the files are written all the same, they show where
+};
+/// What is in `targets` after Pipeline::render() of `view`: stem.png as shown, stem.exr linear (renderer/image_io.h).
+PictureFiles writePicture(Context& context, const Targets& targets, const ViewInfo& view,
+                          const std::filesystem::path& stem);
+
+}  // namespace irad
