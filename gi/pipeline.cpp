@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "gi/host_facets.h"
 #include "renderer/error.h"
@@ -200,7 +201,27 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
 }
 
 bool Pipeline::asleep() const {
-  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->now.light && impl_->now.light->report.settled();
+  return current() && impl_->now.light->report.settled();
+}
+
+bool Pipeline::current() const {
+  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->now.light;
+}
+
+void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()>& draw) {
+  Impl& p = *impl_;
+  IRAD_CHECK_OP(current(), ==, true);
+  struct Before {
+    Impl& p;
+    std::optional<Lighting> light = std::exchange(p.now.light, std::nullopt);
+    uint64_t solvedFrame = p.solvedFrame;
+    ~Before() {
+      p.now.light = std::move(light);
+      p.solvedFrame = solvedFrame;
+    }
+  } before{p};
+  p.relight(p.now, Redo::Gather, p.settings.solver.maxSweeps, progress);
+  draw();
 }
 
 std::vector<Finding> Pipeline::findings() const {

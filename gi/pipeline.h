@@ -38,6 +38,12 @@ class Pipeline {
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
   /// True when nothing is dirty and the solver is done: its bound is below the tolerance, or the watch stopped it.
   bool asleep() const;
+  /// True when nothing is dirty: what the pipeline holds is of its settings. The solver may have sweeps left.
+  bool current() const;
+  /// Calls `draw` while the light is the one that a headless run solves: from the dark, in one go, to the tolerance.
+  /// (The window's own depends on what was shown before, within the tolerance: it starts warm, and stops at another
+  /// sweep.) Afterwards the light from before is back. Must be current(). Blocking.
+  void solvedAfresh(const Progress& progress, const std::function<void()>& draw);
   /// What the numerical watch has to say about the light as it is.
   std::vector<Finding> findings() const;
 

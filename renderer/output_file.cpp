@@ -23,27 +23,31 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTemporary = ".irad-tmp";
 
-/// Removes what killed runs have left in a folder: temporary files that no process holds locked.
+/// Removes what killed runs have left in a folder: temporary files and folders that no process holds locked.
 void removeLeftovers(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with('.') || !name.ends_with(kTemporary)) continue;
-    const int file = ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) continue;
     std::error_code ignored;
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) fs::remove(entry->path(), ignored);
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry->path(), ignored);
     ::close(file);
   }
+}
+
+/// The process id keeps two runs into one folder apart.
+fs::path temporaryName(const fs::path& path) {
+  return path.parent_path() / fmt::format(".{}.{}{}", path.filename().string(), ::getpid(), kTemporary);
 }
 
 }  // namespace
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   removeLeftovers(path_.parent_path());
-  // The process id keeps two runs into one folder apart.
-  temporary_ = path_.parent_path() / fmt::format(".{}.{}{}", path_.filename().string(), ::getpid(), kTemporary);
+  temporary_ = temporaryName(path_);
   // Locked as long as it has this name. Another run may take it for a leftover before it is: then it is made again.
   struct stat status {};
   do {
@@ -79,6 +83,42 @@ void OutputFile::commit() {
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("write", errno);
   temporary_.clear();
   std::fclose(std::exchange(file_, nullptr));  // the lock with it; everything is on disk already
+}
+
+OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)), temporary_(temporaryName(path_)) {
+  makeFolder(path_.parent_path());
+  removeLeftovers(path_.parent_path());
+  // Locked as an OutputFile is.
+  struct stat status {};
+  do {
+    if (lock_ >= 0) ::close(lock_);
+    if (::mkdir(temporary_.c_str(), 0777) != 0 && errno != EEXIST) fail(errno);
+    lock_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) fail(errno);
+    ::flock(lock_, LOCK_EX);
+  } while (::fstat(lock_, &status) == 0 && status.st_nlink == 0);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::fail(int error) {
+  throw WorkError(fmt::format("cannot create folder {}: {}", path_.string(), std::strerror(error)));
+}
+
+fs::path OutputFolder::commit() {
+  for (int number = 1;; ++number) {
+    const fs::path wanted = fmt::format("{}.{:03}", path_.string(), number);
+    // A folder takes the place of none but an empty one.
+    if (std::rename(temporary_.c_str(), wanted.c_str()) == 0) {
+      temporary_.clear();
+      return wanted;
+    }
+    if (errno != EEXIST && errno != ENOTEMPTY && errno != ENOTDIR) fail(errno);
+  }
 }
 
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -1,5 +1,6 @@
-// Files that appear whole or not at all: written under a temporary name in the same folder (.NAME.PID.irad-tmp),
-// renamed when complete and on disk. What a killed run leaves there, the next one to write into the folder removes.
+// Files and folders that appear whole or not at all: written under a temporary name in the same folder
+// (.NAME.PID.irad-tmp), renamed when complete and on disk. What a killed run leaves there, the next one to write into
+// the folder removes.
 // Every failure (no such folder, read-only, disk full) is a WorkError that names the final file and the reason.
 #pragma once
 
@@ -27,6 +28,22 @@ class OutputFile {
   [[noreturn]] void fail(const char* doing, int error);
   std::filesystem::path path_, temporary_;
   std::FILE* file_ = nullptr;
+};
+
+/// A new folder PATH.NNN beside others of its name, numbered from 001. Its parents are made.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::filesystem::path path);
+  ~OutputFolder();  ///< without commit(): removes it with what it holds
+  OutputFolder(const OutputFolder&) = delete;
+
+  const std::filesystem::path& temporary() const { return temporary_; }  ///< where to write until it is committed
+  std::filesystem::path commit();  ///< under the first number that is free; returns the folder
+
+ private:
+  [[noreturn]] void fail(int error);
+  std::filesystem::path path_, temporary_;
+  int lock_ = -1;
 };
 
 void writeFile(const std::filesystem::path& path, std::string_view text);

@@ -132,14 +132,57 @@ TEST(OutputFile, WhatAKilledRunLeavesGoesWithTheNextFile) {
 
   // What this run is still writing stays, and so does whatever else has a dot before its name.
   writeFile(folder.path / ".hidden.irad", "x");
-  fs::create_directory(folder.path / ".folder.irad-tmp");
+  fs::create_directory(folder.path / ".hidden");
   OutputFile open(folder.path / "c.txt");
   EXPECT_FALSE(fs::exists(folder.path / leftover));
+  OutputFolder group(folder.path / "group");
   writeFile(folder.path / "b.txt", "b");
   open.write("c");
   open.commit();
+  group.commit();
   EXPECT_EQ(listing(folder.path),
-            (std::vector<std::string>{".folder.irad-tmp", ".hidden.irad", "a.txt", "b.txt", "c.txt"}));
+            (std::vector<std::string>{".hidden", ".hidden.irad", "a.txt", "b.txt", "c.txt", "group.001"}));
+}
+
+TEST(OutputFolder, AppearsOnlyWhenCompleteUnderTheFirstFreeNumber) {
+  test::TemporaryFolder folder;
+  const fs::path parent = folder.path / "deep" / "er";
+  {
+    OutputFolder dropped(parent / "box");
+    writeFile(dropped.temporary() / "a.txt", "a");
+  }
+  EXPECT_TRUE(listing(parent).empty());
+  // A number that is taken, by a folder or by a file, stays what it is.
+  writeFile(parent / "box.001", "a file");
+  fs::create_directory(parent / "box.002");
+  writeFile(parent / "box.002" / "old.txt", "old");
+  for (const char* name : {"box.003", "box.004"}) {
+    OutputFolder group(parent / "box");
+    writeFile(group.temporary() / "a.txt", "a");
+    EXPECT_FALSE(fs::exists(parent / name));
+    EXPECT_EQ(group.commit(), parent / name);
+    EXPECT_EQ(listing(parent / name), std::vector<std::string>{"a.txt"});
+  }
+  EXPECT_EQ(slurp(parent / "box.001"), "a file");
+  EXPECT_EQ(listing(parent / "box.002"), std::vector<std::string>{"old.txt"});
+}
+
+TEST(OutputFolder, WhatCannotBeMadeIsNamedAndAKilledRunsIsRemoved) {
+  test::TemporaryFolder folder;
+  writeFile(folder.path / "plain", "x");
+  EXPECT_TRUE(contains(workError([&] { OutputFolder(folder.path / "plain" / "box"); }), "plain"));
+  EXPECT_EQ(listing(folder.path), std::vector<std::string>{"plain"});
+  const pid_t child = fork();
+  if (child == 0) {
+    OutputFolder group(folder.path / "box");
+    writeFile(group.temporary() / "a.txt", "a");
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(fs::exists(folder.path / fmt::format(".box.{}.irad-tmp", child) / "a.txt"));
+  OutputFolder(folder.path / "box").commit();
+  EXPECT_EQ(listing(folder.path), (std::vector<std::string>{"box.001", "plain"}));
 }
 
 TEST(Npy, HeaderByHand) {
