@@ -8,20 +8,6 @@
 
 namespace irad::app {
 
-const char* toString(WorkKind kind) {
-  switch (kind) {
-    case WorkKind::Setup:
-      return "setup";
-    case WorkKind::Cold:
-      return "cold";
-    case WorkKind::Relight:
-      return "relight";
-    case WorkKind::Camera:
-      return "camera";
-  }
-  return "";
-}
-
 Bench::Bench(Context& context, Scene scene, const Settings& settings, glm::uvec2 size, View view, const Camera& camera)
     : context_(context),
       pipeline_(context, std::move(scene), settings),
@@ -29,34 +15,34 @@ Bench::Bench(Context& context, Scene scene, const Settings& settings, glm::uvec2
       view_(view),
       camera_(camera) {}
 
-StageSamples& Bench::slot(WorkKind kind, const std::string& stage) {
-  const auto found = std::find_if(samples_.begin(), samples_.end(),
-                                  [&](const StageSamples& s) { return s.kind == kind && s.stage == stage; });
-  if (found != samples_.end()) return *found;
-  samples_.push_back({kind, stage, {}});
-  return samples_.back();
+std::vector<StageSamples> Bench::samples() const {
+  std::vector<StageSamples> out = stageSamples(frames_);
+  for (size_t k = 0; k < kWorkKinds.size(); ++k) {
+    StageSamples wall{static_cast<WorkKind>(k), "wall", {}};
+    for (const FrameSample& call : frames_)
+      if (call.kind == wall.kind) wall.ms.push_back(call.cpuMs);
+    if (!wall.ms.empty()) out.push_back(std::move(wall));
+  }
+  return out;
 }
 
 void Bench::collect(WorkKind kind) {
   // One sample per stage and call: a stage that ran in several submissions counts once, with their sum.
-  std::map<std::pair<WorkKind, std::string>, double> sums;
-  std::vector<std::pair<WorkKind, std::string>> order;
-  const auto add = [&](WorkKind own, const std::string& stage, double ms) {
-    const auto [entry, fresh] = sums.try_emplace({own, stage}, 0.0);
-    entry->second += ms;
-    if (fresh) order.emplace_back(own, stage);
-  };
-  for (const Timings::FrameSample& group : context_.timings.frames()) {
+  std::map<WorkKind, FrameSample> calls;
+  for (const FrameSample& group : context_.timings.frames()) {
     // A rebuild ends with the relight that it makes necessary; the pipeline marks which is which.
-    const WorkKind own = kind == WorkKind::Setup && !group.setup ? WorkKind::Cold : kind;
-    for (const auto& [stage, ms] : group.stages) add(own, stage, ms);
-    add(own, "wall", group.cpuMs);
+    const WorkKind own = kind == WorkKind::Setup && group.kind != WorkKind::Setup ? WorkKind::Cold : kind;
+    const auto [call, fresh] = calls.try_emplace(own, group);
+    if (!fresh) call->second.add(group);
+    call->second.kind = own;
   }
-  for (const auto& key : order) slot(key.first, key.second).ms.push_back(sums[key]);
-  const WorkKind solved = kind == WorkKind::Setup ? WorkKind::Cold : kind;
-  if (const auto solve = sums.find({solved, "GI Solve"}); solve != sums.end()) {
-    solveMs_ += solve->second;
-    sweeps_ += pipeline_.lighting().report.sweeps;
+  for (auto& [own, call] : calls) {
+    for (const auto& [stage, ms] : call.stages)
+      if (stage == "GI Solve") {
+        solveMs_ += ms;
+        sweeps_ += pipeline_.lighting().report.sweeps;
+      }
+    frames_.push_back(std::move(call));
   }
   context_.timings.reset();
 }
@@ -92,14 +78,14 @@ void Bench::cameraFrame() {
 }
 
 void Bench::forget() {
-  samples_.clear();
+  frames_.clear();
   solveMs_ = 0;
   sweeps_ = 0;
 }
 
 double Bench::megaRaysPerSecond() const {
   double ms = 0;
-  for (const StageSamples& s : samples_)
+  for (const StageSamples& s : samples())
     if (s.kind == WorkKind::Setup && s.stage.starts_with("GI BuildMatrix")) ms += statistics(s.ms).p50;
   return ms > 0 ? static_cast<double>(pipeline_.matrix().stats.rays) * 1e-3 / ms : 0;
 }

@@ -10,17 +10,6 @@
 
 namespace irad::app {
 
-/// Which work a sample comes from. Cold: the relight that follows a rebuild, whose solver starts from nothing.
-enum class WorkKind { Setup, Cold, Relight, Camera };
-const char* toString(WorkKind);
-
-/// All samples of one stage, ms, in the order of measurement.
-struct StageSamples {
-  WorkKind kind;
-  std::string stage;  ///< a name of METHOD section 11, or "wall": all of it, on the CPU's clock
-  std::vector<double> ms;
-};
-
 /// One settings set under measurement. Each call runs its work once and keeps the samples.
 class Bench {
  public:
@@ -31,7 +20,10 @@ class Bench {
   void cameraFrame();  ///< one picture, nothing else dirty
   void forget();       ///< drops the samples so far: the warm-up
 
-  const std::vector<StageSamples>& samples() const { return samples_; }
+  /// Per kind and stage; the stage "wall" is all of a call, on the CPU's clock.
+  std::vector<StageSamples> samples() const;
+  /// A group per call and kind of work.
+  const std::deque<FrameSample>& frames() const { return frames_; }
   const Pipeline& pipeline() const { return pipeline_; }
   /// Rays of the build over the median build time; 0 when not measured.
   double megaRaysPerSecond() const;
@@ -45,7 +37,6 @@ class Bench {
 
  private:
   void collect(WorkKind kind);
-  StageSamples& slot(WorkKind kind, const std::string& stage);
   Context& context_;
   Pipeline pipeline_;
   Targets targets_;
@@ -53,7 +44,7 @@ class Bench {
   Camera camera_;
   uint64_t frame_ = 0, relights_ = 0, sweeps_ = 0;
   double solveMs_ = 0;
-  std::vector<StageSamples> samples_;
+  std::deque<FrameSample> frames_;
 };
 
 /// Median GB/s of a device buffer copy, bytes read plus bytes written, by the driver's transfer or by a kernel,

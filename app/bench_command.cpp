@@ -11,14 +11,19 @@
 #include "app/table.h"
 #include "app/views.h"
 #include "gi/near_match.h"
+#include "renderer/compare_timings.h"
 #include "renderer/error.h"
 #include "renderer/output_file.h"
+#include "renderer/recording.h"
 
 namespace irad::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Arguments {
-  std::optional<std::string> scene, csv, warmup, rebuilds, view;
+  std::optional<std::string> scene, csv, record, warmup, rebuilds, view;
+  std::optional<std::pair<std::string, std::string>> compare;
   std::vector<std::string> versus;
   SettingArguments settings;
   DeviceArguments device;
@@ -32,8 +37,9 @@ const std::vector<std::string> columns{"subsystem", "kind",   "mean_ms", "min_ms
 /// The rows of one settings set: stage, kind, then the statistics.
 std::vector<std::vector<std::string>> statisticRows(const Bench& bench) {
   std::vector<std::vector<std::string>> rows;
+  const std::vector<StageSamples> samples = bench.samples();
   for (const WorkKind kind : {WorkKind::Setup, WorkKind::Cold, WorkKind::Relight, WorkKind::Camera})
-    for (const StageSamples& s : bench.samples()) {
+    for (const StageSamples& s : samples) {
       if (s.kind != kind) continue;
       const TimingStats t = statistics(s.ms);
       std::vector<std::string> row{s.stage, toString(kind)};
@@ -49,8 +55,9 @@ std::vector<std::vector<std::string>> statisticRows(const Bench& bench) {
 std::vector<std::vector<std::string>> ratioRows(const Bench& a, const Bench& b) {
   std::vector<std::vector<std::string>> rows{
       {"subsystem", "kind", "p50_ms", "versus_p50_ms", "ratio_p50", "ratio_min", "ratio_max", "samples"}};
-  for (const StageSamples& first : a.samples())
-    for (const StageSamples& second : b.samples()) {
+  const std::vector<StageSamples> before = a.samples(), after = b.samples();
+  for (const StageSamples& first : before)
+    for (const StageSamples& second : after) {
       if (first.kind != second.kind || first.stage != second.stage) continue;
       std::vector<double> ratios;
       for (size_t i = 0; i < std::min(first.ms.size(), second.ms.size()); ++i)
@@ -114,8 +121,34 @@ std::string toCsv(const std::vector<std::vector<std::string>>& rows) {
   return out;
 }
 
+/// --compare: recordings that were made before, of any scene and device.
+void printComparison(const fs::path& before, const fs::path& after) {
+  std::vector<std::vector<std::string>> rows{{"subsystem", "kind", "first_p50_ms", "second_p50_ms", "ratio", "low",
+                                              "high", "first_samples", "second_samples", "verdict"}};
+  const std::vector<StageChange> changes = compareTimings(readRecording(before), readRecording(after));
+  if (changes.empty())
+    throw WorkError(fmt::format("{} and {} have no stage in common", before.string(), after.string()));
+  for (const StageChange& c : changes) {
+    const auto ratio = [&](double value) {
+      return c.verdict == Verdict::TooFew ? std::string("-") : fmt::format("{:.4f}", value);
+    };
+    rows.push_back({c.stage, toString(c.kind), fmt::format("{:.4f}", c.before), fmt::format("{:.4f}", c.after),
+                    ratio(c.ratio), ratio(c.low), ratio(c.high), std::to_string(c.samples[0]),
+                    std::to_string(c.samples[1]), toString(c.verdict)});
+  }
+  fmt::print("{}", formatTable(rows, {false, false, true, true, true, true, true, true, true, false}));
+}
+
+/// --record: the set's calls as a recording (renderer/recording.h).
+void record(const fs::path& folder, const Session& session, const Bench& bench) {
+  writeRecording(folder, {.device = session.device->info.name,
+                          .scene = bench.pipeline().scene().path.filename().string(),
+                          .frames = bench.frames()});
+}
+
 void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(arguments.json);
+  if (arguments.compare) return printComparison(arguments.compare->first, arguments.compare->second);
   arguments.picture.check();
   const Config early = arguments.settings.readConfig();
   const uint32_t frames = arguments.picture.resolveFrames({}, 20);
@@ -191,6 +224,11 @@ void run(const Arguments& arguments) {
       }
     writeFile(*arguments.csv, toCsv(rows));
   }
+  if (arguments.record) {
+    const fs::path folder = *arguments.record;
+    for (size_t i = 0; i < sets.size(); ++i)
+      record(sets.size() == 1 ? folder : folder / (i == 0 ? "settings" : "versus"), session, *sets[i]);
+  }
   session.checkValidation();
 }
 
@@ -203,6 +241,11 @@ Command benchCommand() {
       [arguments](Options& options) {
         options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or a built-in scene (default: box)");
         options.value("--csv", "FILE", arguments->csv, "Write the table as CSV too");
+        options.value("--record", "DIR", arguments->record,
+                      "Write a recording: frames.csv, summary.csv and trace.json, which Perfetto opens (with --versus "
+                      "into DIR/settings and DIR/versus)");
+        options.pair("--compare", "DIR DIR", arguments->compare,
+                     "Measure nothing: compare two recordings stage by stage, the second's times over the first's");
         options.flag("--json", arguments->json, "Print all samples as JSON instead of the table");
         options.value("--warmup", "N", arguments->warmup, "Frames before the measurement (default 3)");
         options.value("--rebuilds", "N", arguments->rebuilds, "Times that voxels to matrix are rebuilt (default 3)");

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace irad::app {
@@ -19,6 +20,9 @@ class Options {
   /// An option that may be repeated, one value each time.
   virtual void values(const std::string& name, const std::string& placeholder, std::vector<std::string>& values,
                       const std::string& help) = 0;
+  /// An option given at most once, followed by two values.
+  virtual void pair(const std::string& name, const std::string& placeholder,
+                    std::optional<std::pair<std::string, std::string>>& value, const std::string& help) = 0;
   /// The bare argument, which may be absent.
   virtual void argument(const std::string& name, std::optional<std::string>& value, const std::string& help) = 0;
   /// Any number of bare arguments.

@@ -31,6 +31,10 @@ class CliOptions : public Options {
               const std::string& help) override {
     app_.add_option(name, values, help)->type_name(placeholder)->allow_extra_args(false);
   }
+  void pair(const std::string& name, const std::string& placeholder,
+            std::optional<std::pair<std::string, std::string>>& value, const std::string& help) override {
+    app_.add_option(name, value, help)->type_name(placeholder)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  }
   void argument(const std::string& name, std::optional<std::string>& value, const std::string& help) override {
     app_.add_option(name, value, help)->type_name("");
   }

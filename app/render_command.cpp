@@ -60,7 +60,7 @@ PictureFiles renderPicture(Session& session, Pipeline& pipeline, const Camera& c
 double meanSetup(const Timings& timings, std::string_view stage) {
   double ms = 0;
   for (const Timings::Row& row : timings.rows())
-    if (row.setup && row.stage.starts_with(stage)) ms += row.stats.mean;
+    if (row.kind == WorkKind::Setup && row.stage.starts_with(stage)) ms += row.stats.mean;
   return ms;
 }
 
@@ -129,7 +129,7 @@ void run(const Arguments& arguments) {
   }
 
   std::ostringstream timings;
-  writeCsv(timings, session.timings);
+  writeCsv(timings, session.timings.rows());
   writeFile(out / "timings.csv", timings.str());
   written.push_back(out / "timings.csv");
   writeFile(out / "memory.csv", memoryCsv(memoryReport(session.device->memory().rows(), pipeline.facets(),

@@ -115,7 +115,8 @@ void Context::Impl::deliver(FrameSlot& slot, Timings& timings) {
                                 ticks, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
       const uint64_t elapsed = ((ticks[1] & mask) - (ticks[0] & mask)) & mask;  // wraps around once at most
-      timings.add(timers[i], static_cast<double>(elapsed) * device.limits.timestampPeriod * 1e-6);  // ns -> ms
+      const double tick = device.limits.timestampPeriod * 1e-6;                 // ms
+      timings.add(timers[i], static_cast<double>(elapsed) * tick, static_cast<double>(ticks[0] & mask) * tick);
     }
   } else if (timers.size() == 1 && slot.awaited) {
     // No timestamps: the wall clock of a frame of one pass, which somebody has waited for, is an upper bound.
@@ -124,7 +125,7 @@ void Context::Impl::deliver(FrameSlot& slot, Timings& timings) {
   }
   if (slot.sample) {
     const std::chrono::duration<double, std::milli> cpu = slot.submitted - slot.sample->began;
-    timings.endFrame(slot.sample->frame, /*setup=*/false, cpu.count());
+    timings.endFrame(slot.sample->frame, /*setup=*/false, cpu.count(), slot.submitted);
   }
   const std::vector<FrameSlot::Readback> readbacks = std::move(slot.readbacks);
   slot.readbacks.clear();

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace irad {
 
 /// `text` as one field: in quotation marks, those within doubled, where it holds a comma, a quotation mark or an end of
 /// line.
-inline std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
+std::string csvField(const std::string& text);
+
+/// The fields of one line, which holds no end of line.
+std::vector<std::string> csvFields(std::string_view line);
 
 }  // namespace irad

@@ -380,5 +380,45 @@ TEST(BenchCommand, TableCsvAndRatios) {
   EXPECT_EQ(samples("settings,wall,camera,"), "3");
 }
 
+TEST(BenchCommand, RecordsAndCompares) {
+  test::TemporaryFolder folder;
+  const std::string out = (folder.path / "new" / "recording").string();
+  const RunResult run =
+      runIrad({"bench", "box", "--size", "48x48", "--set", "voxel.resolution=16", "--set", "matrix.rays=16", "--frames",
+               "12", "--rebuilds", "1", "--warmup", "1", "--record", out, "--versus", "solver.omega=0.5"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto first = contents(fs::path(out) / "settings"), second = contents(fs::path(out) / "versus");
+  EXPECT_EQ(names(first), (std::vector<std::string>{"frames.csv", "summary.csv", "trace.json"}));
+  EXPECT_EQ(names(second), names(first));
+  // 1 rebuild with its cold relight, 12 relights, 12 pictures.
+  EXPECT_EQ(std::count(first.at("frames.csv").begin(), first.at("frames.csv").end(), '\n'), 1 + 2 + 12 + 12);
+  EXPECT_TRUE(contains(first.at("summary.csv"), "\nGI Solve,relight,")) << first.at("summary.csv");
+  const auto trace = nlohmann::json::parse(first.at("trace.json"));
+  EXPECT_EQ(trace["otherData"]["scene"], "box.glb");
+  // On the GPU's track nothing overlaps, and every group's passes follow the beginning of its work on the CPU.
+  std::map<int, double> ended;
+  for (const auto& event : trace["traceEvents"]) {
+    if (event["ph"] != "X") continue;
+    const double began = event["ts"], microseconds = event["dur"];
+    EXPECT_GE(began, ended[event["tid"]] - 1) << event;
+    ended[event["tid"]] = began + microseconds;
+  }
+  EXPECT_EQ(ended.size(), 2u);
+
+  const auto compare = [&](const std::string& a, const std::string& b) {
+    return runIrad({"bench", "--compare", a, b});
+  };
+  const RunResult same = compare(out + "/settings", out + "/settings");
+  EXPECT_EQ(same.status, 0) << same.err;
+  EXPECT_TRUE(contains(same.out, "within noise")) << same.out;
+  EXPECT_TRUE(contains(same.out, "too few samples")) << same.out;
+  EXPECT_FALSE(contains(same.out, "slower") || contains(same.out, "faster")) << same.out;
+  EXPECT_TRUE(contains(compare(out + "/settings", out + "/versus").out, "GI Solve"));
+  const RunResult absent = compare(out + "/settings", out + "/none");
+  EXPECT_EQ(absent.status, 3);
+  EXPECT_TRUE(contains(absent.err, "none/frames.csv: cannot be read")) << absent.err;
+  EXPECT_EQ(runIrad({"bench", "--compare", out}).status, 2);
+}
+
 }  // namespace
 }  // namespace irad

@@ -36,45 +36,20 @@ class TimingsPanel : public Panel {
   }
 
  private:
-  struct Row {
-    std::string stage;
-    bool setup;
-    TimingStats stats;
-  };
   uint64_t seen_ = UINT64_MAX;
-  std::vector<Row> rows_;
+  std::vector<Timings::Row> rows_;
   std::vector<float> frames_;  ///< GPU ms of the frames that rendered a picture
 
   /// Statistics of the last kWindow frames, and of all one-time work; only when a frame has been added.
   void update(const Timings& timings) {
-    const auto& frames = timings.frames();
     if (timings.recorded() == seen_) return;
     seen_ = timings.recorded();
-    std::vector<std::pair<Row, std::vector<double>>> found;
+    rows_ = timingRows(stageSamples(timings.frames(), kWindow));
+    std::stable_sort(rows_.begin(), rows_.end(), [](const auto& a, const auto& b) { return a.kind > b.kind; });
     frames_.clear();
-    const size_t first = frames.size() > kWindow ? frames.size() - kWindow : 0;
-    for (size_t i = 0; i < frames.size(); ++i) {
-      const Timings::FrameSample& frame = frames[i];
-      if (i < first && !frame.setup) continue;
-      double total = 0;
-      for (const auto& [stage, ms] : frame.stages) {
-        total += ms;
-        auto row = std::find_if(found.begin(), found.end(), [&, &name = stage](const auto& f) {
-          return f.first.stage == name && f.first.setup == frame.setup;
-        });
-        if (row == found.end()) row = found.insert(found.end(), {Row{stage, frame.setup, {}}, {}});
-        row->second.push_back(ms);
-      }
-      const bool picture =
-          std::any_of(frame.stages.begin(), frame.stages.end(), [](const auto& s) { return s.first == "RE Forward"; });
-      if (!frame.setup && picture) frames_.push_back(static_cast<float>(total));
-    }
-    rows_.clear();
-    for (auto& [row, samples] : found) {
-      row.stats = statistics(std::move(samples));
-      rows_.push_back(std::move(row));
-    }
-    std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.setup < b.setup; });
+    for (const FrameSample& frame : timings.frames())
+      if (std::any_of(frame.stages.begin(), frame.stages.end(), [](auto& s) { return s.first == "RE Forward"; }))
+        frames_.push_back(static_cast<float>(frame.gpuMs()));
   }
 
   void drawTable(ImVec2 size) const {
@@ -98,10 +73,10 @@ class TimingsPanel : public Panel {
         rightText(columns[i]);
       ImGui::PopStyleColor();
     }
-    for (const Row& row : rows_) {
+    for (const Timings::Row& row : rows_) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      clippedText(row.setup ? row.stage + " (once)" : row.stage, ImGui::GetContentRegionAvail().x);
+      clippedText(row.kind == WorkKind::Setup ? row.stage + " (once)" : row.stage, ImGui::GetContentRegionAvail().x);
       for (const double value : {row.stats.mean, row.stats.min, row.stats.max, row.stats.p95}) {
         ImGui::TableNextColumn();
         rightText(milliseconds(value));
