@@ -15,6 +15,7 @@ std::span<const Binding> bindings() {
       {0, Action::None, "1 \u2026 9", "the first nine views"},
       {GLFW_KEY_O, Action::Open, "O", "open a scene"},
       {GLFW_KEY_C, Action::NextCamera, "C", "the scene's next camera"},
+      {GLFW_KEY_X, Action::Flicker, "X", "of two compared sides, show the other"},
       {GLFW_KEY_SPACE, Action::Pause, "Space", "pause or resume the solver"},
       {GLFW_KEY_F1, Action::Help, "F1", "this list"},
       {GLFW_KEY_F2, Action::HideUi, "F2", "hide or show the panels"},

@@ -5,7 +5,7 @@
 
 namespace irad {
 
-enum class Action { None, Help, HideUi, ReloadShaders, Capture, Pause, Quit, NextCamera, Open };
+enum class Action { None, Help, HideUi, ReloadShaders, Capture, Pause, Quit, NextCamera, Open, Flicker };
 
 struct Binding {
   int key;  ///< GLFW key; 0: listed in the help only

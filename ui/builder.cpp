@@ -41,10 +41,12 @@ void Builder::load(const std::filesystem::path& path) {
     };
     Scene scene = openScene(path, load);
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
-    prepare(*pipeline);
+    prepare(session_, *pipeline);
+    if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
+    session_.comparison.reset();
     const bool sameScene = session_.pipeline && session_.pipeline->scene().path == pipeline->scene().path;
     session_.pipeline = std::move(pipeline);
-    applied_ = values(session_.pipeline->settings());
+    session_.applied = values(session_.pipeline->settings());
     loadedLambertian_ = session_.pipeline->settings().lambertian;
     session_.halted = false;
     if (!sameScene) session_.useSceneCamera(0);
@@ -62,7 +64,7 @@ void Builder::load(const std::filesystem::path& path) {
 void Builder::apply(bool held) {
   if (!session_.pipeline) return;
   Pipeline& pipeline = *session_.pipeline;
-  if (values(session_.edited) != applied_) {
+  if (values(session_.edited) != session_.applied) {
     const bool reload = session_.edited.lambertian != loadedLambertian_;
     const Redo redo = reload ? Redo::Voxels : difference(pipeline.settings(), session_.edited);
     session_.next = redo;
@@ -73,7 +75,7 @@ void Builder::apply(bool held) {
       return;
     }
     pipeline.set(session_.edited);
-    applied_ = values(session_.edited);
+    session_.applied = values(session_.edited);
     session_.viewDirty = true;
     session_.halted = false;
     if (redo < Redo::Scatter) session_.woke();
@@ -83,13 +85,46 @@ void Builder::apply(bool held) {
     if (session_.paused && session_.built && !stale_) return;
   }
   stale_ = false;
-  if (!session_.halted && !(session_.built && pipeline.asleep())) rebuild();
+  if (session_.halted) return;
+  if (!session_.asleep()) rebuild(session_, "Rebuilding");
+  if (session_.comparison && !session_.halted) follow();
 }
 
-void Builder::rebuild() {
-  begin("Rebuilding");
+/// The other side of a comparison has settings of its own, but the seed and the lights are both sides'.
+void Builder::follow() {
+  Side& other = session_.comparison->other;
+  if (session_.comparison->sameSeed) other.edited.matrix.gpu.seed = session_.edited.matrix.gpu.seed;
+  if (values(other.edited) != other.applied) {
+    other.pipeline->set(other.edited);
+    other.applied = values(other.edited);
+    other.woke();
+    session_.viewDirty = true;
+  }
+  if (!other.asleep()) rebuild(other, session_.comparison->editsB ? "Rebuilding A" : "Rebuilding B");
+}
+
+void Builder::compare() {
+  if (!session_.built || session_.comparison) return;
+  begin("Preparing a second pipeline");
   try {
-    prepare(*session_.pipeline);
+    Side other;
+    other.edited = session_.edited;
+    other.pipeline = std::make_unique<Pipeline>(context_, session_.pipeline->scene(), session_.edited);
+    prepare(other, *other.pipeline);
+    other.applied = values(other.edited);
+    session_.comparison.emplace().other = std::move(other);
+    session_.swapSides();
+  } catch (const Error& error) {
+    forgetTimes();
+    if (!session_.work->cancel) session_.error(fmt::format("No comparison: {}", error.what()));
+  }
+  session_.work.reset();
+}
+
+void Builder::rebuild(Side& side, std::string what) {
+  begin(std::move(what));
+  try {
+    prepare(side, *side.pipeline);
   } catch (const Error& error) {
     session_.halted = true;
     forgetTimes();
@@ -101,23 +136,24 @@ void Builder::rebuild() {
   session_.work.reset();
 }
 
-void Builder::prepare(Pipeline& pipeline) {
+/// `pipeline` may be a new one that is not the side's yet.
+void Builder::prepare(Side& side, Pipeline& pipeline) {
   pipeline.prepare([this](const char* stage, float fraction) { return progress(stage, fraction); },
                    session_.paused ? 1 : pipeline.settings().solver.sweepsPerFrame);
-  if (&pipeline != session_.pipeline.get()) session_.woke();
+  if (&pipeline != side.pipeline.get()) side.woke();
   const FacetList& facets = pipeline.facets();
   const SolveReport& report = pipeline.lighting().report;
-  session_.built = Built{.dims = facets.grid.dims,
-                         .facets = facets.count,
-                         .solidVoxels = facets.solidVoxels,
-                         .clampedAlbedo = facets.clampedAlbedo,
-                         .edge = facets.grid.edge,
-                         .solve = report,
-                         .findings = pipeline.findings(),
-                         .tolerance = pipeline.settings().solver.tolerance};
-  session_.solves.push_back({report.sweeps, report.residual, report.bound});
-  if (session_.solves.size() > 400) session_.solves.pop_front();
-  session_.sweepsSinceWake += report.sweeps;
+  side.built = Built{.dims = facets.grid.dims,
+                     .facets = facets.count,
+                     .solidVoxels = facets.solidVoxels,
+                     .clampedAlbedo = facets.clampedAlbedo,
+                     .edge = facets.grid.edge,
+                     .solve = report,
+                     .findings = pipeline.findings(),
+                     .tolerance = pipeline.settings().solver.tolerance};
+  side.solves.push_back({report.sweeps, report.residual, report.bound});
+  if (side.solves.size() > 400) side.solves.pop_front();
+  side.sweepsSinceWake += report.sweeps;
   session_.viewDirty = true;
 }
 
@@ -149,12 +185,14 @@ void Builder::reloadShaders(const std::filesystem::path& folder) {
                        [&](const std::string& name) { return name.starts_with(part); });
   };
   const bool build = changedIn("gi/"), shadows = changedIn("forward/");  // shadow maps are drawn by depth.vert
-  if (session_.pipeline && build) session_.pipeline->invalidate(Redo::Voxels);
-  if (session_.pipeline && shadows) session_.pipeline->lightsChanged();
-  if (build || shadows) {
-    stale_ = session_.pipeline != nullptr;
+  if (session_.pipeline && (build || shadows)) {
+    for (Side* side : session_.sides()) {
+      if (build) side->pipeline->invalidate(Redo::Voxels);
+      if (shadows) side->pipeline->lightsChanged();
+      side->woke();
+    }
+    stale_ = true;
     session_.halted = false;
-    session_.woke();
   }
   session_.viewDirty = true;
   session_.note(fmt::format("Compiled again: {}", fmt::join(reload.changed, ", ")));

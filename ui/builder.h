@@ -22,6 +22,9 @@ class Builder {
   /// Hands edits to the pipeline, redoes what they call for, and lets the solver go on until it sleeps. What will be
   /// redone is on screen for a frame before it starts, and waits for as long as the mouse `holds` the widget.
   void apply(bool held);
+  /// Begins a comparison: the session's side, with all that it has, becomes A, and a second pipeline of the same scene
+  /// and settings B, which is edited from now on. What goes wrong is said, and there is no comparison.
+  void compare();
   /// Compiles what has changed in the folder, and has everything redone that a changed shader had a part in.
   void reloadShaders(const std::filesystem::path& folder);
   /// The frame that was just drawn announced what is next.
@@ -30,8 +33,9 @@ class Builder {
   bool stale() const { return stale_; }
 
  private:
-  void rebuild();
-  void prepare(Pipeline& pipeline);
+  void rebuild(Side& side, std::string what);
+  void prepare(Side& side, Pipeline& pipeline);
+  void follow();
   void begin(std::string what);
   bool progress(const char* stage, float fraction);
   void forgetTimes();
@@ -39,7 +43,6 @@ class Builder {
   Context& context_;
   Session& session_;
   std::function<void()> breathe_;
-  std::vector<double> applied_;  ///< every setting that the pipeline has, as a number
   bool loadedLambertian_ = false;
   bool stale_ = false;              ///< shaders have changed that made what the pipeline holds
   Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced

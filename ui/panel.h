@@ -24,6 +24,7 @@ class Panel {
   X(Scene)             \
   X(Settings)          \
   X(View)              \
+  X(Compare)           \
   X(Solver)            \
   X(Memory)            \
   X(Timings)

@@ -23,9 +23,20 @@ void Session::useSceneCamera(int index) {
   viewDirty = true;
 }
 
-void Session::woke() {
+void Side::woke() {
   solves.clear();
   sweepsSinceWake = 0;
+}
+
+void Session::swapSides() {
+  std::swap(static_cast<Side&>(*this), comparison->other);
+  comparison->editsB = !comparison->editsB;
+}
+
+std::vector<Side*> Session::sides() {
+  std::vector<Side*> all{this};
+  if (comparison) all.push_back(&comparison->other);
+  return all;
 }
 
 std::string stagesFrom(Redo first, const char* arrow) {

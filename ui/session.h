@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gi/compare.h"
 #include "gi/pipeline.h"
 #include "renderer/frame.h"
 #include "ui/bindings.h"
@@ -50,22 +51,45 @@ struct SolveSample {
   float residual, bound;
 };
 
-struct Session {
+/// One set of settings, and what the pipeline made of them.
+struct Side {
+  std::unique_ptr<Pipeline> pipeline;  ///< null: no scene yet
+  std::optional<Built> built;          ///< set once the pipeline has something to show
+  Settings edited;                     ///< as the widgets show them; the loop hands them to the pipeline
+  std::vector<double> applied;         ///< every setting that the pipeline has, as a number
+  Targets targets;
+  std::deque<SolveSample> solves;  ///< since the solver last woke
+  uint64_t sweepsSinceWake = 0;
+
+  bool asleep() const { return built && pipeline->asleep(); }
+  void woke();  ///< the solver begins anew: its plots too
+};
+
+/// A second side of the same scene, drawn from the same camera.
+struct Comparison {
+  enum class Show { Split, A, B } show = Show::Split;
+  Side other;            ///< the one that is not edited
+  bool editsB = false;   ///< the session's own side is B
+  bool sameSeed = true;  ///< both take the edited side's
+  float split = 0.5f;    ///< share of the viewport's width that is A's
+  struct Result {
+    Metrics picture;      ///< of B's linear picture against A's
+    VoxelMetrics voxels;  ///< of B's H against A's
+  };
+  std::optional<Result> result;  ///< of the pictures as shown, once both sides are asleep
+};
+
+struct Session : Side {
   explicit Session(Context& c) : context(c) {}
 
   Context& context;
-  std::unique_ptr<Pipeline> pipeline;  ///< null: no scene yet
-  std::optional<Built> built;          ///< set once the pipeline has something to show
-
-  Settings edited;            ///< as the widgets show them; the loop hands them to the pipeline
   Settings defaults;          ///< of this device class, for the reset buttons
   Redo next = Redo::Nothing;  ///< first stage that a pending edit will redo
   bool halted = false;        ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
 
   View view = 0;
   FlyCamera camera;
-  int sceneCamera = 0;  ///< index of the scene's camera that `camera` began as
-  Targets targets;
+  int sceneCamera = 0;    ///< index of the scene's camera that `camera` began as
   Camera shown;           ///< of the picture in targets
   bool viewDirty = true;  ///< the picture must be rendered again
 
@@ -74,20 +98,24 @@ struct Session {
   std::optional<Work> work;
   std::vector<Message> messages;
 
-  std::deque<SolveSample> solves;  ///< since the solver last woke
-  uint64_t sweepsSinceWake = 0;
+  std::optional<Comparison> comparison;
+  Side& sideA() { return comparison && comparison->editsB ? comparison->other : *this; }
+  Side& sideB() { return comparison && comparison->editsB ? static_cast<Side&>(*this) : comparison->other; }
+  void swapSides();  ///< the other one is edited
+  /// Both sides of what there is, the edited one first.
+  std::vector<Side*> sides();
+  bool allAsleep() const { return asleep() && (!comparison || comparison->other.asleep()); }
 
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene;
   bool reloadShaders = false, capture = false, quit = false, rebuild = false;
+  std::optional<bool> compare;  ///< begin or end a comparison
 
   // Shown until dismissed, and printed on standard error.
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void useSceneCamera(int index);
-  void woke();  ///< the solver begins anew: its plots too
-  bool asleep() const { return built && pipeline->asleep(); }
 
  private:
   void say(Message::Kind kind, std::string text);

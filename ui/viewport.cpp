@@ -3,9 +3,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/imgui_layer.h"
 #include "ui/overlay.h"
+#include "ui/theme.h"
 
 namespace irad {
 
@@ -77,21 +79,74 @@ PictureMouse Viewport::mouse() {
   return m;
 }
 
+namespace {
+
+/// The picture; of two that are compared A's left and B's right part, or one of them.
+void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
+  if (!session.comparison) {
+    if (!session.targets.display) return;
+    ImGui::Image(layer.texture(session.targets.display), size);
+    return ImGui::SetCursorPos({0, 0});
+  }
+  const Image &a = session.sideA().targets.display, &b = session.sideB().targets.display;
+  if (!a || !b) return;
+  const Comparison& comparison = *session.comparison;
+  const float split = comparison.show == Comparison::Show::Split ? comparison.split
+                      : comparison.show == Comparison::Show::A   ? 1.0f
+                                                                 : 0.0f;
+  const float edge = std::round(split * size.x);
+  if (edge > 0) ImGui::Image(layer.texture(a), {edge, size.y}, {0, 0}, {edge / size.x, 1});
+  ImGui::SetCursorPos({edge, 0});
+  if (edge < size.x) ImGui::Image(layer.texture(b), {size.x - edge, size.y}, {edge / size.x, 0}, {1, 1});
+  ImGui::SetCursorPos({0, 0});
+}
+
+/// The line between A and B with their letters; true while it has the mouse.
+bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, bool& dragging) {
+  if (!session.comparison || !session.targets.display) return false;
+  Comparison& comparison = *session.comparison;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float em = ImGui::GetFontSize();
+  const auto letter = [&](const char* text, float x, bool edited) {
+    const ImVec2 at{x, where.position.y + em * 0.5f}, half = ImGui::CalcTextSize(text);
+    list.AddRectFilled({at.x - em * 0.7f, at.y}, {at.x + em * 0.7f, at.y + em * 1.5f}, IM_COL32(0, 0, 0, 150),
+                       em * 0.2f);
+    list.AddText({at.x - half.x / 2, at.y + em * 0.25f}, ImGui::GetColorU32(edited ? theme::accent : theme::text),
+                 text);
+  };
+  if (comparison.show != Comparison::Show::Split) {
+    const bool a = comparison.show == Comparison::Show::A;
+    letter(a ? "A" : "B", where.position.x + where.size.x / 2, a != comparison.editsB);
+    return false;
+  }
+  const float x = where.position.x + std::round(comparison.split * where.size.x);
+  const bool near = mouse.hovered && std::abs(mouse.position.x - x) < em * 0.5f;
+  if (mouse.pressed) dragging = near;
+  if (!mouse.hovered) dragging = false;
+  if (near || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (dragging && mouse.dragged)
+    comparison.split = std::clamp((mouse.position.x - where.position.x) / where.size.x, 0.0f, 1.0f);
+  list.AddLine({x, where.position.y}, {x, where.position.y + where.size.y},
+               ImGui::GetColorU32(dragging ? theme::accent : theme::text), std::max(1.0f, em / 14));
+  letter("A", x - em * 1.2f, !comparison.editsB);
+  letter("B", x + em * 1.2f, comparison.editsB);
+  return dragging || (near && mouse.pressed);
+}
+
+}  // namespace
+
 void Viewport::draw(Session& session, ImGuiLayer& layer, const Rect& where) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
   beginTile("##viewport", where, /*filled=*/false, /*scrolls=*/false);
   ImGui::PopStyleVar(2);
   const ImVec2 size{std::max(where.size.x, 1.0f), std::max(where.size.y, 1.0f)};
-  if (session.targets.display) {
-    ImGui::Image(layer.texture(session.targets.display), size);
-    ImGui::SetCursorPos({0, 0});
-  }
+  drawPictures(session, layer, size);
   ImGui::InvisibleButton("##look", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
   PictureMouse m = mouse();
 
-  bool taken = false;
+  bool taken = drawSplit(session, where, m, dragsSplit_);
   if (session.built && session.targets.display) {
     const Picture picture(where, session.pipeline->scene(), session.shown, session.targets.size);
     for (const auto& overlay : overlays_) {

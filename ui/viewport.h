@@ -71,6 +71,7 @@ class Viewport {
  private:
   PictureMouse mouse();
   std::vector<std::unique_ptr<Overlay>> overlays_;
+  bool dragsSplit_ = false;
   bool moved_ = false;       ///< the left button's drag has begun
   Overlay* held_ = nullptr;  ///< has the mouse until the button comes up
 };

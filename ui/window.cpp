@@ -13,6 +13,7 @@
 #include "ui/bindings.h"
 #include "ui/builder.h"
 #include "ui/capture.h"
+#include "ui/comparison.h"
 #include "ui/imgui_layer.h"
 #include "ui/input.h"
 #include "ui/menu.h"
@@ -141,7 +142,8 @@ void Window::run() {
 /// Something is to be done that needs no frame.
 bool Window::working() const {
   return session_.work || session_.openScene || session_.capture || session_.reloadShaders || session_.rebuild ||
-         builder_.stale() || (session_.pipeline && !session_.halted && !session_.paused && !session_.asleep());
+         session_.compare || builder_.stale() ||
+         (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 
 bool Window::settled() const {
@@ -207,6 +209,12 @@ void Window::act(Action action) {
         session_.useSceneCamera((session_.sceneCamera + 1) %
                                 static_cast<int>(session_.pipeline->scene().cameras.size()));
       break;
+    case Action::Flicker:
+      if (session_.comparison) {
+        using Show = Comparison::Show;
+        session_.comparison->show = session_.comparison->show == Show::A ? Show::B : Show::A;
+      }
+      break;
     case Action::Open:
       session_.showOpen = true;
       break;
@@ -223,6 +231,13 @@ void Window::takeRequests() {
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
   if (std::exchange(session_.capture, false)) captureView(context_, session_, options_.captures);
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
+  if (const std::optional<bool> compare = std::exchange(session_.compare, std::nullopt)) {
+    if (*compare)
+      builder_.compare();
+    else
+      session_.comparison.reset();
+  }
+  if (session_.comparison && !session_.viewDirty) measureComparison(context_, session_);
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
 }
 
@@ -289,10 +304,12 @@ void Window::drawFrame() {
   const Layout where = layout(size, layer_.scale(), session_.hideUi, session_.preferences.sizes);
   const glm::uvec2 picture = glm::max(glm::uvec2(where.viewport.size), glm::uvec2(1));
   // While a rebuild runs the last picture is shown, stretched if need be.
-  if (!busy && session_.built && session_.targets.size != picture) {
-    session_.targets = Targets(context_, picture);
-    session_.viewDirty = true;
-  }
+  if (!busy && session_.built)
+    for (Side* side : session_.sides())
+      if (side->targets.size != picture) {
+        side->targets = Targets(context_, picture);
+        session_.viewDirty = true;
+      }
   layer_.beginFrame();
   // First: of windows that focus does not raise, ImGui keeps those on top that were there before.
   if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
@@ -310,7 +327,8 @@ void Window::drawFrame() {
   if (!busy) frame.sampled(frameIndex_++, lastDraw_);
   if (!busy && session_.built && session_.viewDirty) {
     session_.shown = session_.camera.camera();
-    session_.pipeline->render(frame, session_.shown, session_.view, session_.targets);
+    for (Side* side : session_.sides()) side->pipeline->render(frame, session_.shown, session_.view, side->targets);
+    if (session_.comparison) session_.comparison->result.reset();
     session_.viewDirty = false;
     framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
   }

@@ -1,0 +1,141 @@
+// A/B: two sets of settings side by side, what differs between them, and by how much the pictures do.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cmath>
+
+#include "ui/comparison.h"
+#include "ui/panel.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+class ComparePanel : public Panel {
+ public:
+  const char* title() const override { return "Compare"; }
+  Region region() const override { return Region::Right; }
+
+  void draw(Session& session) override {
+    if (!session.comparison) {
+      if (ImGui::Button("Compare with these settings", {-1, 0})) session.compare = true;
+      helpTooltip(
+          "The present settings become A; a second pipeline of the same scene is B, and edited from then on. It "
+          "needs as much memory again.");
+      return;
+    }
+    drawSides(session);
+    drawDifferences(session);
+    drawResult(*session.comparison, session.view);
+    if (ImGui::Button("End the comparison", {-1, 0})) session.compare = false;
+    helpTooltip("The edited side stays");
+  }
+
+ private:
+  std::vector<SettingDifference> differences_;
+  std::string seen_;  ///< the settings that differences_ are of
+
+  static void drawSides(Session& session) {
+    Comparison& comparison = *session.comparison;
+    const auto choice = [](const char* label, bool chosen) {
+      ImGui::SameLine();
+      return ImGui::RadioButton(label, chosen);
+    };
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(theme::dim, "edit");
+    if (choice("A##edit", !comparison.editsB) && comparison.editsB) session.swapSides();
+    if (choice("B##edit", session.comparison->editsB) && !session.comparison->editsB) session.swapSides();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(theme::dim, "show");
+    using Show = Comparison::Show;
+    for (const auto& [show, label] : {std::pair{Show::Split, "both##show"}, {Show::A, "A##show"}, {Show::B, "B##show"}})
+      if (choice(label, comparison.show == show)) comparison.show = show;
+    helpTooltip("X: the other one");
+    ImGui::Checkbox("same seed", &comparison.sameSeed);
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (ImGui::Button(fmt::format("Copy A {} B", arrowGlyph()).c_str(), {half, 0})) copy(session, /*toB=*/true);
+    ImGui::SameLine();
+    if (ImGui::Button(fmt::format("Copy B {} A", arrowGlyph()).c_str(), {half, 0})) copy(session, /*toB=*/false);
+  }
+
+  static void copy(Session& session, bool toB) {
+    (toB ? session.sideB() : session.sideA()).edited = (toB ? session.sideA() : session.sideB()).edited;
+  }
+
+  void drawDifferences(Session& session) {
+    const Settings &a = session.sideA().edited, &b = session.sideB().edited;
+    if (std::string now = settingsToJson(a) + settingsToJson(b); now != seen_) {
+      differences_ = differences(a, b);
+      seen_ = std::move(now);
+    }
+    if (differences_.empty()) {
+      ImGui::TextColored(theme::dim, "the same settings");
+      return;
+    }
+    if (!ImGui::BeginTable("differences", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableSetupColumn("setting", 0, 2.2f);
+    ImGui::TableSetupColumn("A");
+    ImGui::TableSetupColumn("B");
+    ImGui::TableHeadersRow();
+    for (const SettingDifference& d : differences_)
+      for (const std::string* text : {&d.name, &d.a, &d.b}) {
+        ImGui::TableNextColumn();
+        clippedText(*text, ImGui::GetContentRegionAvail().x);
+        helpTooltip(*text);
+      }
+    ImGui::EndTable();
+  }
+
+  static void drawResult(const Comparison& comparison, View view) {
+    if (!comparison.result) {
+      ImGui::TextColored(theme::dim, "numbers: once both sides are asleep");
+      return;
+    }
+    const Comparison::Result& result = *comparison.result;
+    const char* unit = "";
+    for (const ViewInfo& info : views())
+      if (info.view == view) unit = info.unit;
+    if (!ImGui::BeginTable("result", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableSetupColumn("B against A", 0, 1.3f);
+    ImGui::TableSetupColumn("picture");
+    ImGui::TableSetupColumn("H of voxels");
+    ImGui::TableHeadersRow();
+    const Metrics &p = result.picture, &v = result.voxels.irradiance;
+    const auto row = [](const char* name, const std::string& picture, const std::string& voxels,
+                        const std::string& help) {
+      ImGui::TableNextColumn();
+      ImGui::TextColored(theme::dim, "%s", name);
+      helpTooltip(help);
+      ImGui::TableNextColumn();
+      rightText(picture);
+      ImGui::TableNextColumn();
+      rightText(voxels);
+    };
+    const auto decibels = [](double psnr) {
+      return std::isinf(psnr) ? std::string("\u2014") : fmt::format("{:.1f} dB", psnr);
+    };
+    const std::string units = fmt::format("Picture: {}. Voxels: W/m\u00B2.", *unit ? prettyUnit(unit) : "no unit");
+    row("RMSE", shortNumber(p.rmse), shortNumber(v.rmse), "Root of the mean squared difference. " + units);
+    row("relMSE", shortNumber(p.relMse), shortNumber(v.relMse),
+        fmt::format("Mean of (B \u2212 A)\u00B2 / (A\u00B2 + {})", kRelMseEpsilon));
+    row("PSNR", decibels(p.psnr), decibels(v.psnr), "20 log10(largest A / RMSE); \u2014: equal");
+    row("mean error", shortNumber(p.meanError), shortNumber(v.meanError), "Mean of B \u2212 A: signed. " + units);
+    row("largest", shortNumber(p.largest), shortNumber(v.largest), "Of |B \u2212 A|. " + units);
+    row("compared", withThousands(p.elements), withThousands(v.elements),
+        fmt::format(
+            "Pixels, and voxels that are solid on both sides; {} only in A, {} only in B; left out for what is no "
+            "number: {} pixels, {} voxels",
+            withThousands(result.voxels.onlyReference), withThousands(result.voxels.onlyValues),
+            withThousands(p.leftOut), withThousands(v.leftOut)));
+    ImGui::EndTable();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> makeComparePanel() {
+  return std::make_unique<ComparePanel>();
+}
+
+}  // namespace irad
