@@ -230,6 +230,34 @@ TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, ComparesTwoSetsOfSettings) {
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const auto left = [this] { return screen_->grab(400, 100, 240, 380); };
+  const auto right = [this] { return screen_->grab(690, 100, 240, 380); };
+  const ScreenPart a = left(), alsoA = right();
+  // Compare; then one facet per voxel on side B: the lamp's light is gone there, and only there.
+  xdotool("mousemove 1100 279 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart&) { return right() == alsoA; }))
+      << "the same settings, two pictures";
+  xdotool(
+      "mousemove 205 403 sleep 0.5 click 1 sleep 0.8 mousemove 160 424 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
+  EXPECT_EQ(left(), a) << "A is B's";
+  const ScreenPart b = right();
+  // The split follows the mouse; X shows one side, then the other.
+  xdotool("mousemove 666 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 950 300 sleep 0.5 mouseup 1 sleep 0.5");
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == alsoA; })) << "the split cannot be dragged";
+  key("x");
+  ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == alsoA && left() == a; })) << "X does not show A";
+  key("x");
+  ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == b && left() != a; })) << "X does not show B";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, FollowsItsSize) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
