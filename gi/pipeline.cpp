@@ -141,6 +141,7 @@ struct Pipeline::Impl {
     in.grid = &now.gridRecord;
     in.shape = &now.facets->shape;
     in.reverse = &now.facets->reverse;
+    in.around = &now.facets->around;
     in.shaded = &now.light->shaded;
     if (view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) in.shadedEmitted = &now.light->shadedEmitted;
     in.volume = now.light->volume ? &now.light->volume : nullptr;

@@ -60,7 +60,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
     pass.constant(0, method)
         .constant(1, settings.matrix.gpu.hitRule)
         .constant(2, static_cast<uint32_t>(facets.encoding))
-        .read(camera, facets.record, facets.shape, facets.reverse, lighting.radiosity)
+        .read(camera, facets.record, facets.shape, facets.reverse, facets.around, lighting.radiosity)
         .sample(targets.depth, point)
         .read(targets.normal, targets.geometric, targets.f0);
     if (fragment) pass.read(targets.indirect);

@@ -223,9 +223,11 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     return;
   }
   IndirectPush lookup{};
+  lookup.camera = camera.address;
   lookup.grid = indirect.grid->address;
   lookup.shape = indirect.shape->address;
   lookup.reverse = indirect.reverse->address;
+  lookup.around = indirect.around->address;
   lookup.shaded = indirect.shaded->address;
   lookup.shadedEmitted = emitters ? indirect.shadedEmitted->address : 0;
   lookup.sampling = indirect.sample;
@@ -234,7 +236,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   pass.shader("forward/indirect.comp")
       .constant(0, indirect.normalEncoding)
       .constant(1, emitters)
-      .read(*indirect.grid, *indirect.shape, *indirect.reverse, *indirect.shaded)
+      .read(camera, *indirect.grid, *indirect.shape, *indirect.reverse, *indirect.around, *indirect.shaded)
       .write(targets.indirect, targets.emitted);
   if (emitters) pass.read(*indirect.shadedEmitted);
   pass.push(lookup).run(

@@ -37,6 +37,7 @@ struct IndirectInputs {
   const Buffer* grid = nullptr;           ///< one Grid
   const Buffer* shape = nullptr;          ///< facet words
   const Buffer* reverse = nullptr;        ///< voxel -> facet
+  const Buffer* around = nullptr;         ///< corners' neighbours
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
   const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, Targets::emitted stays 0
   const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup (gated off)

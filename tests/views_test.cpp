@@ -59,6 +59,7 @@ struct Lit {
     in.grid = &grid;
     in.shape = &facets.shape;
     in.reverse = &facets.reverse;
+    in.around = &facets.around;
     in.shaded = &light.shaded;
     in.shadedEmitted = &light.shadedEmitted;
     in.volume = light.volume ? &light.volume : nullptr;

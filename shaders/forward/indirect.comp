@@ -2,6 +2,7 @@
 // in the targets (position in `indirect`, normal in `emitted`; w = 0 where nothing is drawn).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "forward/camera_view.glsl"
 #include "forward/indirect.glsl"
 #include "shared/passes.h"
 
@@ -16,7 +17,7 @@ layout(set = 0, binding = 1, rgba32f) uniform image2D emittedTarget;
 
 void main() {
   Grid grid = push.grid.at[0];
-  FacetMap map = FacetMap(push.shape, push.reverse, grid.dims, NORMAL_ENCODING);
+  FacetMap map = FacetMap(push.shape, push.reverse, push.around, grid.dims, NORMAL_ENCODING);
   // Neighbours in a subgroup are neighbours in the picture: 4 x 2 pixels, of which 2 x 4 make a group.
   uint i = gl_LocalInvocationIndex;
   ivec2 pixel = ivec2(8u * gl_WorkGroupID.xy + uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)));
@@ -24,8 +25,10 @@ void main() {
   vec4 position = imageLoad(indirectTarget, pixel);
   if (position.w == 0.0) return;
   vec3 normal = imageLoad(emittedTarget, pixel).xyz;
-  vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
-  vec3 emitted = EMITTED ? facetIndirect(map, push.shadedEmitted, push.sampling, p, normal) : vec3(0.0);
-  imageStore(indirectTarget, pixel, vec4(facetIndirect(map, push.shaded, push.sampling, p, normal), 1.0));
+  GpuCamera camera = push.camera.at[0];
+  vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
+  Receiver r = receiverAt(map, (position.xyz - grid.origin) * grid.inverseEdge, normal, viewer);
+  vec3 emitted = EMITTED ? facetIndirect(map, push.shadedEmitted, push.sampling, r) : vec3(0.0);
+  imageStore(indirectTarget, pixel, vec4(facetIndirect(map, push.shaded, push.sampling, r), 1.0));
   imageStore(emittedTarget, pixel, vec4(emitted, 1.0));
 }

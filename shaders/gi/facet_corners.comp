@@ -12,7 +12,6 @@ layout(push_constant, scalar) uniform Push { FacetCornersPush p; };
 
 const int SEARCH = 3;      // voxels
 const float SAME = 0.02f;  // voxels: planes of one code this near are one plane
-const float SLAB_COSINE = -0.25f;  // cosine below which the two faces of a voxel are sides of one thing
 const float REACH = 0.9f;  // voxels: half a cell's diagonal and what planes are known to
 
 void main() {
@@ -60,7 +59,7 @@ void main() {
         bool same = (otherShape & 0xFFFFu) == code && abs(distance_) < SAME;
         bool back = alike < -0.999f && distance_ < SAME;
         if (!same && !back) other_ = min(other_, radius);
-        if (radius == 0 && alike < SLAB_COSINE) slab = true;
+        if (radius == 0 && alike < OPPOSED_COSINE) slab = true;
         if (radius == 1 && alike >= TRACE_OWN_NORMAL) {
           // Where the two faces join, about half-way between their middles.
           vec3 across = 0.5f * (vec3(step_) + otherNormal * facetOffset(otherShape) - point);

@@ -3,8 +3,7 @@
 // "GI Scatter": H as shading samples it, once per relight instead of once per pixel (METHOD section 7). Averages over the
 // facets of the 3 x 3 x 3 voxels around that face the same way and lie in the same plane, with tent weights, so that
 // neither a room behind the wall nor the next step of a stair comes in; nor the floor beyond a wall that stands on it.
-#include "shared/grid.h"
-#include "shared/normals.h"
+#include "gi/facet_map.glsl"
 #include "shared/solve.h"
 
 layout(local_size_x = 64) in;
@@ -13,18 +12,6 @@ layout(push_constant, scalar) uniform Push { ScatterFacetsPush p; };
 
 const float FACING = 0.5f;  // least cosine between the normals
 const float LEVEL = 1.5f;   // voxels: farthest from the own plane
-const float BEYOND = 0.05f; // voxels: planes are known to about this
-
-/// Whether `point`, from the voxel's centre, lies behind a wall that stands on a facet in its voxel. `entry`: the
-/// voxel's, of the reverse map.
-bool beyondWall(FacetArrays f, uint entry, uint facet, vec3 normal, vec3 point) {
-  if (entry < SECOND_FACET || (f.shape.at[facet] & FACET_CORNER) == 0u) return false;
-  uint wall = (entry & ~SECOND_FACET) == facet ? facet + 1u : facet - 1u;
-  uint shape = f.shape.at[wall];
-  vec3 facing = decodeNormal(shape & 0xFFFFu, NORMALS);
-  return abs(dot(facing, normal)) < FACING && dot(facing, point) - facetOffset(shape) < -BEYOND &&
-         !convexInVoxel(f.around.at[facet]);
-}
 
 void main() {
   uint facet = irad_index();
@@ -33,18 +20,17 @@ void main() {
   vec3 h = p.indirect.at[facet].xyz;
   vec3 e = p.emitted.at[facet].xyz;
   if (p.blur != 0u) {
+    FacetMap map = FacetMap(f.shape, f.reverse, f.around, p.dims, NORMALS);
     uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
     uint shape = f.shape.at[facet];
     vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
     float offset = facetOffset(shape);
-    uint own = f.reverse.at[voxelIndex(voxel, p.dims)];
+    uint own = facetEntry(map, ivec3(voxel));
     vec3 sumH = vec3(0.0f), sumE = vec3(0.0f);
     float total = 0.0f;
     for (int i = 0; i < 27; ++i) {
       ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
-      ivec3 at = ivec3(voxel) + step_;
-      if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(p.dims)))) continue;
-      uint entry = f.reverse.at[voxelIndex(uvec3(at), p.dims)];
+      uint entry = facetEntry(map, ivec3(voxel) + step_);
       if (entry == NO_FACET) continue;
       float tent = (step_.x == 0 ? 2.0f : 1.0f) * (step_.y == 0 ? 2.0f : 1.0f) * (step_.z == 0 ? 2.0f : 1.0f);
       uint first = entry & ~SECOND_FACET;
@@ -57,8 +43,9 @@ void main() {
         float back = dot(otherNormal, normal * offset - vec3(step_)) - facetOffset(otherShape);
         float facing = dot(normal, otherNormal);
         if (facing <= FACING || max(abs(away), abs(back)) >= LEVEL) continue;
-        if (beyondWall(f, own, facet, normal, vec3(step_) + otherNormal * facetOffset(otherShape)) ||
-            beyondWall(f, entry, other, otherNormal, normal * offset - vec3(step_)))
+        if (other != facet &&
+            (hiddenByWall(map, own, facet, normal, vec3(step_) + otherNormal * facetOffset(otherShape)) ||
+             hiddenByWall(map, entry, other, otherNormal, normal * offset - vec3(step_))))
           continue;
         sumH += tent * p.indirect.at[other].xyz;
         sumE += tent * p.emitted.at[other].xyz;

@@ -8,6 +8,8 @@ IRAD_BEGIN
 IRAD_CONST uint NO_FACET = 0xFFFFFFFFu;
 /// Reverse map entry: NO_FACET, or the first facet's index with this bit set if the voxel has a second (index + 1).
 IRAD_CONST uint SECOND_FACET = 0x80000000u;
+/// Two faces of a voxel are opposed, the two sides of something thin, where n . n' is below this.
+IRAD_CONST float OPPOSED_COSINE = -0.25f;
 
 /// Facet word `shape`: bits 0-15 normal code (encoding of voxel.normals), bits 16-23 signed plane offset: distance of
 /// the surface from the voxel's centre along the normal, in 1/127 voxel, biased by 128; bit 24: double-sided material.
@@ -21,12 +23,6 @@ IRAD_CONST uint FACET_CORNER = 1u << 25;
 IRAD_CONST uint AROUND_SELF = 1u << 13;
 IRAD_CONST uint AROUND_VOXELS = (1u << 27) - 1u;
 IRAD_CONST uint AROUND_CONVEX_SHIFT = 27u;
-/// Whether the voxel's other face meets the facet of these neighbours convexly.
-IRAD_FN bool convexInVoxel(uint around) {
-  uint before = 0u;
-  for (uint i = 0u; i < 13u; ++i) before += (around >> i) & 1u;
-  return (around & AROUND_SELF) != 0u && before < 5u && ((around >> (AROUND_CONVEX_SHIFT + before)) & 1u) != 0u;
-}
 /// Bits 26-27: within this many voxels every face lies in the facet's own plane (or is that sheet's back), and no voxel is
 /// a corner: rays that start in the plane step over them. Set by markCorners.
 IRAD_CONST uint FACET_CLEAR_SHIFT = 26u;

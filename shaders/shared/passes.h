@@ -47,10 +47,11 @@ struct ForwardPush {
 
 /// "RE Forward", forward/indirect.comp.
 struct IndirectPush {
+  CameraArray camera;
   GridArray grid;
-  UintArray shape, reverse;  ///< of FacetArrays
-  Vec4Array shaded;          ///< H per facet
-  Vec4Array shadedEmitted;   ///< F M per facet
+  UintArray shape, reverse, around;  ///< of FacetArrays
+  Vec4Array shaded;                  ///< H per facet
+  Vec4Array shadedEmitted;           ///< F M per facet
   SampleParams sampling;
   uvec2 size;
 };

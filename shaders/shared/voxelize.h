@@ -26,9 +26,8 @@ IRAD_FN uint sliverKey(float area, bool back, uint triangle) {
 IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
 IRAD_FN bool keyBack(uint key) { return (key & KEY_FRONT_SIDE) == 0u; }
 
-/// The second facet of a voxel faces against the first: n . n' below this. Where none does, it is the best of those that
-/// face elsewhere (n . n' below ELSEWHERE_COSINE) and cross their middle line: the other wall of a corner.
-IRAD_CONST float OPPOSED_COSINE = -0.25f;
+/// The second facet of a voxel is opposed to the first. Where none is, it is the best of those that face elsewhere
+/// (n . n' below this) and cross their middle line: the other wall of a corner.
 IRAD_CONST float ELSEWHERE_COSINE = 0.7f;
 /// Key of a second facet: opposed ones first (bit 31), then as `key` has it with half the steps.
 IRAD_FN uint secondKey(uint key, bool opposed) {

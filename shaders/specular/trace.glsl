@@ -29,7 +29,8 @@ TraceHit traceFrom(TraceWorld world, Surface s, vec3 direction) {
 /// these, and what either kind finds there is weighted by the balance heuristic (Veach and Guibas 1995): a small bright
 /// face in the lobe's tail is otherwise met by few rays, each of which is a white dot. `shift` decorrelates pixels.
 vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
-  FacetMap map = FacetMap(world.facets.shape, world.facets.reverse, world.dims, TRACE_NORMALS);
+  FacetMap map =
+      FacetMap(world.facets.shape, world.facets.reverse, world.facets.around, world.dims, TRACE_NORMALS);
   float alpha = s.roughness * s.roughness;
   bool mirror = alpha < 1e-3;
   uint rays = mirror ? 1u : push.params.rays;
@@ -83,7 +84,7 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
       float emitter = float(aimed) * exitance * hit.t * hit.t / (max(-dot(n, direction), 1e-4) * table.power);
       weight *= lobe / (lobe + emitter);
     }
-    sum += weight * facetValueAround(map, push.radiosity, hit.facet, at, n);
+    sum += weight * facetValueAround(map, push.radiosity, hit.facet, at, n, -direction);
   }
   return weights > 0.0 ? sum / (weights * IRAD_PI) : vec3(0.0);
 }

@@ -1,0 +1,84 @@
+// Where lookups of light find the facets around a surface, and which of those walls hide from it (METHOD section 7):
+// the floor beyond a wall, or beneath it, says nothing of the floor before it.
+#ifndef IRAD_FACET_MAP_GLSL
+#define IRAD_FACET_MAP_GLSL
+#include "shared/facets.h"
+#include "shared/grid.h"
+#include "shared/normals.h"
+#include "shared/trace.h"
+
+/// By value: what is read through uniform pointers is read once for all lanes.
+struct FacetMap {
+  UintArray shape, reverse, around;  ///< of FacetArrays
+  uvec3 dims;
+  uint encoding;
+};
+
+/// A voxel's entry of the reverse map; NO_FACET outside the grid.
+uint facetEntry(FacetMap map, ivec3 v) {
+  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(map.dims)))) return NO_FACET;
+  return map.reverse.at[voxelIndex(uvec3(v), map.dims)];
+}
+
+const float WALL_COSINE = 0.5f;  // faces are walls to one another where the cosine between them is below
+
+/// A voxel whose centre is farther than this behind the plane of a face has no part before it, voxels.
+float allBehind(vec3 facing) {
+  return voxelExtent(facing) - TRACE_BEHIND;
+}
+
+/// A point of a surface that light is looked up for (voxel units), and walls that stand before it: voxels all of which
+/// are behind one are not asked.
+struct Receiver {
+  vec3 position, normal;
+  vec4 wall, otherWall;  ///< behind it: dot(xyz, voxel's centre) + w < 0
+};
+
+/// Whether a wall hides all of a voxel, whose centre is given, from the receiver.
+bool hiddenVoxel(Receiver r, vec3 centre) {
+  return min(dot(r.wall.xyz, centre) + r.wall.w, dot(r.otherWall.xyz, centre) + r.otherWall.w) < 0.0f;
+}
+
+/// The receiver at `p` on a surface with normal `n`, seen from the direction `viewer`. Its walls are the faces of the
+/// voxel in front of it: of the two sides of a sheet that which it is seen before.
+Receiver receiverAt(FacetMap map, vec3 p, vec3 n, vec3 viewer) {
+  Receiver r = Receiver(p, n, vec4(0.0f), vec4(0.0f));
+  vec3 centre = floor(p + 0.5f * n) + 0.5f;
+  uint entry = facetEntry(map, ivec3(centre));
+  if (entry == NO_FACET) return r;
+  float before = -TRACE_PLANE;
+  for (uint i = 0u; i < (entry >= SECOND_FACET ? 2u : 1u); ++i) {
+    uint shape = map.shape.at[(entry & ~SECOND_FACET) + i];
+    vec3 facing = decodeNormal(shape & 0xFFFFu, map.encoding);
+    // At a wall's foot the plane's code cannot tell the side: a little towards the viewer.
+    float distance_ = dot(facing, p + TRACE_PLANE * viewer - centre) - facetOffset(shape);
+    if (abs(dot(facing, n)) >= WALL_COSINE || distance_ < -TRACE_PLANE) continue;
+    vec4 wall = vec4(facing, allBehind(facing) - facetOffset(shape) - dot(facing, centre));
+    bool sheet = dot(facing, r.wall.xyz) < OPPOSED_COSINE;
+    if (!sheet) r.otherWall = r.wall;
+    if (!sheet || distance_ > before) r.wall = wall;
+    before = distance_;
+  }
+  return r;
+}
+
+/// Whether the voxel's other face meets the facet of these neighbours (FacetArrays::around) convexly.
+bool convexInVoxel(uint around) {
+  int before = bitCount(around & (AROUND_SELF - 1u));
+  return (around & AROUND_SELF) != 0u && before < 5 && ((around >> (AROUND_CONVEX_SHIFT + uint(before))) & 1u) != 0u;
+}
+
+/// Whether the other face of a facet's voxel is a wall on it that hides the facet from `point`, given from the voxel's
+/// centre: the point is behind the wall, or all of the facet is. `entry`: the voxel's, of the reverse map.
+bool hiddenByWall(FacetMap map, uint entry, uint facet, vec3 normal, vec3 point) {
+  if (entry < SECOND_FACET || (map.shape.at[facet] & FACET_CORNER) == 0u) return false;
+  uint wall = (entry & ~SECOND_FACET) == facet ? facet + 1u : facet - 1u;
+  uint shape = map.shape.at[wall];
+  vec3 facing = decodeNormal(shape & 0xFFFFu, map.encoding);
+  float offset = facetOffset(shape);
+  return abs(dot(facing, normal)) < WALL_COSINE &&
+         (dot(facing, point) - offset < -TRACE_ON_PLANE || offset > allBehind(facing)) &&
+         !convexInVoxel(map.around.at[facet]);
+}
+
+#endif
