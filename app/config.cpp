@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "app/version.h"
 #include "gi/camera_json.h"
@@ -52,6 +53,19 @@ std::optional<T> member(const fs::path& path, const Json& json, const char* name
   } catch (const nlohmann::json::exception&) {
     throw InputError(fmt::format("{}: {}: unexpected value {}", path.string(), name, json.at(name).dump()));
   }
+}
+
+/// A member {"path", "sha256"}. What travelled together with its manifest is found beside it.
+std::pair<std::optional<fs::path>, std::optional<std::string>> readNamedFile(const fs::path& path, const Json& json,
+                                                                             const char* name) {
+  if (!json.contains(name)) return {};
+  std::optional<fs::path> file;
+  if (const auto text = member<std::string>(path, json[name], "path")) {
+    const fs::path beside = path.parent_path() / fs::path(*text).filename();
+    std::error_code ignored;  // a name that is no path at all does not exist either
+    file = !fs::exists(*text, ignored) && fs::exists(beside, ignored) ? beside : fs::path(*text);
+  }
+  return {file, member<std::string>(path, json[name], "sha256")};
 }
 
 std::vector<Camera> readCameras(const fs::path& path, const Json& json) {
@@ -106,16 +120,8 @@ Config readConfigFile(const fs::path& path) {
     return config;
   }
   config.settings = json["settings"].dump();
-  if (json.contains("scene")) {
-    const auto scene = member<std::string>(path, json["scene"], "path");
-    if (scene) {
-      // A manifest that travelled together with its scene still finds it.
-      const fs::path beside = path.parent_path() / fs::path(*scene).filename();
-      std::error_code ignored;  // a name that is no path at all does not exist either
-      config.scene = !fs::exists(*scene, ignored) && fs::exists(beside, ignored) ? beside : fs::path(*scene);
-    }
-    config.sceneSha256 = member<std::string>(path, json["scene"], "sha256");
-  }
+  std::tie(config.scene, config.sceneSha256) = readNamedFile(path, json, "scene");
+  std::tie(config.reference, config.referenceSha256) = readNamedFile(path, json, "reference");
   if (json.contains("size")) {
     const Json& size = json["size"];
     if (!size.is_array() || size.size() != 2)

@@ -24,6 +24,8 @@ struct Config {
   std::optional<uint32_t> frames;
   std::vector<Camera> cameras;
   std::vector<std::string> views;
+  std::optional<std::filesystem::path> reference;  ///< picture to compare with
+  std::optional<std::string> referenceSha256;
 };
 /// InputError when the file cannot be read, is not what it should be, or is of a newer format.
 Config readConfigFile(const std::filesystem::path& path);

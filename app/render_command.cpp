@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/devices.h"
+#include "app/reference.h"
 #include "app/session.h"
 #include "app/views.h"
 #include "gi/memory_report.h"
@@ -26,6 +27,7 @@ struct Arguments {
   SettingArguments settings;
   DeviceArguments device;
   PictureArguments picture;
+  ReferenceArgument reference;
   std::vector<std::string> views;
 };
 
@@ -108,6 +110,8 @@ void run(const Arguments& arguments) {
   makeFolder(out);
 
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
+  const std::optional<Reference> reference = arguments.reference.read(session.config, session.progress);
+  if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
   session.prepare(pipeline);
   Targets targets(*session.context, size);
 
@@ -116,6 +120,7 @@ void run(const Arguments& arguments) {
   std::vector<fs::path> written;
   std::set<std::string> used;
   std::vector<std::string> badPictures;
+  std::vector<std::string> ranges;
   for (size_t c = 0; c < cameras.size(); ++c) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
     for (const ViewInfo& view : chosen) {
@@ -125,6 +130,8 @@ void run(const Arguments& arguments) {
       written.insert(written.end(), files.paths.begin(), files.paths.end());
       if (!files.bad.empty())
         badPictures.push_back(fmt::format("numerical watch: picture {}{}: {}", prefix, view.name, files.bad));
+      if (view.hasRange())
+        ranges.push_back(rangeJson(*session.context, targets, view, session.settings, prefix + view.name));
     }
   }
 
@@ -141,6 +148,11 @@ void run(const Arguments& arguments) {
   manifest.frames = frames;
   manifest.cameras = cameras;
   for (const ViewInfo& view : chosen) manifest.views.emplace_back(view.name);
+  if (!ranges.empty()) manifest.details.emplace_back("view_ranges", fmt::format("[{}]", fmt::join(ranges, ",")));
+  if (reference) {
+    manifest.arguments = {"--reference", reference->path.string()};
+    manifest.details.emplace_back("reference", reference->json());
+  }
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
   writeFile(out / "manifest.json", manifest.toJson());
   written.push_back(out / "manifest.json");
@@ -163,6 +175,7 @@ Command renderCommand() {
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
             arguments->picture.declare(options);
+            arguments->reference.declare(options);
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },

@@ -9,6 +9,7 @@
 #include "app/arguments.h"
 #include "app/command.h"
 #include "app/devices.h"
+#include "app/reference.h"
 #include "app/views.h"
 #include "renderer/error.h"
 #include "ui/preferences.h"
@@ -20,6 +21,7 @@ namespace {
 struct Arguments {
   SettingArguments settings;
   DeviceArguments device;
+  ReferenceArgument reference;
   std::optional<std::string> scene, size, view, camera, scale, captures, shaders, exitAfter, screenshot;
 
   void declare(Options& options) {
@@ -33,6 +35,7 @@ struct Arguments {
     options.value("--exit-after", "FRAMES", exitAfter,
                   "End after so many frames in which nothing was left to do (for tests)");
     options.value("--screenshot", "FILE", screenshot, "The whole window as PNG when it ends (for tests)");
+    reference.declare(options);
     settings.declare(options);
     device.declare(options);
   }
@@ -73,6 +76,8 @@ void run(const Arguments& arguments) {
     options.exitAfter = static_cast<uint32_t>(parseInteger("--exit-after", *arguments.exitAfter, 1, 1'000'000));
   if (arguments.screenshot) options.screenshot = *arguments.screenshot;
   if (options.exitAfter == 0) options.preferences = preferencesFile();
+  ProgressReport notes;
+  if (auto reference = arguments.reference.read(config, notes)) options.reference = std::move(reference->picture);
   options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
 
   DeviceOptions deviceOptions = arguments.device.options();

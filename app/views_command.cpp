@@ -17,18 +17,22 @@ void run(bool json) {
     for (const ViewInfo& view : views())
       out.push_back({{"name", view.name},
                      {"label", view.label},
+                     {"group", view.group},
                      {"unit", view.unit},
-                     {"scalar", view.scalar},
+                     {"scalar", view.hasRange()},
+                     {"signed", view.kind == VIEW_KIND_SIGNED},
                      {"min", view.rangeMin},
                      {"max", view.rangeMax},
-                     {"tone_mapped", view.toneMapped}});
+                     {"tone_mapped", view.toneMapped()}});
     fmt::print("{}\n", out.dump(2));
     return;
   }
-  std::vector<std::vector<std::string>> rows{{"name", "label", "unit", "range"}};
-  for (const ViewInfo& view : views())
-    rows.push_back(
-        {view.name, view.label, view.unit, view.scalar ? fmt::format("{} to {}", view.rangeMin, view.rangeMax) : ""});
+  const auto range = [](const ViewInfo& view) -> std::string {
+    if (!view.hasRange()) return "";
+    return view.rangeMin < view.rangeMax ? fmt::format("{} to {}", view.rangeMin, view.rangeMax) : "auto";
+  };
+  std::vector<std::vector<std::string>> rows{{"name", "group", "label", "unit", "range"}};
+  for (const ViewInfo& view : views()) rows.push_back({view.name, view.group, view.label, view.unit, range(view)});
   fmt::print("{}", formatTable(rows));
 }
 

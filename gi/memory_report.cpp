@@ -35,11 +35,10 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   if (facets.hasEmission) buffer(facets.emission, 12 * s);
   buffer(facets.reverse, 4 * V);
   buffer(facets.around, 4 * s);
-  // Fields: one byte per voxel each; JFA seeds one word, and every kept pass another.
+  // Fields: one byte per voxel each; JFA seeds one word.
   buffer(field.chebyshev, (V + 3) / 4 * 4);
   image(field.jfaDistance, V);
   image(field.jfaSeeds, 4 * V);
-  for (const Image& pass : field.jfaPasses) image(pass, 4 * V);
   // csr: 4 B per distinct column. padded: 8 B for each of R places of a power of two of rows (T Fig. 7).
   const uint64_t capacity = std::bit_ceil(std::max<uint64_t>(1, matrix.rows));
   out.emplace_back(kEntries,

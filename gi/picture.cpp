@@ -1,8 +1,11 @@
 #include "gi/picture.h"
 
+#include <nlohmann/json.hpp>
+
 #include "gi/watch.h"
 #include "renderer/error.h"
 #include "renderer/image_io.h"
+#include "shaders/shared/view.h"
 
 namespace irad {
 
@@ -18,8 +21,24 @@ PictureFiles writePicture(Context& context, const Targets& targets, const ViewIn
   files.paths.push_back(
       writeDisplay(stem, targets.size, {reinterpret_cast<const glm::u8vec4*>(display.data()), pixels}));
   files.paths.push_back(writeLinear(stem, targets.size, values));
-  files.bad = findBadPixels(values, targets.size, view.toneMapped);
+  files.bad = findBadPixels(values, targets.size, view.toneMapped());
   return files;
+}
+
+std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& view, const Settings& settings,
+                      const std::string& name) {
+  const ViewRange range = downloadAs<ViewRange>(context, targets.viewRange).at(0);
+  const Quantity quantity = shownQuantity(view, settings);
+  return nlohmann::ordered_json{{"picture", name},
+                                {"quantity", quantity.name},
+                                {"unit", quantity.unit},
+                                {"color_map", colorMapName(colorMapOf(view, settings))},
+                                {"low", range.low},
+                                {"high", range.high},
+                                {"nan_pixels", range.nan},
+                                {"infinite_pixels", range.infinite},
+                                {"negative_pixels", range.negative}}
+      .dump();
 }
 
 }  // namespace irad

@@ -17,4 +17,9 @@ struct PictureFiles {
 PictureFiles writePicture(Context& context, const Targets& targets, const ViewInfo& view,
                           const std::filesystem::path& stem);
 
+/// With what range and colours the display picture of a view with a range was drawn, for manifests (JSON): member
+/// "picture" is `name`.
+std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& view, const Settings& settings,
+                      const std::string& name);
+
 }  // namespace irad

@@ -45,9 +45,11 @@ struct Pipeline::Impl {
     std::optional<Emitters> emitters;
     std::optional<Lighting> light;
     Buffer reference;  ///< H by the oracle, for its view; none where the scene does not know it
+    ViewFields fields;
   };
   Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
+  Image picture;  ///< the reference picture
 
   void prepare(uint32_t maxSweeps, const Progress& progress) {
     if (dirty <= Redo::Voxels) {
@@ -232,7 +234,7 @@ std::vector<Finding> Pipeline::findings() const {
   return irad::findings(p.light->report, grid, impl_->scene.origin + glm::dvec3(grid.origin), impl_->solvedFrame);
 }
 
-void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets) {
+void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range) {
   Impl& p = *impl_;
   const GpuCamera gpu = makeGpuCamera(p.scene, camera, targets.size);
   frame.pass("Camera").update(p.camera, gpu);
@@ -250,8 +252,26 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   if (p.now.light) inputs.lighting = &*p.now.light;
   if (p.now.emitters) inputs.emitters = &*p.now.emitters;
   if (p.now.reference) inputs.reference = &p.now.reference;
+  if (p.shadows) inputs.shadows = &*p.shadows;
+  if (p.picture) inputs.picture = &p.picture;
+  inputs.fields = &p.now.fields;
+  inputs.range = range;
   traceSpecular(frame, inputs, p.camera, p.settings, targets);
   drawView(frame, view, inputs, p.camera, p.settings, targets);
+}
+
+void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels) {
+  IRAD_CHECK_OP(pixels.size(), ==, size_t{size.x} * size.y);
+  ImageDesc desc;
+  desc.name = "reference picture";
+  desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  desc.width = size.x;
+  desc.height = size.y;
+  impl_->picture = Image(impl_->context.device, desc);
+  upload(impl_->context, impl_->picture, std::as_bytes(pixels));
+}
+bool Pipeline::hasReference() const {
+  return static_cast<bool>(impl_->picture);
 }
 
 const FacetList& Pipeline::facets() const {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "gi/stages.h"
@@ -47,8 +48,12 @@ class Pipeline {
   /// What the numerical watch has to say about the light as it is.
   std::vector<Finding> findings() const;
 
-  /// One picture of `view` into targets.linear and targets.display.
-  void render(Frame& frame, const Camera& camera, View view, Targets& targets);
+  /// One picture of `view` into targets.linear and targets.display; `range`: ViewInputs::range.
+  void render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range = nullptr);
+
+  /// The picture that the views of group "Reference" show and compare with: radiance, top row first.
+  void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels);
+  bool hasReference() const;
 
   const FacetList& facets() const;
   const Field& field() const;

@@ -78,6 +78,7 @@ void applyPreset(Settings& settings, std::string_view name, bool cpuDevice) {
   preset.matrix.gpu.seed = settings.matrix.gpu.seed;
   preset.camera.exposureEv = settings.camera.exposureEv;
   preset.camera.gpu.toneCurve = settings.camera.gpu.toneCurve;
+  preset.view = settings.view;
   preset.lambertian = settings.lambertian;
   settings = preset;
 }

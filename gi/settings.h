@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "shaders/shared/color_map.h"
 #include "shaders/shared/gi_params.h"
+#include "shaders/shared/view.h"
 
 namespace irad {
 
@@ -23,6 +25,10 @@ enum class SpecularMode : uint32_t { off, fragment, compute };
 enum class ToneCurve : uint32_t { linear, neutral };
 enum class EmitterSampling : uint32_t { off, automatic, on };
 enum class SolverKernel : uint32_t { automatic, tree, subgroup, row };
+enum class ViewShape : uint32_t { cubes, slice, projection, isosurface, automatic };
+enum class Axis : uint32_t { x, y, z, automatic };
+enum class RangeMode : uint32_t { standard, automatic, percentile, manual };
+enum class ColorMap : uint32_t { violetYellow, heat, grey };
 
 /// The first stage that has to run again when a setting changes; later ones follow. Ordered.
 enum class Redo : uint32_t { Voxels, Field, Matrix, Gather, Solve, Scatter, Shade, Nothing };
@@ -49,7 +55,6 @@ struct VoxelSettings {
 };
 struct FieldSettings {
   FieldMethod method = FieldMethod::chebyshev;
-  bool keepPasses = false;
 };
 struct MatrixSettings {
   MatrixFormat format = MatrixFormat::csr;
@@ -84,6 +89,19 @@ struct CameraSettings {
   float exposureEv = 0.0f;
   ShadeParams gpu{1.0f, TONE_NEUTRAL, 1.5f, 3, 1};
 };
+/// How views are shown; they change no light.
+struct ViewSettings {
+  ViewShape shape = ViewShape::automatic;
+  Axis axis = Axis::automatic;
+  float slice = 0.5f;     ///< 0..1 along the axis
+  float isovalue = 2.0f;  ///< voxels
+  uint32_t jfaPass = 11;  ///< 0: the seeds alone; past the last: the last
+  uint32_t light = 0;     ///< index
+  RangeMode range = RangeMode::standard;
+  float low = 0.0f, high = 1.0f;
+  float percentile = 99.0f;
+  ColorMap colorMap = ColorMap::violetYellow;
+};
 struct ThesisSettings {
   bool literal = false;  ///< bring back the thesis's plain slips (METHOD, first paragraph)
 };
@@ -99,6 +117,7 @@ struct Settings {
   SpecularSettings specular;
   LightSettings light;
   CameraSettings camera;
+  ViewSettings view;
   ThesisSettings thesis;
   bool lambertian = false;  ///< scene.lambertian: all materials Lambertian (LoadOptions::lambertian)
 };
@@ -152,6 +171,23 @@ struct EnumNames<SolverKernel> {
   static constexpr std::array names{"auto", "tree", "subgroup", "row"};
 };
 
+template <>
+struct EnumNames<ViewShape> {
+  static constexpr std::array names{"cubes", "slice", "projection", "isosurface", "auto"};
+};
+template <>
+struct EnumNames<Axis> {
+  static constexpr std::array names{"x", "y", "z", "auto"};
+};
+template <>
+struct EnumNames<RangeMode> {
+  static constexpr std::array names{"standard", "auto", "percentile", "manual"};
+};
+template <>
+struct EnumNames<ColorMap> {
+  static constexpr std::array names{"violet-yellow", "heat", "grey"};
+};
+
 /// Tag for a uint32_t of an uploaded struct that holds an enumeration's value: visited as that enumeration.
 template <class E>
 struct EnumRef {
@@ -171,7 +207,6 @@ void visit(Settings& s, F&& f) {
   f(s.voxel.facets, Meta{"voxel.facets", 1, 2, "", "Facets that a voxel may hold; 2 keeps both sides of thin walls.", Voxels});
   f(s.voxel.normals, Meta{"voxel.normals", 0, 0, "", "Encoding of facet normals.", Voxels});
   f(s.field.method, Meta{"field.method", 0, 0, "", "Distance field that sdf traversals read.", Field});
-  f(s.field.keepPasses, Meta{"field.keep_passes", 0, 1, "", "Keep every jump-flood pass for viewing.", Field});
   f(s.matrix.format, Meta{"matrix.format", 0, 0, "", "padded: fixed stride, 8 B per hit (T Fig. 7); csr: exact size, 4 B per distinct column.", Matrix});
   f(s.matrix.gpu.rays, Meta{"matrix.rays", 1, 4096, "rays", "Rays per facet (N of METHOD section 5).", Matrix});
   f(EnumRef<HitRule>{s.matrix.gpu.hitRule}, Meta{"matrix.hit_rule", 0, 0, "", "Which faces a ray starts from and stops at.", Voxels});
@@ -206,12 +241,23 @@ void visit(Settings& s, F&& f) {
   f(s.camera.gpu.shadowBias, Meta{"camera.shadow_bias", 0, 10, "texels", "Normal offset of shadow lookups.", Gather});
   f(s.camera.gpu.pcf, Meta{"camera.pcf", 1, 5, "taps", "Percentage-closer filter taps per axis.", Gather, false, 2});
   f(BoolRef{s.camera.gpu.specularDirect}, Meta{"camera.specular_direct", 0, 1, "", "Specular lobe of direct lights.", Shade});
+  f(s.view.shape, Meta{"view.shape", 0, 0, "", "How a volume is shown: cubes where it is solid, a slice, a projection along the line of sight (distances: the sum of their inverses, T Fig. 5c; errors: the largest; else the mean), the surface at a distance; auto: as suits the view.", Nothing});
+  f(s.view.axis, Meta{"view.axis", 0, 0, "", "Axis across the slice; auto: the one that the camera looks along most.", Nothing});
+  f(s.view.slice, Meta{"view.slice", 0, 1, "", "Place of the slice along its axis, as a share of the grid.", Nothing});
+  f(s.view.isovalue, Meta{"view.isovalue", 0, 64, "voxels", "Distance at which fields are shown as cubes or isosurface.", Nothing});
+  f(s.view.jfaPass, Meta{"view.jfa_pass", 0, 11, "", "Jump-flood pass after which its seeds are shown; 0: before the first, more than there are: the last.", Nothing});
+  f(s.view.light, Meta{"view.light", 0, 4096, "", "Light of the shadow views, by index.", Nothing});
+  f(s.view.range, Meta{"view.range", 0, 0, "", "Values that the colour map's ends stand for. standard: the view's own, auto where it has none; auto: the picture's smallest and largest.", Nothing});
+  f(s.view.low, Meta{"view.low", -1e6, 1e6, "", "Lower end of the manual range.", Nothing});
+  f(s.view.high, Meta{"view.high", -1e6, 1e6, "", "Upper end of the manual range; signed views take the larger magnitude to both sides.", Nothing});
+  f(s.view.percentile, Meta{"view.percentile", 50, 100, "%", "Upper end of the percentile range; the lower is 100 less this.", Nothing});
+  f(s.view.colorMap, Meta{"view.color_map", 0, 0, "", "Colours of scalar views, even in lightness; signed views are always blue-red.", Nothing});
   f(s.thesis.literal, Meta{"thesis.literal", 0, 1, "", "Bring back the thesis's plain slips, to show what they cost.", Voxels});
   f(s.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
 }
 
-/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve and scene.lambertian,
-/// which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
+/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view and
+/// scene.lambertian, which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
 /// rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);

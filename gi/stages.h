@@ -69,10 +69,16 @@ struct Field {
   Image jfaDistance;             ///< R8_UNORM volume: Euclidean distance / maxDistance
   float jfaMax = 0;              ///< voxels that 1.0 stands for
   Image jfaSeeds;                ///< R32_UINT packVoxel of the nearest seed, the last pass
-  std::vector<Image> jfaPasses;  ///< every pass, on request (field.keep_passes)
 };
 /// Builds what `settings` and the solid set (facets.reverse) call for.
 Field buildField(Context& context, const FacetList& facets, const Settings& settings);
+/// The same recorded into a frame, of one method; `grid` holds the list's one Grid.
+Field recordField(Frame& frame, const char* stage, const FacetList& facets, const Buffer& grid, FieldMethod method);
+/// Passes of jump flooding: floor(log2(largest dimension)) + 1.
+uint32_t jumpFloodPasses(const Grid& grid);
+/// The nearest seed that each voxel knows after the first `passes` of them, packVoxel or NO_SEED; 0: solid voxels know
+/// themselves.
+Buffer recordJumpFlood(Frame& frame, const char* stage, const FacetList& facets, const Buffer& grid, uint32_t passes);
 
 // ---- 5. Form-factor matrix ------------------------------------------------------------------------------------------
 struct MatrixStats {

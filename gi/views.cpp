@@ -3,43 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/error.h"
-#include "shaders/shared/passes.h"
+#include "gi/view_passes.h"
+#include "shaders/shared/view.h"
 
 namespace irad {
 namespace {
 
-constexpr uint32_t kindOf(View view) {
-  switch (view) {
-#define IRAD_VIEW_KIND(constant, number, name, label, unit, kind, low, high) \
-  case number:                                                               \
-    return VIEW_KIND_##kind;
-    IRAD_VIEWS(IRAD_VIEW_KIND)
-#undef IRAD_VIEW_KIND
-    default:
-      return VIEW_KIND_COLOR;
-  }
+bool showsDistance(View view) {
+  return view == VIEW_DISTANCE || view == VIEW_DISTANCE_CHEBYSHEV || view == VIEW_DISTANCE_JFA;
 }
-
-constexpr bool toneMapped(uint32_t kind) {
-  return kind == VIEW_KIND_LIGHT || kind == VIEW_KIND_IRRADIANCE;
+bool showsFieldError(View view) {
+  return view >= VIEW_JFA_ERROR && view <= VIEW_CHEBYSHEV_ERROR;
 }
-
-/// Views that are drawn on the voxels by their own shader.
-bool onVoxels(View view) {
-  return (view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS) || view == VIEW_REFERENCE;
+bool showsFacets(View view) {
+  return (view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS && view != VIEW_DISTANCE) || view == VIEW_REFERENCE ||
+         view == VIEW_VOXEL_DIRECT;
 }
 
 }  // namespace
 
 const std::vector<ViewInfo>& views() {
   static const std::vector<ViewInfo> table{
-#define IRAD_VIEW_ROW(constant, number, name, label, unit, kind, low, high) \
-  ViewInfo{number, name, label, unit, VIEW_KIND_##kind == VIEW_KIND_SCALAR, low, high, toneMapped(VIEW_KIND_##kind)},
+#define IRAD_VIEW_ROW(constant, number, name, label, unit, group, kind, low, high) \
+  ViewInfo{number, name, label, unit, group, VIEW_KIND_##kind, low, high},
       IRAD_VIEWS(IRAD_VIEW_ROW)
 #undef IRAD_VIEW_ROW
   };
   return table;
+}
+
+const ViewInfo* viewInfo(View view) {
+  return view < views().size() ? &views()[view] : nullptr;  // identifiers are the rows' numbers
 }
 
 std::optional<View> findView(std::string_view name) {
@@ -48,84 +42,92 @@ std::optional<View> findView(std::string_view name) {
   return found != all.end() ? std::optional(found->view) : std::nullopt;
 }
 
-void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
-              Targets& targets) {
-  ViewPush push{};
-  push.camera = camera.address;
-  push.view = view;
-  push.kind = kindOf(view);
-  push.exposure = settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
-  push.toneCurve = settings.camera.gpu.toneCurve;
-  for (const ViewInfo& info : views())
-    if (info.view == view) {
-      push.low = info.rangeMin;
-      push.high = info.rangeMax;
-    }
-  const uint32_t groupsX = (targets.size.x + 7) / 8, groupsY = (targets.size.y + 7) / 8;
+bool showsField(View view) {
+  return showsDistance(view) || showsFieldError(view) || view == VIEW_JFA_SEEDS;
+}
+
+bool showsJumpFloodPass(View view) {
+  return view == VIEW_JFA_SEEDS || view == VIEW_JFA_ERROR;
+}
+
+std::optional<uint32_t> resolveShape(View view, ViewShape wanted) {
+  if (showsFacets(view))
+    return wanted == ViewShape::slice ? SHAPE_SLICE : wanted == ViewShape::projection ? SHAPE_PROJECTION : SHAPE_CUBES;
+  if (!showsField(view)) return std::nullopt;
+  if (wanted == ViewShape::automatic) return view == VIEW_DISTANCE ? SHAPE_PROJECTION : SHAPE_SLICE;
+  if (view == VIEW_JFA_SEEDS && wanted == ViewShape::projection) return SHAPE_SLICE;
+  return static_cast<uint32_t>(wanted);
+}
+
+Quantity shownQuantity(const ViewInfo& info, const Settings& settings) {
+  if (resolveShape(info.view, settings.view.shape) != SHAPE_PROJECTION) return {info.label, info.unit};
+  if (showsDistance(info.view)) return {std::string(info.label) + ": sum of 1 / distance", ""};
+  if (showsFieldError(info.view)) return {std::string(info.label) + ": largest along the ray", info.unit};
+  return {std::string(info.label) + ": mean along the ray", info.unit};
+}
+
+uint32_t colorMapOf(const ViewInfo& info, const Settings& settings) {
+  return info.kind == VIEW_KIND_SIGNED ? COLOR_MAP_BLUE_RED : static_cast<uint32_t>(settings.view.colorMap);
+}
+
+const char* colorMapName(uint32_t map) {
+  return map == COLOR_MAP_BLUE_RED ? "blue-red" : EnumNames<ColorMap>::names.at(map);
+}
+
+VkSampler pointSampler(const Device& device) {
   SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
   nearest.linearMips = false;
-  const VkSampler point = sampler(frame.context().device, nearest);
+  return sampler(device, nearest);
+}
 
-  if (!onVoxels(view)) {
-    frame.pass("View")
-        .shader("view/debug_view.comp")
-        .constant(0, view)
-        .read(camera)
-        .sample(targets.depth, point)
-        .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.highlight, targets.indirect,
-              targets.emitted, targets.specular)
-        .write(targets.linear, targets.display)
-        .push(push)
-        .run([&](Commands& commands) { commands.dispatchGroups(groupsX, groupsY); });
-    return;
-  }
+float linearExposure(const Settings& settings) {
+  return settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
+}
 
-  // Nothing to draw from: an empty picture.
-  const bool needsField = view == VIEW_DISTANCE;
-  const bool fromVolume = needsField && inputs.field != nullptr && inputs.field->method == FieldMethod::jfa &&
-                          static_cast<bool>(inputs.field->jfaDistance);
-  const bool fromBytes =
-      needsField && !fromVolume && inputs.field != nullptr && static_cast<bool>(inputs.field->chebyshev);
-  if (inputs.facets == nullptr || (needsField && !fromVolume && !fromBytes)) {
-    frame.pass("View").clear(targets.linear, ClearColor{});
-    frame.pass("View").clear(targets.display, ClearColor{0, 0, 0, 1});
-    return;
+void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& settings, Targets& targets) {
+  const ViewInfo* info = viewInfo(view);
+  ViewPush push{};
+  push.camera = camera.address;
+  push.kind = info != nullptr ? info->kind : VIEW_KIND_COLOR;
+  push.exposure = linearExposure(settings);
+  push.toneCurve = settings.camera.gpu.toneCurve;
+  frame.pass("View")
+      .shader("view/debug_view.comp")
+      .constant(0, view)
+      .read(camera)
+      .sample(targets.depth, pointSampler(frame.context().device))
+      .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.highlight, targets.indirect,
+            targets.emitted, targets.specular)
+      .write(targets.linear, targets.display)
+      .push(push)
+      .run([&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
+}
+
+void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
+              Targets& targets) {
+  const ViewInfo* info = viewInfo(view);
+  if (inputs.fields != nullptr && !showsField(view)) *inputs.fields = {};  // no memory for what is not shown
+
+  if (resolveShape(view, settings.view.shape)) {
+    drawVoxels(frame, view, inputs, camera, settings, targets);
+  } else if (view == VIEW_PIN_HOLES) {
+    drawPinHoles(frame, inputs, camera, targets);
+  } else if (view == VIEW_SHADOW_MAP || view == VIEW_SHADOW) {
+    drawShadowView(frame, view, inputs, camera, settings, targets);
+  } else if (view == VIEW_REFERENCE_PICTURE || view == VIEW_ERROR) {
+    if (view == VIEW_ERROR) drawTargets(frame, VIEW_LIT, camera, settings, targets);
+    drawReference(frame, view, inputs, targets);
+  } else {
+    drawTargets(frame, view, camera, settings, targets);
+    if (info == nullptr || !info->hasRange()) return;  // the display picture is there
   }
-  const FacetList& facets = *inputs.facets;
-  push.grid = facets.grid;
-  push.facets = facets.record.address;
-  push.normalEncoding = static_cast<uint32_t>(facets.encoding);
-  push.rays = settings.matrix.gpu.rays;
-  Pass pass = frame.pass("View");
-  pass.shader(fromVolume ? "view/voxel_view_volume.comp" : "view/voxel_view.comp")
-      .read(camera, facets.record, facets.shape, facets.albedo, facets.emission, facets.reverse)
-      .write(targets.linear, targets.display);
-  if (fromVolume) {
-    push.jfaMax = inputs.field->jfaMax;
-    pass.sample(inputs.field->jfaDistance, point);
+  if (info->hasRange()) {
+    if (inputs.range != nullptr)
+      frame.pass("View range").copy(*inputs.range, targets.viewRange, sizeof(ViewRange));
+    else
+      findRange(frame, *info, settings, targets);
   }
-  if (fromBytes) {
-    push.chebyshev = inputs.field->chebyshev.address;
-    pass.read(inputs.field->chebyshev);
-  }
-  if (view == VIEW_REFERENCE) {
-    if (inputs.reference != nullptr) {
-      push.values = inputs.reference->address;
-      pass.read(*inputs.reference);
-    }
-  } else if (inputs.lighting != nullptr) {
-    const Buffer& values = view == VIEW_RADIOSITY ? inputs.lighting->radiosity : inputs.lighting->indirect;
-    push.values = values.address;
-    pass.read(values);
-  }
-  if (inputs.matrix != nullptr) {
-    push.matrix = inputs.matrix->record.address;
-    push.rays = inputs.matrix->rays;
-    push.padded = inputs.matrix->format == MatrixFormat::padded ? 1 : 0;
-    pass.read(inputs.matrix->record, inputs.matrix->rowStart, inputs.matrix->rowInfo);
-    for (const Buffer& segment : inputs.matrix->segments) pass.read(segment);
-  }
-  pass.push(push).run([&](Commands& commands) { commands.dispatchGroups(groupsX, groupsY); });
+  finishView(frame, *info, settings, inputs.facets != nullptr ? inputs.facets->grid.dims : glm::uvec3(1), targets);
 }
 
 }  // namespace irad

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "gi/stages.h"
+#include "gi/view_fields.h"
 #include "renderer/forward.h"
 #include "shaders/shared/debug_views.h"
 
@@ -16,15 +18,37 @@ using View = uint32_t;
 
 struct ViewInfo {
   View view;
-  const char* name;   ///< as --view takes it: "voxel-albedo"
-  const char* label;  ///< as the combo box shows it
-  const char* unit;   ///< "" where there is none
-  bool scalar;        ///< drawn through a colour map with a range
-  float rangeMin, rangeMax;
-  bool toneMapped;  ///< light: exposure and tone curve apply to the display image
+  const char* name;          ///< as --view takes it: "voxel-albedo"
+  const char* label;         ///< as the combo box shows it
+  const char* unit;          ///< "" where there is none
+  const char* group;         ///< heading of the combo box
+  uint32_t kind;             ///< VIEW_KIND_*
+  float rangeMin, rangeMax;  ///< the standard range; the same: there is none
+
+  /// Drawn through a colour map with a range.
+  bool hasRange() const { return viewHasRange(kind); }
+  /// Light: exposure and tone curve apply to the display image.
+  bool toneMapped() const { return kind == VIEW_KIND_LIGHT || kind == VIEW_KIND_IRRADIANCE; }
 };
 const std::vector<ViewInfo>& views();
+const ViewInfo* viewInfo(View view);  ///< null where there is none
 std::optional<View> findView(std::string_view name);
+
+/// How a view of a volume is shown: SHAPE_*. Facets have values on solid voxels only, so that an isosurface of theirs
+/// is cubes; seeds have no mean, so that a projection of theirs is a slice. None for views that are no volumes.
+std::optional<uint32_t> resolveShape(View view, ViewShape wanted);
+/// Views of distances, seeds and their errors: those that view.isovalue, or for some view.jfa_pass, matter to.
+bool showsField(View view);
+bool showsJumpFloodPass(View view);
+
+/// What the colours of a view with a range stand for, in the shape that it is shown in: "Chebyshev field" in "voxels".
+struct Quantity {
+  std::string name, unit;
+};
+Quantity shownQuantity(const ViewInfo& info, const Settings& settings);
+/// The colour map that `info` is drawn with, COLOR_MAP_*.
+uint32_t colorMapOf(const ViewInfo& info, const Settings& settings);
+const char* colorMapName(uint32_t map);  ///< "violet-yellow", ... "blue-red"
 
 /// Everything that a view may draw from; absent parts are null and draw as empty.
 struct ViewInputs {
@@ -35,8 +59,13 @@ struct ViewInputs {
   const Lighting* lighting = nullptr;
   const Emitters* emitters = nullptr;
   const Buffer* reference = nullptr;  ///< vec4 per facet: H by the oracle, W/m^2
+  const ShadowMaps* shadows = nullptr;
+  const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
+  ViewFields* fields = nullptr;    ///< of `facets`
+  const Buffer* range = nullptr;   ///< a ViewRange to draw with in place of the picture's own
 };
-/// Composes `view` from the targets (after drawForward and traceSpecular) into targets.linear and targets.display.
+/// Composes `view` from the targets (after drawForward and traceSpecular) into targets.linear and targets.display. Of a
+/// view with a range targets.viewRange then holds what it is drawn with.
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
               Targets& targets);
 

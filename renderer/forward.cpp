@@ -6,6 +6,7 @@
 #include "renderer/depth_pass.h"
 #include "renderer/error.h"
 #include "shaders/shared/passes.h"
+#include "shaders/shared/view.h"
 
 namespace irad {
 namespace {
@@ -71,6 +72,8 @@ Targets::Targets(Context& context, glm::uvec2 extent) : size(extent) {
   emitted = target(device, "irradiance of emitters", full, size, color);
   specular = target(device, "specular radiance", full, size, color);
   glossy = Buffer(device, "glossy pixels", Subsystem::Targets, 4ull * (GLOSSY_FIRST + size.x * size.y));
+  viewRange = Buffer(device, "range of the view", Subsystem::Targets, sizeof(ViewRange));
+  viewBins = Buffer(device, "histogram of the view", Subsystem::Targets, 4ull * RANGE_BINS);
   linear = target(device, "linear picture", full, size, color);
   display = target(device, "display picture", VK_FORMAT_R8G8B8A8_UNORM, size, color);
 }

@@ -28,7 +28,9 @@ struct Targets {
   Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M); 0 where no view asks
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   Buffer glossy;    ///< pixels that trace specular rays (shaders/shared/passes.h)
-  Image linear;     ///< RGBA32F: the view's result, before exposure and tone curve
+  Image linear;     ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn
+  Buffer viewRange;  ///< one ViewRange (shaders/shared/view.h), of views that have one
+  Buffer viewBins;   ///< histogram of their values
   Image display;    ///< RGBA8: what is shown and written as PNG (sRGB-encoded)
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -39,9 +41,74 @@ void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, const void*
     throw WorkError(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
   writeFile(path, std::as_bytes(std::span(memory.buffer())));
 }
+
+/// Where R, G and B are among the channels: by their plain names, else those of the first layer that has all three,
+/// else the first three (or the only one, as grey).
+std::array<int, 3> colorChannels(const OIIO::ImageSpec& spec) {
+  for (const std::string& red : spec.channelnames) {
+    if (red != "R" && !red.ends_with(".R")) continue;
+    const std::string layer = red.substr(0, red.size() - 1);
+    const std::array<int, 3> found{spec.channelindex(red), spec.channelindex(layer + "G"),
+                                   spec.channelindex(layer + "B")};
+    if (found[1] >= 0 && found[2] >= 0) return found;
+  }
+  return spec.nchannels >= 3 ? std::array{0, 1, 2} : std::array{0, 0, 0};
+}
+#endif
+
+constexpr uint64_t kMostPixels = uint64_t{1} << 28;
+
+void checkSize(const std::filesystem::path& path, int64_t width, int64_t height) {
+  if (width < 1 || height < 1 || static_cast<uint64_t>(width) > kMostPixels / static_cast<uint64_t>(height))
+    throw InputError(fmt::format("{}: {} x {} pixels; at most 2^28 are read", path.string(), width, height));
+}
+
+#ifndef IRAD_OIIO
+LinearPicture readPfm(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string kind;
+  int64_t width = 0, height = 0;
+  double scale = 0;
+  if (!(in >> kind >> width >> height >> scale) || kind != "PF" || !(scale < 0))
+    throw InputError(
+        fmt::format("{}: not a little-endian colour .pfm; this build reads no other pictures", path.string()));
+  checkSize(path, width, height);
+  in.get();  // the one white space after the scale
+  LinearPicture picture{{static_cast<uint32_t>(width), static_cast<uint32_t>(height)}, {}};
+  picture.pixels.resize(static_cast<size_t>(width * height));
+  for (int64_t y = height; y-- > 0;)
+    for (int64_t x = 0; x < width; ++x) {
+      std::array<float, 3> rgb;
+      if (!in.read(reinterpret_cast<char*>(rgb.data()), sizeof rgb))
+        throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), width, height));
+      picture.pixels[static_cast<size_t>(y * width + x)] = {rgb[0], rgb[1], rgb[2], 1};
+    }
+  return picture;
+}
 #endif
 
 }  // namespace
+
+LinearPicture readLinear(const std::filesystem::path& path) {
+#ifdef IRAD_OIIO
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+  if (!input) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), OIIO::geterror()));
+  const OIIO::ImageSpec spec = input->spec();
+  checkSize(path, spec.width, spec.height);
+  if (spec.depth > 1 || spec.nchannels < 1)
+    throw InputError(fmt::format("{}: {} channels, {} deep: not a picture", path.string(), spec.nchannels, spec.depth));
+  const std::array<int, 3> channels = colorChannels(spec);
+  LinearPicture picture{{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)}, {}};
+  picture.pixels.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height), glm::vec4(1));
+  for (int c = 0; c < 3; ++c)
+    if (!input->read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT, &picture.pixels[0][c],
+                           sizeof(glm::vec4)))
+      throw InputError(fmt::format("{}: cannot be read: {}", path.string(), input->geterror()));
+  return picture;
+#else
+  return readPfm(path);
+#endif
+}
 
 void writePfm(const std::filesystem::path& path, glm::uvec2 size, std::span<const glm::vec4> pixels) {
   const std::vector<float> rgb = firstThree<float>(size, pixels);

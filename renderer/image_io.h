@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 namespace irad {
 
@@ -19,5 +20,13 @@ std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2
 
 /// Portable float map: "PF", little-endian, bottom row first. In every build.
 void writePfm(const std::filesystem::path& path, glm::uvec2 size, std::span<const glm::vec4> pixels);
+
+struct LinearPicture {
+  glm::uvec2 size{0};
+  std::vector<glm::vec4> pixels;  ///< top row first; alpha 1
+};
+/// A picture to compare with: the channels R, G, B of an EXR or of its first layer that has them, the first three of
+/// any other format that OpenImageIO reads; in builds without it .pfm alone. InputError where that fails.
+LinearPicture readLinear(const std::filesystem::path& path);
 
 }  // namespace irad

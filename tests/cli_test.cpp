@@ -279,6 +279,41 @@ TEST(Render, SeveralCamerasArePartOfTheNames) {
   EXPECT_TRUE(contains(wrong.err, "unknown camera 'no such camera'")) << wrong.err;
 }
 
+TEST(Render, ReferenceAndRangesAreStatedAndReplayed) {
+  test::TemporaryFolder folder;
+  ASSERT_EQ(runIrad(smallRender(folder.path / "a")).status, 0);
+  const std::string reference = (folder.path / "a" / (std::string("lit") + kLinear)).string();
+  const RunResult run = runIrad(smallRender(
+      folder.path / "b", {"--view", "error,depth,distance-jfa", "--reference", reference, "--set",
+                          "view.range=percentile", "--set", "view.shape=isosurface", "--set", "view.color_map=heat"}));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto manifest = nlohmann::json::parse(slurp(folder.path / "b" / "manifest.json"));
+  EXPECT_EQ(manifest["reference"]["path"], reference);
+  ASSERT_EQ(manifest["view_ranges"].size(), 3u);  // lit and irradiance have none
+  const auto& error = manifest["view_ranges"][0];
+  EXPECT_EQ(error["picture"], "error");
+  EXPECT_EQ(error["high"], 0);  // against itself
+  EXPECT_EQ(error["color_map"], "blue-red");
+  const auto& depth = manifest["view_ranges"][1];
+  EXPECT_EQ(depth["unit"], "m");
+  EXPECT_EQ(depth["color_map"], "heat");
+  EXPECT_LT(depth["low"].get<double>(), depth["high"].get<double>());
+
+  ASSERT_EQ(runIrad({"render", "--config", (folder.path / "b" / "manifest.json").string(), "--out",
+                     (folder.path / "c").string()})
+                .status,
+            0);
+  for (const char* view : {"error", "depth", "distance-jfa"})
+    for (const char* kind : {kLinear, kDisplay})
+      EXPECT_TRUE(slurp(folder.path / "b" / (std::string(view) + kind)) ==
+                  slurp(folder.path / "c" / (std::string(view) + kind)))
+          << view << kind;
+
+  const RunResult missing = runIrad(smallRender(folder.path / "d", {"--reference", "/nowhere.exr"}));
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_TRUE(contains(missing.err, "/nowhere.exr")) << missing.err;
+}
+
 TEST(CheckCommand, ListsRunsAndFails) {
   const RunResult list = runIrad({"check", "--list"});
   EXPECT_EQ(list.status, 0);

@@ -5,6 +5,8 @@
 
 #include "gi/oracle/fields.h"
 #include "gi/stages.h"
+#include "gi/view_fields.h"
+#include "shaders/shared/view.h"
 #include "shaders/shared/voxelize.h"
 #include "tests/support.h"
 
@@ -104,7 +106,6 @@ TEST_F(FieldTest, JumpFloodAgainstBruteForce) {
   const uint32_t largest = std::max({grid.dims.x, grid.dims.y, grid.dims.z});
   Settings settings;
   settings.field.method = FieldMethod::jfa;
-  settings.field.keepPasses = true;
   double worstShare = 0, worstError = 0;
   for (uint32_t seed = 0; seed < 16; ++seed) {
     const double share = std::pow(10.0, -1.0 - 0.2 * seed);
@@ -133,9 +134,6 @@ TEST_F(FieldTest, JumpFloodAgainstBruteForce) {
       ASSERT_NEAR(std::to_integer<int>(distance[i]), std::min(std::sqrt(found) / largest, 1.0) * 255, 0.501);
     }
     worstShare = std::max(worstShare, static_cast<double>(wrong) / grid.voxels);
-    // floor(log2(32)) + 1 passes; the last is the result.
-    ASSERT_EQ(field.jfaPasses.size(), static_cast<size_t>(std::log2(largest)) + 1);
-    EXPECT_EQ(words(download(context(), field.jfaPasses.back())), seeds);
   }
   std::printf("jump flood: at most %.4f %% of the voxels have a farther seed, by at most %.3f voxels\n",
               100 * worstShare, worstError);
@@ -143,14 +141,68 @@ TEST_F(FieldTest, JumpFloodAgainstBruteForce) {
   EXPECT_LT(worstError, 1.0);
 }
 
-TEST_F(FieldTest, PassesAreKeptOnlyOnRequest) {
-  const Grid grid = makeGrid(glm::vec3(0), glm::vec3(1), 8);
+/// One pass of jump flooding as Rong and Tan have it: the nearest of the seeds known `step` away, the first of equals.
+std::vector<uint32_t> floodOnce(const Grid& grid, const std::vector<uint32_t>& from, int step) {
+  const glm::ivec3 dims(grid.dims);
+  std::vector<uint32_t> to = from;
+  for (uint32_t i = 0; i < grid.voxels; ++i) {
+    const glm::ivec3 at(voxelOf(i, grid.dims));
+    const auto distance2 = [&](uint32_t seed) {
+      const glm::ivec3 d = glm::ivec3(unpackVoxel(seed)) - at;
+      return seed == NO_SEED ? INT32_MAX : d.x * d.x + d.y * d.y + d.z * d.z;
+    };
+    for (int z = -step; z <= step; z += step)
+      for (int y = -step; y <= step; y += step)
+        for (int x = -step; x <= step; x += step) {
+          const glm::ivec3 other = at + glm::ivec3(x, y, z);
+          if (glm::any(glm::lessThan(other, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(other, dims))) continue;
+          const uint32_t seed = from[voxelIndex(glm::uvec3(other), grid.dims)];
+          if (distance2(seed) < distance2(to[i])) to[i] = seed;
+        }
+  }
+  return to;
+}
+
+TEST_F(FieldTest, EveryPassOfJumpFloodingIsThatOfTheProcessor) {
+  const Grid grid = makeGrid(glm::vec3(0), {1, 0.7f, 0.9f}, 20);  // 22 x 16 x 20
+  const std::vector<bool> solid = randomSolids(grid, 0.004, 3);
+  const FacetList facets = solids(grid, solid);
+  const Buffer record = makeBuffer<Grid>(context(), "grid", Subsystem::Field, std::span(&grid, 1));
+  std::vector<uint32_t> seeds(grid.voxels, NO_SEED);
+  for (uint32_t i = 0; i < grid.voxels; ++i)
+    if (solid[i]) seeds[i] = packVoxel(voxelOf(i, grid.dims));
+  ASSERT_EQ(jumpFloodPasses(grid), 5u);  // steps 16, 8, 4, 2, 1
+  for (uint32_t passes = 0; passes <= 5; ++passes) {
+    if (passes > 0) seeds = floodOnce(grid, seeds, 32 >> passes);
+    Frame frame = context().begin();
+    const Buffer flood = recordJumpFlood(frame, "test", facets, record, passes);
+    frame.submitAndWait();
+    EXPECT_EQ(downloadAs<uint32_t>(context(), flood), seeds) << "after pass " << passes;
+  }
+  // The last is the field's.
   Settings settings;
   settings.field.method = FieldMethod::jfa;
-  const Field field = buildField(context(), solids(grid, shell(grid)), settings);
-  EXPECT_TRUE(field.jfaPasses.empty());
+  const Field field = buildField(context(), facets, settings);
+  EXPECT_EQ(words(download(context(), field.jfaSeeds)), seeds);
   EXPECT_FALSE(field.chebyshev);
-  EXPECT_TRUE(field.jfaSeeds);
+}
+
+TEST_F(FieldTest, ExactDistancesAreThoseOfBruteForce) {
+  const Grid grid = makeGrid(glm::vec3(0), {1, 0.7f, 0.9f}, 26);
+  for (uint32_t seed = 0; seed < 6; ++seed) {
+    const std::vector<bool> solid =
+        seed == 0 ? shell(grid) : randomSolids(grid, std::pow(10.0, -1.0 - 0.5 * seed), seed);
+    const FacetList facets = solids(grid, solid);
+    ViewFields fields;
+    Frame frame = context().begin();
+    const Buffer& euclidean = fields.exact(frame, facets, METRIC_EUCLIDEAN);
+    const Buffer& chebyshev = fields.exact(frame, facets, METRIC_CHEBYSHEV);
+    frame.submitAndWait();
+    EXPECT_EQ(downloadAs<uint32_t>(context(), euclidean), oracle::squaredDistance(grid, solid)) << seed;
+    std::vector<uint32_t> capped = downloadAs<uint32_t>(context(), chebyshev);
+    const std::vector<uint8_t> expected = oracle::chebyshev(grid, solid);
+    for (uint32_t i = 0; i < grid.voxels; ++i) ASSERT_EQ(std::min(capped[i], 255u), expected[i]) << seed << ", " << i;
+  }
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ void Builder::load(const std::filesystem::path& path) {
     };
     Scene scene = openScene(path, load);
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
+    if (session_.reference) pipeline->setReference(session_.reference->size, session_.reference->pixels);
     prepare(session_, *pipeline);
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
     session_.comparison.reset();
@@ -94,6 +95,7 @@ void Builder::apply(bool held) {
 void Builder::follow() {
   Side& other = session_.comparison->other;
   if (session_.comparison->sameSeed) other.edited.matrix.gpu.seed = session_.edited.matrix.gpu.seed;
+  other.edited.view = session_.edited.view;  // both are shown the same way
   if (values(other.edited) != other.applied) {
     other.pipeline->set(other.edited);
     other.applied = values(other.edited);
@@ -110,6 +112,7 @@ void Builder::compare() {
     Side other;
     other.edited = session_.edited;
     other.pipeline = std::make_unique<Pipeline>(context_, session_.pipeline->scene(), session_.edited);
+    if (session_.reference) other.pipeline->setReference(session_.reference->size, session_.reference->pixels);
     prepare(other, *other.pipeline);
     other.applied = values(other.edited);
     session_.comparison.emplace().other = std::move(other);

@@ -13,6 +13,8 @@
 #include "gi/compare.h"
 #include "gi/pipeline.h"
 #include "renderer/frame.h"
+#include "renderer/image_io.h"
+#include "shaders/shared/view.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
 #include "ui/preferences.h"
@@ -88,10 +90,13 @@ struct Session : Side {
   bool halted = false;        ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
 
   View view = 0;
+  std::optional<LinearPicture> reference;  ///< for the views that compare with one; every pipeline gets it
   FlyCamera camera;
-  int sceneCamera = 0;    ///< index of the scene's camera that `camera` began as
-  Camera shown;           ///< of the picture in targets
-  bool viewDirty = true;  ///< the picture must be rendered again
+  int sceneCamera = 0;             ///< index of the scene's camera that `camera` began as
+  Camera shown;                    ///< of the picture in targets
+  bool viewDirty = true;           ///< the picture must be rendered again
+  View rangeView = 0;              ///< of which `range` is
+  std::optional<ViewRange> range;  ///< that the picture in targets was drawn with; none until it has come back
 
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
   Preferences preferences;

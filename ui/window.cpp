@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <utility>
 
 #include "renderer/error.h"
@@ -47,6 +48,7 @@ class Window {
   void savePreferences();
   void fly();
   void drawFrame();
+  void readRange(Frame& frame);
   void drawPanels(const Layout& layout);
   bool working() const;
   bool settled() const;
@@ -84,6 +86,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.edited = options.settings;
   session_.defaults = options.defaults;
   session_.view = options.view;
+  session_.reference = options.reference;
   readPreferences();
 }
 
@@ -327,14 +330,31 @@ void Window::drawFrame() {
   if (!busy) frame.sampled(frameIndex_++, lastDraw_);
   if (!busy && session_.built && session_.viewDirty) {
     session_.shown = session_.camera.camera();
-    for (Side* side : session_.sides()) side->pipeline->render(frame, session_.shown, session_.view, side->targets);
+    // Both sides of a comparison by one range: the same colour is the same value.
+    const Buffer* range = nullptr;
+    for (Side* side : session_.sides()) {
+      side->pipeline->render(frame, session_.shown, session_.view, side->targets, range);
+      range = &session_.targets.viewRange;
+    }
     if (session_.comparison) session_.comparison->result.reset();
+    readRange(frame);
     session_.viewDirty = false;
     framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
   }
   layer_.draw(frame, image_);
   presenter_.present(frame, image_);
   --framesLeft_;
+}
+
+/// What the legend needs comes back with the frame.
+void Window::readRange(Frame& frame) {
+  const View view = session_.view;
+  if (const ViewInfo* info = viewInfo(view); info == nullptr || !info->hasRange()) return;
+  frame.readback(session_.targets.viewRange, 0, sizeof(ViewRange), [this, view](std::span<const uint8_t> bytes) {
+    session_.range.emplace();
+    std::memcpy(&*session_.range, bytes.data(), sizeof(ViewRange));
+    session_.rangeView = view;
+  });
 }
 
 void Window::drawPanels(const Layout& layout) {

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "gi/pipeline.h"
+#include "renderer/image_io.h"
 
 namespace irad {
 
@@ -14,6 +16,7 @@ struct WindowOptions {
   Settings settings;
   Settings defaults;  ///< of this device class, for the reset buttons
   View view = 0;
+  std::optional<LinearPicture> reference;  ///< for the views that compare with one
   std::string camera;  ///< of the scene, by name; empty: its first
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale

@@ -1,11 +1,10 @@
-// Push constants of the passes that make pictures (renderer/forward.cpp, gi/views.cpp, gi/specular.cpp).
+// Push constants of the passes that make pictures (renderer/forward.cpp, gi/specular.cpp).
 #ifndef IRAD_SHARED_PASSES_H
 #define IRAD_SHARED_PASSES_H
 #include "shared/emitters.h"
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/grid.h"
-#include "shared/matrix.h"
 #include "shared/scene_gpu.h"
 #include "shared/trace.h"
 IRAD_BEGIN
@@ -74,25 +73,6 @@ struct SpecularPush {
   SpecularParams params;
   float jfaMax;
   float leastReflected;  ///< no rays where F0 x H is below, W/m^2
-};
-
-/// Views over the targets (view/debug_view.comp) and over the voxels (view/voxel_view.comp).
-struct ViewPush {
-  CameraArray camera;
-  Grid grid;
-  FacetRecord facets;
-  MatrixRecord matrix;
-  Vec4Array values;     ///< per facet: H or B, as the view has it; 0: none
-  UintArray chebyshev;  ///< 4 voxels per uint; 0: the volume is bound instead, or there is no field
-  uint view;
-  uint kind;
-  float low, high;  ///< range of a scalar view
-  float exposure;
-  uint toneCurve;
-  uint normalEncoding;
-  uint rays;     ///< of a matrix row
-  uint padded;   ///< 1: matrix.format padded
-  float jfaMax;  ///< voxels that 1.0 of the bound volume stands for; 0: none bound
 };
 
 IRAD_END

@@ -1,7 +1,7 @@
 // Views composed from the targets of the forward pass (METHOD section 1: radiance = albedo (D + H) / pi + ...).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/passes.h"
+#include "shared/view.h"
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -31,7 +31,6 @@ void main() {
   vec3 indirect = imageLoad(indirectTarget, pixel).rgb;
 
   vec3 value = vec3(0.0);
-  float high = push.high;
   switch (VIEW) {
     case VIEW_LIT:
       value = albedo.rgb * (direct + albedo.a * indirect) * (1.0 / IRAD_PI) + highlight +
@@ -51,7 +50,6 @@ void main() {
       value = vec3(camera.orthographic != 0u
                        ? mix(camera.znear, camera.zfar, depth)
                        : camera.znear * camera.zfar / (camera.zfar - depth * (camera.zfar - camera.znear)));
-      if (high <= push.low) high = camera.zfar;
       if (!drawn) value = vec3(0.0);
       break;
     }
@@ -66,6 +64,7 @@ void main() {
     }
   }
   imageStore(linearTarget, pixel, vec4(value, drawn ? 1.0 : 0.0));
-  vec3 shown = displayColor(value, drawn, 1.0, push.kind, push.low, high, push.exposure, push.toneCurve);
+  if (viewHasRange(push.kind)) return;  // view/finish.comp follows
+  vec3 shown = displayColor(value, drawn, push.kind, push.exposure, push.toneCurve);
   imageStore(displayTarget, pixel, vec4(shown, 1.0));
 }

@@ -1,4 +1,39 @@
+// Views of the voxels: a ray per pixel through the grid.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "view/voxel_view.glsl"
+#include "shared/view.h"
+#include "view/camera_ray.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, rgba32f) uniform writeonly image2D linearTarget;
+layout(push_constant, scalar) uniform PushBlock { VoxelViewPush push; };
+
+#include "view/voxel_shapes.glsl"
+
+void main() {
+  GpuCamera camera = push.camera.at[0];
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, camera.size))) return;
+
+  ViewRay ray;
+  cameraRay(camera, pixel, ray.origin, ray.direction);
+  ray.origin = (ray.origin - push.grid.origin) * push.grid.inverseEdge;
+  ray.direction = mix(ray.direction, vec3(1e-9), lessThan(abs(ray.direction), vec3(1e-9)));
+  ray.orthographic = camera.orthographic != 0u;
+  ray.pixel = 2.0 * length(camera.inverseViewProjection[1].xyz) / float(camera.size.y);
+  if (ray.orthographic) ray.pixel *= push.grid.inverseEdge;
+
+  vec4 drawn = vec4(0.0);
+  switch (push.shape & 3u) {
+    case SHAPE_CUBES: drawn = drawCubes(ray); break;
+    case SHAPE_SLICE: {
+      uvec2 middle = camera.size / 2u;
+      drawn = drawSlice(ray, unproject(camera, middle, 1.0) - unproject(camera, middle, 0.0));
+      break;
+    }
+    case SHAPE_PROJECTION: drawn = drawProjection(ray); break;
+    case SHAPE_ISOSURFACE: drawn = drawIsosurface(ray); break;
+  }
+  imageStore(linearTarget, ivec2(pixel), drawn);
+}

@@ -1,6 +1,8 @@
-// What the viewport shows: the view, its unit and range, and how light becomes a picture.
+// What the viewport shows: the view, what it has to choose, and how its values become a picture.
 #include <fmt/format.h>
 #include <imgui.h>
+
+#include <algorithm>
 
 #include "ui/panel.h"
 #include "ui/theme.h"
@@ -9,22 +11,46 @@
 namespace irad {
 namespace {
 
+constexpr View kNumberKeys = 9;  ///< views with a key of their own, the registry's first
+
+/// The groups of the registry, in the order in which they first occur.
+std::vector<const char*> groups() {
+  std::vector<const char*> out;
+  for (const ViewInfo& info : views())
+    if (std::none_of(out.begin(), out.end(), [&](const char* g) { return std::string_view(g) == info.group; }))
+      out.push_back(info.group);
+  return out;
+}
+
+std::string lightLabel(const Scene& scene, uint32_t index) {
+  if (index >= scene.lights.size()) return "none";
+  const Light& light = scene.lights[index];
+  constexpr const char* kinds[] = {"sun", "point", "spot"};
+  return fmt::format("{}: {}", index, light.name.empty() ? kinds[static_cast<size_t>(light.type)] : light.name.c_str());
+}
+
 class ViewPanel : public Panel {
  public:
   const char* title() const override { return "View"; }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {
-    const ViewInfo* shown = nullptr;
-    for (const ViewInfo& info : views())
-      if (info.view == session.view) shown = &info;
-    drawCombo(session, shown);
-    if (shown && shown->scalar)
-      valueRow("range", fmt::format("{:.4g} to {:.4g} {}", shown->rangeMin, shown->rangeMax, prettyUnit(shown->unit)));
-    else
-      valueRow("unit", shown && *shown->unit ? prettyUnit(shown->unit) : "none");
-    settingRow(session.edited, session.defaults, "camera.exposure");
-    settingRow(session.edited, session.defaults, "camera.tone_curve");
+    const ViewInfo* info = viewInfo(session.view);
+    drawCombo(session, info);
+    if (info != nullptr) {
+      const std::string unit = shownQuantity(*info, session.edited).unit;
+      valueRow("unit", unit.empty() ? "none" : prettyUnit(unit));
+      drawShape(session, *info);
+      if (showsJumpFloodPass(info->view)) drawPass(session);
+      if (info->view == VIEW_SHADOW_MAP || info->view == VIEW_SHADOW) drawLight(session);
+      drawNotes(session, *info);
+      if (info->hasRange()) drawRange(session, *info);
+      if (info->toneMapped()) {
+        row(session, "camera.exposure");
+        row(session, "camera.tone_curve");
+      }
+    }
+    ImGui::Separator();
     const glm::dvec3 p = session.camera.camera().position;
     valueRow("position", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
     valueRow("speed", fmt::format("{:.3g} units/s", session.camera.unitsPerSecond()));
@@ -34,20 +60,129 @@ class ViewPanel : public Panel {
   }
 
  private:
+  static void row(Session& session, const char* setting) { settingRow(session.edited, session.defaults, setting); }
+
   static void drawCombo(Session& session, const ViewInfo* shown) {
     ImGui::SetNextItemWidth(-1);
     if (!ImGui::BeginCombo("##view", shown ? shown->label : "?", ImGuiComboFlags_HeightLarge)) return;
-    int number = 0;
-    for (const ViewInfo& info : views()) {
-      ++number;
-      const std::string text =
-          number <= 9 ? fmt::format("{}  {}", number, info.label) : fmt::format("    {}", info.label);
-      if (ImGui::Selectable(text.c_str(), info.view == session.view)) {
-        session.view = info.view;
-        session.viewDirty = true;
+    for (const char* group : groups()) {
+      ImGui::TextColored(theme::dim, "%s", group);
+      for (const ViewInfo& info : views()) {
+        if (std::string_view(group) != info.group) continue;
+        const std::string text = info.view < kNumberKeys ? fmt::format("{}  {}", info.view + 1, info.label)
+                                                         : fmt::format("    {}", info.label);
+        const bool chosen = info.view == session.view;
+        if (ImGui::Selectable(text.c_str(), chosen)) {
+          session.view = info.view;
+          session.viewDirty = true;
+        }
+        if (chosen && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
       }
     }
     ImGui::EndCombo();
+  }
+
+  static void drawShape(Session& session, const ViewInfo& info) {
+    const auto shape = resolveShape(info.view, session.edited.view.shape);
+    if (!shape) return;
+    row(session, "view.shape");
+    if (*shape == SHAPE_SLICE) {
+      row(session, "view.axis");
+      row(session, "view.slice");
+    }
+    if (showsField(info.view) && (*shape == SHAPE_CUBES || *shape == SHAPE_ISOSURFACE)) row(session, "view.isovalue");
+    const auto wanted = static_cast<uint32_t>(session.edited.view.shape);
+    if (session.edited.view.shape != ViewShape::automatic && *shape != wanted)
+      note(fmt::format("This view has no {}: shown as {}.", EnumNames<ViewShape>::names[wanted],
+                       EnumNames<ViewShape>::names[*shape]));
+  }
+
+  /// From the seeds alone to the last pass, with the arrows or the slider.
+  static void drawPass(Session& session) {
+    if (!session.built) return;
+    const int last = static_cast<int>(jumpFloodPasses(Grid{.dims = session.built->dims}));
+    uint32_t& setting = session.edited.view.jfaPass;
+    int pass = std::min(static_cast<int>(setting), last);
+    ImGui::PushID("pass");
+    const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    bool changed = ImGui::ArrowButton("back", ImGuiDir_Left);
+    if (changed) --pass;
+    ImGui::SameLine(0, gap);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
+    const std::string label = pass == 0 ? "seeds" : fmt::format("pass %d of {}, step {}", last, 1 << (last - pass));
+    changed |= ImGui::SliderInt("##slider", &pass, 0, last, label.c_str(), ImGuiSliderFlags_AlwaysClamp);
+    helpTooltip("view.jfa_pass\nJump-flood pass after which its seeds are shown (T Fig. 4)");
+    ImGui::SameLine(0, gap);
+    if (ImGui::ArrowButton("on", ImGuiDir_Right)) {
+      ++pass;
+      changed = true;
+    }
+    ImGui::PopID();
+    if (changed) setting = static_cast<uint32_t>(std::clamp(pass, 0, last));
+  }
+
+  static void drawLight(Session& session) {
+    if (!session.pipeline) return;
+    const Scene& scene = session.pipeline->scene();
+    uint32_t& light = session.edited.view.light;
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo("##light", lightLabel(scene, light).c_str())) return;
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+      if (ImGui::Selectable(lightLabel(scene, i).c_str(), i == light)) light = i;
+    ImGui::EndCombo();
+  }
+
+  static void drawNotes(const Session& session, const ViewInfo& info) {
+    if (!session.pipeline) return;
+    const Pipeline& pipeline = *session.pipeline;
+    if (std::string_view(info.group) == "Reference" && !pipeline.hasReference())
+      note("There is no picture to compare with: start with --reference FILE.exr.");
+    else if (info.view == VIEW_ERROR)
+      note(
+          fmt::format("(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of lit and reference, from the reference's "
+                      "camera; its mean square is relMSE.",
+                      VIEW_ERROR_EPSILON));
+    else if (info.view == VIEW_REFERENCE && !pipeline.scene().expectedIrradiance)
+      note("Only check scenes know the exact answer.");
+  }
+
+  static void drawRange(Session& session, const ViewInfo& info) {
+    row(session, "view.range");
+    const RangeMode mode = session.edited.view.range;
+    if (mode == RangeMode::percentile) row(session, "view.percentile");
+    if (mode == RangeMode::manual) {
+      numberRow("low", session.edited.view.low);
+      numberRow("high", session.edited.view.high);
+    }
+    if (session.range && session.rangeView == info.view) {
+      valueRow("shown", fmt::format("{:.4g} to {:.4g}", session.range->low, session.range->high));
+      if (mode != RangeMode::manual && ImGui::Button("Keep this range", {-1, 0})) {
+        session.edited.view.low = std::max(session.range->low, -1e6f);
+        session.edited.view.high = std::min(session.range->high, 1e6f);
+        session.edited.view.range = RangeMode::manual;
+      }
+    }
+    if (info.kind == VIEW_KIND_SIGNED)
+      valueRow("color map", colorMapName(COLOR_MAP_BLUE_RED));
+    else
+      row(session, "view.color_map");
+  }
+
+  /// view.low and view.high span too much for a slider.
+  static void numberRow(const char* label, float& value) {
+    valueRow(label, "");
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.42f);
+    ImGui::SetNextItemWidth(-1);
+    ImGui::PushID(label);
+    if (ImGui::InputFloat("##value", &value, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue))
+      value = std::clamp(value, -1e6f, 1e6f);
+    ImGui::PopID();
+  }
+
+  static void note(const std::string& text) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextColored(theme::dim, "%s", text.c_str());
+    ImGui::PopTextWrapPos();
   }
 };
 

@@ -1,0 +1,102 @@
+// The colours of a view with a range: name, unit, map, ticks, and what is marked instead.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "shaders/shared/color_map.h"
+#include "ui/theme.h"
+#include "ui/ticks.h"
+#include "ui/viewport.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+ImU32 packed(const glm::vec3& encoded) {
+  const glm::vec3 c = glm::clamp(encoded, 0.0f, 1.0f) * 255.0f + 0.5f;
+  return IM_COL32(static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z), 255);
+}
+
+class LegendOverlay : public Overlay {
+ public:
+  bool draw(Session& session, const Picture& picture, const PictureMouse&) override {
+    const ViewInfo* info = viewInfo(session.view);
+    if (info == nullptr || !info->hasRange() || !session.range || session.rangeView != session.view) return false;
+    const Settings& settings = session.pipeline->settings();
+    const Quantity quantity = shownQuantity(*info, settings);
+    const ViewRange& range = *session.range;
+
+    const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing(), margin = em;
+    const Rect& where = picture.rect();
+    const float width = std::min(20 * em, where.size.x - 4 * margin);
+    if (width < 8 * em) return false;  // no room for anything legible
+    const std::string notes = marks(range);
+    const float height = 2 * line + 1.4f * em + (notes.empty() ? 0 : line);
+    const glm::vec2 corner = where.position + where.size - glm::vec2(width, height) - 2 * margin;
+
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 low{corner.x, corner.y};
+    const ImVec2 high{corner.x + width + margin, corner.y + height + margin};
+    list.AddRectFilled(low, high, IM_COL32(20, 20, 22, 215), 0.3f * em);
+    const glm::vec2 inside = corner + 0.5f * margin;
+    const float text = inside.y + line;
+    const std::string unit = quantity.unit.empty() ? "" : " (" + prettyUnit(quantity.unit) + ")";
+    list.PushClipRect(low, high, true);
+    list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), (quantity.name + unit).c_str());
+    const float bar = drawBar(list, {inside.x, text}, {width, em}, colorMapOf(*info, settings));
+    drawTicks(list, {inside.x, bar}, width, range);
+    if (!notes.empty())
+      list.AddText({inside.x, bar + line + 0.3f * em}, ImGui::GetColorU32(theme::warning), notes.c_str());
+    list.PopClipRect();
+    return false;
+  }
+
+ private:
+  /// Returns where it ends, below.
+  static float drawBar(ImDrawList& list, glm::vec2 at, glm::vec2 size, uint32_t map) {
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) {
+      const float x0 = at.x + size.x * static_cast<float>(i) / kSteps,
+                  x1 = at.x + size.x * static_cast<float>(i + 1) / kSteps;
+      const glm::vec3 color = encodeSrgb(colorMap(map, (static_cast<float>(i) + 0.5f) / kSteps));
+      list.AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(color));
+    }
+    return at.y + size.y;
+  }
+
+  static void drawTicks(ImDrawList& list, glm::vec2 at, float width, const ViewRange& range) {
+    const ImU32 color = ImGui::GetColorU32(theme::text);
+    const float em = ImGui::GetFontSize();
+    std::vector<double> values = ticks(range.low, range.high, 5);
+    if (range.low == range.high) values = {range.low};
+    for (const double value : values) {
+      const float x = at.x + width * colorMapPosition(static_cast<float>(value), range.low, range.high);
+      list.AddLine({x, at.y}, {x, at.y + 0.3f * em}, color);
+      const std::string label = shortNumber(value);
+      const float half = 0.5f * ImGui::CalcTextSize(label.c_str()).x;
+      const float centre = std::clamp(x, at.x + half, at.x + width - half);
+      list.AddText({centre - half, at.y + 0.3f * em}, color, label.c_str());
+    }
+  }
+
+  /// How many pixels have no place in the map.
+  static std::string marks(const ViewRange& range) {
+    std::string text;
+    const auto add = [&](uint32_t count, const char* what) {
+      if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", withThousands(count), what);
+    };
+    add(range.nan, "NaN (red)");
+    add(range.infinite, "infinite (green)");
+    add(range.negative, "negative (blue)");
+    return text;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Overlay> makeLegendOverlay() {
+  return std::make_unique<LegendOverlay>();
+}
+
+}  // namespace irad
