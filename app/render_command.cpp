@@ -23,6 +23,7 @@ namespace {
 
 struct Arguments {
   std::optional<std::string> scene, out;
+  SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
   PictureArguments picture;
@@ -91,6 +92,7 @@ void summarize(const Session& session, const Pipeline& pipeline) {
 
 void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
+  arguments.sceneOptions.check();
   arguments.picture.check();
   const Config early = arguments.settings.readConfig();
   const std::vector<std::string> wanted = !arguments.views.empty() ? splitList("--view", arguments.views)
@@ -102,7 +104,7 @@ void run(const Arguments& arguments) {
   const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
 
   Session session(arguments.settings, arguments.device);
-  Scene scene = session.load(scenePath);
+  Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
@@ -163,6 +165,7 @@ Command renderCommand() {
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
             arguments->picture.declare(options);
+            arguments->sceneOptions.declare(options);
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },

@@ -18,6 +18,7 @@ namespace irad::app {
 namespace {
 
 struct Arguments {
+  SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
   std::optional<std::string> scene, size, view, camera, scale, captures, shaders, exitAfter, screenshot;
@@ -33,6 +34,7 @@ struct Arguments {
     options.value("--exit-after", "FRAMES", exitAfter,
                   "End after so many frames in which nothing was left to do (for tests)");
     options.value("--screenshot", "FILE", screenshot, "The whole window as PNG when it ends (for tests)");
+    sceneOptions.declare(options);
     settings.declare(options);
     device.declare(options);
   }
@@ -62,6 +64,7 @@ void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   const Config config = arguments.settings.readConfig();
   (void)arguments.settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
+  arguments.sceneOptions.check();
   WindowOptions options;
   options.scene = findScene(arguments.scene, config, "box");
   if (arguments.view) options.view = findViews({*arguments.view}).front().view;
