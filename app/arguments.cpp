@@ -170,10 +170,7 @@ std::vector<std::string> splitList(const std::string& option, const std::vector<
   return out;
 }
 
-namespace {
-
-/// Where built-in scenes may lie: beside the executable (an unpacked binary), then in the source tree.
-std::vector<fs::path> assetFolders() {
+std::vector<fs::path> builtInFolders() {
   std::vector<fs::path> folders;
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
@@ -182,11 +179,9 @@ std::vector<fs::path> assetFolders() {
   return folders;
 }
 
-}  // namespace
-
 std::vector<std::string> builtInScenes() {
   std::vector<std::string> names;
-  for (const fs::path& folder : assetFolders()) {
+  for (const fs::path& folder : builtInFolders()) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
       if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
@@ -211,7 +206,7 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
   std::error_code ignored;  // a name that is no path at all does not exist either
   if (fs::exists(*wanted, ignored)) return *wanted;
   if (fs::path(*wanted).filename() == *wanted && !fs::path(*wanted).has_extension())
-    for (const fs::path& folder : assetFolders())
+    for (const fs::path& folder : builtInFolders())
       if (const fs::path path = folder / (*wanted + ".glb"); fs::exists(path, ignored)) return path;
   throw InputError(fmt::format("{}: no such file; built-in scenes{}", *wanted,
                                builtInScenes().empty() ? ": none found" : suggestion(*wanted, builtInScenes())));

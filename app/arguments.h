@@ -68,5 +68,7 @@ struct SceneArguments {
 std::filesystem::path findScene(const std::optional<std::string>& argument, const Config& config,
                                 const std::optional<std::string>& otherwise);
 std::vector<std::string> builtInScenes();
+/// Where they may lie: beside the executable (an unpacked binary), then in the source tree.
+std::vector<std::filesystem::path> builtInFolders();
 
 }  // namespace irad::app

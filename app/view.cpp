@@ -67,6 +67,7 @@ void run(const Arguments& arguments) {
   arguments.sceneOptions.check();
   WindowOptions options;
   options.scene = findScene(arguments.scene, config, "box");
+  options.builtIn = builtInFolders();
   if (arguments.view) options.view = findViews({*arguments.view}).front().view;
   if (arguments.size) options.size = parseSize(*arguments.size);
   if (arguments.scale) options.scale = parseScale(*arguments.scale);
@@ -85,6 +86,7 @@ void run(const Arguments& arguments) {
   Timings timings(kTimedFrames);
   options.settings = arguments.settings.resolve(config, device->isCpu);
   options.defaults = defaultSettings(device->isCpu);
+  options.load = arguments.sceneOptions.load(config, options.settings);
   {
     Context context(*device, shaders, timings);
     runWindow(context, options);

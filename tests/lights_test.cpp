@@ -368,7 +368,7 @@ class SidecarCli : public SidecarTest {
   }
   std::string picture(const std::string& out) const {
     for (const char* name : {"lit.exr", "lit.pfm"})
-      if (fs::exists(folder.path / out / name)) return readText(folder.path / out / name);
+      if (fs::exists(folder.path / out / name)) return slurp(folder.path / out / name);
     return "";
   }
 };
@@ -394,9 +394,9 @@ TEST_F(SidecarCli, IsSaidIgnoredOnRequestAndReplayedWhateverBecomesOfIt) {
     const RunResult again = render("again", {"--config", config});
     ASSERT_EQ(again.status, 0) << again.err;
     EXPECT_TRUE(picture("again") == picture(name)) << name;
-    EXPECT_EQ(readText(folder.path / "again/manifest.json"), readText(config));
+    EXPECT_EQ(slurp(folder.path / "again/manifest.json"), slurp(config));
     // So does the command line that it states.
-    const std::string command = nlohmann::json::parse(readText(config))["command"];
+    const std::string command = nlohmann::json::parse(slurp(config))["command"];
     const std::string shell =
         std::string(IRAD_BINARY) + command.substr(4) + " --out " + (folder.path / "shell").string();
     ASSERT_EQ(runProgram("/bin/sh", {"-c", shell}).status, 0) << shell;
