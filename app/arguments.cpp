@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <charconv>
 
-#include "gi/camera_json.h"
 #include "gi/check/check.h"
-#include "gi/near_match.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
+#include "renderer/scene/camera_json.h"
+#include "renderer/scene/light_json.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
@@ -102,21 +103,40 @@ void PictureArguments::check() const {
 std::vector<Camera> PictureArguments::resolveCameras(const Config& config, const Scene& scene) const {
   if (cameras.empty() && !config.cameras.empty()) return config.cameras;
   if (cameras.empty()) return {scene.cameras.at(0)};
+  const std::vector<Camera> known = allCameras(scene);
   std::vector<std::string> names;
-  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  for (const Camera& camera : known) names.push_back(camera.name);
   std::vector<Camera> out;
   for (const std::string& wanted : cameras) {
     if (wanted == "all") {
-      out.insert(out.end(), scene.cameras.begin(), scene.cameras.end());
+      out.insert(out.end(), known.begin(), known.end());
     } else if (wanted.starts_with("{")) {
       out.push_back(cameraFromJson(wanted));
     } else {
       const auto found = std::find(names.begin(), names.end(), wanted);
       if (found == names.end())
         throw UsageError(fmt::format("unknown camera '{}'{}", wanted, suggestion(wanted, names)));
-      out.push_back(scene.cameras[static_cast<size_t>(found - names.begin())]);
+      out.push_back(known[static_cast<size_t>(found - names.begin())]);
     }
   }
+  return out;
+}
+
+void SceneArguments::declare(Options& options) {
+  options.value("--lights", "JSON", lights, "Lights in place of the scene's, an array as manifests hold it");
+  options.flag("--no-sidecar", noSidecar, "Leave lights and cameras of SCENE.irad.json aside");
+}
+
+void SceneArguments::check() const {
+  if (lights) lightsFromJson(*lights, "--lights");
+}
+
+LoadOptions SceneArguments::load(const Config& config, const Settings& settings) const {
+  LoadOptions out;
+  out.lambertian = settings.lambertian;
+  out.sidecar = !noSidecar && !config.manifest;
+  out.lights = config.lights;
+  if (lights) out.lights = lightsFromJson(*lights, "--lights");
   return out;
 }
 
@@ -150,10 +170,7 @@ std::vector<std::string> splitList(const std::string& option, const std::vector<
   return out;
 }
 
-namespace {
-
-/// Where built-in scenes may lie: beside the executable (an unpacked binary), then in the source tree.
-std::vector<fs::path> assetFolders() {
+std::vector<fs::path> builtInFolders() {
   std::vector<fs::path> folders;
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
@@ -162,11 +179,9 @@ std::vector<fs::path> assetFolders() {
   return folders;
 }
 
-}  // namespace
-
 std::vector<std::string> builtInScenes() {
   std::vector<std::string> names;
-  for (const fs::path& folder : assetFolders()) {
+  for (const fs::path& folder : builtInFolders()) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
       if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
@@ -191,7 +206,7 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
   std::error_code ignored;  // a name that is no path at all does not exist either
   if (fs::exists(*wanted, ignored)) return *wanted;
   if (fs::path(*wanted).filename() == *wanted && !fs::path(*wanted).has_extension())
-    for (const fs::path& folder : assetFolders())
+    for (const fs::path& folder : builtInFolders())
       if (const fs::path path = folder / (*wanted + ".glb"); fs::exists(path, ignored)) return path;
   throw InputError(fmt::format("{}: no such file; built-in scenes{}", *wanted,
                                builtInScenes().empty() ? ": none found" : suggestion(*wanted, builtInScenes())));

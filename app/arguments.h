@@ -40,7 +40,7 @@ struct PictureArguments {
   void declare(Options& options);
   glm::uvec2 resolveSize(const Config& config) const;  ///< default 640 x 640
   uint32_t resolveFrames(const Config& config, uint32_t otherwise) const;
-  /// Named cameras of the scene, "all", or JSON; default: those of the config, else the scene's first.
+  /// Named cameras of the scene and its sidecar, "all", or JSON; default: those of the config, else the scene's first.
   std::vector<Camera> resolveCameras(const Config& config, const Scene& scene) const;
   /// What can be checked before a scene is loaded.
   void check() const;
@@ -53,10 +53,22 @@ glm::uvec2 parseSize(const std::string& text);
 /// Elements of "a,b,c", empty ones refused.
 std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values);
 
+/// --lights, --no-sidecar.
+struct SceneArguments {
+  std::optional<std::string> lights;
+  bool noSidecar = false;
+  void declare(Options& options);
+  void check() const;  ///< what can be before a scene is loaded
+  /// How to load the scene. A replayed manifest brings its run's lights: what the sidecar holds by now does not count.
+  LoadOptions load(const Config& config, const Settings& settings) const;
+};
+
 /// The path of a scene argument: a file, or the name of a built-in scene ("box"); absent: the config's, else
 /// `otherwise`, else a usage error.
 std::filesystem::path findScene(const std::optional<std::string>& argument, const Config& config,
                                 const std::optional<std::string>& otherwise);
 std::vector<std::string> builtInScenes();
+/// Where they may lie: beside the executable (an unpacked binary), then in the source tree.
+std::vector<std::filesystem::path> builtInFolders();
 
 }  // namespace irad::app

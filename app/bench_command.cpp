@@ -10,9 +10,9 @@
 #include "app/session.h"
 #include "app/table.h"
 #include "app/views.h"
-#include "gi/near_match.h"
 #include "renderer/compare_timings.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 #include "renderer/output_file.h"
 #include "renderer/recording.h"
 
@@ -25,6 +25,7 @@ struct Arguments {
   std::optional<std::string> scene, csv, record, warmup, rebuilds, view;
   std::optional<std::pair<std::string, std::string>> compare;
   std::vector<std::string> versus;
+  SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
   PictureArguments picture;
@@ -150,6 +151,7 @@ void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(arguments.json);
   if (arguments.compare) return printComparison(arguments.compare->first, arguments.compare->second);
   arguments.picture.check();
+  arguments.sceneOptions.check();
   const Config early = arguments.settings.readConfig();
   const uint32_t frames = arguments.picture.resolveFrames({}, 20);
   const auto count = [](const char* option, const std::optional<std::string>& text, uint64_t otherwise) {
@@ -162,7 +164,7 @@ void run(const Arguments& arguments) {
   const auto scenePath = findScene(arguments.scene, early, "box");
 
   Session session(arguments.settings, arguments.device);
-  Scene scene = session.load(scenePath);
+  Scene scene = session.load(scenePath, arguments.sceneOptions);
   const Camera camera = arguments.picture.resolveCameras(session.config, scene).at(0);
   std::vector<std::unique_ptr<Bench>> sets;
   if (!arguments.versus.empty()) {
@@ -254,6 +256,7 @@ Command benchCommand() {
                        "in turn with the first, with the ratio per stage");
         options.value("--view", "NAME", arguments->view, "View of the camera frames (default: lit)");
         arguments->picture.declare(options);
+        arguments->sceneOptions.declare(options);
         arguments->settings.declare(options);
         arguments->device.declare(options);
       },

@@ -9,8 +9,8 @@
 #include "app/command.h"
 #include "app/devices.h"
 #include "app/version.h"
-#include "gi/near_match.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 
 namespace irad::app {
 namespace {

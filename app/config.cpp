@@ -3,39 +3,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 
 #include "app/version.h"
-#include "gi/camera_json.h"
 #include "gi/manifest.h"
 #include "renderer/error.h"
-#include "renderer/json_extent.h"
+#include "renderer/json_reader.h"
+#include "renderer/scene/camera_json.h"
+#include "renderer/scene/light_json.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr size_t kMaxConfigBytes = 16 << 20;
-
-/// Of a file or a pipe; never more than it may be.
-std::string readWhole(const fs::path& path) {
-  std::error_code error;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || fs::is_directory(path, error)) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  std::string text;
-  for (char part[65536]; in.read(part, sizeof part), in.gcount() > 0;) {
-    text.append(part, static_cast<size_t>(in.gcount()));
-    if (text.size() > kMaxConfigBytes)
-      throw InputError(fmt::format("{}: more than {} MiB", path.string(), kMaxConfigBytes >> 20));
-  }
-  return text;
-}
 
 /// Integers of JSON convert silently: -1, 2.5 and 1e30 would all become some uint32_t.
 uint32_t whole(const fs::path& path, const Json& json, const char* name, uint32_t max) {
@@ -68,15 +51,15 @@ std::pair<std::optional<fs::path>, std::optional<std::string>> readNamedFile(con
   return {file, member<std::string>(path, json[name], "sha256")};
 }
 
-std::vector<Camera> readCameras(const fs::path& path, const Json& json) {
-  std::vector<Camera> cameras;
-  if (!json.contains("cameras")) return cameras;
-  for (const Json& camera : json["cameras"]) try {
-      cameras.push_back(cameraFromJson(camera.dump()));
-    } catch (const UsageError& error) {
-      throw InputError(fmt::format("{}: cameras: {}", path.string(), error.what()));
-    }
-  return cameras;
+/// Cameras or lights, by `parse`, which names the element and its field.
+template <class Parse>
+auto readArray(const fs::path& path, const Json& json, const char* name, Parse&& parse) {
+  try {
+    return parse(json.at(name).dump(), fmt::format("{}: {}", path.string(), name));
+  } catch (const UsageError& error) {
+    throw InputError(error.what());
+  }
+}
 }
 
 /// A file of a newer program may mean other things by the names it shares with ours.
@@ -101,15 +84,7 @@ void checkFormat(const fs::path& path, const Json& json) {
 }  // namespace
 
 Config readConfigFile(const fs::path& path) {
-  const std::string text = readWhole(path);
-  if (jsonExtent(text).depth > kMaxJsonDepth)
-    throw InputError(fmt::format("{}: JSON nested too deeply", path.string()));
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: not JSON: {}", path.string(), error.what()));
-  }
+  Json json = readJsonFile(path);
   if (!json.is_object()) throw InputError(fmt::format("{}: expected a JSON object", path.string()));
   checkFormat(path, json);
   Config config;
@@ -119,6 +94,7 @@ Config readConfigFile(const fs::path& path) {
     config.settings = json.dump();
     return config;
   }
+  config.manifest = true;
   config.settings = json["settings"].dump();
   std::tie(config.scene, config.sceneSha256) = readNamedFile(path, json, "scene");
   std::tie(config.reference, config.referenceSha256) = readNamedFile(path, json, "reference");
@@ -131,7 +107,8 @@ Config readConfigFile(const fs::path& path) {
   }
   if (json.contains("frames")) config.frames = whole(path, json["frames"], "frames", kMaxFrames);
   config.views = member<std::vector<std::string>>(path, json, "views").value_or(std::vector<std::string>{});
-  config.cameras = readCameras(path, json);
+  if (json.contains("cameras")) config.cameras = readArray(path, json, "cameras", camerasFromJson);
+  if (json.contains("lights")) config.lights = readArray(path, json, "lights", lightsFromJson);
   return config;
 }
 

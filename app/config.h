@@ -14,12 +14,14 @@ namespace irad::app {
 constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
 constexpr uint32_t kMaxFrames = 1'000'000;
 
-/// What --config brings: a settings object, or a manifest that also names scene, cameras, size, views, frames.
+/// What --config brings: a settings object, or a manifest that also names scene, lights, cameras, size, views, frames.
 struct Config {
   std::filesystem::path path;
   std::optional<std::string> settings;  ///< JSON as settingsFromJson takes it
+  bool manifest = false;                ///< of a run, which it replays
   std::optional<std::filesystem::path> scene;
   std::optional<std::string> sceneSha256;
+  std::optional<std::vector<Light>> lights;
   std::optional<glm::uvec2> size;
   std::optional<uint32_t> frames;
   std::vector<Camera> cameras;

@@ -7,9 +7,9 @@
 #include "app/session.h"
 #include "gi/check/check.h"
 #include "gi/export.h"
-#include "gi/near_match.h"
 #include "gi/pipeline.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 #include "renderer/output_file.h"
 
 namespace irad::app {
@@ -20,6 +20,7 @@ struct Arguments {
   std::optional<std::string> scene, out, cache;
   std::vector<std::string> volumes;
   bool matrix = false, facets = false;
+  SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
 };
@@ -59,7 +60,7 @@ std::string gridJson(const Scene& scene, const Grid& grid) {
 
 void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes, const fs::path& scenePath) {
   Session session(arguments.settings, arguments.device);
-  Scene scene = session.load(scenePath);
+  Scene scene = session.load(scenePath, arguments.sceneOptions);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
@@ -96,6 +97,7 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
 
 void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
+  arguments.sceneOptions.check();
   const std::vector<Volume> volumes = parseVolumes(arguments.volumes);
   const bool arrays = !volumes.empty() || arguments.matrix || arguments.facets;
   if (!arrays && !arguments.cache) throw UsageError("nothing to export: give --volume, --matrix, --facets or --cache");
@@ -103,9 +105,7 @@ void run(const Arguments& arguments) {
   const fs::path scenePath = findScene(arguments.scene, config, std::nullopt);
   if (arguments.cache) {
     const Settings settings = arguments.settings.resolve(config, /*cpuDevice=*/true);
-    LoadOptions options;
-    options.lambertian = settings.lambertian;
-    writeSceneCache(openScene(scenePath, options), *arguments.cache);
+    writeSceneCache(openScene(scenePath, arguments.sceneOptions.load(config, settings)), *arguments.cache);
     fmt::print("wrote       {}\n", *arguments.cache);
   }
   if (arrays) exportArrays(arguments, volumes, scenePath);
@@ -127,6 +127,7 @@ Command exportCommand() {
             options.flag("--facets", arguments->facets, "facet_NAME.npy: one row per facet, in matrix order");
             options.value("--cache", "FILE", arguments->cache,
                           "The scene with its images decoded (.irscene), for builds without image decoders");
+            arguments->sceneOptions.declare(options);
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },

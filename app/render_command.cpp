@@ -24,6 +24,7 @@ namespace {
 
 struct Arguments {
   std::optional<std::string> scene, out;
+  SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
   PictureArguments picture;
@@ -93,6 +94,7 @@ void summarize(const Session& session, const Pipeline& pipeline) {
 
 void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
+  arguments.sceneOptions.check();
   arguments.picture.check();
   const Config early = arguments.settings.readConfig();
   const std::vector<std::string> wanted = !arguments.views.empty() ? splitList("--view", arguments.views)
@@ -104,7 +106,7 @@ void run(const Arguments& arguments) {
   const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
 
   Session session(arguments.settings, arguments.device);
-  Scene scene = session.load(scenePath);
+  Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
@@ -176,6 +178,7 @@ Command renderCommand() {
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
             arguments->picture.declare(options);
             arguments->reference.declare(options);
+            arguments->sceneOptions.declare(options);
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },

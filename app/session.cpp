@@ -7,6 +7,7 @@
 #include "gi/check/check.h"
 #include "gi/sizes.h"
 #include "renderer/error.h"
+#include "renderer/scene/sidecar.h"
 
 namespace irad::app {
 
@@ -18,11 +19,11 @@ Session::Session(const SettingArguments& arguments, const DeviceArguments& devic
   settings = arguments.resolve(config, device->isCpu);
 }
 
-Scene Session::load(const std::filesystem::path& path) {
-  LoadOptions options;
-  options.lambertian = settings.lambertian;
+Scene Session::load(const std::filesystem::path& path, const SceneArguments& arguments) {
+  LoadOptions options = arguments.load(config, settings);
   options.progress = [this](float fraction, const char* step) { progress(step, fraction); };
   Scene scene = openScene(path, options);
+  if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
   for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
   if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
     progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),

@@ -24,8 +24,8 @@ struct Session {
   Settings settings;
   ProgressReport progress;
 
-  /// Loads the scene and says what is odd about it, on standard error.
-  Scene load(const std::filesystem::path& path);
+  /// Loads the scene, with its sidecar, and says what is odd about it, on standard error.
+  Scene load(const std::filesystem::path& path, const SceneArguments& arguments);
   /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
   /// next smaller ones, in `settings` too.
   void prepare(Pipeline& pipeline);

@@ -19,6 +19,7 @@ namespace irad::app {
 namespace {
 
 struct Arguments {
+  SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
   ReferenceArgument reference;
@@ -36,6 +37,7 @@ struct Arguments {
                   "End after so many frames in which nothing was left to do (for tests)");
     options.value("--screenshot", "FILE", screenshot, "The whole window as PNG when it ends (for tests)");
     reference.declare(options);
+    sceneOptions.declare(options);
     settings.declare(options);
     device.declare(options);
   }
@@ -65,8 +67,10 @@ void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   const Config config = arguments.settings.readConfig();
   (void)arguments.settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
+  arguments.sceneOptions.check();
   WindowOptions options;
   options.scene = findScene(arguments.scene, config, "box");
+  options.builtIn = builtInFolders();
   if (arguments.view) options.view = findViews({*arguments.view}).front().view;
   if (arguments.size) options.size = parseSize(*arguments.size);
   if (arguments.scale) options.scale = parseScale(*arguments.scale);
@@ -87,6 +91,7 @@ void run(const Arguments& arguments) {
   Timings timings(kTimedFrames);
   options.settings = arguments.settings.resolve(config, device->isCpu);
   options.defaults = defaultSettings(device->isCpu);
+  options.load = arguments.sceneOptions.load(config, options.settings);
   {
     Context context(*device, shaders, timings);
     runWindow(context, options);

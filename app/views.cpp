@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "gi/near_match.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 
 namespace irad::app {
 

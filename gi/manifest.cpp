@@ -5,8 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gi/camera_json.h"
 #include "gi/check/check.h"
+#include "renderer/scene/camera_json.h"
+#include "renderer/scene/light_json.h"
 
 namespace irad {
 namespace fs = std::filesystem;
@@ -39,7 +40,8 @@ std::string settingsFile(const Settings& settings) {
 }
 
 std::string Manifest::commandLine() const {
-  std::vector<std::string> words{"irad", subcommand, sceneArgument(*scene)};
+  std::vector<std::string> words{"irad", subcommand, sceneArgument(*scene), "--no-sidecar"};
+  if (scene->lights != scene->fileLights) words.insert(words.end(), {"--lights", lightsToJson(scene->lights)});
   if (device) words.insert(words.end(), {"--device", device->name});
   if (size) words.insert(words.end(), {"--size", fmt::format("{}x{}", size->x, size->y)});
   for (const Camera& camera : cameras) words.insert(words.end(), {"--camera", cameraToJson(camera)});
@@ -74,6 +76,7 @@ std::string Manifest::toJson() const {
     json["cameras"] = Json::array();
     for (const Camera& camera : cameras) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
   }
+  json["lights"] = Json::parse(lightsToJson(scene->lights));
   if (!views.empty()) json["views"] = views;
   for (const auto& [name, text] : details) json[name] = Json::parse(text);
   json["files"] = files;

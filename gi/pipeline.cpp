@@ -182,6 +182,21 @@ Redo Pipeline::set(const Settings& settings) {
   return impl_->dirty;
 }
 
+void Pipeline::setLights(std::vector<Light> lights) {
+  Impl& p = *impl_;
+  for (const Light& light : lights)
+    if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
+  std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
+  const auto start = std::chrono::steady_clock::now();
+  ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution);
+  p.onDevice.setLights(p.context, std::move(values));
+  p.shadows = std::move(maps);
+  p.scene.lights = std::move(lights);
+  p.shadowsDirty = false;
+  p.dirty = std::min(p.dirty, Redo::Gather);
+  p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
+}
+
 void Pipeline::lightsChanged() {
   impl_->shadowsDirty = true;
   impl_->dirty = std::min(impl_->dirty, Redo::Gather);

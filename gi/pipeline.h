@@ -26,6 +26,10 @@ class Pipeline {
   const Settings& settings() const;
   /// Takes new settings; returns the first stage that the next prepare() will redo.
   Redo set(const Settings& settings);
+  /// Takes other lights, of any number, and draws their shadow maps; gather, solve and scatter follow at the next
+  /// prepare(). UsageError names what is wrong with a light, DeviceError what the device lacks for its shadow map: then
+  /// the old lights stay.
+  void setLights(std::vector<Light> lights);
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
 

@@ -1,9 +1,9 @@
 // The presets and the defaults by device class (METHOD, first paragraphs).
 #include <fmt/format.h>
 
-#include "gi/near_match.h"
 #include "gi/settings.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 
 namespace irad {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "gi/near_match.h"
 #include "renderer/error.h"
 #include "renderer/json_extent.h"
+#include "renderer/near_match.h"
 
 namespace irad {
 namespace {

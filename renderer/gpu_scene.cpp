@@ -147,9 +147,11 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   }
 
   // Lights, and the record that every geometry pass gets the address of.
-  for (const Light& light : scene.lights) lightValues.push_back(toGpu(light, scene.origin));
-  lights = Buffer(context.device, "lights", Subsystem::Scene, sizeof(GpuLight) * lightValues.size());
-  uploadLights(context);
+  setLights(context, gpuLights(scene.lights, scene.origin));
+}
+
+void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values) {
+  Buffer buffer = uploadArray(context, "lights", values);
   GpuScene gpu{};
   gpu.positions = positions.address;
   gpu.normals = normals.address;
@@ -160,14 +162,18 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   gpu.indices = indices.address;
   gpu.triangleMaterials = triangleMaterials.address;
   gpu.materials = materials.address;
-  gpu.lights = lights.address;
-  gpu.lightCount = static_cast<uint32_t>(lightValues.size());
+  gpu.lights = buffer.address;
+  gpu.lightCount = static_cast<uint32_t>(values.size());
   gpu.triangleCount = scene.triangleCount();
   record = makeBuffer(context, "scene record", Subsystem::Scene, std::span<const GpuScene>(&gpu, 1));
+  lights = std::move(buffer);
+  lightValues = std::move(values);
 }
 
-void SceneOnDevice::uploadLights(Context& context) {
-  if (!lightValues.empty()) upload(context, lights, std::as_bytes(std::span(lightValues)));
+std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin) {
+  std::vector<GpuLight> values;
+  for (const Light& light : lights) values.push_back(toGpu(light, origin));
+  return values;
 }
 
 }  // namespace irad

@@ -19,12 +19,15 @@ class SceneOnDevice {
   std::vector<Image> textures;
   MaterialSets materialSets;                ///< per material, set 1
   std::vector<GpuMaterial> materialValues;  ///< as uploaded
-  std::vector<GpuLight> lightValues;        ///< as uploaded; ShadowMaps fills in layers and matrices
+  std::vector<GpuLight> lightValues;        ///< as uploaded, with what drawShadows fills in
   bool anyEmission = false;  ///< a factor and a texel of its texture (a texture's maximum counts) are > 0
   bool anyAlphaMask = false;
 
-  /// Re-uploads lightValues into `lights`.
-  void uploadLights(Context& context);
+  /// Takes other lights, of any number: `lightValues`, `lights` and `record`. The old ones stay when it throws.
+  void setLights(Context& context, std::vector<GpuLight> values);
 };
+
+/// Lights as passes read them; without shadow maps, which drawShadows gives them.
+std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin);
 
 }  // namespace irad

@@ -127,10 +127,11 @@ Image depthArray(const Device& device, const char* name, uint32_t size, uint32_t
 
 }  // namespace
 
-ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution) {
+ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights,
+                       uint32_t resolution) {
   // Give each light its layers. A light of no intensity needs none.
   uint32_t flats = 0, cubes = 0;
-  for (GpuLight& light : scene.lightValues) {
+  for (GpuLight& light : lights) {
     light.shadowLayer = -1;
     if (std::max({light.intensity.x, light.intensity.y, light.intensity.z}) <= 0.0f) continue;
     light.shadowLayer = static_cast<int>(lightUsesCube(light.type, light.outerCos) ? cubes++ : flats++);
@@ -153,7 +154,7 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
 
   // Fit each light's projections to the scene.
   std::vector<Face> faces;
-  for (GpuLight& light : scene.lightValues) {
+  for (GpuLight& light : lights) {
     if (light.shadowLayer < 0) continue;
     if (light.type == LIGHT_SUN) {
       fitSun(scene.scene, light, size);
@@ -177,7 +178,6 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
   for (const Face& face : faces) matrices.push_back(face.matrix);
   const Buffer projections =
       makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
-  scene.uploadLights(context);  // once all memory is there: until then the old lights go with the old maps
   Frame frame = context.begin();
   for (size_t i = 0; i < faces.size(); ++i)
     drawDepth(frame, scene,
@@ -198,6 +198,13 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
           .run([](Commands&) {});
   }
   frame.submitAndWait();
+  return maps;
+}
+
+ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution) {
+  std::vector<GpuLight> lights = scene.lightValues;
+  ShadowMaps maps = drawShadows(context, scene, lights, resolution);
+  scene.setLights(context, std::move(lights));
   return maps;
 }
 

@@ -98,7 +98,7 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
       {{"settings", "--config", (folder.path / "none.json").string()}, "none.json: cannot be read"},
       {{"settings", "--config", folder.path.string()}, "cannot be read"},
       {{"render", "box", "--config", sizes}, "size: expected a whole number, 1 to 16384, not 0"},
-      {{"render", "box", "--config", cameras}, "e.json: cameras: camera: position"},
+      {{"render", "box", "--config", cameras}, "e.json: cameras[0]: position"},
       {{"render", notGltf, "--out", folder.path.string()}, "c.gltf"},
   };
   for (const UsageCase& c : cases) {

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "gi/near_match.h"
 #include "gi/sizes.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 
 namespace irad {
 namespace {

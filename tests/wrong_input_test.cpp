@@ -5,8 +5,8 @@
 #include <map>
 
 #include "app/arguments.h"
-#include "gi/camera_json.h"
 #include "renderer/json_extent.h"
+#include "renderer/scene/camera_json.h"
 #include "renderer/scene/image_header.h"
 #include "tests/scene_files.h"
 

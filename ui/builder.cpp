@@ -34,7 +34,11 @@ Builder::Builder(Context& context, Session& session, std::function<void()> breat
 void Builder::load(const std::filesystem::path& path) {
   begin("Loading " + path.filename().string());
   try {
-    LoadOptions load;
+    // A scene that is loaded again keeps what the user has made of it.
+    const bool again = session_.pipeline && session_.pipeline->scene().path == path,
+               unsaved = session_.edits.modified();
+    LoadOptions load = session_.load;
+    if (again && unsaved) load.lights = session_.edits.lights;
     load.lambertian = session_.edited.lambertian;
     load.progress = [this](float fraction, const char* step) {
       if (!progress(step, fraction)) throw WorkError(kCancelled);
@@ -45,12 +49,16 @@ void Builder::load(const std::filesystem::path& path) {
     prepare(session_, *pipeline);
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
     session_.comparison.reset();
-    const bool sameScene = session_.pipeline && session_.pipeline->scene().path == pipeline->scene().path;
+    if (unsaved && !again)
+      session_.note(
+          fmt::format("{}: lights and bookmarks were not saved", session_.pipeline->scene().path.filename().string()));
     session_.pipeline = std::move(pipeline);
+    session_.load.lights.reset();
+    session_.beginEdits(again && unsaved);
     session_.applied = values(session_.pipeline->settings());
     loadedLambertian_ = session_.pipeline->settings().lambertian;
     session_.halted = false;
-    if (!sameScene) session_.useSceneCamera(0);
+    if (!again) session_.useSceneCamera(0);
   } catch (const Error&) {
     forgetTimes();
     const bool cancelled = session_.work->cancel;
@@ -62,8 +70,31 @@ void Builder::load(const std::filesystem::path& path) {
   session_.work.reset();
 }
 
+bool Builder::stale() const {
+  return stale_ || (session_.pipeline && session_.edits.lights != session_.pipeline->scene().lights);
+}
+
+/// Lights are those of both sides. What is wrong with them is said, and they are again what they were.
+void Builder::applyLights() {
+  const std::vector<Light> before = session_.pipeline->scene().lights;
+  for (Side* side : session_.sides()) {
+    if (session_.edits.lights == side->pipeline->scene().lights) continue;
+    try {
+      side->pipeline->setLights(session_.edits.lights);
+      session_.halted = false;
+      side->woke();
+    } catch (const Error& error) {
+      forgetTimes();
+      session_.edits.lights = before;
+      session_.error(error.what());
+    }
+    session_.viewDirty = true;
+  }
+}
+
 void Builder::apply(bool held) {
   if (!session_.pipeline) return;
+  applyLights();
   Pipeline& pipeline = *session_.pipeline;
   if (values(session_.edited) != session_.applied) {
     const bool reload = session_.edited.lambertian != loadedLambertian_;

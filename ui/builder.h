@@ -30,9 +30,10 @@ class Builder {
   /// The frame that was just drawn announced what is next.
   void announced() { shownNext_ = session_.next; }
   /// Something is to be redone though no setting changed.
-  bool stale() const { return stale_; }
+  bool stale() const;
 
  private:
+  void applyLights();
   void rebuild(Side& side, std::string what);
   void prepare(Side& side, Pipeline& pipeline);
   void follow();

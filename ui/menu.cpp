@@ -46,6 +46,7 @@ void drawFile(Session& session) {
   if (ImGui::MenuItem("Load again", nullptr, false, session.pipeline != nullptr))
     session.openScene = session.pipeline->scene().path;
   ImGui::Separator();
+  if (ImGui::MenuItem("Save lights and bookmarks", nullptr, false, session.edits.modified())) session.saveEdits();
   actionItem(session, "Save this view", Action::Capture, false, session.built.has_value());
   ImGui::Separator();
   actionItem(session, "Quit", Action::Quit);
@@ -53,12 +54,10 @@ void drawFile(Session& session) {
 
 void drawView(Session& session, const std::vector<std::unique_ptr<Panel>>& panels) {
   if (session.pipeline && ImGui::BeginMenu("Camera")) {
-    const std::vector<Camera>& cameras = session.pipeline->scene().cameras;
+    const std::vector<Camera> cameras = session.cameras();
     for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
-      const std::string& name = cameras[static_cast<size_t>(i)].name;
       ImGui::PushID(i);
-      if (ImGui::MenuItem(name.empty() ? fmt::format("camera {}", i + 1).c_str() : name.c_str(), nullptr,
-                          i == session.sceneCamera))
+      if (ImGui::MenuItem(cameraName(cameras[static_cast<size_t>(i)], i).c_str(), nullptr, i == session.sceneCamera))
         session.useSceneCamera(i);
       ImGui::PopID();
     }
@@ -120,7 +119,9 @@ void drawMenuBar(Session& session, const std::vector<std::unique_ptr<Panel>>& pa
     if (session.pipeline) {
       ImGui::SetCursorPosX(start + gap);
       ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-      clippedText(session.pipeline->scene().path.filename().string(), std::max(width - stateWidth - 2 * gap, 1.0f));
+      std::string file = session.pipeline->scene().path.filename().string();
+      if (session.edits.modified()) file += "   unsaved changes";
+      clippedText(file, std::max(width - stateWidth - 2 * gap, 1.0f));
       ImGui::PopStyleColor();
     }
     ImGui::SetCursorPosX(start + width - stateWidth);

@@ -22,6 +22,8 @@ class Panel {
 // The list, top to bottom within each region. X(Name) stands for makeNamePanel() in ui/panels/.
 #define IRAD_PANELS(X) \
   X(Scene)             \
+  X(Lights)            \
+  X(Cameras)           \
   X(Settings)          \
   X(View)              \
   X(Compare)           \

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "gi/check/check.h"
+#include "renderer/error.h"
+
 namespace irad {
 
 void Session::say(Message::Kind kind, std::string text) {
@@ -15,11 +18,52 @@ void Session::say(Message::Kind kind, std::string text) {
   if (messages.size() > most) messages.erase(messages.begin());
 }
 
-void Session::useSceneCamera(int index) {
-  if (!pipeline || pipeline->scene().cameras.empty()) return;
+void Session::beginEdits(bool kept) {
   const Scene& scene = pipeline->scene();
-  sceneCamera = std::clamp(index, 0, static_cast<int>(scene.cameras.size()) - 1);
-  camera.start(scene.cameras[static_cast<size_t>(sceneCamera)], glm::distance(scene.boundsMin, scene.boundsMax));
+  if (kept) return edits.again(scene);
+  const auto isBuiltIn = [&](const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(std::filesystem::absolute(scene.path).parent_path(), folder, ignored);
+  };
+  std::string nowhere;
+  if (isCheckScene(scene.path))
+    nowhere = "A check scene is no file: lights and bookmarks have nothing to be kept beside.";
+  else if (std::any_of(builtIn.begin(), builtIn.end(), isBuiltIn))
+    nowhere = fmt::format("{} is built in. Copy it to a folder of your own to keep lights and bookmarks beside it.",
+                          scene.path.filename().string());
+  else if (!load.sidecar)
+    nowhere =
+        fmt::format("{} was opened without its sidecar, which saving would replace.", scene.path.filename().string());
+  edits.begin(scene, nowhere.empty() ? sidecarPath(scene.path) : std::filesystem::path(), nowhere);
+  if (!scene.sidecar.empty()) fmt::print(stderr, "irad: {}\n", sidecarNote(scene));
+}
+
+std::vector<Camera> Session::cameras() const {
+  if (!pipeline) return {};
+  std::vector<Camera> all = pipeline->scene().cameras;
+  all.insert(all.end(), edits.bookmarks.begin(), edits.bookmarks.end());
+  return all;
+}
+
+void Session::saveEdits() {
+  try {
+    edits.save();
+    note(fmt::format("Saved lights and bookmarks to {}", edits.file().string()));
+  } catch (const Error& e) {
+    error(fmt::format("{}\nLights and bookmarks stay in this window, unsaved.", e.what()));
+  }
+}
+
+std::string cameraName(const Camera& camera, int index) {
+  return camera.name.empty() ? fmt::format("camera {}", index + 1) : camera.name;
+}
+
+void Session::useSceneCamera(int index) {
+  const std::vector<Camera> all = cameras();
+  if (all.empty()) return;
+  const Scene& scene = pipeline->scene();
+  sceneCamera = std::clamp(index, 0, static_cast<int>(all.size()) - 1);
+  camera.start(all[static_cast<size_t>(sceneCamera)], glm::distance(scene.boundsMin, scene.boundsMax));
   viewDirty = true;
 }
 

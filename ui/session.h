@@ -18,6 +18,7 @@
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
 #include "ui/preferences.h"
+#include "ui/scene_edits.h"
 
 namespace irad {
 
@@ -89,10 +90,12 @@ struct Session : Side {
   Redo next = Redo::Nothing;  ///< first stage that a pending edit will redo
   bool halted = false;        ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
 
+  SceneEdits edits;  ///< lights and bookmarks; the loop hands the lights to the pipeline
+
   View view = 0;
   std::optional<LinearPicture> reference;  ///< for the views that compare with one; every pipeline gets it
   FlyCamera camera;
-  int sceneCamera = 0;             ///< index of the scene's camera that `camera` began as
+  int sceneCamera = 0;             ///< index into cameras(): which `camera` began as
   Camera shown;                    ///< of the picture in targets
   bool viewDirty = true;           ///< the picture must be rendered again
   View rangeView = 0;              ///< of which `range` is
@@ -111,6 +114,9 @@ struct Session : Side {
   std::vector<Side*> sides();
   bool allAsleep() const { return asleep() && (!comparison || comparison->other.asleep()); }
 
+  LoadOptions load;                            ///< of scenes; `lights` are the first one's
+  std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
+
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene;
@@ -120,11 +126,18 @@ struct Session : Side {
   // Shown until dismissed, and printed on standard error.
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
-  void useSceneCamera(int index);
+  /// Of a scene that was loaded: edits begin with what it came with, or are `kept`.
+  void beginEdits(bool kept);
+  std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
+  void useSceneCamera(int index);       ///< of cameras()
+  void saveEdits();                     ///< says what became of it
 
  private:
   void say(Message::Kind kind, std::string text);
 };
+
+/// Its name, or its number where it has none.
+std::string cameraName(const Camera& camera, int index);
 
 /// "matrix -> gather -> solve": the stages from `first` on that take time, with the theme's arrow between.
 std::string stagesFrom(Redo first, const char* arrow);

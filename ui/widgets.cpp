@@ -200,6 +200,16 @@ void valueRow(const char* label, const std::string& value) {
   clippedText(value, width * (1 - kLabelShare));
 }
 
+void fieldLabel(const char* label, const std::string& help) {
+  const float start = ImGui::GetCursorPosX();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::AlignTextToFramePadding();
+  clippedText(label, width * kLabelShare);
+  if (!help.empty()) helpTooltip(help);
+  ImGui::SameLine(start + width * kLabelShare);
+  ImGui::SetNextItemWidth(width * (1 - kLabelShare));
+}
+
 void helpTooltip(const std::string& text) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();

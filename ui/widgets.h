@@ -19,6 +19,9 @@ bool settingRow(Settings& settings, const Settings& defaults, std::string_view n
 /// shown whole as a tooltip.
 void valueRow(const char* label, const std::string& value);
 
+/// The label of a row, in the same place; the next widget takes the rest of it.
+void fieldLabel(const char* label, const std::string& help = {});
+
 void helpTooltip(const std::string& text);
 /// Text that ends in an ellipsis where the width does not suffice.
 void clippedText(const std::string& text, float width);

@@ -87,6 +87,8 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.defaults = options.defaults;
   session_.view = options.view;
   session_.reference = options.reference;
+  session_.load = options.load;
+  session_.builtIn = options.builtIn;
   readPreferences();
 }
 
@@ -116,7 +118,7 @@ void Window::run() {
   builder_.load(options_.scene);
   sceneOpened();
   if (!options_.camera.empty() && session_.pipeline) {
-    const std::vector<Camera>& cameras = session_.pipeline->scene().cameras;
+    const std::vector<Camera> cameras = session_.cameras();
     const auto named =
         std::find_if(cameras.begin(), cameras.end(), [&](const Camera& c) { return c.name == options_.camera; });
     if (named == cameras.end())
@@ -209,8 +211,7 @@ void Window::act(Action action) {
       break;
     case Action::NextCamera:
       if (session_.pipeline)
-        session_.useSceneCamera((session_.sceneCamera + 1) %
-                                static_cast<int>(session_.pipeline->scene().cameras.size()));
+        session_.useSceneCamera((session_.sceneCamera + 1) % static_cast<int>(session_.cameras().size()));
       break;
     case Action::Flicker:
       if (session_.comparison) {

@@ -13,6 +13,8 @@ namespace irad {
 
 struct WindowOptions {
   std::filesystem::path scene;
+  LoadOptions load;                            ///< of it and those opened later; `lights` are its own
+  std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
   Settings settings;
   Settings defaults;  ///< of this device class, for the reset buttons
   View view = 0;

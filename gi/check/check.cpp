@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "gi/check/cases.h"
-#include "gi/near_match.h"
 #include "renderer/error.h"
+#include "renderer/near_match.h"
 
 namespace irad {
 namespace {
@@ -47,6 +47,8 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (check.scene == nullptr) throw UsageError(fmt::format("the case '{}' has no scene: {}", check.name, check.setup));
   Scene scene = check.scene();
   scene.path = path;
+  scene.fileLights = scene.lights;
+  if (options.lights) replaceLights(scene, *options.lights);
   scene.expectedIrradiance = check.expected;
   return scene;
 }

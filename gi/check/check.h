@@ -24,7 +24,7 @@ struct CheckCase {
   glm::dvec3 (*expected)(const glm::dvec3& position, const glm::dvec3& normal) = nullptr;
   const char* pending = nullptr;  ///< why it cannot be run yet
   const char* red = nullptr;  ///< why it is known to fail; the test suite says so and notices when it no longer does
-  bool soak = false;              ///< long: CheckRun::quick shortens it
+  bool soak = false;          ///< long: CheckRun::quick shortens it
 };
 
 /// All cases, in the catalogue's order.
@@ -34,7 +34,7 @@ const CheckCase& findCheckCase(std::string_view name);
 
 /// "check:NAME", as `irad view` takes it.
 bool isCheckScene(const std::filesystem::path& path);
-/// loadScene, or the scene of a case. UsageError where a case has none.
+/// loadScene, or the scene of a case, which has no sidecar. UsageError where a case has none.
 Scene openScene(const std::filesystem::path& path, const LoadOptions& options = {});
 
 struct CheckOutcome {

@@ -8,6 +8,8 @@
 namespace irad {
 namespace {
 
+constexpr const char* kNoLight = "no light in ";  // begins the warning of a default sun
+
 bool emits(const Scene& scene) {
   for (const Draw& draw : scene.draws)
     if (const glm::vec3& e = scene.materials[draw.material].emission; std::max({e.x, e.y, e.z}) > 0.0f) return true;
@@ -41,8 +43,16 @@ void addDefaults(Scene& scene) {
     sun.intensity = std::numbers::pi_v<float>;  // lux: a white surface facing it has radiance 1
     scene.lights.push_back(sun);
     scene.defaultLight = true;
-    scene.warnings.push_back(fmt::format("no light in {} and nothing that emits: a default sun is used", file));
+    scene.warnings.push_back(fmt::format("{}{} and nothing that emits: a default sun is used", kNoLight, file));
   }
+}
+
+void replaceLights(Scene& scene, std::vector<Light> lights) {
+  if (lights == scene.lights) return;
+  scene.lights = std::move(lights);
+  if (!scene.defaultLight) return;
+  scene.defaultLight = false;
+  std::erase_if(scene.warnings, [](const std::string& warning) { return warning.starts_with(kNoLight); });
 }
 
 }  // namespace irad

@@ -29,7 +29,6 @@ constexpr uint64_t kMemoryBudget = 1400ull << 20;    ///< bytes of all that one 
 constexpr uint64_t kMaxImageBytes = 1ull << 30;      ///< decoded, all images together
 constexpr uint64_t kMaxImageScratch = 600ull << 20;  ///< beside them while decoding, all images in progress together
 constexpr uint32_t kMaxImageExtent = 16384;          ///< pixels per side
-constexpr double kMaxLightOrEmission = 1e12;
 
 /// The bytes of a bufferView; `present` is false where its buffer is a placeholder without data.
 struct View {

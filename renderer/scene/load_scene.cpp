@@ -4,6 +4,7 @@
 
 #include "renderer/scene/gltf_document.h"
 #include "renderer/scene/sha256.h"
+#include "renderer/scene/sidecar.h"
 
 namespace irad {
 namespace {
@@ -47,6 +48,9 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) {
         material.metallicRoughnessTexture = {};
       }
     if (!cache) addDefaults(scene);
+    scene.fileLights = scene.lights;
+    if (options.sidecar) takeSidecar(scene);
+    if (options.lights) replaceLights(scene, *options.lights);
     if (options.progress) options.progress(1.0f, "scene");
     return scene;
   } catch (const Error&) {

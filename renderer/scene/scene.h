@@ -11,6 +11,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@
 
 namespace irad {
 
-constexpr double kMaxCoordinate = 1e15;  ///< of world positions, either sign: squares and their sums fit into fp32
+constexpr double kMaxCoordinate = 1e15;       ///< of world positions, either sign: squares and their sums fit into fp32
+constexpr double kMaxLightOrEmission = 1e12;  ///< of intensities, colours and emitted radiance
 
 /// A decoded image, RGBA, 8 bits per channel, top row first. `srgb` is decided by use (base colour, emissive: yes).
 struct SceneImage {
@@ -61,6 +63,7 @@ struct Light {
   float intensity = 1.0f;                         ///< sun: lux; point, spot: candela
   float range = 0.0f;                             ///< 0: unlimited
   float innerCos = 1.0f, outerCos = 0.70710678f;  ///< spot: cosines of the half-angles
+  bool operator==(const Light&) const = default;
 };
 
 struct Camera {
@@ -72,6 +75,7 @@ struct Camera {
   float ymag = 1.0f;                ///< orthographic: half height
   float aspect = 0.0f;              ///< 0: that of the viewport
   float znear = 0.1f, zfar = 0.0f;  ///< zfar 0: chosen from the bounds
+  bool operator==(const Camera&) const = default;
 };
 
 struct Draw {
@@ -97,9 +101,13 @@ struct Scene {
   std::vector<Material> materials;  ///< at least one
   std::vector<SceneImage> images;
   std::vector<Light> lights;
-  std::vector<Camera> cameras;  ///< at least one after addDefaults
+  std::vector<Light> fileLights;  ///< those of the scene file (or the default sun), where others took their place
+  std::vector<Camera> cameras;    ///< at least one after addDefaults
+  std::vector<Camera> bookmarks;  ///< further cameras, the sidecar's
+  std::filesystem::path sidecar;  ///< that lights and bookmarks come from; empty: none
 
-  /// Where it is known (check scenes): the indirect irradiance H, W/m^2, at a local point of a surface with this normal.
+  /// Where it is known (check scenes): the indirect irradiance H, W/m^2, at a local point of a surface with this
+  /// normal.
   std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)> expectedIrradiance;
 
   std::vector<std::string> warnings;  ///< in words, each once
@@ -110,7 +118,9 @@ struct Scene {
 
 struct LoadOptions {
   bool lambertian =
-      false;  ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
+      false;             ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
+  bool sidecar = false;  ///< take the sidecar beside the file (scene/sidecar.h), if there is one
+  std::optional<std::vector<Light>> lights;                        ///< in place of the file's and the sidecar's
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };
 
@@ -119,12 +129,20 @@ struct LoadOptions {
 /// fitted camera where the file has none, and a default sun where it has no light and nothing that emits; both noted.
 Scene loadScene(const std::filesystem::path& path, const LoadOptions& options = {});
 
+/// The cameras of the scene file, then the bookmarks.
+std::vector<Camera> allCameras(const Scene& scene);
+
+/// Puts other lights in place of the scene's, its default sun included.
+void replaceLights(Scene& scene, std::vector<Light> lights);
+
 /// A scene with all images decoded, for machines without image decoders. Little-endian, versioned, written atomically.
 void writeSceneCache(const Scene& scene, const std::filesystem::path& path);
 
 /// What is wrong with a scene, in words; empty where it is sound: arrays of one length, indices inside them, numbers
 /// finite and in range, directions unit. loadScene returns sound scenes only.
 std::string unsound(const Scene& scene);
+/// The same of a light: "light "lamp": its intensity -1 is not from 0 to 1e+12".
+std::string unsound(const Light& light);
 
 /// SHA-256 of a file as 64 hex digits; throws InputError when it cannot be read.
 std::string sha256File(const std::filesystem::path& path);

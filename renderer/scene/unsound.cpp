@@ -26,7 +26,7 @@ bool position(const Vector& v, double limit = kMaxCoordinate) {
   return within(v, -limit, limit);
 }
 bool brightness(double value) {
-  return value >= 0.0 && value <= static_cast<float>(gltf::kMaxLightOrEmission);
+  return value >= 0.0 && value <= static_cast<float>(kMaxLightOrEmission);
 }
 
 std::string ofVertices(const Scene& s) {
@@ -85,10 +85,7 @@ std::string ofMaterials(const Scene& s) {
 
 std::string ofLights(const Scene& s) {
   for (const Light& light : s.lights)
-    if (!position(light.position) || !unit(light.direction) || !within(light.color, 0.0, gltf::kMaxLightOrEmission) ||
-        !brightness(light.intensity) || !(light.range >= 0.0f) || !std::isfinite(light.range) ||
-        !(light.innerCos >= light.outerCos && light.outerCos >= -1.0f && light.innerCos <= 1.0f))
-      return fmt::format("light \"{}\" is out of range", light.name);
+    if (const std::string problem = unsound(light); !problem.empty()) return problem;
   return "";
 }
 
@@ -104,6 +101,22 @@ std::string ofCameras(const Scene& s) {
 }
 
 }  // namespace
+
+std::string unsound(const Light& light) {
+  const auto is = [&](const auto& what) { return fmt::format("light \"{}\": {}", light.name, what); };
+  const auto list = [](const auto& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); };
+  if (!position(light.position)) return is(fmt::format("its position {} is out of range", list(light.position)));
+  if (!unit(light.direction)) return is(fmt::format("its direction {} is not unit", list(light.direction)));
+  if (!within(light.color, 0.0, kMaxLightOrEmission))
+    return is(fmt::format("its color {} is not from 0 to {:g}", list(light.color), kMaxLightOrEmission));
+  if (!brightness(light.intensity))
+    return is(fmt::format("its intensity {} is not from 0 to {:g}", light.intensity, kMaxLightOrEmission));
+  if (!(light.range >= 0.0f) || !std::isfinite(light.range))
+    return is(fmt::format("its range {} is neither 0 nor a distance", light.range));
+  if (!(light.innerCos >= light.outerCos && light.outerCos >= -1.0f && light.innerCos <= 1.0f))
+    return is(fmt::format("its cone's cosines are {} inside and {} outside", light.innerCos, light.outerCos));
+  return "";
+}
 
 std::string unsound(const Scene& scene) {
   for (const auto check : {ofVertices, ofMaterials, ofDraws, ofLights, ofCameras})

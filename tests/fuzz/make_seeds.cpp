@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "gi/settings.h"
+#include "renderer/scene/light_json.h"
 #include "tests/scene_files.h"
 
 namespace irad {
@@ -278,6 +279,10 @@ void writeTexts(const fs::path& folder) {
   const json box = {{"position", {1e6, 0.1, 9}}, {"orientation", {0, 0.6, 0, 0.8}}, {"ymag", 2.5}, {"znear", 0}};
   write(folder / "camera_json/target.json", camera.dump());
   write(folder / "camera_json/orthographic.json", box.dump());
+  const std::vector<Light> lights{
+      {.name = "sky", .direction = {0, -0.6f, 0.8f}, .color = {1, 0.5f, 0}, .intensity = 3},
+      {.name = "bulb", .type = LightType::Point, .position = {1e6, 2, 3.25}, .range = 4},
+      {.name = "stage", .type = LightType::Spot, .position = {1, 2, 3}, .innerCos = 0.9f, .outerCos = 0.7f}};
   const json manifest = {{"program", {{"name", "irad"}}},
                          {"format", 1},
                          {"scene", {{"path", "scenes/a.glb"}, {"sha256", std::string(64, '0')}}},
@@ -285,8 +290,17 @@ void writeTexts(const fs::path& folder) {
                          {"size", {640, 480}},
                          {"frames", 3},
                          {"views", {"lit", "direct"}},
+                         {"lights", json::parse(lightsToJson(lights))},
                          {"cameras", {camera, box}}};
   write(folder / "config/manifest.json", manifest.dump(1));
+  json named = box;
+  named["name"] = "b";
+  const json sidecar = {{"format", 1},
+                        {"scene_sha256", std::string(64, '0')},
+                        {"lights", json::parse(lightsToJson(lights))},
+                        {"cameras", {camera, named}}};
+  write(folder / "sidecar/all.json", sidecar.dump(1));
+  write(folder / "sidecar/cameras.json", json{{"format", 1}, {"cameras", {camera}}}.dump());
   write(folder / "config/settings.json", R"({"matrix.rays": 64, "voxel.resolution": 32})");
 }
 

@@ -21,7 +21,8 @@ using Bytes = std::span<const uint8_t>;
   ROW(gltf)                    \
   ROW(image)                   \
   ROW(scene_cache)             \
-  ROW(settings)
+  ROW(settings)                \
+  ROW(sidecar)
 
 #define IRAD_FUZZ_DECLARE(name) void name(Bytes bytes);
 IRAD_FUZZ_READERS(IRAD_FUZZ_DECLARE)

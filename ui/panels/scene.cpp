@@ -1,4 +1,4 @@
-// The scene as loaded: file, counts, lights, warnings; its cameras; opening another.
+// The scene as loaded: file, counts, lights, warnings; opening another.
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -18,7 +18,6 @@ class ScenePanel : public Panel {
   void draw(Session& session) override {
     if (session.pipeline) {
       drawCounts(session);
-      drawCameras(session);
       drawWarnings(session.pipeline->scene());
     } else {
       ImGui::TextColored(theme::dim, "no scene");
@@ -35,7 +34,7 @@ class ScenePanel : public Panel {
     helpTooltip(scene.path.string());
     valueRow("triangles", withThousands(scene.triangleCount()));
     valueRow("materials", fmt::format("{}, {} images", scene.materials.size(), scene.images.size()));
-    valueRow("lights", lights(scene));
+    valueRow("lights", lights(session.edits.lights));
     const glm::vec3 size = scene.boundsMax - scene.boundsMin;
     valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", size.x, size.y, size.z));
     if (!session.built) return;
@@ -48,31 +47,14 @@ class ScenePanel : public Panel {
     helpTooltip("Facets whose albedo was outside 0 to .98, or no number");
   }
 
-  static std::string lights(const Scene& scene) {
+  static std::string lights(const std::vector<Light>& all) {
     size_t sun = 0, point = 0, spot = 0;
-    for (const Light& light : scene.lights)
+    for (const Light& light : all)
       ++(light.type == LightType::Sun ? sun : light.type == LightType::Point ? point : spot);
     std::string text;
     for (const auto& [count, name] : {std::pair{sun, "sun"}, {point, "point"}, {spot, "spot"}})
       if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
     return text.empty() ? "none" : text;
-  }
-
-  static void drawCameras(Session& session) {
-    const std::vector<Camera>& cameras = session.pipeline->scene().cameras;
-    if (cameras.empty()) return;
-    const auto name = [&](int i) {
-      const std::string& own = cameras[static_cast<size_t>(i)].name;
-      return own.empty() ? fmt::format("camera {}", i + 1) : own;
-    };
-    ImGui::SetNextItemWidth(-1);
-    if (!ImGui::BeginCombo("##camera", fmt::format("Camera: {}", name(session.sceneCamera)).c_str())) return;
-    for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
-      ImGui::PushID(i);
-      if (ImGui::Selectable(name(i).c_str(), i == session.sceneCamera)) session.useSceneCamera(i);
-      ImGui::PopID();
-    }
-    ImGui::EndCombo();
   }
 
   static void drawWarnings(const Scene& scene) {

@@ -1,5 +1,5 @@
 // A camera of the command line as JSON, and that it survives being written to a manifest and read again.
-#include "gi/camera_json.h"
+#include "renderer/scene/camera_json.h"
 
 #include "tests/fuzz/readers.h"
 

@@ -1,4 +1,4 @@
-#include "gi/near_match.h"
+#include "renderer/near_match.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

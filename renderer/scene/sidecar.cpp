@@ -1,0 +1,101 @@
+#include "renderer/scene/sidecar.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "renderer/error.h"
+#include "renderer/json_reader.h"
+#include "renderer/output_file.h"
+#include "renderer/scene/camera_json.h"
+#include "renderer/scene/light_json.h"
+
+namespace irad {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Comes first: a newer program's other members are no slips.
+void checkFormat(const Json& json, const std::string& file) {
+  if (!json.is_object() || !json.contains("format")) throw UsageError(file + ": format is missing");
+  const Json& format = json["format"];
+  if (!format.is_number_unsigned() || format.get<uint64_t>() < 1)
+    throw UsageError(fmt::format("{}: format: expected a whole number from 1, not {}", file, format.dump()));
+  if (format.get<uint64_t>() > kSidecarFormat)
+    throw UsageError(fmt::format("{}: is of format {}, written by a newer program; this one reads up to format {}",
+                                 file, format.get<uint64_t>(), kSidecarFormat));
+}
+
+Sidecar parse(const Json& parsed, const std::string& file) {
+  checkFormat(parsed, file);
+  const JsonObject json(parsed, file, {"format", "scene_sha256", "lights", "cameras"});
+  Sidecar sidecar;
+  if (json.has("scene_sha256")) sidecar.sceneSha256 = json.text("scene_sha256");
+  if (json.has("lights")) sidecar.lights = lightsFromJson(json.at("lights").dump(), file + ": lights");
+  if (json.has("cameras")) sidecar.bookmarks = camerasFromJson(json.at("cameras").dump(), file + ": cameras");
+  std::set<std::string> names;
+  for (size_t i = 0; i < sidecar.bookmarks.size(); ++i) {
+    const std::string& name = sidecar.bookmarks[i].name;
+    const char* wrong = name.empty() ? "a bookmark needs one" : !names.insert(name).second ? "is taken" : nullptr;
+    if (wrong) throw UsageError(fmt::format("{}: cameras[{}]: name '{}': {}", file, i, name, wrong));
+  }
+  return sidecar;
+}
+
+}  // namespace
+
+std::vector<Camera> allCameras(const Scene& scene) {
+  std::vector<Camera> cameras = scene.cameras;
+  cameras.insert(cameras.end(), scene.bookmarks.begin(), scene.bookmarks.end());
+  return cameras;
+}
+
+fs::path sidecarPath(const fs::path& scene) {
+  fs::path path = scene;
+  path += ".irad.json";
+  return path;
+}
+
+Sidecar readSidecar(const fs::path& path) {
+  try {
+    return parse(readJsonFile(path), path.string());
+  } catch (const UsageError& error) {
+    throw InputError(error.what());
+  }
+}
+
+void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
+  Json json;
+  json["format"] = kSidecarFormat;
+  if (!sidecar.sceneSha256.empty()) json["scene_sha256"] = sidecar.sceneSha256;
+  if (sidecar.lights) json["lights"] = Json::parse(lightsToJson(*sidecar.lights));
+  json["cameras"] = Json::array();
+  for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
+  writeFile(path, json.dump(2) + "\n");
+}
+
+void takeSidecar(Scene& scene) {
+  const fs::path path = sidecarPath(scene.path);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return;
+  Sidecar sidecar = readSidecar(path);
+  scene.sidecar = path;
+  if (sidecar.lights) replaceLights(scene, std::move(*sidecar.lights));
+  scene.bookmarks = std::move(sidecar.bookmarks);
+  if (!sidecar.sceneSha256.empty() && sidecar.sceneSha256 != scene.sha256)
+    scene.warnings.push_back(
+        fmt::format("{} has changed since {} was saved", scene.path.filename().string(), path.filename().string()));
+}
+
+std::string sidecarNote(const Scene& scene) {
+  const bool lights = scene.lights != scene.fileLights, cameras = !scene.bookmarks.empty();
+  return fmt::format("{} of {}",
+                     lights && cameras ? "lights and cameras"
+                     : lights          ? "lights"
+                     : cameras         ? "cameras"
+                                       : "nothing",
+                     scene.sidecar.filename().string());
+}
+
+}  // namespace irad

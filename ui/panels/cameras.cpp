@@ -1,0 +1,81 @@
+// The scene's cameras and the user's bookmarks: go to one, keep where the camera is, rename, remove.
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "ui/panel.h"
+#include "ui/sidecar_row.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+class CamerasPanel : public Panel {
+ public:
+  const char* title() const override { return "Cameras"; }
+  Region region() const override { return Region::Left; }
+
+  void draw(Session& session) override {
+    if (!session.pipeline) return ImGui::TextColored(theme::dim, "no scene");
+    const std::vector<Camera> cameras = session.cameras();
+    const int ofFile = static_cast<int>(session.pipeline->scene().cameras.size());
+    const float row = ImGui::GetTextLineHeightWithSpacing();
+    const float rows = std::min(static_cast<float>(cameras.size()), 6.0f);
+    ImGui::BeginChild("##list", {0, rows * row});
+    for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
+      ImGui::PushID(i);
+      const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
+      if (ImGui::Selectable("##row", i == session.sceneCamera)) session.useSceneCamera(i);
+      const char* kind = i < ofFile ? "scene" : "bookmark";
+      const float kindWidth = ImGui::CalcTextSize(kind).x;
+      ImGui::SameLine(start);
+      clippedText(cameraName(cameras[static_cast<size_t>(i)], i), width - kindWidth - ImGui::GetFontSize());
+      ImGui::SameLine(start + width - kindWidth);
+      ImGui::TextColored(theme::dim, "%s", kind);
+      ImGui::PopID();
+    }
+    ImGui::EndChild();
+    drawBookmark(session, ofFile);
+    sidecarRow(session);
+  }
+
+ private:
+  static void drawBookmark(Session& session, int ofFile) {
+    SceneEdits& edits = session.edits;
+    if (ImGui::Button("Add bookmark")) {
+      session.sceneCamera = ofFile + static_cast<int>(edits.addBookmark(session.camera.camera(), "bookmark"));
+      return;
+    }
+    helpTooltip("Keeps where the camera is and looks");
+    const auto index = static_cast<size_t>(session.sceneCamera - ofFile);
+    if (session.sceneCamera < ofFile || index >= edits.bookmarks.size()) return;
+    Camera& bookmark = edits.bookmarks[index];
+    ImGui::SameLine();
+    if (ImGui::Button("Set here")) {
+      const std::string name = bookmark.name;
+      bookmark = session.camera.camera();
+      bookmark.name = name;
+    }
+    helpTooltip("Moves the bookmark to where the camera is");
+    ImGui::SameLine();
+    if (ImGui::Button("Remove")) {
+      edits.bookmarks.erase(edits.bookmarks.begin() + static_cast<ptrdiff_t>(index));
+      session.sceneCamera = 0;
+      return;
+    }
+    fieldLabel("name");
+    std::string name = bookmark.name;
+    if (ImGui::InputText("##name", &name)) edits.rename(index, name);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> makeCamerasPanel() {
+  return std::make_unique<CamerasPanel>();
+}
+
+}  // namespace irad

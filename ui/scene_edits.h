@@ -1,0 +1,62 @@
+// What the window's user has made of a scene beside its file: lights and camera bookmarks. Panels and handles edit
+// them, the builder hands the lights to the pipeline, the sidecar keeps them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/scene/sidecar.h"
+
+namespace irad {
+
+/// "lamp", or "lamp 2" where that is taken, and so on.
+std::string freeName(const std::string& wanted, const std::vector<std::string>& taken);
+
+class SceneEdits {
+ public:
+  std::vector<Light> lights;
+  std::vector<Camera> bookmarks;
+  int selected = -1;        ///< the light that has handles and whose fields are shown; -1: none
+  bool showHandles = true;  ///< in the picture
+
+  /// Begins with what the scene came with. `file`: where save() writes; empty where `reason` says why nowhere.
+  void begin(const Scene& scene, std::filesystem::path file, std::string reason);
+  /// The same file, loaded again: edits stay, of what it holds and of its cameras.
+  void again(const Scene& scene);
+
+  Light* light();  ///< the selected one; null: none
+  /// Appends under a free name and selects it.
+  void add(Light light);
+  void remove();  ///< the selected one
+  /// The light that undoRemoval() would bring back; null: none.
+  const Light* removed() const;
+  void undoRemoval();
+
+  /// A copy of `camera` under a free name: its index.
+  size_t addBookmark(const Camera& camera, const std::string& name);
+  /// Nothing happens where the name is empty or taken.
+  void rename(size_t bookmark, const std::string& name);
+
+  bool modified() const;                                                    ///< since it was loaded or saved
+  bool kept() const { return saved_.lights || !saved_.bookmarks.empty(); }  ///< the file holds something
+  const std::filesystem::path& file() const { return file_; }
+  const std::string& whyNowhere() const { return reason_; }
+  /// Writes the sidecar; WorkError where that fails or there is nowhere to write: the edits stay as they are.
+  void save();
+  void revert();  ///< to what was saved
+
+ private:
+  Sidecar current() const;
+  std::vector<std::string> cameraNames() const;  ///< of the scene's and the bookmarks
+  std::vector<Light> fileLights_;
+  std::vector<std::string> fileCameras_;  ///< names
+  std::string sceneSha256_;
+  Sidecar saved_;
+  std::filesystem::path file_;
+  std::string reason_;
+  std::vector<std::pair<size_t, Light>> removed_;  ///< and where they stood, the last one at the end
+};
+
+}  // namespace irad
