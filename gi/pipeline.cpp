@@ -30,6 +30,7 @@ struct Pipeline::Impl {
   SceneOnDevice onDevice;
   Buffer camera;
   uint64_t frameIndex = 0;
+  Revision revision;
   uint64_t solvedFrame = 0;  ///< of the last solve
 
   /// The first stage that the next prepare() has to run. Later stages follow it.
@@ -70,6 +71,7 @@ struct Pipeline::Impl {
   /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
   void build(Products& p, Redo first, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
+    ++revision.build;
     const auto report = [&](const char* stage, float fraction) {
       if (progress && !progress(stage, fraction)) throw WorkError("cancelled");
     };
@@ -117,6 +119,7 @@ struct Pipeline::Impl {
   /// holds, then H to where shading reads it.
   void relight(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
+    ++revision.light;
     // A new list has no light yet: given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (!p.light) p.light = makeLighting(context, *p.facets, settings);
@@ -253,6 +256,9 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   drawView(frame, view, inputs, p.camera, p.settings, targets);
 }
 
+Revision Pipeline::revision() const {
+  return impl_->revision;
+}
 const FacetList& Pipeline::facets() const {
   return *impl_->now.facets;
 }

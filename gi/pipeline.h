@@ -15,6 +15,13 @@ namespace irad {
 /// Called between steps with the running stage's name and its share done; returns false to cancel.
 using Progress = std::function<bool(const char* stage, float fraction)>;
 
+/// How often a pipeline has begun to make its products anew.
+struct Revision {
+  uint64_t build = 0;  ///< facets, field, matrix
+  uint64_t light = 0;
+  bool operator==(const Revision&) const = default;
+};
+
 class Pipeline {
  public:
   Pipeline(Context& context, Scene scene, const Settings& settings);
@@ -50,6 +57,8 @@ class Pipeline {
   /// One picture of `view` into targets.linear and targets.display.
   void render(Frame& frame, const Camera& camera, View view, Targets& targets);
 
+  /// What was read of the products before is stale once these are larger.
+  Revision revision() const;
   const FacetList& facets() const;
   const Field& field() const;
   const FormFactors& matrix() const;  ///< after a prepare() that succeeded

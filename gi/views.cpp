@@ -25,11 +25,6 @@ constexpr bool toneMapped(uint32_t kind) {
   return kind == VIEW_KIND_LIGHT || kind == VIEW_KIND_IRRADIANCE;
 }
 
-/// Views that are drawn on the voxels by their own shader.
-bool onVoxels(View view) {
-  return (view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS) || view == VIEW_REFERENCE;
-}
-
 }  // namespace
 
 const std::vector<ViewInfo>& views() {
@@ -46,6 +41,10 @@ std::optional<View> findView(std::string_view name) {
   const auto& all = views();
   const auto found = std::find_if(all.begin(), all.end(), [&](const ViewInfo& v) { return name == v.name; });
   return found != all.end() ? std::optional(found->view) : std::nullopt;
+}
+
+bool drawnOnVoxels(View view) {
+  return (view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS) || view == VIEW_REFERENCE;
 }
 
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
@@ -66,7 +65,7 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   nearest.linearMips = false;
   const VkSampler point = sampler(frame.context().device, nearest);
 
-  if (!onVoxels(view)) {
+  if (!drawnOnVoxels(view)) {
     frame.pass("View")
         .shader("view/debug_view.comp")
         .constant(0, view)

@@ -25,6 +25,8 @@ struct ViewInfo {
 };
 const std::vector<ViewInfo>& views();
 std::optional<View> findView(std::string_view name);
+/// Shown on the voxels' cubes, not on the surfaces.
+bool drawnOnVoxels(View view);
 
 /// Everything that a view may draw from; absent parts are null and draw as empty.
 struct ViewInputs {
