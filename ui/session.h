@@ -15,6 +15,7 @@
 #include "renderer/frame.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
+#include "ui/inspection.h"
 #include "ui/preferences.h"
 
 namespace irad {
@@ -105,6 +106,8 @@ struct Session : Side {
   /// Both sides of what there is, the edited one first.
   std::vector<Side*> sides();
   bool allAsleep() const { return asleep() && (!comparison || comparison->other.asleep()); }
+
+  Inspection inspection;
 
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "gi/pipeline.h"
@@ -14,7 +15,8 @@ struct WindowOptions {
   Settings settings;
   Settings defaults;  ///< of this device class, for the reset buttons
   View view = 0;
-  std::string camera;  ///< of the scene, by name; empty: its first
+  std::optional<glm::uvec3> inspect;  ///< voxel to begin with in the inspector
+  std::string camera;                 ///< of the scene, by name; empty: its first
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";
