@@ -148,6 +148,14 @@ uint64_t parseInteger(const std::string& option, const std::string& text, uint64
   return value;
 }
 
+glm::uvec3 parseVoxel(const std::string& option, const std::string& text) {
+  const std::vector<std::string> axes = splitList(option, {text});
+  if (axes.size() != 3) throw UsageError(fmt::format("{}: '{}' is not X,Y,Z", option, text));
+  glm::uvec3 voxel;
+  for (int a = 0; a < 3; ++a) voxel[a] = static_cast<uint32_t>(parseInteger(option, axes[a], 0, 1023));
+  return voxel;
+}
+
 glm::uvec2 parseSize(const std::string& text) {
   const size_t x = text.find('x');
   if (x == std::string::npos) throw UsageError(fmt::format("--size: '{}' is not WIDTHxHEIGHT", text));

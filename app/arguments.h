@@ -48,6 +48,8 @@ struct PictureArguments {
 
 /// A whole number of an option; UsageError names the option and the range.
 uint64_t parseInteger(const std::string& option, const std::string& text, uint64_t min, uint64_t max);
+/// "12,3,40": a voxel's place in the grid, which is not known yet.
+glm::uvec3 parseVoxel(const std::string& option, const std::string& text);
 /// "640x480".
 glm::uvec2 parseSize(const std::string& text);
 /// Elements of "a,b,c", empty ones refused.

@@ -60,7 +60,6 @@ auto readArray(const fs::path& path, const Json& json, const char* name, Parse&&
     throw InputError(error.what());
   }
 }
-}
 
 /// A file of a newer program may mean other things by the names it shares with ours.
 void checkFormat(const fs::path& path, const Json& json) {

@@ -1,4 +1,5 @@
-// `irad export`: volumes, matrix and facets as .npy, with a manifest; or a scene with its images decoded.
+// `irad export`: volumes, matrix and facets as .npy, the record of a voxel as JSON, with a manifest; or a scene with
+// its images decoded.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "app/session.h"
 #include "gi/check/check.h"
 #include "gi/export.h"
+#include "gi/inspect.h"
 #include "gi/pipeline.h"
 #include "renderer/error.h"
 #include "renderer/near_match.h"
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
-  std::optional<std::string> scene, out, cache;
+  std::optional<std::string> scene, out, cache, inspect;
   std::vector<std::string> volumes;
   bool matrix = false, facets = false;
   SceneArguments sceneOptions;
@@ -58,7 +60,19 @@ std::string gridJson(const Scene& scene, const Grid& grid) {
   return json.dump();
 }
 
-void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes, const fs::path& scenePath) {
+/// inspect.json: the record of one voxel, and its light sweep by sweep. `voxel` is in the grid and holds facets.
+fs::path exportRecord(Session& session, const Pipeline& pipeline, const Inspector& inspector, const glm::uvec3& voxel,
+                      const fs::path& folder) {
+  const SolveHistory history =
+      replaySolve(*session.context, pipeline, inspector.facetsOf(voxel),
+                  [&](const char* stage, float fraction) { return session.progress(stage, fraction); });
+  const fs::path path = folder / "inspect.json";
+  writeFile(path, inspectJson(inspector.voxel(voxel), inspector.grid(), pipeline.facets().encoding, history));
+  return path;
+}
+
+void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
+                 const std::optional<glm::uvec3>& inspected, const fs::path& scenePath) {
   Session session(arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const fs::path out = arguments.out.value_or("out");
@@ -66,6 +80,8 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
   session.prepare(pipeline);
   session.checkNumbers(pipeline);  // before anything is written: whoever reads an array does not look at it
+  std::optional<Inspector> inspector;
+  if (inspected) inspector.emplace(*session.context, pipeline).requireFacets(*inspected);
 
   // The manifest comes last and vouches for the rest: that of an earlier run goes first.
   removeFile(out / "manifest.json");
@@ -78,6 +94,7 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   };
   if (arguments.matrix) append(exportMatrix(*session.context, pipeline.matrix(), out));
   if (arguments.facets) append(exportFacets(*session.context, pipeline.facets(), pipeline.lighting(), out));
+  if (inspected) written.push_back(exportRecord(session, pipeline, *inspector, *inspected, out));
 
   Manifest manifest = session.manifest("export", pipeline);
   for (const Volume volume : volumes) {
@@ -86,6 +103,10 @@ void exportArrays(const Arguments& arguments, const std::vector<Volume>& volumes
   }
   if (arguments.matrix) manifest.arguments.emplace_back("--matrix");
   if (arguments.facets) manifest.arguments.emplace_back("--facets");
+  if (inspected) {
+    manifest.arguments.emplace_back("--inspect");
+    manifest.arguments.push_back(*arguments.inspect);
+  }
   manifest.details.emplace_back("grid", gridJson(pipeline.scene(), pipeline.facets().grid));
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
   writeFile(out / "manifest.json", manifest.toJson());
@@ -99,8 +120,11 @@ void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   const std::vector<Volume> volumes = parseVolumes(arguments.volumes);
-  const bool arrays = !volumes.empty() || arguments.matrix || arguments.facets;
-  if (!arrays && !arguments.cache) throw UsageError("nothing to export: give --volume, --matrix, --facets or --cache");
+  std::optional<glm::uvec3> inspected;
+  if (arguments.inspect) inspected = parseVoxel("--inspect", *arguments.inspect);
+  const bool files = !volumes.empty() || arguments.matrix || arguments.facets || inspected;
+  if (!files && !arguments.cache)
+    throw UsageError("nothing to export: give --volume, --matrix, --facets, --inspect or --cache");
   const Config config = arguments.settings.readConfig();
   const fs::path scenePath = findScene(arguments.scene, config, std::nullopt);
   if (arguments.cache) {
@@ -108,14 +132,14 @@ void run(const Arguments& arguments) {
     writeSceneCache(openScene(scenePath, arguments.sceneOptions.load(config, settings)), *arguments.cache);
     fmt::print("wrote       {}\n", *arguments.cache);
   }
-  if (arrays) exportArrays(arguments, volumes, scenePath);
+  if (files) exportFiles(arguments, volumes, inspected, scenePath);
 }
 
 }  // namespace
 
 Command exportCommand() {
   const auto arguments = std::make_shared<Arguments>();
-  return {"export", "Write volumes, the matrix or facets as .npy",
+  return {"export", "Write volumes, the matrix or facets as .npy, or a voxel's record as JSON",
           [arguments](Options& options) {
             options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
@@ -125,6 +149,9 @@ Command exportCommand() {
             options.flag("--matrix", arguments->matrix,
                          "indptr.npy, indices.npy, data.npy: what scipy.sparse.csr_matrix takes");
             options.flag("--facets", arguments->facets, "facet_NAME.npy: one row per facet, in matrix order");
+            options.value("--inspect", "X,Y,Z", arguments->inspect,
+                          "inspect.json: all that is known of one voxel, its facets, their rows and columns of the "
+                          "matrix, and H after every sweep from the dark");
             options.value("--cache", "FILE", arguments->cache,
                           "The scene with its images decoded (.irscene), for builds without image decoders");
             arguments->sceneOptions.declare(options);

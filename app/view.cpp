@@ -23,12 +23,13 @@ struct Arguments {
   SettingArguments settings;
   DeviceArguments device;
   ReferenceArgument reference;
-  std::optional<std::string> scene, size, view, camera, scale, captures, shaders, exitAfter, screenshot;
+  std::optional<std::string> scene, size, view, camera, inspect, scale, captures, shaders, exitAfter, screenshot;
 
   void declare(Options& options) {
     options.argument("SCENE", scene, "glTF scene, or the name of a built-in one (default: box)");
     options.value("--view", "NAME", view, "View to begin with (default: lit; 'irad views' lists them)");
     options.value("--camera", "NAME", camera, "Camera of the scene to begin with (default: its first)");
+    options.value("--inspect", "X,Y,Z", inspect, "Voxel to begin with in the inspector");
     options.value("--size", "WxH", size, "Size of the window (default: 1280x720)");
     options.value("--scale", "FACTOR", scale, "Size of text and panels, times the monitor's own (default: 1)");
     options.value("--out", "DIR", captures, "Where F12 saves (default: out/captures)");
@@ -72,6 +73,7 @@ void run(const Arguments& arguments) {
   options.scene = findScene(arguments.scene, config, "box");
   options.builtIn = builtInFolders();
   if (arguments.view) options.view = findViews({*arguments.view}).front().view;
+  if (arguments.inspect) options.inspect = parseVoxel("--inspect", *arguments.inspect);
   if (arguments.size) options.size = parseSize(*arguments.size);
   if (arguments.scale) options.scale = parseScale(*arguments.scale);
   if (arguments.camera) options.camera = *arguments.camera;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/host_facets.h"
 #include "gi/host_matrix.h"
 #include "renderer/error.h"
 #include "renderer/output_file.h"
@@ -54,19 +55,6 @@ std::vector<glm::vec3> perVoxel(Context& context, const FacetList& facets, const
   return out;
 }
 
-std::vector<float> distances(Context& context, const FacetList& facets, const Field& field) {
-  std::vector<float> out;
-  out.reserve(facets.grid.voxels);
-  const bool jfa = field.method == FieldMethod::jfa;
-  const std::vector<std::byte> bytes = jfa ? download(context, field.jfaDistance) : download(context, field.chebyshev);
-  IRAD_CHECK_OP(bytes.size(), >=, facets.grid.voxels);
-  for (uint32_t v = 0; v < facets.grid.voxels; ++v) {
-    const float value = static_cast<float>(std::to_integer<uint32_t>(bytes[v]));
-    out.push_back(jfa ? value / 255.0f * field.jfaMax : value);
-  }
-  return out;
-}
-
 std::span<const float> floats(const std::vector<glm::vec3>& values) {
   return {reinterpret_cast<const float*>(values.data()), values.size() * 3};
 }
@@ -78,7 +66,7 @@ fs::path exportVolume(Context& context, Volume volume, const FacetList& facets, 
   const fs::path path = folder / (std::string(EnumNames<Volume>::names.at(static_cast<size_t>(volume))) + ".npy");
   const glm::uvec3 dims = facets.grid.dims;
   if (volume == Volume::distance) {
-    writeNpy<float>(path, {dims.z, dims.y, dims.x}, distances(context, facets, field));
+    writeNpy<float>(path, {dims.z, dims.y, dims.x}, hostDistances(context, facets.grid, field));
     return path;
   }
   std::vector<glm::vec3> values;

@@ -66,10 +66,9 @@ Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& t
 
 /// Attributes of all facets ("GI Voxelization": in the thesis the voxelizer writes them). Returns how many albedos had
 /// to be clamped.
-uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& list, const Buffer& triangles,
-                     const Settings& settings) {
+uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& list, const Settings& settings) {
   const SceneOnDevice& scene = *voxels.scene;
-  const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, triangles));
+  const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, list.triangle));
   const Buffer facets =
       makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.facets));
   const Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
@@ -78,7 +77,7 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
   push.grid = voxels.gridRecord.address;
   push.order = facets.address;
   push.voxel = list.voxel.address;
-  push.triangle = triangles.address;
+  push.triangle = list.triangle.address;
   push.shape = list.shape.address;
   push.albedo = list.albedo.address;
   push.emission = list.emission.address;
@@ -95,7 +94,7 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
         .shader("gi/facet_shade.comp")
         .constant(kSamplesTextures, textured)
         .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-              scene.uv1, scene.colors, scene.normals, voxels.gridRecord, facets, list.voxel, triangles)
+              scene.uv1, scene.colors, scene.normals, voxels.gridRecord, facets, list.voxel, list.triangle)
         .write(list.shape, list.albedo, list.emission, clamped)
         .run([&](Commands& commands) {
           for (const Group& group : order.groups) {
@@ -164,19 +163,19 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
     throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, SECOND_FACET - 1));
 
   allocate(context.device, list);
-  Buffer triangles(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
+  list.triangle = Buffer(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
   push.voxel = list.voxel.address;
-  push.triangle = triangles.address;
+  push.triangle = list.triangle.address;
   push.reverse = list.reverse.address;
   Frame frame = context.begin();
   frame.pass(kStage)
       .shader("gi/facet_emit.comp")
       .read(voxels.keys, voxels.gridRecord, blocks)
-      .write(list.voxel, triangles, list.reverse)
+      .write(list.voxel, list.triangle, list.reverse)
       .push(push)
       .dispatch(push.blocks);
   frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, triangles, settings);
+  if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, settings);
   makeRecord(context, list);
   if (settings.matrix.gpu.hitRule == HIT_RULE_ROBUST) markCorners(context, list);  // the thesis's rule asks for none
   voxels.keys = Buffer();

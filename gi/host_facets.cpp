@@ -1,5 +1,6 @@
 #include "gi/host_facets.h"
 
+#include "renderer/error.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 
@@ -25,6 +26,28 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
                                    : std::vector<glm::vec3>(list.count, glm::vec3(0));
   host.emission.resize(list.count);
   return host;
+}
+
+oracle::Facets oracleFacets(Context& context, const FacetList& list) {
+  return {list.grid,
+          static_cast<uint32_t>(list.encoding),
+          downloadAs<uint32_t>(context, list.voxel),
+          downloadAs<uint32_t>(context, list.shape),
+          downloadAs<uint32_t>(context, list.reverse),
+          downloadAs<uint32_t>(context, list.around)};
+}
+
+std::vector<float> hostDistances(Context& context, const Grid& grid, const Field& field) {
+  const bool jfa = field.method == FieldMethod::jfa;
+  const std::vector<std::byte> bytes = jfa ? download(context, field.jfaDistance) : download(context, field.chebyshev);
+  IRAD_CHECK_OP(bytes.size(), >=, grid.voxels);
+  std::vector<float> out;
+  out.reserve(grid.voxels);
+  for (uint32_t v = 0; v < grid.voxels; ++v) {
+    const float value = static_cast<float>(std::to_integer<uint32_t>(bytes[v]));
+    out.push_back(jfa ? value / 255.0f * field.jfaMax : value);
+  }
+  return out;
 }
 
 }  // namespace irad

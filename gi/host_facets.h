@@ -1,8 +1,9 @@
-// The facet list in host memory: for exports, checks and the oracle's view.
+// The facet list and the distance field in host memory: for exports, checks, the inspector and the oracle.
 #pragma once
 
 #include <vector>
 
+#include "gi/oracle/rays.h"
 #include "gi/stages.h"
 
 namespace irad {
@@ -17,5 +18,10 @@ struct HostFacets {
   size_t count() const { return voxel.size(); }
 };
 HostFacets hostFacets(Context& context, const FacetList& list);
+/// The same list as the oracle's rays take it.
+oracle::Facets oracleFacets(Context& context, const FacetList& list);
+
+/// Of every voxel to the nearest solid one in the metric of field.method, voxels.
+std::vector<float> hostDistances(Context& context, const Grid& grid, const Field& field);
 
 }  // namespace irad

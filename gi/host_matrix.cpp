@@ -2,11 +2,51 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <utility>
 
 #include "renderer/error.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
+
+namespace {
+
+/// Where a row's words begin within its segment.
+size_t firstWord(const MatrixArrays& arrays, MatrixFormat format, uint32_t row, uint32_t rowStart) {
+  if (format == MatrixFormat::csr) return rowStart;
+  return 2 * size_t{row & ((1u << arrays.segmentShift) - 1)} * arrays.stride;
+}
+/// And how many there are.
+size_t wordCount(MatrixFormat format, glm::uvec2 info) {
+  return size_t{rowEntries(info)} * (format == MatrixFormat::csr ? 1 : 2);
+}
+
+HostRow decode(const MatrixArrays& arrays, MatrixFormat format, glm::uvec2 info, std::span<const uint32_t> words) {
+  HostRow row;
+  row.invalid = rowInvalid(info);
+  row.weight = std::bit_cast<float>(info.y);
+  for (uint32_t i = 0; i < rowEntries(info); ++i) {
+    if (format == MatrixFormat::csr) {
+      row.columns.push_back(words[i] & ((1u << arrays.columnBits) - 1));
+      row.hits.push_back(words[i] >> arrays.columnBits);
+    } else {
+      row.columns.push_back(words[2 * i]);
+      row.hits.push_back(1);
+      IRAD_CHECK_OP(words[2 * i + 1], ==, info.y);
+    }
+  }
+  return row;
+}
+
+/// Part of a buffer, once the frame has finished.
+template <class T>
+void readPart(Frame& frame, const Buffer& buffer, size_t first, std::span<T> out) {
+  frame.readback(buffer, first * sizeof(T), out.size_bytes(),
+                 [out](std::span<const uint8_t> bytes) { std::memcpy(out.data(), bytes.data(), bytes.size()); });
+}
+
+}  // namespace
 
 double HostRow::sum() const {
   uint64_t n = 0;
@@ -17,30 +57,54 @@ double HostRow::sum() const {
 void forEachRow(Context& context, const FormFactors& matrix, const std::function<void(uint32_t, const HostRow&)>& f) {
   const MatrixArrays arrays = downloadAs<MatrixArrays>(context, matrix.record).at(0);
   const std::vector<glm::uvec2> info = downloadAs<glm::uvec2>(context, matrix.rowInfo);
-  const bool csr = matrix.format == MatrixFormat::csr;
-  std::vector<uint32_t> starts, segment;
-  if (csr) starts = downloadAs<uint32_t>(context, matrix.rowStart);
+  std::vector<uint32_t> starts(matrix.rows), segment;
+  if (matrix.format == MatrixFormat::csr) starts = downloadAs<uint32_t>(context, matrix.rowStart);
   uint32_t held = UINT32_MAX;
   for (uint32_t r = 0; r < matrix.rows; ++r) {
-    const uint32_t wanted = r >> arrays.segmentShift, within = r & ((1u << arrays.segmentShift) - 1);
+    const uint32_t wanted = r >> arrays.segmentShift;
     if (wanted != held) segment = downloadAs<uint32_t>(context, matrix.segments.at(held = wanted));
-    HostRow row;
-    row.invalid = rowInvalid(info[r]);
-    row.weight = std::bit_cast<float>(info[r].y);
-    for (uint32_t i = 0; i < rowEntries(info[r]); ++i) {
-      if (csr) {
-        const uint32_t entry = segment.at(size_t{starts.at(r)} + i);
-        row.columns.push_back(entry & ((1u << arrays.columnBits) - 1));
-        row.hits.push_back(entry >> arrays.columnBits);
-      } else {
-        const size_t place = 2 * (size_t{within} * arrays.stride + i);
-        row.columns.push_back(segment.at(place));
-        row.hits.push_back(1);
-        IRAD_CHECK_OP(segment.at(place + 1), ==, info[r].y);
-      }
-    }
-    f(r, row);
+    const size_t first = firstWord(arrays, matrix.format, r, starts.at(r)), count = wordCount(matrix.format, info[r]);
+    IRAD_CHECK_OP(first + count, <=, segment.size());
+    f(r, decode(arrays, matrix.format, info[r], std::span(segment).subspan(first, count)));
   }
+}
+
+HostRow readRow(Context& context, const FormFactors& matrix, uint32_t row) {
+  IRAD_CHECK_OP(row, <, matrix.rows);
+  MatrixArrays arrays{};
+  glm::uvec2 info{};
+  uint32_t start = 0;
+  Frame record = context.beginUntimed();
+  readPart(record, matrix.record, 0, std::span(&arrays, 1));
+  readPart(record, matrix.rowInfo, row, std::span(&info, 1));
+  if (matrix.format == MatrixFormat::csr) readPart(record, matrix.rowStart, row, std::span(&start, 1));
+  record.submitAndWait();
+  std::vector<uint32_t> words(wordCount(matrix.format, info));
+  if (!words.empty()) {
+    Frame entries = context.beginUntimed();
+    readPart(entries, matrix.segments.at(row >> arrays.segmentShift), firstWord(arrays, matrix.format, row, start),
+             std::span(words));
+    entries.submitAndWait();
+  }
+  return decode(arrays, matrix.format, info, words);
+}
+
+std::vector<uint32_t> readColumn(Context& context, const FormFactors& matrix, uint32_t column) {
+  IRAD_CHECK_OP(column, <, matrix.rows);
+  const Buffer hits(context.device, "hits of a column", Subsystem::Staging, 4ull * matrix.rows);
+  Frame frame = context.beginUntimed();
+  Pass pass = frame.pass("Matrix column");
+  pass.shader("gi/matrix_column.comp")
+      .constant(0, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
+      .read(matrix.record, matrix.rowStart, matrix.rowInfo)
+      .write(hits)
+      .push(MatrixColumnPush{matrix.record.address, hits.address, column, 0});
+  for (const Buffer& segment : matrix.segments) pass.read(segment);
+  pass.dispatch(matrix.rows);
+  frame.submitAndWait();
+  std::vector<uint32_t> out = downloadAs<uint32_t>(context, hits);
+  out.resize(matrix.rows);
+  return out;
 }
 
 std::vector<HostRow> hostRows(Context& context, const FormFactors& matrix) {

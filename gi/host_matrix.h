@@ -1,4 +1,4 @@
-// The form-factor matrix in host memory, row by row: for exports, checks and tests.
+// The form-factor matrix in host memory, row by row: for exports, checks, the inspector and tests.
 #pragma once
 
 #include <functional>
@@ -20,6 +20,10 @@ struct HostRow {
 /// Calls f(row index, row) in order; one segment in memory at a time.
 void forEachRow(Context& context, const FormFactors& matrix, const std::function<void(uint32_t, const HostRow&)>& f);
 std::vector<HostRow> hostRows(Context& context, const FormFactors& matrix);
+/// One row alone.
+HostRow readRow(Context& context, const FormFactors& matrix, uint32_t row);
+/// Hits on a column in every row: who gathers from that facet. A scan of the rows on the device.
+std::vector<uint32_t> readColumn(Context& context, const FormFactors& matrix, uint32_t column);
 /// Columns ascending, each once, hits added up.
 HostRow merged(const HostRow& row);
 

@@ -28,13 +28,15 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   const auto image = [&](const Image& i, uint64_t bytes) {
     if (i) out.emplace_back(i.desc.name, bytes);
   };
-  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission; reverse map one word per voxel.
+  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission; reverse map one word per voxel;
+  // faces around, winning triangle.
   buffer(facets.voxel, 4 * s);
   buffer(facets.shape, 4 * s);
   buffer(facets.albedo, 8 * s);
   if (facets.hasEmission) buffer(facets.emission, 12 * s);
   buffer(facets.reverse, 4 * V);
   buffer(facets.around, 4 * s);
+  buffer(facets.triangle, 4 * s);
   // Fields: one byte per voxel each; JFA seeds one word.
   buffer(field.chebyshev, (V + 3) / 4 * 4);
   image(field.jfaDistance, V);

@@ -30,6 +30,7 @@ struct Pipeline::Impl {
   SceneOnDevice onDevice;
   Buffer camera;
   uint64_t frameIndex = 0;
+  Revision revision;
   uint64_t solvedFrame = 0;  ///< of the last solve
 
   /// The first stage that the next prepare() has to run. Later stages follow it.
@@ -72,6 +73,7 @@ struct Pipeline::Impl {
   /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
   void build(Products& p, Redo first, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
+    ++revision.build;
     const auto report = [&](const char* stage, float fraction) {
       if (progress && !progress(stage, fraction)) throw WorkError("cancelled");
     };
@@ -119,6 +121,7 @@ struct Pipeline::Impl {
   /// holds, then H to where shading reads it.
   void relight(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
+    ++revision.light;
     // A new list has no light yet: given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (!p.light) p.light = makeLighting(context, *p.facets, settings);
@@ -289,6 +292,9 @@ bool Pipeline::hasReference() const {
   return static_cast<bool>(impl_->picture);
 }
 
+Revision Pipeline::revision() const {
+  return impl_->revision;
+}
 const FacetList& Pipeline::facets() const {
   return *impl_->now.facets;
 }

@@ -16,6 +16,13 @@ namespace irad {
 /// Called between steps with the running stage's name and its share done; returns false to cancel.
 using Progress = std::function<bool(const char* stage, float fraction)>;
 
+/// How often a pipeline has begun to make its products anew.
+struct Revision {
+  uint64_t build = 0;  ///< facets, field, matrix
+  uint64_t light = 0;
+  bool operator==(const Revision&) const = default;
+};
+
 class Pipeline {
  public:
   Pipeline(Context& context, Scene scene, const Settings& settings);
@@ -59,6 +66,8 @@ class Pipeline {
   void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels);
   bool hasReference() const;
 
+  /// What was read of the products before is stale once these are larger.
+  Revision revision() const;
   const FacetList& facets() const;
   const Field& field() const;
   const FormFactors& matrix() const;  ///< after a prepare() that succeeded

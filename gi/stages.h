@@ -46,7 +46,8 @@ struct FacetList {
   uint32_t solidVoxels = 0;
   uint32_t clampedAlbedo = 0;  ///< facets whose albedo was outside [0, .98] or not a number
   Buffer voxel, shape, albedo, emission, reverse, around;
-  Buffer record;  ///< one FacetArrays
+  Buffer triangle;  ///< which triangle won, | BACK_SIDE where its back did, for the inspector; none of uploaded lists
+  Buffer record;    ///< one FacetArrays
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
   FacetArrays addresses() const;

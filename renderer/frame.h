@@ -220,6 +220,8 @@ void upload(Context& context, const Image& image, std::span<const std::byte> byt
 void generateMips(Context& context, const Image& image);
 std::vector<std::byte> download(Context& context, const Buffer& buffer);
 std::vector<std::byte> download(Context& context, const Image& image);  ///< mip 0, all layers, tightly packed
+/// One texel of a 2D image, from its top left.
+std::vector<std::byte> downloadTexel(Context& context, const Image& image, glm::uvec2 texel);
 
 template <class T>
 Buffer makeBuffer(Context& context, std::string name, Subsystem subsystem, std::span<const T> values) {

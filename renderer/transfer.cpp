@@ -24,12 +24,15 @@ void finish(Frame& frame, ResourceState& state) {
   state = {.defined = state.defined};
 }
 
+VkImageAspectFlags aspectOf(const FormatInfo& format) {
+  return format.kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
 /// Visits an image as pieces of whole rows (or slices, or layers) that fit in a chunk: body(piece, byte offset, bytes).
 void forPieces(const Image& image, const std::function<void(const VkBufferImageCopy&, uint64_t, uint64_t)>& body) {
   const ImageDesc& d = image.desc;
   const FormatInfo format = formatInfo(d.format);
-  const VkImageAspectFlags aspect =
-      format.kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+  const VkImageAspectFlags aspect = aspectOf(format);
   const uint64_t row = uint64_t{d.width} * format.bytes;
   const auto rows = static_cast<uint32_t>(std::clamp<uint64_t>(kChunk / row, 1, d.height));
   uint64_t at = 0;
@@ -101,25 +104,45 @@ std::vector<std::byte> download(Context& context, const Buffer& buffer) {
   return bytes;
 }
 
+namespace {
+void copyToHost(Context& context, const Image& image, const VkBufferImageCopy& piece, const Buffer& staging) {
+  Frame frame = context.beginUntimed();
+  frame.pass("Download")
+      .declare(image, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT})
+      .declare(staging, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT})
+      .record([&](VkCommandBuffer commands) {
+        vkCmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, staging.handle, 1, &piece);
+      });
+  frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {
+  });
+  finish(frame, image.state);
+}
+}  // namespace
+
 std::vector<std::byte> download(Context& context, const Image& image) {
   std::vector<std::byte> bytes(texelBytes(image));
   const uint64_t row = uint64_t{image.desc.width} * formatInfo(image.desc.format).bytes;
   const Buffer staging(context.device, "download", Subsystem::Staging,
                        std::min<uint64_t>(bytes.size(), std::max(kChunk, row)), Access::Readback);
   forPieces(image, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
-    Frame frame = context.beginUntimed();
-    frame.pass("Download")
-        .declare(image, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT})
-        .declare(staging, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT})
-        .record([&](VkCommandBuffer commands) {
-          vkCmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, staging.handle, 1, &piece);
-        });
-    frame.pass("Download").declare(staging, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}).record([](auto) {
-    });
-    finish(frame, image.state);
+    copyToHost(context, image, piece, staging);
     std::memcpy(bytes.data() + at, staging.mapped, size);
   });
   return bytes;
+}
+
+std::vector<std::byte> downloadTexel(Context& context, const Image& image, glm::uvec2 texel) {
+  const FormatInfo format = formatInfo(image.desc.format);
+  IRAD_CHECK(texel.x < image.desc.width && texel.y < image.desc.height, "texel {}, {} of {}, {} x {}", texel.x, texel.y,
+             image.desc.name, image.desc.width, image.desc.height);
+  const Buffer staging(context.device, "download", Subsystem::Staging, format.bytes, Access::Readback);
+  copyToHost(context, image,
+             {.imageSubresource = {aspectOf(format), 0, 0, 1},
+              .imageOffset = {static_cast<int32_t>(texel.x), static_cast<int32_t>(texel.y), 0},
+              .imageExtent = {1, 1, 1}},
+             staging);
+  const auto* bytes = static_cast<const std::byte*>(staging.mapped);
+  return {bytes, bytes + format.bytes};
 }
 
 void generateMips(Context& context, const Image& image) {

@@ -64,6 +64,8 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"render", "box", "--camera", "{"}, "not JSON"},
       {{"export", "box"}, "nothing to export"},
       {{"export", "box", "--volume", "radiosty"}, "did you mean radiosity"},
+      {{"export", "box", "--inspect", "3,4"}, "--inspect: '3,4' is not X,Y,Z"},
+      {{"export", "box", "--inspect", "3,4,x"}, "--inspect: 'x' is not allowed; expected an integer, 0 to 1023"},
       {{"bench", "box", "--versus", "matrix.fromat=csr"}, "did you mean matrix.format"},
       {{"bench", "box", "--rebuilds", "x"}, "--rebuilds: 'x'"},
       {{"settings", "--bogus"}, "unknown option '--bogus'"},
@@ -380,6 +382,34 @@ TEST(ExportCommand, ArraysAndTheirPlaceInTheWorld) {
             18);  // 16 and one of padding per side
   EXPECT_TRUE(contains(slurp(folder.path / "distance.npy"), fmt::format("'shape': ({}, {}, {})", dims[2].get<int>(),
                                                                         dims[1].get<int>(), dims[0].get<int>())));
+}
+
+TEST(ExportCommand, TheRecordOfAVoxel) {
+  test::TemporaryFolder folder;
+  const auto inspect = [&](const std::string& voxel) {
+    return runIrad({"export", "check:furnace-box", "--out", folder.path.string(), "--inspect", voxel, "--set",
+                    "voxel.resolution=16", "--set", "matrix.rays=32"});
+  };
+  const RunResult run = inspect("1,8,8");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto record = nlohmann::json::parse(slurp(folder.path / "inspect.json"));
+  EXPECT_EQ(record["voxel"], (nlohmann::json{1, 8, 8}));
+  const auto& facet = record["facets"].at(0);
+  EXPECT_NEAR(facet["row"]["sum"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(facet["irradiance"][0].get<double>(), 2, 0.01);
+  EXPECT_EQ(facet["irradiance_history"][0], (nlohmann::json{0.0, 0.0, 0.0}));  // from the dark
+  EXPECT_GT(facet["irradiance_history"].size(), 5u);
+  const auto manifest = nlohmann::json::parse(slurp(folder.path / "manifest.json"));
+  EXPECT_EQ(manifest["files"], (nlohmann::json{"inspect.json"}));
+  EXPECT_TRUE(contains(manifest["command"], "--inspect 1,8,8")) << manifest["command"];
+  for (const char* voxel : {"5,8,8", "1,8,40"}) {
+    fs::remove(folder.path / "inspect.json");
+    const RunResult bad = inspect(voxel);
+    EXPECT_EQ(bad.status, 2) << bad.err;
+    EXPECT_TRUE(contains(bad.err, fmt::format("voxel {} ", voxel))) << bad.err;
+    EXPECT_TRUE(contains(bad.err, "18 x 18 x 18 voxels; the nearest solid voxel is 1,8,")) << bad.err;
+    EXPECT_FALSE(fs::exists(folder.path / "inspect.json"));
+  }
 }
 
 TEST(BenchCommand, TableCsvAndRatios) {

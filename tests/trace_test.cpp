@@ -3,7 +3,7 @@
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "gi/oracle/rays.h"
+#include "gi/host_facets.h"
 #include "gi/ray_kernel.h"
 
 #include "tests/gi_fixture.h"
@@ -20,22 +20,13 @@ class Trace : public GiTest {
     frame.submitAndWait();
     return downloadAs<uint32_t>(context(), out);
   }
-
-  oracle::Facets facets(const FacetList& list) {
-    return {list.grid,
-            static_cast<uint32_t>(list.encoding),
-            downloadAs<uint32_t>(context(), list.voxel),
-            downloadAs<uint32_t>(context(), list.shape),
-            downloadAs<uint32_t>(context(), list.reverse),
-            downloadAs<uint32_t>(context(), list.around)};
-  }
 };
 
 TEST_F(Trace, HitsEqualTheOracle) {
   Settings settings = defaults();
   settings.voxel.resolution = 32;
   const World w = world(furnishedRoom(), settings);
-  const oracle::Facets host = facets(w.facets);
+  const oracle::Facets host = oracleFacets(context(), w.facets);
   MatrixParams params = settings.matrix.gpu;
   params.rays = 1 + 110000 / w.facets.count;
   params.traversal = TRAVERSAL_SDF;
@@ -65,7 +56,7 @@ TEST_F(Trace, CornersAreMarkedWhereWallsMeet) {
   Settings settings = defaults();
   settings.voxel.resolution = 16;
   const World w = world(furnaceBox(0.5f), settings);
-  const oracle::Facets host = facets(w.facets);
+  const oracle::Facets host = oracleFacets(context(), w.facets);
   // A box of 16 voxels: exactly the cells that touch two walls are corners, and name voxels that hold the others, none
   // of which meets them convexly; the plane is clear up to two voxels before those.
   for (uint32_t f = 0; f < w.facets.count; ++f) {
@@ -99,7 +90,7 @@ TEST_F(Trace, FacesEndAtConvexEdges) {
   b.box({block, block, block, block, block, block}, glm::vec3(-0.4f), glm::vec3(0.4f), /*inward=*/false,
         glm::mat3(turn));
   const World w = world(b.finish("block"), settings);
-  const oracle::Facets host = facets(w.facets);
+  const oracle::Facets host = oracleFacets(context(), w.facets);
   const std::vector<glm::uvec2> albedo = downloadAs<glm::uvec2>(context(), w.facets.albedo);
   const auto onBlock = [&](uint32_t f) { return unpackAlbedo(albedo[f]).x < 0.3f; };
   MatrixParams params = settings.matrix.gpu;

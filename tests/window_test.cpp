@@ -260,6 +260,54 @@ TEST_F(WindowTest, ComparesTwoSetsOfSettings) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, InspectsWhatIsClicked) {
+  // With the other panels folded, the inspector's rows are where this test looks for them.
+  const std::filesystem::path config = screen_->environment().at("XDG_CONFIG_HOME");
+  std::filesystem::create_directories(config / "irad");
+  std::ofstream(config / "irad/window.json") << R"({"format": 1, "folded": ["View", "Compare", "Solver", "Memory"]})";
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+  const auto panel = [this] { return screen_->grab(1010, 80, 250, 580); };
+  const auto click = [this](int x, int y, const char* key = "") {
+    const std::string down = *key ? fmt::format("keydown {} sleep 0.2", key) : "",
+                      up = *key ? fmt::format("keyup {} sleep 0.2", key) : "";
+    xdotool(fmt::format("mousemove {} {} sleep 0.3 {} mousedown 1 sleep 0.2 mouseup 1 sleep 0.2 {} mousemove 360 510",
+                        x, y, down, up));
+  };
+  const auto changes = [&](const ScreenPart& before) {
+    return settles(panel, [&](const ScreenPart& p) { return p.difference(before) > 0.003; });
+  };
+
+  // A click on the floor draws the links of the facet there and fills the panel.
+  const ScreenPart empty = panel();
+  click(665, 490);
+  ASSERT_TRUE(changes(empty)) << "nothing is picked";
+  const ScreenPart picked = part(), row = panel();
+  EXPECT_GT(picked.difference(first), 0.005) << "no links are drawn";
+  // Its column; a filter that no voxel passes; and off again.
+  click(1097, 493);
+  ASSERT_TRUE(changes(row)) << "no column is shown";
+  const ScreenPart column = panel();
+  xdotool("mousemove 1100 543 sleep 0.3 click 1 sleep 0.3 type --delay 60 none");
+  ASSERT_TRUE(changes(column)) << "the filter is not taken";
+  xdotool("key --delay 60 BackSpace BackSpace BackSpace BackSpace mousemove 360 510 sleep 0.3");
+  // Another facet's row beside it.
+  const ScreenPart before = panel();
+  click(480, 130, "shift");
+  ASSERT_TRUE(changes(before)) << "no comparison";
+  // A drag turns the camera and picks nothing; a click beside the scene lets go.
+  click(345, 300);
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; })) << "not let go";
+  EXPECT_EQ(panel(), empty);
+  xdotool("mousemove 600 300 sleep 0.3 mousedown 1 sleep 0.2 mousemove 680 320 sleep 0.2 mouseup 1 mousemove 360 510");
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.05; }));
+  EXPECT_EQ(panel(), empty) << "a drag picks";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, FollowsItsSize) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
@@ -467,6 +515,9 @@ TEST_F(WindowTest, RefusesWhatItCannotShow) {
   start({"--view", "lti"});
   EXPECT_EQ(window_->wait(60), 2);
   EXPECT_NE(window_->log().find("lit"), std::string::npos) << "the near match is named";
+  start({"--inspect", "16,16,16"});
+  EXPECT_EQ(window_->wait(60), 2);
+  EXPECT_NE(window_->log().find("the nearest solid voxel is"), std::string::npos) << window_->log();
 }
 
 }  // namespace

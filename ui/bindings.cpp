@@ -9,6 +9,8 @@ std::span<const Binding> bindings() {
       {0, Action::None, "W A S D", "fly forward, left, back, right"},
       {0, Action::None, "Q  E", "fly down, up"},
       {0, Action::None, "Right or left drag", "look around"},
+      {0, Action::None, "Click", "inspect the facet there; beside everything: done"},
+      {0, Action::None, "Shift + click", "compare its row with that of the facet there"},
       {0, Action::None, "Shift  Ctrl", "fly 4 times faster, slower"},
       {0, Action::None, "Wheel", "flying speed"},
       {0, Action::None, "Drag an edge", "size of the panels; double click: as it was"},

@@ -27,6 +27,7 @@ class Panel {
   X(Settings)          \
   X(View)              \
   X(Compare)           \
+  X(Inspector)         \
   X(Solver)            \
   X(Memory)            \
   X(Timings)

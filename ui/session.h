@@ -17,6 +17,7 @@
 #include "shaders/shared/view.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
+#include "ui/inspection.h"
 #include "ui/preferences.h"
 #include "ui/scene_edits.h"
 
@@ -116,6 +117,7 @@ struct Session : Side {
 
   LoadOptions load;                            ///< of scenes; `lights` are the first one's
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
+  Inspection inspection;
 
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed

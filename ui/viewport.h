@@ -58,6 +58,7 @@ class Overlay {
 // In the order in which they are drawn and offered the mouse. X(Name) stands for makeNameOverlay() in ui/overlays/.
 #define IRAD_OVERLAYS(X) \
   X(Lights)              \
+  X(Row)                 \
   X(Legend)
 
 #define IRAD_DECLARE_OVERLAY(name) std::unique_ptr<Overlay> make##name##Overlay();

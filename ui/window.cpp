@@ -125,12 +125,14 @@ void Window::run() {
       throw UsageError(fmt::format("--camera {}: the scene has no camera of that name", options_.camera));
     session_.useSceneCamera(static_cast<int>(named - cameras.begin()));
   }
+  if (options_.inspect && session_.pipeline) session_.inspection.open(session_, *options_.inspect);
   while (!session_.quit && !glfwWindowShouldClose(presenter_.window())) {
     wait();
     takeKeys();
     try {
       takeRequests();
       builder_.apply(/*held=*/ImGui::IsAnyItemActive());
+      if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
       fly();
       if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
     } catch (const Error& error) {
@@ -147,7 +149,7 @@ void Window::run() {
 /// Something is to be done that needs no frame.
 bool Window::working() const {
   return session_.work || session_.openScene || session_.capture || session_.reloadShaders || session_.rebuild ||
-         session_.compare || builder_.stale() ||
+         session_.compare || session_.inspection.wanted() || builder_.stale() ||
          (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 

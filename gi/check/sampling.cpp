@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
-#include <numbers>
 #include <random>
 
+#include "gi/angle.h"
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
 #include "gi/ray_kernel.h"
@@ -20,10 +20,6 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "Check";
-
-double degrees(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
-}
 
 /// Runs a kernel, a thread for each of `count` elements of `in`.
 template <class Push, class... Out>
@@ -76,7 +72,7 @@ void encodingsCase(CheckRun& run) {
     double most = 0, sum = 0;
     uint64_t axes = 0, corners = 0, bad = 0;
     for (size_t i = 0; i < normals.size(); ++i) {
-      const double error = degrees(normals[i], back[i]);
+      const double error = degreesBetween(normals[i], back[i]);
       bad += !std::isfinite(error);
       most = std::max(most, error);
       sum += error;

@@ -15,18 +15,28 @@ namespace {
 
 using glm::dvec3, glm::ivec3;
 
-/// The cells along a ray, one at a time.
+/// The cells along a ray: all of them, or those that a distance field leaves.
 struct Walk {
-  explicit Walk(const Ray& along) : ray(along), cell(glm::floor(along.origin)) { leave = exits()[0].first; }
+  Walk(const Facets& in, const Ray& along, const Passage& by)
+      : facets(in), ray(along), passage(by), cell(glm::floor(along.origin)) {
+    arrive();
+  }
+  const Facets& facets;
   const Ray& ray;
+  const Passage& passage;
   ivec3 cell;
   double enter = 0, leave = 0;
   double margin = 1e9;  ///< least gap between two exits of the cells left so far: a tie of axes
 
-  std::array<std::pair<double, int>, 3> exits() const {
+  void arrive() {
+    leave = exits(1)[0].first;
+    if (passage.steps) passage.steps->push_back({cell, enter});
+  }
+  /// Where the ray leaves the cube of cells within k - 1 of its own, by axis, nearest first.
+  std::array<std::pair<double, int>, 3> exits(int k) const {
     std::array<std::pair<double, int>, 3> t;
     for (int a = 0; a < 3; ++a) {
-      const double bound = cell[a] + (ray.direction[a] > 0 ? 1 : 0);
+      const double bound = cell[a] + (ray.direction[a] > 0 ? k : 1 - k);
       t[a] = {
           ray.direction[a] == 0 ? std::numeric_limits<double>::infinity() : (bound - ray.origin[a]) / ray.direction[a],
           a};
@@ -34,13 +44,23 @@ struct Walk {
     std::sort(t.begin(), t.end());
     return t;
   }
+  /// On from a cell of the grid.
   void next() {
-    const auto sorted = exits();
-    margin = std::min(margin, sorted[1].first - sorted[0].first);
-    const int axis = sorted[0].second;
-    cell[axis] += ray.direction[axis] > 0 ? 1 : -1;
-    enter = sorted[0].first;
-    leave = exits()[0].first;
+    const float empty = passage.field ? passage.field->voxels[voxelIndex(glm::uvec3(cell), facets.grid.dims)] : 0.0f;
+    if (empty > 0 && passage.field->euclidean) {
+      enter += double{empty};
+      cell = glm::floor(ray.origin + enter * ray.direction);
+    } else {
+      const int k = std::max(1, static_cast<int>(empty));
+      const auto sorted = exits(k);
+      margin = std::min(margin, sorted[1].first - sorted[0].first);
+      const int axis = sorted[0].second;
+      enter = sorted[0].first;
+      const int beyond = cell[axis] + (ray.direction[axis] > 0 ? k : -k);
+      cell = glm::clamp(ivec3(glm::floor(ray.origin + enter * ray.direction)), cell - (k - 1), cell + (k - 1));
+      cell[axis] = beyond;
+    }
+    arrive();
   }
 };
 
@@ -59,9 +79,9 @@ bool inside(const Facets& f, const ivec3& cell) {
   return true;
 }
 
-Hit traceThesis(const Facets& facets, const Ray& ray) {
+Hit traceThesis(const Facets& facets, const Ray& ray, const Passage& passage) {
   Hit hit{TRACE_ESCAPED};
-  Walk walk(ray);
+  Walk walk(facets, ray, passage);
   for (; inside(facets, walk.cell); walk.next()) {
     double least = 1;
     uint32_t best = TRACE_ESCAPED;
@@ -154,9 +174,9 @@ bool startsInside(const Facets& facets, const Ray& ray, const Less& less) {
   });
 }
 
-Hit traceRobust(const Facets& facets, const Ray& ray) {
+Hit traceRobust(const Facets& facets, const Ray& ray, const Passage& passage) {
   Hit hit{TRACE_ESCAPED};
-  Walk walk(ray);
+  Walk walk(facets, ray, passage);
   uint32_t passed = TRACE_ESCAPED;
   double passedAt = 0;
   // Every comparison leaves its margin.
@@ -274,8 +294,25 @@ Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParam
   return {dvec3(origin), dvec3(direction), dvec3(n), facet};
 }
 
-Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule) {
-  return hitRule == HIT_RULE_THESIS ? traceThesis(facets, ray) : traceRobust(facets, ray);
+Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule, const Passage& passage) {
+  return hitRule == HIT_RULE_THESIS ? traceThesis(facets, ray, passage) : traceRobust(facets, ray, passage);
+}
+
+std::optional<glm::uvec3> firstSolid(const Facets& facets, const Ray& ray) {
+  // Into the grid: a little beyond where the last of the axes enters it.
+  double enter = 0, leave = std::numeric_limits<double>::infinity();
+  for (int a = 0; a < 3; ++a) {
+    if (ray.direction[a] == 0) continue;
+    const double t0 = -ray.origin[a] / ray.direction[a], t1 = (facets.grid.dims[a] - ray.origin[a]) / ray.direction[a];
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  if (enter >= leave) return std::nullopt;
+  Ray inner = ray;
+  inner.origin += (enter > 0 ? enter + 1e-9 : 0.0) * ray.direction;
+  for (Walk walk(facets, inner, {}); inside(facets, walk.cell); walk.next())
+    if (!facetsAt(facets, walk.cell).empty()) return glm::uvec3(walk.cell);
+  return std::nullopt;
 }
 
 void jacobi(const std::vector<Row>& rows, const std::vector<dvec3>& albedo, const std::vector<dvec3>& emission,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "shaders/shared/facets.h"
@@ -36,7 +37,25 @@ struct Hit {
   /// Least distance (voxels) or cosine by which a decision on the way was taken: below about 1e-3 fp32 may differ.
   double margin = 1e9;
 };
-Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule);
+
+/// Distance of every voxel to the nearest solid one, voxels; 0 in solid ones.
+struct DistanceField {
+  bool euclidean = false;  ///< T 5.2's, sphere-marched; else Chebyshev's, whose empty cubes are stepped over
+  std::vector<float> voxels;
+};
+/// How a ray gets through empty cells, and the trace that it leaves.
+struct Passage {
+  const DistanceField* field = nullptr;  ///< null: cell by cell
+  struct Step {
+    glm::ivec3 cell;
+    double t;  ///< at which it was entered, voxels
+  };
+  std::vector<Step>* steps = nullptr;  ///< if wanted: every cell entered, in order; the last may be outside of the grid
+};
+Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule, const Passage& passage = {});
+
+/// The first voxel with a facet along a ray from anywhere.
+std::optional<glm::uvec3> firstSolid(const Facets& facets, const Ray& ray);
 
 /// One row per facet: columns, and weights F_ij.
 struct Row {

@@ -52,7 +52,14 @@ Cover cover(const Triangle& triangle, glm::ivec3 cell, double band) {
   return sure ? Cover::Yes : Cover::Unsure;
 }
 
-double areaInside(const Triangle& triangle, glm::ivec3 cell) {
+namespace {
+/// The part of a triangle inside a closed cell, as a fan of triangles about its first corner.
+struct Part {
+  double area = 0;
+  glm::dvec3 sum{0.0};  ///< of the fan's middles, by area
+};
+
+Part partInside(const Triangle& triangle, const glm::ivec3& cell) {
   std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
   for (int a = 0; a < 3; ++a)
     for (const double side : {1.0, -1.0}) {
@@ -66,11 +73,25 @@ double areaInside(const Triangle& triangle, glm::ivec3 cell) {
         if ((dp >= 0) != (dq >= 0)) kept.push_back(p + (q - p) * (dp / (dp - dq)));
       }
       polygon = kept;
-      if (polygon.empty()) return 0;
+      if (polygon.empty()) return {};
     }
-  glm::dvec3 sum(0.0);
-  for (size_t i = 2; i < polygon.size(); ++i) sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-  return 0.5 * glm::length(sum);
+  Part part;
+  for (size_t i = 2; i < polygon.size(); ++i) {
+    const double area = 0.5 * glm::length(glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
+    part.area += area;
+    part.sum += area / 3 * (polygon[0] + polygon[i - 1] + polygon[i]);
+  }
+  return part;
+}
+}  // namespace
+
+double areaInside(const Triangle& triangle, glm::ivec3 cell) {
+  return partInside(triangle, cell).area;
+}
+
+glm::dvec3 middleInside(const Triangle& triangle, glm::ivec3 cell) {
+  const Part part = partInside(triangle, cell);
+  return part.area > 1e-12 ? part.sum / part.area : (triangle[0] + triangle[1] + triangle[2]) / 3.0;
 }
 
 namespace {

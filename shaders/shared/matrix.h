@@ -26,5 +26,13 @@ struct MatrixArrays {
 };
 IRAD_ARRAY(MatrixRecord, MatrixArrays, 16)
 
+/// gi/matrix_column.comp: how often the rays of each row met one facet.
+struct MatrixColumnPush {
+  MatrixRecord matrix;
+  UintArray hits;  ///< one per row
+  uint column;
+  uint pad;
+};
+
 IRAD_END
 #endif

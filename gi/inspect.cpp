@@ -1,0 +1,283 @@
+#include "gi/inspect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+
+#include "gi/angle.h"
+#include "gi/oracle/voxels.h"
+#include "gi/ray_kernel.h"
+#include "renderer/error.h"
+#include "shaders/shared/voxelize.h"
+
+namespace irad {
+namespace {
+
+std::vector<glm::vec3> perFacet(Context& context, const Buffer& buffer, size_t count) {
+  if (!buffer) return std::vector<glm::vec3>(count, glm::vec3(0));
+  const std::vector<glm::vec4> values = downloadAs<glm::vec4>(context, buffer);
+  std::vector<glm::vec3> out(values.begin(), values.end());
+  out.resize(count);  // an empty list still has 16 bytes
+  return out;
+}
+
+}  // namespace
+
+Inspector::Inspector(Context& context, const Pipeline& pipeline) : context_(context), pipeline_(pipeline) {
+  refresh();
+}
+
+void Inspector::refresh() {
+  const FacetList& list = pipeline_.facets();
+  const Lighting& light = pipeline_.lighting();
+  if (build_ != pipeline_.revision().build) {
+    facets_ = hostFacets(context_, list);
+    list_ = oracleFacets(context_, list);
+    triangles_ = list.triangle ? downloadAs<uint32_t>(context_, list.triangle) : std::vector<uint32_t>{};
+    const Field& field = pipeline_.field();
+    field_ = {field.method == FieldMethod::jfa, hostDistances(context_, list.grid, field)};
+    seeds_.clear();
+    if (field.jfaSeeds) {
+      const std::vector<std::byte> bytes = download(context_, field.jfaSeeds);
+      seeds_.resize(bytes.size() / sizeof(uint32_t));
+      std::memcpy(seeds_.data(), bytes.data(), bytes.size());
+    }
+    rows_ = downloadAs<glm::uvec2>(context_, pipeline_.matrix().rowInfo);
+    build_ = pipeline_.revision().build;
+  }
+  direct_ = perFacet(context_, light.direct, list.count);
+  irradiance_ = perFacet(context_, light.indirect, list.count);
+  radiosity_ = perFacet(context_, light.radiosity, list.count);
+  correction_ = perFacet(context_, light.correction, list.count);
+}
+
+bool Inspector::contains(const glm::ivec3& voxel) const {
+  return glm::all(glm::greaterThanEqual(voxel, glm::ivec3(0))) &&
+         glm::all(glm::lessThan(voxel, glm::ivec3(facets_.grid.dims)));
+}
+
+std::vector<uint32_t> Inspector::facetsOf(const glm::uvec3& voxel) const {
+  const uint32_t entry = list_.reverse.at(voxelIndex(voxel, facets_.grid.dims));
+  if (entry == NO_FACET) return {};
+  const uint32_t first = entry & ~SECOND_FACET;
+  return entry & SECOND_FACET ? std::vector{first, first + 1} : std::vector{first};
+}
+
+void Inspector::requireFacets(const glm::uvec3& voxel) const {
+  const bool outside = !contains(glm::ivec3(voxel));
+  if (!outside && !facetsOf(voxel).empty()) return;
+  const auto away = [&](const glm::uvec3& v) {
+    const glm::dvec3 d = glm::dvec3(v) - glm::dvec3(voxel);
+    return glm::dot(d, d);
+  };
+  const auto nearest = std::min_element(facets_.voxel.begin(), facets_.voxel.end(),
+                                        [&](const glm::uvec3& a, const glm::uvec3& b) { return away(a) < away(b); });
+  const glm::uvec3 dims = facets_.grid.dims;
+  throw UsageError(
+      fmt::format("voxel {},{},{} {} of {} x {} x {} voxels; {}", voxel.x, voxel.y, voxel.z,
+                  outside ? "is outside of the grid" : "holds no facet in the grid", dims.x, dims.y, dims.z,
+                  nearest == facets_.voxel.end()
+                      ? std::string("no voxel holds one")
+                      : fmt::format("the nearest solid voxel is {},{},{}", nearest->x, nearest->y, nearest->z)));
+}
+
+glm::dvec3 Inspector::toVoxels(const glm::dvec3& world) const {
+  return (world - pipeline_.scene().origin - glm::dvec3(facets_.grid.origin)) / double{facets_.grid.edge};
+}
+
+std::optional<uint32_t> Inspector::facetAt(const glm::dvec3& point, const glm::dvec3& normal) const {
+  const glm::dvec3 p = toVoxels(point);
+  std::optional<uint32_t> best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int around = 0; around < 27; ++around) {
+    const glm::ivec3 cell = glm::ivec3(glm::floor(p)) + glm::ivec3(around % 3, around / 3 % 3, around / 9) - 1;
+    if (!contains(cell)) continue;
+    for (const uint32_t f : facetsOf(glm::uvec3(cell))) {
+      const double away = glm::distance(p, list_.middle(f));
+      if (glm::dot(facets_.normal[f], normal) <= 0 || away >= nearest) continue;
+      nearest = away;
+      best = f;
+    }
+  }
+  return best;
+}
+
+std::optional<uint32_t> Inspector::facetAlong(const glm::dvec3& start, const glm::dvec3& direction) const {
+  oracle::Ray ray;
+  ray.origin = toVoxels(start);
+  ray.direction = direction;
+  const std::optional<glm::uvec3> voxel = oracle::firstSolid(list_, ray);
+  if (!voxel) return std::nullopt;
+  const std::vector<uint32_t> facets = facetsOf(*voxel);
+  return *std::max_element(facets.begin(), facets.end(), [&](uint32_t a, uint32_t b) {
+    const glm::dvec3 towards = ray.origin - (glm::dvec3(*voxel) + 0.5);
+    return glm::dot(facets_.normal[a], towards) < glm::dot(facets_.normal[b], towards);
+  });
+}
+
+InspectedVoxel Inspector::voxel(const glm::uvec3& voxel) const {
+  IRAD_CHECK(contains(glm::ivec3(voxel)), "voxel {}, {}, {} is outside of the grid", voxel.x, voxel.y, voxel.z);
+  const Grid& grid = facets_.grid;
+  const uint32_t index = voxelIndex(voxel, grid.dims);
+  InspectedVoxel record;
+  record.voxel = voxel;
+  record.world = pipeline_.scene().origin + glm::dvec3(grid.origin) + double{grid.edge} * (glm::dvec3(voxel) + 0.5);
+  record.distance = field_.voxels.at(index);
+  if (!seeds_.empty() && seeds_.at(index) != NO_SEED) record.seed = unpackVoxel(seeds_[index]);
+  for (const uint32_t f : facetsOf(voxel)) record.facets.push_back(facet(f));
+  return record;
+}
+
+InspectedFacet Inspector::facet(uint32_t i) const {
+  IRAD_CHECK_OP(i, <, facets_.count());
+  InspectedFacet r;
+  r.facet = i;
+  r.voxel = facets_.voxel[i];
+  r.shape = list_.shape[i];
+  r.position = pipeline_.scene().origin + facets_.position[i];
+  r.normal = facets_.normal[i];
+  r.mesh = meshNormal(i);
+  r.area = facets_.area[i];
+  r.albedo = facets_.albedo[i];
+  r.emission = facets_.emission[i];
+  r.direct = direct_[i];
+  r.irradiance = irradiance_[i];
+  r.radiosity = radiosity_[i];
+  r.correction = correction_[i];
+  r.met = traceOnDevice(i);
+  addLinks(i, r);
+
+  r.rays.rays = static_cast<uint32_t>(r.met.size());
+  for (const uint32_t met : r.met)
+    ++(met == TRACE_ESCAPED   ? r.rays.escaped
+       : met == TRACE_BLOCKED ? r.rays.blocked
+       : met == TRACE_INVALID ? r.rays.invalid
+                              : r.rays.hits);
+
+  // One more sweep: H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
+  const SolverParams& solver = pipeline_.settings().solver.gpu;
+  const glm::dvec3 h = r.row.contribution + r.correction;
+  const glm::dvec3 undamped = double{solver.lambda} * (r.emission + r.albedo * (r.direct + h));
+  const glm::dvec3 change = double{solver.omega} * glm::abs(undamped - r.radiosity);
+  r.residual = std::max({change.x, change.y, change.z});
+  return r;
+}
+
+/// `hits`: of the receiver's rays on the sender; `hitsBack`: the other way round.
+Link Inspector::link(uint32_t receiver, uint32_t sender, uint32_t hits, uint32_t hitsBack, bool row) const {
+  const auto weight = [&](uint32_t r) { return double{std::bit_cast<float>(rows_[r].y)}; };
+  Link l;
+  l.facet = row ? sender : receiver;
+  l.voxel = facets_.voxel[l.facet];
+  l.position = pipeline_.scene().origin + facets_.position[l.facet];
+  l.hits = hits;
+  l.formFactor = hits * weight(receiver);
+  l.distance = glm::distance(facets_.position[receiver], facets_.position[sender]);
+  l.radiosity = radiosity_[sender];
+  l.contribution = l.formFactor * l.radiosity;
+  l.exchange = facets_.area[receiver] * l.formFactor;
+  l.opposite = facets_.area[sender] * hitsBack * weight(sender);
+  return l;
+}
+
+void Inspector::addLinks(uint32_t i, InspectedFacet& record) const {
+  const HostRow row = merged(readRow(context_, pipeline_.matrix(), i));
+  const std::vector<uint32_t> column = readColumn(context_, pipeline_.matrix(), i);
+  std::vector<uint32_t> inRow(column.size(), 0);
+  for (size_t e = 0; e < row.columns.size(); ++e) {
+    const uint32_t j = row.columns[e];
+    inRow[j] = row.hits[e];
+    record.row.links.push_back(link(i, j, row.hits[e], column[j], /*row=*/true));
+  }
+  for (uint32_t j = 0; j < column.size(); ++j)
+    if (column[j] > 0) record.column.links.push_back(link(j, i, column[j], inRow[j], /*row=*/false));
+  for (Links* all : {&record.row, &record.column}) {
+    std::stable_sort(all->links.begin(), all->links.end(), [](const Link& a, const Link& b) {
+      return luminance(glm::vec3(a.contribution)) > luminance(glm::vec3(b.contribution));
+    });
+    for (const Link& l : all->links) {
+      all->sum += l.formFactor;
+      all->contribution += l.contribution;
+      all->exchange += l.exchange;
+    }
+  }
+  // Either one's sum the other way round is over all of the other's links.
+  record.row.opposite = record.column.exchange;
+  record.column.opposite = record.row.exchange;
+}
+
+std::optional<MeshNormal> Inspector::meshNormal(uint32_t i) const {
+  if (triangles_.empty()) return std::nullopt;
+  const Scene& scene = pipeline_.scene();
+  MeshNormal mesh;
+  mesh.triangle = triangles_.at(i) & ~BACK_SIDE;
+  mesh.back = (triangles_[i] & BACK_SIDE) != 0;
+  const uint32_t* corner = &scene.indices.at(3 * size_t{mesh.triangle});
+  const oracle::Triangle t = oracle::toVoxels(facets_.grid, scene.positions.at(corner[0]),
+                                              scene.positions.at(corner[1]), scene.positions.at(corner[2]));
+  const glm::dvec3 across = glm::cross(t[1] - t[0], t[2] - t[0]);
+  mesh.face = glm::normalize(across) * (mesh.back ? -1.0 : 1.0);
+
+  // The middle of the part inside the voxel, where gi/facet_shade.comp samples it, in barycentric coordinates.
+  const glm::dvec3 middle = oracle::middleInside(t, glm::ivec3(facets_.voxel[i]));
+  glm::dvec3 normal(0);
+  for (int c = 0; c < 3; ++c) {
+    const glm::dvec3 area = glm::cross(t[(c + 1) % 3] - middle, t[(c + 2) % 3] - middle);
+    normal += glm::dot(area, across) / glm::dot(across, across) * glm::dvec3(scene.normals.at(corner[c]));
+  }
+  mesh.shading = glm::length(normal) > 1e-6 ? glm::normalize(normal) : mesh.face;
+  if (glm::dot(mesh.shading, mesh.face) < 0) mesh.shading = -mesh.shading;
+  mesh.faceError = degreesBetween(mesh.face, facets_.normal[i]);
+  mesh.shadingError = degreesBetween(mesh.shading, facets_.normal[i]);
+  return mesh;
+}
+
+RowComparison compareRows(const Links& a, const Links& b) {
+  std::map<uint32_t, RowComparison::Entry> all;
+  for (const Link& l : a.links) all.insert({l.facet, {l.facet, l.voxel, 0, 0}}).first->second.a = l.formFactor;
+  for (const Link& l : b.links) all.insert({l.facet, {l.facet, l.voxel, 0, 0}}).first->second.b = l.formFactor;
+  RowComparison out;
+  for (const auto& [facet, entry] : all) {
+    out.entries.push_back(entry);
+    out.difference += std::abs(entry.a - entry.b);
+    out.shared += std::min(entry.a, entry.b);
+  }
+  std::stable_sort(out.entries.begin(), out.entries.end(),
+                   [](const auto& x, const auto& y) { return std::abs(x.a - x.b) > std::abs(y.a - y.b); });
+  return out;
+}
+
+SolveHistory replaySolve(Context& context, const Pipeline& pipeline, const std::vector<uint32_t>& facets,
+                         const Progress& progress) {
+  const FacetList& list = pipeline.facets();
+  const Settings& settings = pipeline.settings();
+  Lighting light = makeLighting(context, list, settings);
+  Frame copy = context.beginUntimed();
+  copy.pass("Copy").copy(pipeline.lighting().direct, light.direct, light.direct.bytes);
+  copy.submit();
+  const Emitters emitters = listEmitters(context, list);
+  SolveHistory history;
+  while (!history.converged && history.irradiance.size() < settings.solver.maxSweeps) {
+    if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
+    const SolveReport report =
+        solve(context, list, pipeline.matrix(), light, settings, /*maxSweeps=*/1, {&emitters, &pipeline.field()});
+    std::vector<glm::vec4> h(facets.size());
+    Frame frame = context.beginUntimed();
+    for (size_t i = 0; i < facets.size(); ++i)
+      frame.readback(light.indirect, sizeof(glm::vec4) * facets[i], sizeof(glm::vec4),
+                     [to = &h[i]](std::span<const uint8_t> bytes) { std::memcpy(to, bytes.data(), bytes.size()); });
+    frame.submitAndWait();
+    history.irradiance.emplace_back(h.begin(), h.end());
+    history.residual.push_back(report.residual);
+    history.converged = report.converged;
+    if (report.settled()) break;
+  }
+  return history;
+}
+
+}  // namespace irad

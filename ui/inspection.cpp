@@ -1,0 +1,174 @@
+#include "ui/inspection.h"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <utility>
+
+#include "renderer/error.h"
+#include "ui/session.h"
+
+namespace irad {
+namespace {
+
+constexpr size_t kSamples = 400;  ///< of H that are remembered
+
+}  // namespace
+
+Inspector& Inspection::inspector(Session& session) {
+  const Pipeline& pipeline = *session.pipeline;
+  if (!inspector_ || of_ != &pipeline) {
+    inspector_ = std::make_unique<Inspector>(session.context, pipeline);
+    of_ = &pipeline;
+    scene_ = pipeline.scene().path;
+  } else if (revision_ != pipeline.revision()) {
+    inspector_->refresh();
+  }
+  revision_ = pipeline.revision();
+  return *inspector_;
+}
+
+void Inspection::reset() {
+  voxel.reset();
+  chosen = 0;
+  other.reset();
+  comparison.reset();
+  ray.reset();
+  replay.reset();
+  live.clear();
+  highlighted.reset();
+  sweeps_ = 0;
+  if (shown == Show::Comparison) shown = Show::Row;
+}
+
+void Inspection::pickFacet(uint32_t facet) {
+  reset();
+  voxel = inspector_->voxel(inspector_->voxelOf(facet));
+  while (voxel->facets.at(chosen).facet != facet) ++chosen;
+  live.push_back({0, glm::vec3(this->facet()->irradiance)});
+}
+
+void Inspection::open(Session& session, const glm::uvec3& at) {
+  Inspector& in = inspector(session);
+  in.requireFacets(at);
+  trail.clear();
+  pickFacet(in.facetsOf(at).front());
+  ++serial;
+}
+
+/// Of the picture as it is shown: by the surface in the pixel, or by the cubes that it shows.
+std::optional<uint32_t> Inspection::facetUnder(Session& session, const glm::uvec2& pixel) {
+  const Targets& targets = session.targets;
+  const GpuCamera camera = makeGpuCamera(session.pipeline->scene(), session.shown, targets.size);
+  const glm::dmat4 inverse = glm::inverse(glm::dmat4(camera.viewProjection));
+  const glm::dvec2 share = (glm::dvec2(pixel) + 0.5) / glm::dvec2(targets.size);
+  const auto at = [&](double depth) {
+    const glm::dvec4 p = inverse * glm::dvec4(share.x * 2 - 1, 1 - share.y * 2, depth, 1);
+    return glm::dvec3(p) / p.w + session.pipeline->scene().origin;
+  };
+  if (resolveShape(session.view, session.edited.view.shape) == SHAPE_CUBES) {
+    const glm::dvec3 start = at(0);
+    return inspector_->facetAlong(start, glm::normalize(at(1) - start));
+  }
+  float depth = 1;
+  std::memcpy(&depth, downloadTexel(session.context, targets.depth, pixel).data(), sizeof(depth));
+  if (depth >= 1) return std::nullopt;
+  uint64_t packed = 0;
+  std::memcpy(&packed, downloadTexel(session.context, targets.geometric, pixel).data(), sizeof(packed));
+  return inspector_->facetAt(at(depth), glm::dvec3(glm::unpackHalf4x16(packed)));
+}
+
+void Inspection::compareWith(uint32_t facet) {
+  other = inspector_->facet(facet);
+  comparison = compareRows(this->facet()->row, other->row);
+  shown = Show::Comparison;
+}
+
+void Inspection::serveRequests(Session& session) {
+  Inspector& in = inspector(session);
+  if (std::exchange(clear, false)) {
+    reset();
+    trail.clear();
+  }
+  if (const auto wanted = std::exchange(pick, std::nullopt)) {
+    const std::optional<uint32_t> found = facetUnder(session, wanted->pixel);
+    if (found && wanted->compare && facet()) {
+      compareWith(*found);
+    } else if (!wanted->compare) {
+      trail.clear();
+      found ? pickFacet(*found) : reset();
+    }
+  }
+  if (const auto wanted = std::exchange(follow, std::nullopt)) {
+    if (facet()) trail.push_back(facet()->facet);
+    pickFacet(*wanted);
+  }
+  if (const auto wanted = std::exchange(choose, std::nullopt); wanted && voxel)
+    pickFacet(voxel->facets.at(*wanted).facet);
+  if (std::exchange(goBack, false) && !trail.empty()) {
+    pickFacet(trail.back());
+    trail.pop_back();
+  }
+  if (const auto wanted = std::exchange(traceRay, std::nullopt); wanted && facet())
+    ray = in.ray(facet()->facet, std::min(*wanted, facet()->rays.rays - 1));
+  if (std::exchange(wantReplay, false) && facet())
+    replay = replaySolve(session.context, *session.pipeline, {facet()->facet});
+}
+
+/// After a rebuild the voxels are other ones: the facet at the same place, or none; none in another scene.
+bool Inspection::update(Session& session) {
+  if (!facet() || (of_ == session.pipeline.get() && revision_ == session.pipeline->revision())) return false;
+  const bool rebuilt = of_ != session.pipeline.get() || revision_.build != session.pipeline->revision().build;
+  const bool sameScene = scene_ == session.pipeline->scene().path;
+  const InspectedFacet before = *facet();
+  Inspector& in = inspector(session);
+  if (rebuilt) {
+    const std::optional<uint32_t> same =
+        sameScene ? in.facetAt(before.position, before.normal) : std::optional<uint32_t>();
+    reset();
+    trail.clear();
+    if (same) pickFacet(*same);
+    return true;
+  }
+  voxel = in.voxel(voxel->voxel);
+  sweeps_ += session.built->solve.sweeps;
+  live.push_back({sweeps_, glm::vec3(facet()->irradiance)});
+  if (live.size() > kSamples) live.pop_front();
+  replay.reset();
+  if (other) {
+    other = in.facet(other->facet);
+    comparison = compareRows(facet()->row, other->row);
+  }
+  return true;
+}
+
+bool Inspection::serve(Session& session) {
+  if (!session.built || session.halted) {
+    if (!wanted()) return false;
+    forgetRequests();
+    session.note("Nothing can be inspected until the rebuild has succeeded");
+    return true;
+  }
+  try {
+    const bool asked = wanted();
+    const bool updated = update(session);
+    if (asked) serveRequests(session);
+    if (asked || updated) ++serial;
+    return asked || updated;
+  } catch (const Error& error) {
+    forgetRequests();
+    reset();
+    session.error(error.what());
+    return true;
+  }
+}
+
+void Inspection::forgetRequests() {
+  pick.reset();
+  follow.reset();
+  choose.reset();
+  traceRay.reset();
+  goBack = wantReplay = clear = false;
+}
+
+}  // namespace irad

@@ -1,0 +1,118 @@
+// The picked facet in the picture: its voxel, lines to the facets that it exchanges light with, the traced ray. A click
+// picks.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "shaders/shared/emitters.h"
+#include "ui/theme.h"
+#include "ui/viewport.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+constexpr size_t kLines = 500;  ///< of the strongest links
+
+/// Of a share of the largest contribution.
+ImVec4 shade(float share) {
+  const ImVec4 &a = theme::plotLine, &b = theme::accent;
+  const auto mix = [&](float x, float y) { return x + share * (y - x); };
+  return {mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z), mix(0.35f, 0.95f)};
+}
+
+class RowOverlay : public Overlay {
+ public:
+  bool draw(Session& session, const Picture& picture, const PictureMouse& mouse) override {
+    Inspection& in = session.inspection;
+    if (mouse.clicked && mouse.hovered) in.pick = Inspection::Pick{picture.pixel(mouse.position), mouse.shift};
+    if (!in.facet()) return false;
+    const glm::vec2 low = picture.rect().position, high = low + picture.rect().size;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect({low.x, low.y}, {high.x, high.y}, true);
+    const Drawing d{list, picture, in};
+    if (in.shown != Inspection::Show::Comparison) d.drawLinks(in.shown == Inspection::Show::Row);
+    if (in.other) d.box(d.centre(glm::ivec3(in.other->voxel)), theme::good, 2);
+    d.box(in.voxel->world, theme::accent, 2);
+    d.normal();
+    if (in.ray) d.drawRay(*in.ray);
+    list.PopClipRect();
+    return false;
+  }
+
+ private:
+  struct Drawing {
+    ImDrawList& list;
+    const Picture& picture;
+    const Inspection& in;
+
+    glm::dvec3 centre(const glm::ivec3& voxel) const {
+      return in.voxel->world + in.edge() * (glm::dvec3(voxel) - glm::dvec3(in.voxel->voxel));
+    }
+    void line(const glm::dvec3& a, const glm::dvec3& b, ImU32 color, float width) const {
+      if (const auto ends = picture.project(a, b))
+        list.AddLine({ends->first.x, ends->first.y}, {ends->second.x, ends->second.y}, color, width);
+    }
+    /// The edges of a voxel.
+    void box(const glm::dvec3& middle, const ImVec4& color, float width) const {
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int corner : {0, 1, 2, 3}) {
+          glm::dvec3 from(-0.5);
+          from[(axis + 1) % 3] += corner & 1;
+          from[(axis + 2) % 3] += corner >> 1;
+          glm::dvec3 to = from;
+          to[axis] += 1;
+          line(middle + in.edge() * from, middle + in.edge() * to, ImGui::GetColorU32(color), width);
+        }
+    }
+    void normal() const {
+      const InspectedFacet& f = *in.facet();
+      line(f.position, f.position + 1.5 * in.edge() * f.normal, ImGui::GetColorU32(theme::accent), 2);
+    }
+
+    /// The strongest, weakest of them first, coloured by their contribution as a share of the largest.
+    void drawLinks(bool row) const {
+      const InspectedFacet& facet = *in.facet();
+      const std::vector<Link>& links = (row ? facet.row : facet.column).links;
+      const auto strength = [](const Link& l) { return luminance(glm::vec3(l.contribution)); };
+      const float largest = links.empty() ? 0 : strength(links.front());
+      const size_t drawn = std::min(links.size(), kLines);
+      const Link* pointedAt = nullptr;
+      for (const Link& l : links)
+        if (in.highlighted == l.facet) pointedAt = &l;
+      for (size_t i = drawn; i-- > 0;) {
+        ImVec4 color = shade(largest > 0 ? strength(links[i]) / largest : 0);
+        if (pointedAt) color.w *= 0.3f;
+        line(facet.position, links[i].position, ImGui::GetColorU32(color), 1);
+      }
+      if (pointedAt) {
+        line(facet.position, pointedAt->position, ImGui::GetColorU32(theme::text), 3);
+        box(centre(glm::ivec3(pointedAt->voxel)), theme::text, 2);
+      }
+      const std::string text =
+          fmt::format("{} of {} links, coloured up to {} W/m\u00B2", drawn, links.size(), shortNumber(largest));
+      const glm::vec2 at =
+          picture.rect().position + glm::vec2(0, picture.rect().size.y) + glm::vec2(10, -10 - ImGui::GetFontSize());
+      list.AddText({at.x + 1, at.y + 1}, IM_COL32_BLACK, text.c_str());
+      list.AddText({at.x, at.y}, ImGui::GetColorU32(theme::text), text.c_str());
+    }
+    /// Where it went, and the cells that the field left of it.
+    void drawRay(const InspectedRay& ray) const {
+      const auto world = [&](double t) {
+        return in.voxel->world + in.edge() * (ray.origin + t * ray.direction - (glm::dvec3(in.voxel->voxel) + 0.5));
+      };
+      for (const RayStep& step : ray.sdf.steps) box(centre(step.cell), theme::dim, 1);
+      line(world(0), world(ray.dda.t), ImGui::GetColorU32(theme::good), 2);
+      if (ray.sdf.t > ray.dda.t) line(world(ray.dda.t), world(ray.sdf.t), ImGui::GetColorU32(theme::warning), 2);
+    }
+  };
+};
+
+}  // namespace
+
+std::unique_ptr<Overlay> makeRowOverlay() {
+  return std::make_unique<RowOverlay>();
+}
+
+}  // namespace irad

@@ -1,0 +1,260 @@
+// The picked facet: its record, its row and column of the matrix, one of its rays step by step.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "shaders/shared/emitters.h"
+#include "ui/link_table.h"
+#include "ui/panel.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+std::string three(const glm::dvec3& v) {
+  return fmt::format("{:.3g} {:.3g} {:.3g}", v.x, v.y, v.z);
+}
+std::string three(const glm::uvec3& v) {
+  return fmt::format("{} {} {}", v.x, v.y, v.z);
+}
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100 * share);
+}
+
+class InspectorPanel : public Panel {
+ public:
+  const char* title() const override { return "Inspector"; }
+  Region region() const override { return Region::Right; }
+
+  void draw(Session& session) override {
+    Inspection& in = session.inspection;
+    in.highlighted.reset();
+    const InspectedFacet* facet = in.facet();
+    if (!facet) {
+      ImGui::PushTextWrapPos(0);
+      ImGui::TextColored(theme::dim,
+                         "Click the picture to inspect a voxel; Shift-click another to compare their rows.");
+      ImGui::PopTextWrapPos();
+      return;
+    }
+    drawTop(in);
+    drawPlace(in, *facet);
+    drawNormal(*facet);
+    drawLight(in, *facet);
+    drawMatrix(in, *facet);
+    drawRay(in, *facet);
+  }
+
+ private:
+  /// Which of the voxel's facets, back along the trail, and done.
+  static void drawTop(Inspection& in) {
+    for (size_t f = 0; f < in.voxel->facets.size(); ++f) {
+      if (ImGui::RadioButton(fmt::format("facet {}", in.voxel->facets[f].facet).c_str(), in.chosen == f) &&
+          in.chosen != f)
+        in.choose = f;
+      ImGui::SameLine();
+    }
+    ImGui::NewLine();
+    ImGui::BeginDisabled(in.trail.empty());
+    if (ImGui::Button("Back")) in.goBack = true;
+    helpTooltip("To the facet that a link was followed from");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::Button("Clear")) in.clear = true;
+  }
+
+  static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
+    valueRow("voxel", three(in.voxel->voxel));
+    valueRow("world", three(in.voxel->world) + " m");
+    helpTooltip("The voxel's centre");
+    valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
+    helpTooltip("To the nearest solid voxel by the distance field in use, in voxels");
+    if (in.voxel->seed) valueRow("JFA seed", three(*in.voxel->seed));
+    valueRow("area", shortNumber(facet.area) + " m\u00B2");
+    helpTooltip("Of the facet's plane inside the voxel");
+    valueRow("albedo \u03C1", three(facet.albedo));
+  }
+
+  static void drawNormal(const InspectedFacet& facet) {
+    valueRow("normal", three(facet.normal));
+    helpTooltip("As decoded");
+    valueRow("stored", fmt::format("{:#06x}, offset {:+.3f}", facet.shape & 0xFFFFu, facetOffset(facet.shape)));
+    helpTooltip("The normal's code, and the plane's distance from the voxel's centre, voxels");
+    if (!facet.mesh) return;
+    valueRow("to mesh",
+             fmt::format("{:.2f}\u00B0, face {:.2f}\u00B0", facet.mesh->shadingError, facet.mesh->faceError));
+    helpTooltip(
+        fmt::format("Angle from the decoded normal to the mesh's interpolated normal, and to the plane of the "
+                    "triangle that won the voxel: {}{}",
+                    facet.mesh->triangle, facet.mesh->back ? ", its back" : ""));
+  }
+
+  static void drawLight(Inspection& in, const InspectedFacet& facet) {
+    valueRow("M", three(facet.emission));
+    helpTooltip("Emitted exitance, W/m\u00B2");
+    valueRow("D", three(facet.direct));
+    helpTooltip("Direct irradiance, W/m\u00B2");
+    valueRow("H", three(facet.irradiance));
+    helpTooltip("Indirect irradiance, W/m\u00B2");
+    valueRow("B", three(facet.radiosity));
+    helpTooltip("Radiosity M + \u03C1 (D + H), W/m\u00B2");
+    valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
+    helpTooltip("How far one more sweep would move B here");
+    if (facet.correction != glm::dvec3(0)) {
+      valueRow("emitters", three(facet.correction));
+      helpTooltip("What samples of the emitters add to H in place of the row's rays, W/m\u00B2");
+    }
+    drawHistory(in);
+  }
+
+  /// H over the sweeps: as it came since the pick, or replayed from the dark.
+  static void drawHistory(Inspection& in) {
+    std::vector<float> values;
+    if (in.replay)
+      for (const auto& sweep : in.replay->irradiance) values.push_back(luminance(sweep.at(0)));
+    else
+      for (const Inspection::Sample& sample : in.live) values.push_back(luminance(sample.irradiance));
+    if (values.size() > 1) {
+      const float largest = *std::max_element(values.begin(), values.end());
+      const std::string name = in.replay ? fmt::format("H in {} sweeps from the dark", values.size())
+                                         : fmt::format("H in {} sweeps since the pick", in.live.back().sweep);
+      ImGui::PlotLines("##history", values.data(), static_cast<int>(values.size()), 0, name.c_str(), 0,
+                       largest > 0 ? 1.4f * largest : 1, {-1, ImGui::GetFontSize() * 4});
+      helpTooltip(fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)));
+    }
+    if (ImGui::Button("Solve from the dark", {-1, 0})) in.wantReplay = true;
+    helpTooltip("Keeps H of this facet after every sweep of a solve of its own; the picture's light stays");
+  }
+
+  void drawMatrix(Inspection& in, const InspectedFacet& facet) {
+    ImGui::Separator();
+    using Show = Inspection::Show;
+    const auto choice = [&](const char* label, Show show, const char* help) {
+      if (ImGui::RadioButton(label, in.shown == show)) in.shown = show;
+      helpTooltip(help);
+    };
+    choice("Row", Show::Row, "What this facet gathers from");
+    ImGui::SameLine();
+    choice("Column", Show::Column, "Who gathers from this facet");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!in.comparison);
+    choice("Compare", Show::Comparison, "With the row of a Shift-clicked voxel's facet");
+    ImGui::EndDisabled();
+    if (in.shown == Show::Comparison && in.comparison) return drawComparison(in);
+
+    const bool row = in.shown == Show::Row;
+    const Links& links = row ? facet.row : facet.column;
+    valueRow(row ? "row sum" : "column sum", fmt::format("{:.4f}", links.sum));
+    if (row) {
+      const RayShares& r = facet.rays;
+      const double n = std::max(r.rays, 1u);
+      valueRow("escaped", fmt::format("{} of {}", percent(r.escaped / n), r.rays));
+      helpTooltip(fmt::format("{} rays left the grid, {} ended at the back of a face", r.escaped, r.blocked));
+      valueRow("invalid", percent(r.invalid / n));
+      helpTooltip("Rays that began behind a surface: they do not count");
+      valueRow("\u03A3 F B", three(links.contribution));
+      helpTooltip("Sum of the contributions, W/m\u00B2: H but for the emitters' samples and the residual");
+    }
+    valueRow("reciprocity", fmt::format("{:.3f}", links.exchange > 0 ? links.opposite / links.exchange : 0));
+    helpTooltip("Sum of A F the other way round over that of A F: 1 but for the noise of few rays");
+    const LinkTable::Result result = table_.draw(links, 2 * in.serial + (row ? 0 : 1));
+    in.highlighted = result.hovered;
+    if (result.followed) in.follow = result.followed;
+  }
+
+  static void drawComparison(Inspection& in) {
+    const RowComparison& rows = *in.comparison;
+    valueRow("facets", fmt::format("{} and {}", in.facet()->facet, in.other->facet));
+    valueRow("difference", fmt::format("{:.4f}", rows.difference));
+    helpTooltip("Sum of |F - F'|, of sums of 1 at most: 2 where the two rows share nothing");
+    valueRow("shared", fmt::format("{:.4f}", rows.shared));
+    helpTooltip("Sum of the smaller of F and F'");
+    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+    if (!ImGui::BeginTable("rows", 4, kFlags, {0, ImGui::GetTextLineHeightWithSpacing() * 12})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    for (const char* name : {"voxel", "F", "F'", "|F - F'|"}) ImGui::TableSetupColumn(name);
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(rows.entries.size()));
+    while (clipper.Step())
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+        const RowComparison::Entry& entry = rows.entries[static_cast<size_t>(i)];
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::PushID(i);
+        ImGui::Selectable(three(entry.voxel).c_str(), false, ImGuiSelectableFlags_SpanAllColumns);
+        ImGui::PopID();
+        if (ImGui::IsItemHovered()) in.highlighted = entry.facet;
+        for (const double value : {entry.a, entry.b, std::abs(entry.a - entry.b)}) {
+          ImGui::TableNextColumn();
+          rightText(shortNumber(value));
+        }
+      }
+    ImGui::EndTable();
+  }
+
+  void drawRay(Inspection& in, const InspectedFacet& facet) {
+    ImGui::Separator();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
+    ImGui::InputInt("##ray", &ray_);
+    ray_ = std::clamp(ray_, 0, static_cast<int>(std::max(facet.rays.rays, 1u)) - 1);
+    helpTooltip(fmt::format("Ray 0 to {} of this facet", facet.rays.rays - 1));
+    ImGui::SameLine();
+    if (ImGui::Button("Trace this ray", {-1, 0})) in.traceRay = static_cast<uint32_t>(ray_);
+    if (!in.ray) return;
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextColored(in.ray->dda.met == in.ray->sdf.met ? theme::good : theme::warning, "Ray %u. %s", in.ray->ray,
+                       describe(*in.ray).c_str());
+    ImGui::PopTextWrapPos();
+    drawSteps(*in.ray);
+  }
+
+  /// Both walks by distance, cells that both entered on one line.
+  static void drawSteps(const InspectedRay& ray) {
+    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
+    if (!ImGui::BeginTable("steps", 4, kFlags, {0, ImGui::GetTextLineHeightWithSpacing() * 10})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("t", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("000.00").x);
+    ImGui::TableSetupColumn("DDA", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("SDF", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("skips", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("skips").x);
+    ImGui::TableHeadersRow();
+    const std::vector<RayStep>&dda = ray.dda.steps, &sdf = ray.sdf.steps;
+    for (size_t d = 0, s = 0; d < dda.size() || s < sdf.size();) {
+      const bool both = d < dda.size() && s < sdf.size() && dda[d].cell == sdf[s].cell;
+      const bool first = both || s == sdf.size() || (d < dda.size() && dda[d].t <= sdf[s].t);
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      rightText(fmt::format("{:.2f}", first ? dda[d].t : sdf[s].t));
+      ImGui::TableNextColumn();
+      if (first) drawCell(dda[d]);
+      ImGui::TableNextColumn();
+      if (both || !first) {
+        drawCell(sdf[s]);
+        ImGui::TableNextColumn();
+        rightText(fmt::format("{:.1f}", sdf[s].length));
+      }
+      s += both || !first;
+      d += first;
+    }
+    ImGui::EndTable();
+  }
+  static void drawCell(const RayStep& step) {
+    const std::string text = fmt::format("{} {} {}", step.cell.x, step.cell.y, step.cell.z);
+    ImGui::TextColored(step.faces > 0 ? theme::accent : theme::text, "%s", text.c_str());
+    if (step.faces > 0) helpTooltip(fmt::format("holds {} facet{}", step.faces, step.faces > 1 ? "s" : ""));
+  }
+
+  LinkTable table_;
+  int ray_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> makeInspectorPanel() {
+  return std::make_unique<InspectorPanel>();
+}
+
+}  // namespace irad
