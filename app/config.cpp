@@ -125,6 +125,7 @@ Config readConfigFile(const fs::path& path) {
   }
   if (json.contains("frames")) config.frames = whole(path, json["frames"], "frames", kMaxFrames);
   config.views = member<std::vector<std::string>>(path, json, "views").value_or(std::vector<std::string>{});
+  config.shaders = member<std::vector<std::string>>(path, json, "shaders").value_or(std::vector<std::string>{});
   config.cameras = readCameras(path, json);
   return config;
 }

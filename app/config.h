@@ -24,6 +24,7 @@ struct Config {
   std::optional<uint32_t> frames;
   std::vector<Camera> cameras;
   std::vector<std::string> views;
+  std::vector<std::string> shaders;  ///< that were not the program's own
 };
 /// InputError when the file cannot be read, is not what it should be, or is of a newer format.
 Config readConfigFile(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include "app/arguments.h"
 #include "app/command.h"
 #include "app/devices.h"
+#include "app/version.h"
 #include "app/views.h"
 #include "renderer/error.h"
 #include "ui/preferences.h"
@@ -63,6 +64,7 @@ void run(const Arguments& arguments) {
   const Config config = arguments.settings.readConfig();
   (void)arguments.settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
   WindowOptions options;
+  options.program = {versionNumber(), versionCommit()};
   options.scene = findScene(arguments.scene, config, "box");
   if (arguments.view) options.view = findViews({*arguments.view}).front().view;
   if (arguments.size) options.size = parseSize(*arguments.size);

@@ -75,6 +75,7 @@ std::string Manifest::toJson() const {
     for (const Camera& camera : cameras) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
   }
   if (!views.empty()) json["views"] = views;
+  if (!shaders.empty()) json["shaders"] = shaders;
   for (const auto& [name, text] : details) json[name] = Json::parse(text);
   json["files"] = files;
   json["warnings"] = scene->warnings;

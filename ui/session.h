@@ -93,6 +93,7 @@ struct Session : Side {
   Camera shown;           ///< of the picture in targets
   bool viewDirty = true;  ///< the picture must be rendered again
 
+  bool underRenderDoc = false;  ///< captureFrame can be served
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
   Preferences preferences;
   std::optional<Work> work;
@@ -109,7 +110,7 @@ struct Session : Side {
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene;
-  bool reloadShaders = false, capture = false, quit = false, rebuild = false;
+  bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;  ///< begin or end a comparison
 
   // Shown until dismissed, and printed on standard error.

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "gi/manifest.h"
 #include "gi/pipeline.h"
 
 namespace irad {
@@ -18,6 +19,7 @@ struct WindowOptions {
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";
+  Program program;                    ///< for the captures' manifests
   std::filesystem::path preferences;  ///< file that remembers the layout; empty: none is read or written
   std::filesystem::path shaders;      ///< sources for F5; empty: not at hand
   // For tests.
