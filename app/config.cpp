@@ -106,6 +106,7 @@ Config readConfigFile(const fs::path& path) {
   }
   if (json.contains("frames")) config.frames = whole(path, json["frames"], "frames", kMaxFrames);
   config.views = member<std::vector<std::string>>(path, json, "views").value_or(std::vector<std::string>{});
+  config.shaders = member<std::vector<std::string>>(path, json, "shaders").value_or(std::vector<std::string>{});
   if (json.contains("cameras")) config.cameras = readArray(path, json, "cameras", camerasFromJson);
   if (json.contains("lights")) config.lights = readArray(path, json, "lights", lightsFromJson);
   return config;

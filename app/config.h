@@ -28,6 +28,7 @@ struct Config {
   std::vector<std::string> views;
   std::optional<std::filesystem::path> reference;  ///< picture to compare with
   std::optional<std::string> referenceSha256;
+  std::vector<std::string> shaders;  ///< that were not the program's own
 };
 /// InputError when the file cannot be read, is not what it should be, or is of a newer format.
 Config readConfigFile(const std::filesystem::path& path);

@@ -1,7 +1,9 @@
-// `irad export`: volumes, matrix and facets as .npy, the record of a voxel as JSON, with a manifest; or a scene with
-// its images decoded.
+// `irad export`: volumes, matrix and facets for other programs, the record of a voxel as JSON, with a manifest; or a
+// scene with its images decoded.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/devices.h"
@@ -20,12 +22,16 @@ namespace {
 
 struct Arguments {
   std::optional<std::string> scene, out, cache, inspect;
-  std::vector<std::string> volumes;
+  std::vector<std::string> volumes, formats;
   bool matrix = false, facets = false;
   SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
 };
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 std::vector<Volume> parseVolumes(const std::vector<std::string>& names) {
   const auto& all = EnumNames<Volume>::names;
@@ -47,6 +53,30 @@ std::vector<Volume> parseVolumes(const std::vector<std::string>& names) {
     }
   }
   return out;
+}
+
+/// The formats asked for. Each thing asked for is written in all of them that it has: one at least, and none is in
+/// vain.
+std::vector<std::string> parseFormats(const Arguments& arguments) {
+  static const std::vector<std::string> known{"npy", "vdb", "csv"};
+  const std::vector<std::string> wanted =
+      arguments.formats.empty() ? std::vector<std::string>{"npy"} : splitList("--format", arguments.formats);
+  for (const std::string& name : wanted)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError(fmt::format("unknown format '{}'{}", name, suggestion(name, known)));
+#ifndef IRAD_VDB
+  if (contains(wanted, "vdb")) throw UsageError("--format vdb: this build has no OpenVDB (IRAD_VDB)");
+#endif
+  const auto check = [&](const char* option, bool given, const std::vector<std::string>& has) {
+    const bool written = std::any_of(has.begin(), has.end(), [&](const auto& name) { return contains(wanted, name); });
+    if (given && !written) throw UsageError(fmt::format("{} is written as {}", option, fmt::join(has, " or ")));
+    if (!given && has.size() > 1 && contains(wanted, has[1]))
+      throw UsageError(fmt::format("--format {} is for {}, which is not given", has[1], option));
+  };
+  check("--volume", !arguments.volumes.empty(), {"npy", "vdb"});
+  check("--facets", arguments.facets, {"npy", "csv"});
+  check("--matrix", arguments.matrix, {"npy"});
+  return wanted;
 }
 
 /// Where the arrays lie in the world: [z, y, x] is the voxel at world position origin + edge (x, y, z).
@@ -72,7 +102,8 @@ fs::path exportRecord(Session& session, const Pipeline& pipeline, const Inspecto
 }
 
 void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
-                 const std::optional<glm::uvec3>& inspected, const fs::path& scenePath) {
+                 const std::vector<std::string>& formats, const std::optional<glm::uvec3>& inspected,
+                 const fs::path& scenePath) {
   Session session(arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const fs::path out = arguments.out.value_or("out");
@@ -86,14 +117,23 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   // The manifest comes last and vouches for the rest: that of an earlier run goes first.
   removeFile(out / "manifest.json");
   std::vector<fs::path> written;
-  for (const Volume volume : volumes)
-    written.push_back(
-        exportVolume(*session.context, volume, pipeline.facets(), pipeline.field(), pipeline.lighting(), out));
+  for (const Volume volume : volumes) {
+    const VolumeValues values =
+        readVolume(*session.context, volume, pipeline.facets(), pipeline.field(), pipeline.lighting());
+    if (contains(formats, "npy")) written.push_back(writeVolumeNpy(values, out));
+#ifdef IRAD_VDB
+    if (contains(formats, "vdb")) written.push_back(writeVolumeVdb(values, pipeline.scene().origin, out));
+#endif
+  }
   const auto append = [&](const std::vector<fs::path>& files) {
     written.insert(written.end(), files.begin(), files.end());
   };
   if (arguments.matrix) append(exportMatrix(*session.context, pipeline.matrix(), out));
-  if (arguments.facets) append(exportFacets(*session.context, pipeline.facets(), pipeline.lighting(), out));
+  if (arguments.facets) {
+    const FacetTable table = readFacets(*session.context, pipeline.facets(), pipeline.lighting());
+    if (contains(formats, "npy")) append(writeFacetsNpy(table, out));
+    if (contains(formats, "csv")) written.push_back(writeFacetsCsv(table, out));
+  }
   if (inspected) written.push_back(exportRecord(session, pipeline, *inspector, *inspected, out));
 
   Manifest manifest = session.manifest("export", pipeline);
@@ -106,6 +146,10 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   if (inspected) {
     manifest.arguments.emplace_back("--inspect");
     manifest.arguments.push_back(*arguments.inspect);
+  }
+  for (const std::string& format : arguments.formats) {
+    manifest.arguments.emplace_back("--format");
+    manifest.arguments.push_back(format);
   }
   manifest.details.emplace_back("grid", gridJson(pipeline.scene(), pipeline.facets().grid));
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
@@ -120,6 +164,7 @@ void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   const std::vector<Volume> volumes = parseVolumes(arguments.volumes);
+  const std::vector<std::string> formats = parseFormats(arguments);
   std::optional<glm::uvec3> inspected;
   if (arguments.inspect) inspected = parseVoxel("--inspect", *arguments.inspect);
   const bool files = !volumes.empty() || arguments.matrix || arguments.facets || inspected;
@@ -132,23 +177,26 @@ void run(const Arguments& arguments) {
     writeSceneCache(openScene(scenePath, arguments.sceneOptions.load(config, settings)), *arguments.cache);
     fmt::print("wrote       {}\n", *arguments.cache);
   }
-  if (files) exportFiles(arguments, volumes, inspected, scenePath);
+  if (files) exportFiles(arguments, volumes, formats, inspected, scenePath);
 }
 
 }  // namespace
 
 Command exportCommand() {
   const auto arguments = std::make_shared<Arguments>();
-  return {"export", "Write volumes, the matrix or facets as .npy, or a voxel's record as JSON",
+  return {"export", "Write volumes, the matrix or facets for numpy, OpenVDB, spreadsheets, or a voxel's record as JSON",
           [arguments](Options& options) {
             options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--volume", "NAME[,NAME...]", arguments->volumes,
                            "radiosity, irradiance, albedo, normal, emission, distance, or all (repeatable): NAME.npy, "
-                           "float32 [z, y, x(, 3)]");
+                           "float32 [z, y, x(, 3)], or NAME.vdb");
             options.flag("--matrix", arguments->matrix,
                          "indptr.npy, indices.npy, data.npy: what scipy.sparse.csr_matrix takes");
-            options.flag("--facets", arguments->facets, "facet_NAME.npy: one row per facet, in matrix order");
+            options.flag("--facets", arguments->facets,
+                         "facet_NAME.npy or facets.csv: one row per facet, in matrix order");
+            options.values("--format", "NAME[,NAME...]", arguments->formats,
+                           "npy, vdb (OpenVDB: volumes), csv (facets); repeatable; default: npy");
             options.value("--inspect", "X,Y,Z", arguments->inspect,
                           "inspect.json: all that is known of one voxel, its facets, their rows and columns of the "
                           "matrix, and H after every sweep from the dark");

@@ -28,6 +28,10 @@ Scene Session::load(const std::filesystem::path& path, const SceneArguments& arg
   if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
     progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
                               config.path.string(), scene.sha256, *config.sceneSha256));
+  if (!config.shaders.empty())
+    progress.note(
+        fmt::format("warning: {} was made with shaders compiled in the window, which this run does not have: {}",
+                    config.path.string(), fmt::join(config.shaders, ", ")));
   return scene;
 }
 

@@ -10,6 +10,7 @@
 #include "app/command.h"
 #include "app/devices.h"
 #include "app/reference.h"
+#include "app/version.h"
 #include "app/views.h"
 #include "renderer/error.h"
 #include "ui/preferences.h"
@@ -70,6 +71,7 @@ void run(const Arguments& arguments) {
   (void)arguments.settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
   arguments.sceneOptions.check();
   WindowOptions options;
+  options.program = {versionNumber(), versionCommit()};
   options.scene = findScene(arguments.scene, config, "box");
   options.builtIn = builtInFolders();
   if (arguments.view) options.view = findViews({*arguments.view}).front().view;

@@ -61,16 +61,19 @@ std::span<const float> floats(const std::vector<glm::vec3>& values) {
 
 }  // namespace
 
-fs::path exportVolume(Context& context, Volume volume, const FacetList& facets, const Field& field,
-                      const Lighting& lighting, const fs::path& folder) {
-  const fs::path path = folder / (std::string(EnumNames<Volume>::names.at(static_cast<size_t>(volume))) + ".npy");
-  const glm::uvec3 dims = facets.grid.dims;
-  if (volume == Volume::distance) {
-    writeNpy<float>(path, {dims.z, dims.y, dims.x}, hostDistances(context, facets.grid, field));
-    return path;
+VolumeValues readVolume(Context& context, Volume volume, const FacetList& facets, const Field& field,
+                        const Lighting& lighting) {
+  VolumeValues out{.volume = volume, .grid = facets.grid, .channels = 3};
+  for (const uint32_t facet : downloadAs<uint32_t>(context, facets.reverse)) {
+    if (out.solid.size() == facets.grid.voxels) break;  // buffers may be longer than what they hold
+    out.solid.push_back(facet != NO_FACET);
   }
   std::vector<glm::vec3> values;
   switch (volume) {
+    case Volume::distance:
+      out.channels = 1;
+      out.values = hostDistances(context, facets.grid, field);
+      return out;
     case Volume::radiosity:
       values = firstThree(downloadAs<glm::vec4>(context, lighting.radiosity));
       break;
@@ -84,12 +87,19 @@ fs::path exportVolume(Context& context, Volume volume, const FacetList& facets, 
       values = emissions(context, facets);
       break;
     case Volume::normal:
-    case Volume::distance:
       values = normals(context, facets);
       break;
   }
-  writeNpy<float>(path, {dims.z, dims.y, dims.x, 3},
-                  floats(perVoxel(context, facets, values, /*mean=*/volume != Volume::normal)));
+  const std::vector<glm::vec3> voxels = perVoxel(context, facets, values, /*mean=*/volume != Volume::normal);
+  out.values.assign(floats(voxels).begin(), floats(voxels).end());
+  return out;
+}
+
+fs::path writeVolumeNpy(const VolumeValues& volume, const fs::path& folder) {
+  const fs::path path = folder / fmt::format("{}.npy", EnumNames<Volume>::names.at(static_cast<size_t>(volume.volume)));
+  std::vector<uint64_t> shape{volume.grid.dims.z, volume.grid.dims.y, volume.grid.dims.x};
+  if (volume.channels > 1) shape.push_back(volume.channels);
+  writeNpy<float>(path, shape, volume.values);
   return path;
 }
 
@@ -115,33 +125,55 @@ std::vector<fs::path> exportMatrix(Context& context, const FormFactors& matrix, 
   return {folder / "indptr.npy", folder / "indices.npy", folder / "data.npy"};
 }
 
-std::vector<fs::path> exportFacets(Context& context, const FacetList& facets, const Lighting& lighting,
-                                   const fs::path& folder) {
-  std::vector<fs::path> files;
-  const uint64_t count = facets.count;
-  const auto write = [&](const char* name, std::vector<glm::vec3> values) {
-    values.resize(count);  // an empty list still has 16 bytes
-    files.push_back(folder / fmt::format("facet_{}.npy", name));
-    writeNpy<float>(files.back(), {count, 3}, floats(values));
-  };
-  std::vector<int32_t> voxels;
+FacetTable readFacets(Context& context, const FacetList& facets, const Lighting& lighting) {
+  FacetTable table;
   std::vector<glm::vec3> positions;
   for (const uint32_t packed : downloadAs<uint32_t>(context, facets.voxel)) {
-    if (positions.size() == count) break;
+    if (positions.size() == facets.count) break;
     const glm::uvec3 v = unpackVoxel(packed);
-    voxels.insert(voxels.end(), {static_cast<int32_t>(v.x), static_cast<int32_t>(v.y), static_cast<int32_t>(v.z)});
+    table.voxel.emplace_back(v);
     positions.push_back(facets.grid.origin + (glm::vec3(v) + 0.5f) * facets.grid.edge);
   }
-  files.push_back(folder / "facet_voxel.npy");
-  writeNpy<int32_t>(files.back(), {count, 3}, voxels);
-  write("position", positions);
-  write("normal", normals(context, facets));
-  write("albedo", albedos(context, facets));
-  write("emission", emissions(context, facets));
-  write("direct", firstThree(downloadAs<glm::vec4>(context, lighting.direct)));
-  write("irradiance", firstThree(downloadAs<glm::vec4>(context, lighting.indirect)));
-  write("radiosity", firstThree(downloadAs<glm::vec4>(context, lighting.radiosity)));
+  const auto add = [&](const char* name, std::vector<glm::vec3> values) {
+    values.resize(facets.count);  // an empty list still has 16 bytes
+    table.attributes.emplace_back(name, std::move(values));
+  };
+  add("position", std::move(positions));
+  add("normal", normals(context, facets));
+  add("albedo", albedos(context, facets));
+  add("emission", emissions(context, facets));
+  add("direct", firstThree(downloadAs<glm::vec4>(context, lighting.direct)));
+  add("irradiance", firstThree(downloadAs<glm::vec4>(context, lighting.indirect)));
+  add("radiosity", firstThree(downloadAs<glm::vec4>(context, lighting.radiosity)));
+  return table;
+}
+
+std::vector<fs::path> writeFacetsNpy(const FacetTable& facets, const fs::path& folder) {
+  const uint64_t count = facets.voxel.size();
+  std::vector<fs::path> files{folder / "facet_voxel.npy"};
+  writeNpy<int32_t>(files.back(), {count, 3}, {reinterpret_cast<const int32_t*>(facets.voxel.data()), count * 3});
+  for (const auto& [name, values] : facets.attributes) {
+    files.push_back(folder / fmt::format("facet_{}.npy", name));
+    writeNpy<float>(files.back(), {count, 3}, floats(values));
+  }
   return files;
+}
+
+fs::path writeFacetsCsv(const FacetTable& facets, const fs::path& folder) {
+  const fs::path path = folder / "facets.csv";
+  OutputFile file(path);
+  std::string line = "voxel_x,voxel_y,voxel_z";
+  for (const auto& [name, values] : facets.attributes) line += fmt::format(",{0}_x,{0}_y,{0}_z", name);
+  file.write(line + "\n");
+  for (size_t i = 0; i < facets.voxel.size(); ++i) {
+    const glm::ivec3 v = facets.voxel[i];
+    line = fmt::format("{},{},{}", v.x, v.y, v.z);
+    for (const auto& [name, values] : facets.attributes)
+      line += fmt::format(",{},{},{}", values[i].x, values[i].y, values[i].z);
+    file.write(line + "\n");
+  }
+  file.commit();
+  return path;
 }
 
 }  // namespace irad

@@ -78,6 +78,7 @@ std::string Manifest::toJson() const {
   }
   json["lights"] = Json::parse(lightsToJson(scene->lights));
   if (!views.empty()) json["views"] = views;
+  if (!shaders.empty()) json["shaders"] = shaders;
   for (const auto& [name, text] : details) json[name] = Json::parse(text);
   json["files"] = files;
   json["warnings"] = scene->warnings;

@@ -39,6 +39,7 @@ struct Manifest {
   std::vector<std::string> views;
   std::vector<std::string> arguments;                        ///< further options of the reproducing command line
   std::vector<std::pair<std::string, std::string>> details;  ///< further members: name, JSON
+  std::vector<std::string> shaders;                          ///< that were not the program's own
   std::vector<std::string> files;                            ///< written beside the manifest
 
   std::string toJson() const;

@@ -231,7 +231,8 @@ bool Pipeline::current() const {
 
 void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()>& draw) {
   Impl& p = *impl_;
-  IRAD_CHECK_OP(current(), ==, true);
+  IRAD_CHECK(current(), "what the settings call for has not been prepared");
+  if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
   struct Before {
     Impl& p;
     std::optional<Lighting> light = std::exchange(p.now.light, std::nullopt);
@@ -241,7 +242,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
       p.solvedFrame = solvedFrame;
     }
   } before{p};
-  p.relight(p.now, Redo::Gather, p.settings.solver.maxSweeps, progress);
+  p.relight(p.now, Redo::Gather, p.settings.solver.maxSweeps, {});
   draw();
 }
 

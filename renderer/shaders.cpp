@@ -54,6 +54,13 @@ std::vector<std::string> ShaderLibrary::names() const {
   return names;
 }
 
+std::vector<std::string> ShaderLibrary::modified() const {
+  std::vector<std::string> names;
+  for (const EmbeddedShader& shader : embeddedShaders())
+    if (withoutDebugInfo(get(shader.name).spirv) != withoutDebugInfo(shader.spirv)) names.emplace_back(shader.name);
+  return names;
+}
+
 void ShaderLibrary::add(std::string name, std::vector<uint32_t> spirv) {
   ShaderModule module = reflect(name, std::move(spirv));
   modules_.insert_or_assign(std::move(name), std::move(module));

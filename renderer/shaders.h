@@ -56,6 +56,7 @@ class ShaderLibrary {
   ShaderLibrary();                                       ///< the embedded modules
   const ShaderModule& get(std::string_view name) const;  ///< unknown name: broken invariant, near names printed
   std::vector<std::string> names() const;
+  std::vector<std::string> modified() const;  ///< embedded ones that do something else by now, after a reload
   /// Adds or replaces a module from outside the program (tests).
   void add(std::string name, std::vector<uint32_t> spirv);
   uint64_t generation() const { return generation_; }  ///< grows with every replacement; pipelines key on it

@@ -364,6 +364,13 @@ TEST(CheckCommand, ScenesOpenByNameWithTheirOracle) {
   for (const glm::vec3& p : oracle.pixels) EXPECT_EQ(p.x, 2.0f);
   for (const glm::vec3& p : ours.pixels) EXPECT_NEAR(p.x, 2.0, 0.01);
 #endif
+  // Its manifest names the case, and replays from anywhere.
+  const TemporaryFolder replayed;
+  const RunResult replay =
+      runIrad({"render", "--config", (folder.path / "manifest.json").string(), "--out", replayed.path.string()});
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  const std::string linear = std::string("reference") + kLinear;
+  EXPECT_TRUE(slurp(folder.path / linear) == slurp(replayed.path / linear));
   EXPECT_EQ(runIrad({"render", "check:sampler-of-nothing", "--out", out}).status, 2);
 }
 

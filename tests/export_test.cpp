@@ -1,6 +1,7 @@
 // Exports of hand-made lists and matrices, and the memory formulas against the thesis's printed example.
 #include "gi/export.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -68,7 +69,9 @@ TEST_F(Export, VolumesHoldTheMeanOfAVoxelsFacets) {
   const FacetList facets = list();
   const Lighting light = lighting();
   const Field field;
-  const auto read = [&](Volume v) { return Npy<float>(exportVolume(context(), v, facets, field, light, folder.path)); };
+  const auto read = [&](Volume v) {
+    return Npy<float>(writeVolumeNpy(readVolume(context(), v, facets, field, light), folder.path));
+  };
   const auto value = [](const Npy<float>& npy, size_t voxel) {
     return glm::vec3(npy.values.at(3 * voxel), npy.values.at(3 * voxel + 1), npy.values.at(3 * voxel + 2));
   };
@@ -91,7 +94,7 @@ TEST_F(Export, DistanceIsTheChebyshevField) {
   const FacetList facets = list();
   Settings settings;
   const Field field = buildField(context(), facets, settings);
-  const Npy<float> npy(exportVolume(context(), Volume::distance, facets, field, {}, folder.path));
+  const Npy<float> npy(writeVolumeNpy(readVolume(context(), Volume::distance, facets, field, {}), folder.path));
   EXPECT_TRUE(contains(npy.header, "'shape': (3, 4, 5)")) << npy.header;
   EXPECT_EQ(npy.values.at(at(1, 2, 1)), 0.0f);
   EXPECT_EQ(npy.values.at(at(3, 1, 1)), 0.0f);
@@ -101,8 +104,8 @@ TEST_F(Export, DistanceIsTheChebyshevField) {
 
 TEST_F(Export, FacetsInMatrixOrder) {
   const FacetList facets = list();
-  const std::vector<fs::path> files = exportFacets(context(), facets, lighting(), folder.path);
-  EXPECT_EQ(files.size(), 8u);
+  const FacetTable table = readFacets(context(), facets, lighting());
+  EXPECT_EQ(writeFacetsNpy(table, folder.path).size(), 8u);
   const Npy<int32_t> voxel(folder.path / "facet_voxel.npy");
   EXPECT_EQ(voxel.values, (std::vector<int32_t>{1, 2, 1, 1, 2, 1, 3, 1, 1}));
   const Npy<float> position(folder.path / "facet_position.npy");
@@ -111,6 +114,16 @@ TEST_F(Export, FacetsInMatrixOrder) {
   EXPECT_EQ(Npy<float>(folder.path / "facet_normal.npy").values, (std::vector<float>{0, 1, 0, 0, -1, 0, 0, -1, 0}));
   EXPECT_EQ(Npy<float>(folder.path / "facet_direct.npy").values, (std::vector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3}));
   EXPECT_EQ(Npy<float>(folder.path / "facet_emission.npy").values, (std::vector<float>{2, 0, 0, 0, 4, 0, 0, 0, 8}));
+
+  const std::string csv = test::slurp(writeFacetsCsv(table, folder.path));
+  const size_t first = csv.find('\n');
+  EXPECT_EQ(csv.substr(0, first),
+            "voxel_x,voxel_y,voxel_z,position_x,position_y,position_z,normal_x,normal_y,normal_z,albedo_x,albedo_y,"
+            "albedo_z,emission_x,emission_y,emission_z,direct_x,direct_y,direct_z,irradiance_x,irradiance_y,"
+            "irradiance_z,radiosity_x,radiosity_y,radiosity_z");
+  EXPECT_EQ(csv.substr(first + 1, csv.find('\n', first + 1) - first - 1),
+            "1,2,1,-0.25,0.25,-0.25,0,1,0,1,0,0,2,0,0,1,1,1,1,2,3,10,0,0");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
 }
 
 /// A matrix of three rows in segments of two: row 0 = {1: 3/4, 2: 1/4}, row 1 empty, row 2 = {0: 2/4}.

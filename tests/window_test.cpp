@@ -5,7 +5,9 @@
 #if IRAD_UI
 
 #include <functional>
+#include <nlohmann/json.hpp>
 
+#include "gi/views.h"
 #include "tests/file_drop.h"
 #include "tests/scene_files.h"
 #include "tests/virtual_screen.h"
@@ -150,16 +152,65 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }))
       << "C twice did not return to the first camera";
 
-  // F12 saves the view.
-  key("F12");
-  const std::filesystem::path png = folder_.path / "out/captures/box.lit.001.png";
-  const std::filesystem::path exr = folder_.path / "out/captures/box.lit.001.exr";
-  for (int i = 0; i < 300 && !(std::filesystem::exists(png) && std::filesystem::exists(exr)); ++i) pause(0.1);
-  EXPECT_TRUE(std::filesystem::exists(png));
-  EXPECT_TRUE(std::filesystem::exists(exr));
-
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0) << "status after Esc, with validation on";
+}
+
+TEST_F(WindowTest, CapturesReplayToTheSameBits) {
+  start({"--set", "solver.tolerance=0.01", "--set", "camera.exposure=1"});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  xdotool("keydown w sleep 0.3 keyup w");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+  const std::filesystem::path captures = folder_.path / "out/captures";
+
+  // The view, then all of them, each into a new folder; the window shows what it showed.
+  key("F12");
+  EXPECT_TRUE(says("Saved Lit to out/captures/box.001"));
+  key("shift+F12");
+  EXPECT_TRUE(says("views to out/captures/box.002"));
+  std::vector<std::string> all{"manifest.json"};
+  for (const ViewInfo& view : views())
+    for (const char* extension : {".png", ".exr"}) all.push_back(view.name + std::string(extension));
+  std::sort(all.begin(), all.end());
+  for (const auto& [name, wanted] :
+       {std::pair("box.001", std::vector<std::string>{"lit.exr", "lit.png", "manifest.json"}),
+        std::pair("box.002", all)}) {
+    auto saved = contents(captures / name);
+    std::vector<std::string> names;
+    for (const auto& [file, bytes] : saved) names.push_back(file);
+    EXPECT_EQ(names, wanted) << name;
+    const RunResult replay = runIrad(
+        {"render", "--config", (captures / name / "manifest.json").string(), "--out", (folder_.path / name).string()});
+    ASSERT_EQ(replay.status, 0) << replay.err;
+    auto again = contents(folder_.path / name);
+    for (const std::string& file : names) {
+      EXPECT_TRUE(file == "manifest.json" || saved[file] == again[file]) << name << ": " << file;
+    }
+    // All that differs: the headless run writes its times and memory too.
+    nlohmann::json ours = nlohmann::json::parse(saved["manifest.json"]),
+                   theirs = nlohmann::json::parse(again["manifest.json"]);
+    ours.erase("files");
+    theirs.erase("files");
+    EXPECT_EQ(ours, theirs);
+  }
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "saving changed the picture";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0) << window_->log();
+}
+
+TEST_F(WindowTest, CapturesThatCannotBeWrittenSayWhy) {
+  std::ofstream(folder_.path / "taken") << "a file";
+  start({"--out", (folder_.path / "taken").string()});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  key("F12");
+  EXPECT_TRUE(says("cannot create folder " + (folder_.path / "taken").string())) << window_->log();
+  EXPECT_EQ(slurp(folder_.path / "taken"), "a file");
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
 }
 
 TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {

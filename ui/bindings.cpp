@@ -22,7 +22,8 @@ std::span<const Binding> bindings() {
       {GLFW_KEY_F1, Action::Help, "F1", "this list"},
       {GLFW_KEY_F2, Action::HideUi, "F2", "hide or show the panels"},
       {GLFW_KEY_F5, Action::ReloadShaders, "F5", "compile the shaders again"},
-      {GLFW_KEY_F12, Action::Capture, "F12", "save this view as PNG and EXR"},
+      {GLFW_KEY_F12, Action::CaptureAll, "Shift + F12", "save all views", /*shift=*/true},
+      {GLFW_KEY_F12, Action::Capture, "F12", "save this view: PNG, EXR, manifest"},
       {GLFW_KEY_ESCAPE, Action::Quit, "Esc", "quit"},
   };
   return table;

@@ -2,35 +2,67 @@
 
 #include <fmt/format.h>
 
+#include "gi/picture.h"
 #include "renderer/error.h"
 #include "renderer/image_io.h"
 #include "renderer/output_file.h"
 
 namespace irad {
+namespace {
 
-void captureView(Context& context, Session& session, const std::filesystem::path& folder) {
-  if (!session.built || !session.targets.display) return;
-  const char* view = "view";
-  for (const ViewInfo& info : views())
-    if (info.view == session.view) view = info.name;
-  try {
-    makeFolder(folder);
-    std::filesystem::path stem;
-    for (int number = 1;; ++number) {
-      stem = folder / fmt::format("{}.{}.{:03}", session.pipeline->scene().path.stem().string(), view, number);
-      if (!std::filesystem::exists(stem.string() + ".png")) break;
+/// Returns the folder; throws what went wrong.
+std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen, const std::filesystem::path& parent,
+                           const Program& program, const Progress& progress) {
+  Context& context = session.context;
+  Pipeline& pipeline = *session.pipeline;
+  if (!pipeline.current())
+    throw WorkError("Not saved: the picture is not of these settings, what they call for has not been rebuilt.");
+  OutputFolder folder(parent / pipeline.scene().path.stem());
+  Manifest manifest{.program = program,
+                    .subcommand = "render",
+                    .device = &context.device.info,
+                    .scene = &pipeline.scene(),
+                    .settings = &pipeline.settings(),
+                    .cpuDevice = context.device.isCpu,
+                    .size = session.targets.size,
+                    .frames = 1,
+                    .cameras = {session.camera.camera()},
+                    .shaders = context.shaders.modified()};
+  Targets targets(context, session.targets.size);
+  pipeline.solvedAfresh(progress, [&] {
+    for (const ViewInfo& view : chosen) {
+      const float done = static_cast<float>(manifest.views.size()) / static_cast<float>(chosen.size());
+      if (!progress(view.label, done)) throw WorkError("cancelled");
+      Frame frame = context.beginUntimed();
+      pipeline.render(frame, manifest.cameras.front(), view.view, targets);
+      frame.submitAndWait();
+      for (const std::filesystem::path& path :
+           writePicture(context, targets, view, folder.temporary() / view.name).paths)
+        manifest.files.push_back(path.filename().string());
+      manifest.views.emplace_back(view.name);
     }
-    const std::vector<std::byte> display = download(context, session.targets.display);
-    const std::vector<std::byte> linear = download(context, session.targets.linear);
-    const glm::uvec2 size = session.targets.size;
-    const size_t pixels = static_cast<size_t>(size.x) * size.y;
-    const auto png = writeDisplay(stem.string(), size, {reinterpret_cast<const glm::u8vec4*>(display.data()), pixels});
-    const auto exr = writeLinear(stem.string(), size, {reinterpret_cast<const glm::vec4*>(linear.data()), pixels});
-    session.note(fmt::format("Saved {} and {}", png.string(), exr.filename().string()));
+  });
+  writeFile(folder.temporary() / "manifest.json", manifest.toJson());
+  return folder.commit();
+}
+
+}  // namespace
+
+void saveCapture(Session& session, bool allViews, const std::filesystem::path& parent, const Program& program,
+                 const Progress& progress) {
+  if (!session.built) return;
+  std::vector<ViewInfo> chosen;
+  for (const ViewInfo& view : views())
+    if (allViews || view.view == session.view) chosen.push_back(view);
+  try {
+    const std::filesystem::path folder = save(session, chosen, parent, program, progress);
+    session.note(fmt::format("Saved {} to {}", allViews ? fmt::format("{} views", chosen.size()) : chosen[0].label,
+                             folder.string()));
   } catch (const Error& error) {
-    session.error(error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    session.error(error.what());
+    if (session.work->cancel)
+      session.note("Saving was cancelled; no folder was made.");
+    else
+      session.error(error.what());
   }
 }
 

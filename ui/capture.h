@@ -3,13 +3,17 @@
 
 #include <filesystem>
 
+#include "gi/manifest.h"
 #include "ui/session.h"
 
 namespace irad {
 
-/// The view as shown (PNG), and its light before exposure (EXR), under the first free number in `folder`; says where,
-/// or what went wrong.
-void captureView(Context& context, Session& session, const std::filesystem::path& folder);
+/// Makes a new folder `parent`/SCENE.NNN of the view shown, or of all: VIEW.png as shown, VIEW.exr linear, at the
+/// viewport's size, and the manifest.json from which `irad render --config` makes the same bits. The pictures are drawn
+/// from light that is solved as it does (Pipeline::solvedAfresh). Says where they are, or what went wrong: then there
+/// is no folder.
+void saveCapture(Session& session, bool allViews, const std::filesystem::path& parent, const Program& program,
+                 const Progress& progress);
 
 /// An RGBA8 image as PNG; throws WorkError.
 void saveScreenshot(Context& context, const Image& image, const std::filesystem::path& file);

@@ -16,7 +16,8 @@ Input::Input(GLFWwindow* window)
     : window_(window), held_{Held{GLFW_KEY_D, {1, 0, 0}},  Held{GLFW_KEY_A, {-1, 0, 0}}, Held{GLFW_KEY_E, {0, 1, 0}},
                              Held{GLFW_KEY_Q, {0, -1, 0}}, Held{GLFW_KEY_W, {0, 0, 1}},  Held{GLFW_KEY_S, {0, 0, -1}}} {
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) { of(w).key(key, action); });
+  glfwSetKeyCallback(window,
+                     [](GLFWwindow* w, int key, int, int action, int modifiers) { of(w).key(key, action, modifiers); });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w).event_ = true; });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { of(w).event_ = true; });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w).event_ = true; });
@@ -26,7 +27,7 @@ Input::Input(GLFWwindow* window)
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     of(w).event_ = true;
     if (!focused)  // releases are not delivered to a window without focus
-      for (Held& held : of(w).held_) of(w).key(held.key, GLFW_RELEASE);
+      for (Held& held : of(w).held_) of(w).key(held.key, GLFW_RELEASE, 0);
   });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     of(w).event_ = true;
@@ -40,9 +41,9 @@ Input& of(GLFWwindow* window) {
 }
 }  // namespace
 
-void Input::key(int key, int action) {
+void Input::key(int key, int action, int modifiers) {
   event_ = true;
-  if (action == GLFW_PRESS) presses_.push_back(key);
+  if (action == GLFW_PRESS) presses_.push_back({key, (modifiers & GLFW_MOD_SHIFT) != 0});
   const double now = glfwGetTime();
   for (Held& held : held_) {
     if (held.key != key) continue;
@@ -57,7 +58,7 @@ void Input::key(int key, int action) {
 bool Input::takeEvent() {
   return std::exchange(event_, false);
 }
-std::vector<int> Input::takePresses() {
+std::vector<Input::Press> Input::takePresses() {
   return std::exchange(presses_, {});
 }
 std::vector<std::filesystem::path> Input::takeDrops() {

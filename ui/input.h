@@ -16,8 +16,12 @@ class Input {
   explicit Input(GLFWwindow* window);
   Input(const Input&) = delete;
 
-  bool takeEvent();                ///< anything happened since the last call
-  std::vector<int> takePresses();  ///< GLFW keys pressed since the last call
+  bool takeEvent();  ///< anything happened since the last call
+  struct Press {
+    int key;     ///< GLFW's
+    bool shift;  ///< was held
+  };
+  std::vector<Press> takePresses();  ///< since the last call
   std::vector<std::filesystem::path> takeDrops();
   /// Seconds for which each direction (right, up, forward) was held since the last call, so that a short tap between
   /// two slow frames counts for as long as it lasted (1/30 s at least).
@@ -27,7 +31,7 @@ class Input {
   bool control() const;
 
  private:
-  void key(int key, int action);
+  void key(int key, int action, int modifiers);
   struct Held {
     int key;
     glm::vec3 direction;
@@ -37,7 +41,7 @@ class Input {
   GLFWwindow* window_;
   std::array<Held, 6> held_;
   bool event_ = true;
-  std::vector<int> presses_;
+  std::vector<Press> presses_;
   std::vector<std::filesystem::path> drops_;
 };
 

@@ -102,6 +102,7 @@ struct Session : Side {
   View rangeView = 0;              ///< of which `range` is
   std::optional<ViewRange> range;  ///< that the picture in targets was drawn with; none until it has come back
 
+  bool underRenderDoc = false;  ///< captureFrame can be served
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
   Preferences preferences;
   std::optional<Work> work;
@@ -122,7 +123,7 @@ struct Session : Side {
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene;
-  bool reloadShaders = false, capture = false, quit = false, rebuild = false;
+  bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;  ///< begin or end a comparison
 
   // Shown until dismissed, and printed on standard error.

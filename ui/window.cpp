@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "renderer/error.h"
+#include "renderer/output_file.h"
 #include "renderer/presenter.h"
+#include "renderer/renderdoc.h"
 #include "ui/bindings.h"
 #include "ui/builder.h"
 #include "ui/capture.h"
@@ -44,6 +46,9 @@ class Window {
   void takeKeys();
   void act(Action action);
   void takeRequests();
+  void capture();
+  void frame();
+  void captureFrame();
   void readPreferences();
   void savePreferences();
   void fly();
@@ -64,6 +69,7 @@ class Window {
   Viewport viewport_;
   OpenDialog openDialog_;
   std::vector<std::unique_ptr<Panel>> panels_ = makePanels();
+  std::optional<RenderDoc> renderDoc_ = RenderDoc::find();
   Image image_;          ///< the whole window
   bool visible_ = true;  ///< the last frame had something to be drawn on
   int framesLeft_ = kFramesPerEvent;
@@ -89,6 +95,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.reference = options.reference;
   session_.load = options.load;
   session_.builtIn = options.builtIn;
+  session_.underRenderDoc = renderDoc_.has_value();
   readPreferences();
 }
 
@@ -131,10 +138,10 @@ void Window::run() {
     takeKeys();
     try {
       takeRequests();
-      builder_.apply(/*held=*/ImGui::IsAnyItemActive());
-      if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
-      fly();
-      if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
+      if (std::exchange(session_.captureFrame, false))
+        captureFrame();
+      else
+        frame();
     } catch (const Error& error) {
       // A frame that failed before it was drawn would fail again at once: stop, unless a smaller picture may do.
       if (session_.halted || !session_.pipeline) throw;
@@ -148,8 +155,9 @@ void Window::run() {
 
 /// Something is to be done that needs no frame.
 bool Window::working() const {
-  return session_.work || session_.openScene || session_.capture || session_.reloadShaders || session_.rebuild ||
-         session_.compare || session_.inspection.wanted() || builder_.stale() ||
+  return session_.work || session_.openScene || session_.capture || session_.captureAll || session_.captureFrame ||
+         session_.reloadShaders || session_.rebuild || session_.compare || session_.inspection.wanted() ||
+         builder_.stale() ||
          (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 
@@ -179,13 +187,15 @@ void Window::wait() {
 
 void Window::takeKeys() {
   for (const std::filesystem::path& path : input_.takeDrops()) session_.openScene = path;
-  const std::vector<int> presses = input_.takePresses();
+  const std::vector<Input::Press> presses = input_.takePresses();
   if (ImGui::GetIO().WantTextInput) return;
-  for (const int key : presses) {
-    for (const Binding& binding : bindings())
-      if (binding.key == key) act(binding.action);
-    const auto number = static_cast<size_t>(key - GLFW_KEY_1);
-    if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && number < views().size()) {
+  for (const Input::Press& press : presses) {
+    const std::span<const Binding> all = bindings();
+    const auto binding = std::find_if(
+        all.begin(), all.end(), [&](const Binding& b) { return b.key == press.key && (press.shift || !b.shift); });
+    if (binding != all.end()) act(binding->action);
+    const auto number = static_cast<size_t>(press.key - GLFW_KEY_1);
+    if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_9 && number < views().size()) {
       session_.view = views()[number].view;
       session_.viewDirty = true;
     }
@@ -207,6 +217,9 @@ void Window::act(Action action) {
       break;
     case Action::Capture:
       session_.capture = true;
+      break;
+    case Action::CaptureAll:
+      session_.captureAll = true;
       break;
     case Action::Pause:
       session_.paused = !session_.paused;
@@ -235,7 +248,6 @@ void Window::takeRequests() {
   for (const Action action : std::exchange(session_.actions, {})) act(action);
   savePreferences();
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
-  if (std::exchange(session_.capture, false)) captureView(context_, session_, options_.captures);
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
   if (const std::optional<bool> compare = std::exchange(session_.compare, std::nullopt)) {
     if (*compare)
@@ -245,6 +257,44 @@ void Window::takeRequests() {
   }
   if (session_.comparison && !session_.viewDirty) measureComparison(context_, session_);
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
+}
+
+/// What the settings call for, and a picture of it.
+void Window::frame() {
+  builder_.apply(/*held=*/ImGui::IsAnyItemActive());
+  if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
+  capture();
+  fly();
+  if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
+}
+
+void Window::captureFrame() {
+  session_.viewDirty = true;
+  const std::string scene = session_.pipeline ? session_.pipeline->scene().path.stem().string() : "irad";
+  try {
+    makeFolder(options_.captures);
+    const std::filesystem::path file =
+        renderDoc_->capture(context_.device, options_.captures / scene, [this] { frame(); });
+    session_.note(fmt::format("RenderDoc saved {}", file.string()));
+  } catch (const WorkError& error) {
+    session_.error(error.what());
+  }
+}
+
+/// What was asked for is saved once the light is done, unless nothing goes on.
+void Window::capture() {
+  if (!session_.capture && !session_.captureAll) return;
+  if (session_.pipeline && !session_.allAsleep() && !session_.paused && !session_.halted) return;
+  session_.work = Work{.what = session_.captureAll ? "Saving all views" : "Saving the view"};
+  const bool all = std::exchange(session_.captureAll, false);
+  session_.capture = false;
+  saveCapture(session_, all, options_.captures, options_.program, [this](const char* stage, float fraction) {
+    session_.work->stage = stage;
+    session_.work->fraction = fraction;
+    breathe();
+    return !session_.work->cancel;
+  });
+  session_.work.reset();
 }
 
 /// The scene's file in the window's title, and among those opened lately.

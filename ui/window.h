@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "gi/manifest.h"
 #include "gi/pipeline.h"
 #include "renderer/image_io.h"
 
@@ -24,6 +25,7 @@ struct WindowOptions {
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";
+  Program program;                    ///< for the captures' manifests
   std::filesystem::path preferences;  ///< file that remembers the layout; empty: none is read or written
   std::filesystem::path shaders;      ///< sources for F5; empty: not at hand
   // For tests.

@@ -56,7 +56,10 @@ class ViewPanel : public Panel {
     valueRow("speed", fmt::format("{:.3g} units/s", session.camera.unitsPerSecond()));
     valueRow("picture", fmt::format("{} \u00D7 {}", session.targets.size.x, session.targets.size.y));
     if (ImGui::Button("Save (F12)", {-1, 0})) session.capture = true;
-    helpTooltip("This view at this size as PNG (as shown) and EXR (linear, before exposure and tone curve)");
+    helpTooltip(
+        "This view at this size as PNG (as shown) and EXR (linear, before exposure and tone curve), and the manifest "
+        "that "
+        "`irad render --config` draws it from again. Shift + F12: all views.");
   }
 
  private:

@@ -1,0 +1,90 @@
+// What the window's captures stand on: pictures from light that is solved afresh are a headless run's, bit for bit,
+// whatever was shown before.
+#include "gi/picture.h"
+#include "gi/pipeline.h"
+#include "renderer/error.h"
+#include "tests/support.h"
+
+namespace irad {
+namespace {
+
+class Capture : public test::GpuTest {
+ protected:
+  static Settings small() {
+    Settings s = defaultSettings(/*cpuDevice=*/true);
+    s.voxel.resolution = 24;
+    s.matrix.gpu.rays = 32;
+    s.light.shadowResolution = 256;
+    return s;
+  }
+  static Scene box() { return loadScene(test::assets() / "box.glb"); }
+  /// As the window does it: some sweeps, another frame, some sweeps.
+  static void settle(Pipeline& pipeline) {
+    do pipeline.prepare({}, pipeline.settings().solver.sweepsPerFrame);
+    while (!pipeline.asleep());
+  }
+
+  /// The bytes of a picture's files.
+  std::map<std::string, std::string> draw(Pipeline& pipeline, View view) {
+    const TemporaryFolder folder;
+    Targets targets(context(), {96, 64});
+    Frame frame = context().begin();
+    pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
+    frame.submitAndWait();
+    EXPECT_EQ(writePicture(context(), targets, views().at(view), folder.path / "p").bad, "");
+    return test::contents(folder.path);
+  }
+};
+
+TEST_F(Capture, LightSolvedAfreshIsAHeadlessRunsAfterAnyEdits) {
+  Settings s = small();
+  Pipeline window(context(), box(), s);
+  settle(window);
+  const auto edit = [&](auto&& change) {
+    change();
+    window.set(s);
+    if (!window.asleep()) settle(window);
+  };
+  edit([&] { s.camera.exposureEv = 1.5f; });
+  edit([&] { s.voxel.resolution = 20; });
+  edit([&] { s.matrix.gpu.seed = 7; });
+  edit([&] { s.light.shadowResolution = 128; });
+  edit([&] { s.gather.samples = 2; });
+  edit([&] { s.solver.gpu.omega = 0.9f; });
+  edit([&] { s.solver.gpu.lambda = 0.7f; });
+  edit([&] { s.solver.gpu.lambda = 1; });
+
+  Pipeline headless(context(), box(), s);
+  headless.prepare();
+  bool differs = false;
+  for (const View view : {VIEW_LIT, VIEW_IRRADIANCE, VIEW_RADIOSITY, VIEW_SPECULAR, VIEW_DISTANCE, VIEW_ROW_SUM}) {
+    const auto wanted = draw(headless, view), shown = draw(window, view);
+    window.solvedAfresh({}, [&] { EXPECT_EQ(draw(window, view), wanted) << views().at(view).name; });
+    EXPECT_EQ(draw(window, view), shown) << views().at(view).name << ": the light from before is not back";
+    differs = differs || shown != wanted;
+  }
+  EXPECT_TRUE(differs) << "the window's own light is the headless run's: nothing was tested";
+}
+
+TEST_F(Capture, WhatGoesWrongLeavesTheLightAsItWas) {
+  Pipeline window(context(), box(), small());
+  settle(window);
+  const auto shown = draw(window, VIEW_IRRADIANCE);
+  EXPECT_THROW(window.solvedAfresh({}, [] { throw WorkError("full disk"); }), WorkError);
+  bool drawn = false;
+  EXPECT_THROW(window.solvedAfresh([](const char*, float) { return false; }, [&] { drawn = true; }), WorkError);
+  EXPECT_FALSE(drawn) << "cancelled";
+  EXPECT_TRUE(window.asleep());
+  EXPECT_EQ(draw(window, VIEW_IRRADIANCE), shown);
+
+  Settings s = small();
+  s.matrix.gpu.rays = 16;
+  window.set(s);
+  EXPECT_FALSE(window.current());
+  window.prepare({}, 1);
+  EXPECT_TRUE(window.current());
+  EXPECT_FALSE(window.asleep()) << "one sweep suffices: choose a harder scene";
+}
+
+}  // namespace
+}  // namespace irad
