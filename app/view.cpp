@@ -8,6 +8,7 @@
 
 #include "app/arguments.h"
 #include "app/command.h"
+#include "app/config.h"
 #include "app/devices.h"
 #include "app/views.h"
 #include "renderer/error.h"
@@ -15,6 +16,7 @@
 #include "ui/window.h"
 
 namespace irad::app {
+namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
@@ -73,6 +75,9 @@ void run(const Arguments& arguments) {
     options.exitAfter = static_cast<uint32_t>(parseInteger("--exit-after", *arguments.exitAfter, 1, 1'000'000));
   if (arguments.screenshot) options.screenshot = *arguments.screenshot;
   if (options.exitAfter == 0) options.preferences = preferencesFile();
+  options.presets = Presets(
+      options.preferences.empty() ? fs::path() : options.preferences.parent_path() / "presets",
+      [](Settings& settings, const fs::path& file) { settingsFromJson(settings, *readConfigFile(file).settings); });
   options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
 
   DeviceOptions deviceOptions = arguments.device.options();

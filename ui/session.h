@@ -16,6 +16,7 @@
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
 #include "ui/preferences.h"
+#include "ui/presets.h"
 
 namespace irad {
 
@@ -95,6 +96,7 @@ struct Session : Side {
 
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
   Preferences preferences;
+  Presets presets;
   std::optional<Work> work;
   std::vector<Message> messages;
 

@@ -84,6 +84,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.edited = options.settings;
   session_.defaults = options.defaults;
   session_.view = options.view;
+  session_.presets = options.presets;
   readPreferences();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gi/pipeline.h"
+#include "ui/presets.h"
 
 namespace irad {
 
@@ -19,6 +20,7 @@ struct WindowOptions {
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";
   std::filesystem::path preferences;  ///< file that remembers the layout; empty: none is read or written
+  Presets presets;                    ///< the user's own
   std::filesystem::path shaders;      ///< sources for F5; empty: not at hand
   // For tests.
   uint32_t exitAfter = 0;            ///< > 0: end after so many frames in which nothing was left to do
