@@ -8,6 +8,7 @@
 
 #include "app/arguments.h"
 #include "app/command.h"
+#include "app/config.h"
 #include "app/devices.h"
 #include "app/reference.h"
 #include "app/version.h"
@@ -17,6 +18,7 @@
 #include "ui/window.h"
 
 namespace irad::app {
+namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
@@ -86,6 +88,9 @@ void run(const Arguments& arguments) {
   if (options.exitAfter == 0) options.preferences = preferencesFile();
   ProgressReport notes;
   if (auto reference = arguments.reference.read(config, notes)) options.reference = std::move(reference->picture);
+  options.presets = Presets(
+      options.preferences.empty() ? fs::path() : options.preferences.parent_path() / "presets",
+      [](Settings& settings, const fs::path& file) { settingsFromJson(settings, *readConfigFile(file).settings); });
   options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
 
   DeviceOptions deviceOptions = arguments.device.options();

@@ -10,6 +10,7 @@
 #include "renderer/error.h"
 #include "tests/support.h"
 #include "ui/preferences.h"
+#include "ui/presets.h"
 
 namespace irad::test {
 namespace {
@@ -84,6 +85,31 @@ TEST(Preferences, FolderFollowsTheXdgSpecification) {
   unsetenv("HOME");
   EXPECT_EQ(preferencesFile(), "");
   for (const auto& [name, value] : before) setenv(name.c_str(), value.c_str(), 1);
+}
+
+TEST(Presets, AreSavedListedAndAppliedUnderTheirNames) {
+  const TemporaryFolder folder;
+  const auto apply = [](Settings& settings, const std::filesystem::path& file) {
+    if (slurp(file).find("\"matrix.rays\": 77") == std::string::npos) throw InputError(file.string() + ": other rays");
+    settings.matrix.gpu.rays = 77;
+  };
+  Presets presets(folder.path / "presets", apply);
+  EXPECT_TRUE(presets.names().empty());
+  Settings settings;
+  settings.matrix.gpu.rays = 77;
+  EXPECT_EQ(presets.save("my set-up_2", settings), folder.path / "presets" / "my set-up_2.json");
+  settings.matrix.gpu.rays = 5;
+  presets.save("another", settings);
+  EXPECT_EQ(presets.names(), (std::vector<std::string>{"another", "my set-up_2"}));
+  EXPECT_EQ(Presets(folder.path / "presets", apply).names(), presets.names()) << "not found again";
+  presets.apply(settings, "my set-up_2");
+  EXPECT_EQ(settings.matrix.gpu.rays, 77u);
+  EXPECT_THROW(presets.apply(settings, "another"), InputError);
+  EXPECT_EQ(settings.matrix.gpu.rays, 77u) << "a preset that cannot be read changed the settings";
+
+  for (const char* name : {"", " ", "../up", "a/b", "thesis", "dot.", "end "})
+    EXPECT_THROW(presets.save(name, settings), UsageError) << name;
+  EXPECT_THROW(Presets({}, apply).save("x", settings), WorkError);
 }
 
 TEST(Layout, TilesTheWindowWhateverTheSizes) {

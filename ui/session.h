@@ -20,6 +20,7 @@
 #include "ui/inspection.h"
 #include "ui/preferences.h"
 #include "ui/scene_edits.h"
+#include "ui/presets.h"
 
 namespace irad {
 
@@ -105,6 +106,7 @@ struct Session : Side {
   bool underRenderDoc = false;  ///< captureFrame can be served
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
   Preferences preferences;
+  Presets presets;
   std::optional<Work> work;
   std::vector<Message> messages;
 

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 
+#include "renderer/error.h"
+#include "ui/session.h"
 #include "ui/theme.h"
 
 namespace irad {
@@ -190,6 +193,26 @@ bool settingRow(Settings& settings, const Settings& defaults, std::string_view n
     if (name == meta.name) changed |= draw(member, meta);
   });
   return changed;
+}
+
+void savePresetButton(const char* label, float width, std::string& name, Session& session, const Settings& settings) {
+  ImGui::PushID(label);
+  if (ImGui::Button(label, {width, 0})) ImGui::OpenPopup("name");
+  if (ImGui::BeginPopup("name")) {
+    ImGui::TextUnformatted("Name of the preset");
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText("##name", &name, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::Button("Save") || entered) {
+      ImGui::CloseCurrentPopup();
+      try {
+        session.note(fmt::format("Saved {}", session.presets.save(name, settings).string()));
+      } catch (const Error& error) {
+        session.error(error.what());
+      }
+    }
+    ImGui::EndPopup();
+  }
+  ImGui::PopID();
 }
 
 void valueRow(const char* label, const std::string& value) {

@@ -8,12 +8,17 @@
 
 namespace irad {
 
+struct Session;
+
 /// One row per setting whose name `wanted` accepts (a prefix such as "camera."; empty: all, under group headers):
 /// label, widget by the member's type, unit, help as tooltip, and a reset button where it differs from `defaults`. True
 /// when something was edited.
 bool settingRows(Settings& settings, const Settings& defaults, std::string_view prefix = {});
 /// The one setting of that name.
 bool settingRow(Settings& settings, const Settings& defaults, std::string_view name);
+
+/// A button that asks for a name (kept in `name`) and saves these settings as a preset under it.
+void savePresetButton(const char* label, float width, std::string& name, Session& session, const Settings& settings);
 
 /// A label in the dim colour and a value at the column where values begin; a value too long is cut with an ellipsis and
 /// shown whole as a tooltip.

@@ -96,6 +96,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.load = options.load;
   session_.builtIn = options.builtIn;
   session_.underRenderDoc = renderDoc_.has_value();
+  session_.presets = options.presets;
   readPreferences();
 }
 

@@ -9,6 +9,7 @@
 #include "gi/manifest.h"
 #include "gi/pipeline.h"
 #include "renderer/image_io.h"
+#include "ui/presets.h"
 
 namespace irad {
 
@@ -27,6 +28,7 @@ struct WindowOptions {
   std::filesystem::path captures = "out/captures";
   Program program;                    ///< for the captures' manifests
   std::filesystem::path preferences;  ///< file that remembers the layout; empty: none is read or written
+  Presets presets;                    ///< the user's own
   std::filesystem::path shaders;      ///< sources for F5; empty: not at hand
   // For tests.
   uint32_t exitAfter = 0;            ///< > 0: end after so many frames in which nothing was left to do

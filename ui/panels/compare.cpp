@@ -28,11 +28,16 @@ class ComparePanel : public Panel {
     drawSides(session);
     drawDifferences(session);
     drawResult(*session.comparison, session.view);
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    savePresetButton("Save A\u2026", half, nameA_, session, session.sideA().edited);
+    ImGui::SameLine();
+    savePresetButton("Save B\u2026", half, nameB_, session, session.sideB().edited);
     if (ImGui::Button("End the comparison", {-1, 0})) session.compare = false;
     helpTooltip("The edited side stays");
   }
 
  private:
+  std::string nameA_, nameB_;  ///< of presets, being typed
   std::vector<SettingDifference> differences_;
   std::string seen_;  ///< the settings that differences_ are of
 

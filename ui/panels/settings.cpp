@@ -1,6 +1,7 @@
 // Every setting of gi/settings.h, generated from visit().
 #include <imgui.h>
 
+#include "renderer/error.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -20,15 +21,35 @@ class SettingsPanel : public Panel {
   }
 
  private:
+  std::string name_;  ///< of a preset, being typed
+
   /// A preset is applied over the settings; those that it leaves alone keep their values (gi/settings.h).
-  static void drawPresets(Session& session) {
-    ImGui::SetNextItemWidth(-1);
+  void drawPresets(Session& session) {
+    const float button = ImGui::CalcTextSize("Save\u2026").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
+    choosePreset(session);
+    ImGui::SameLine();
+    savePresetButton("Save\u2026", button, name_, session, session.edited);
+  }
+
+  static void choosePreset(Session& session) {
     if (!ImGui::BeginCombo("##preset", "Preset\u2026")) return;
     for (const std::string& name : presetNames())
       if (ImGui::Selectable(name.c_str())) applyPreset(session.edited, name, session.context.device.isCpu);
     ImGui::Separator();
     if (ImGui::Selectable("defaults of this device")) session.edited = session.defaults;
+    if (!session.presets.names().empty()) ImGui::Separator();
+    for (const std::string& name : session.presets.names())
+      if (ImGui::Selectable(name.c_str())) apply(session, name);
     ImGui::EndCombo();
+  }
+
+  static void apply(Session& session, const std::string& name) {
+    try {
+      session.presets.apply(session.edited, name);
+    } catch (const Error& error) {
+      session.error(error.what());
+    }
   }
 
   /// What an edit will redo, before it is redone. The line is always there, so that rows do not jump.
