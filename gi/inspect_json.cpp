@@ -83,6 +83,25 @@ Json facetJson(const InspectedFacet& f, uint32_t encoding) {
   return json;
 }
 
+/// Arrays of numbers on one line each.
+std::string folded(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const size_t end = text[i] == '[' ? text.find_first_of("[]{", i + 1) : std::string::npos;
+    if (end == std::string::npos || text[end] != ']') {
+      out += text[i];
+      continue;
+    }
+    for (; i <= end; ++i)
+      if (text[i] == ',')
+        out += ", ";
+      else if (text[i] != ' ' && text[i] != '\n')
+        out += text[i];
+    --i;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string inspectJson(const InspectedVoxel& record, const Grid& grid, NormalEncoding encoding,
@@ -102,7 +121,7 @@ std::string inspectJson(const InspectedVoxel& record, const Grid& grid, NormalEn
   }
   json["residual_history"] = history.residual;
   json["converged"] = history.converged;
-  return json.dump(1) + "\n";
+  return folded(json.dump(1)) + "\n";
 }
 
 }  // namespace irad

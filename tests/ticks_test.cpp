@@ -22,7 +22,7 @@ TEST(Ticks, AreRoundAndFewEnough) {
   expectTicks(ticks(0.1, 0.9, 5), {0.2, 0.4, 0.6, 0.8});
   expectTicks(ticks(-1000, 1000, 5), {-1000, -500, 0, 500, 1000});
   expectTicks(ticks(3e-7, 9e-7, 5), {4e-7, 6e-7, 8e-7});
-  EXPECT_FALSE(std::signbit(ticks(-1, 1, 5).at(1)));
+  EXPECT_FALSE(std::signbit(ticks(-1, 1, 5).at(2)));
 }
 
 TEST(Ticks, NoneWhereThereIsNoRange) {

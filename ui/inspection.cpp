@@ -111,8 +111,11 @@ void Inspection::serveRequests(Session& session) {
   }
   if (const auto wanted = std::exchange(traceRay, std::nullopt); wanted && facet())
     ray = in.ray(facet()->facet, std::min(*wanted, facet()->rays.rays - 1));
-  if (std::exchange(wantReplay, false) && facet())
+  if (std::exchange(wantReplay, false) && facet()) {
     replay = replaySolve(session.context, *session.pipeline, {facet()->facet});
+    session.context.finish();
+    session.context.timings.forget();  // its sweeps are no frame's
+  }
 }
 
 /// After a rebuild the voxels are other ones: the facet at the same place, or none; none in another scene.

@@ -14,6 +14,7 @@ namespace {
 
 struct Column {
   const char *name, *help;
+  const char* widest;  ///< text that has room at first
   double (*value)(const Link&);
   bool hidden;  ///< at first
 };
@@ -23,17 +24,19 @@ double voxelOrder(const Link& l) {
 }
 
 const std::array kColumns{
-    Column{"voxel", "x y z of the far end", voxelOrder, false},
-    Column{"hits", "Rays of the receiver that met the sender", [](const Link& l) -> double { return l.hits; }, false},
-    Column{"m", "Distance between the two facets", [](const Link& l) { return l.distance; }, false},
-    Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2",
+    Column{"voxel", "x y z of the far end", "000 000 000", voxelOrder, false},
+    Column{"hits", "Rays of the receiver that met the sender", "0000", [](const Link& l) -> double { return l.hits; },
+           false},
+    Column{"m", "Distance between the two facets", "00.00", [](const Link& l) { return l.distance; }, false},
+    Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2", "0.00e-00",
            [](const Link& l) -> double { return luminance(glm::vec3(l.contribution)); }, false},
-    Column{"F", "Form factor: share of the receiver's rays", [](const Link& l) { return l.formFactor; }, true},
-    Column{"B", "Radiosity of the sender, luminance, W/m\u00B2",
+    Column{"F", "Form factor: share of the receiver's rays", "0.00e-00", [](const Link& l) { return l.formFactor; },
+           true},
+    Column{"B", "Radiosity of the sender, luminance, W/m\u00B2", "0.00e-00",
            [](const Link& l) -> double { return luminance(glm::vec3(l.radiosity)); }, true},
-    Column{"back", "Reciprocity: A F the other way round over A F, 1 but for the noise of few rays",
+    Column{"back", "Reciprocity: A F the other way round over A F, 1 but for the noise of few rays", "00.00",
            [](const Link& l) { return l.opposite / l.exchange; }, true},
-    Column{"facet", "Index of the far end", [](const Link& l) -> double { return l.facet; }, true},
+    Column{"facet", "Index of the far end", "0000000", [](const Link& l) -> double { return l.facet; }, true},
 };
 
 std::string text(const Link& l, size_t column) {
@@ -74,7 +77,7 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
     ImGuiTableColumnFlags flags = ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_PreferSortDescending;
     if (kColumns[c].hidden) flags |= ImGuiTableColumnFlags_DefaultHide;
     if (c == 3) flags |= ImGuiTableColumnFlags_DefaultSort;
-    ImGui::TableSetupColumn(kColumns[c].name, flags, ImGui::CalcTextSize(c == 0 ? "000 000 000" : "0.00e-00").x);
+    ImGui::TableSetupColumn(kColumns[c].name, flags, ImGui::CalcTextSize(kColumns[c].widest).x);
   }
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (size_t c = 0; c < kColumns.size(); ++c)

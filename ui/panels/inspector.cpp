@@ -121,7 +121,7 @@ class InspectorPanel : public Panel {
       const std::string name = in.replay ? fmt::format("H in {} sweeps from the dark", values.size())
                                          : fmt::format("H in {} sweeps since the pick", in.live.back().sweep);
       ImGui::PlotLines("##history", values.data(), static_cast<int>(values.size()), 0, name.c_str(), 0,
-                       largest > 0 ? 1.4f * largest : 1, {-1, ImGui::GetFontSize() * 4});
+                       largest > 0 ? 1.4f * largest : 1, {ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4});
       helpTooltip(fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)));
     }
     if (ImGui::Button("Solve from the dark", {-1, 0})) in.wantReplay = true;
