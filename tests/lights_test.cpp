@@ -114,7 +114,7 @@ TEST_F(Lights, AnEditRunsTheRelightAlone) {
   pipeline.prepare();
   EXPECT_EQ(stages(timings()),
             (std::set<std::string>{"RE Shadow", "GI Gather", "GI Solve", "GI Solve Energy", "GI Scatter", "Readback"}));
-  for (const Timings::Row& row : timings().rows()) EXPECT_FALSE(row.setup) << row.stage;
+  for (const Timings::Row& row : timings().rows()) EXPECT_NE(row.kind, WorkKind::Setup) << row.stage;
   EXPECT_EQ(pipeline.shadows().flat.desc.layers, 2u);
   EXPECT_EQ(pipeline.shadows().cubes.desc.layers, 12u);
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/views.h"
+#include "renderer/scene/sidecar.h"
 #include "tests/file_drop.h"
 #include "tests/scene_files.h"
 #include "tests/virtual_screen.h"
@@ -27,19 +28,10 @@ class WindowTest : public ::testing::Test {
   }
 
   /// A small Box, so that one picture takes a fraction of a second on a CPU rasterizer.
-  void start(std::vector<std::string> more = {}) {
-    std::vector<std::string> command{IRAD_BINARY,
-                                     "view",
-                                     (assets() / "box.glb").string(),
-                                     "--size",
-                                     "1280x720",
-                                     "--validate",
-                                     "--set",
-                                     "voxel.resolution=32",
-                                     "--set",
-                                     "matrix.rays=32",
-                                     "--set",
-                                     "specular.mode=off"};
+  void start(std::vector<std::string> more = {}, const std::filesystem::path& scene = assets() / "box.glb") {
+    std::vector<std::string> command{IRAD_BINARY, "view",           scene.string(), "--size",
+                                     "1280x720",  "--validate",     "--set",        "voxel.resolution=32",
+                                     "--set",     "matrix.rays=32", "--set",        "specular.mode=off"};
     command.insert(command.end(), more.begin(), more.end());
     window_ = std::make_unique<Process>(command, folder_.path, screen_->environment());
   }
@@ -240,13 +232,13 @@ TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
   ASSERT_TRUE(viewportSettles(lit));
   xdotool("mousemove 360 510");
   const auto left = [this] { return screen_->grab(286, 60, 40, 400); };  // of the left column; then of the viewport
-  const auto background = [this] { return screen_->grab(10, 400, 250, 200).deviation() < 0.01; };
+  const auto background = [this] { return screen_->grab(10, 500, 250, 200).deviation() < 0.01; };
   ASSERT_FALSE(background());
   // The edge of the left column, and the header of the settings.
   xdotool("mousemove 332 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 280 300 sleep 0.5 mouseup 1");
   const auto black = [](const ScreenPart& p) { return p.count(0x000000) > 0.9 * 40 * 400; };
   ASSERT_TRUE(settles(left, black)) << "the edge cannot be dragged";
-  xdotool("mousemove 60 258 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  xdotool("mousemove 60 477 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
   ASSERT_TRUE(settles(left, [&](const ScreenPart&) { return background(); })) << "the settings do not fold";
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
@@ -295,7 +287,7 @@ TEST_F(WindowTest, ComparesTwoSetsOfSettings) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart&) { return right() == alsoA; }))
       << "the same settings, two pictures";
   xdotool(
-      "mousemove 205 403 sleep 0.5 click 1 sleep 0.8 mousemove 160 424 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+      "mousemove 205 621 sleep 0.5 click 1 sleep 0.8 mousemove 160 642 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
@@ -357,6 +349,69 @@ TEST_F(WindowTest, InspectsWhatIsClicked) {
   EXPECT_EQ(panel(), empty) << "a drag picks";
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
+  const std::filesystem::path scene = folder_.path / "a.glb", sidecar = sidecarPath(scene);
+  std::filesystem::copy_file(assets() / "box.glb", scene);
+  const std::string sha = sha256File(scene);
+  const std::filesystem::path config = screen_->environment().at("XDG_CONFIG_HOME");
+  std::filesystem::create_directories(config / "irad");
+  std::ofstream(config / "irad/window.json") << R"({"format": 1, "folded": ["Scene", "Settings"]})";
+  start({}, scene);
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = viewport();
+
+  // "point": one ahead of the camera, in the middle of the picture.
+  xdotool("mousemove 104 101 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.3; })) << "nothing is added";
+  const ScreenPart added = viewport();
+  const auto drag = [&](int fromX, int fromY, int toX, int toY) {
+    xdotool(
+        fmt::format("mousemove {} {} sleep 0.5 mousedown 1 sleep 0.5 mousemove {} {} sleep 0.5 mousemove {} {} "
+                    "sleep 0.5 mouseup 1 sleep 0.5 mousemove 360 510",
+                    fromX, fromY, (fromX + toX) / 2, (fromY + toY) / 2, toX, toY));
+  };
+  drag(665, 281, 565, 201);
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(added) > 0.3; })) << "it is not dragged";
+  EXPECT_FALSE(std::filesystem::exists(sidecar)) << "saved without being asked";
+  const auto save = [&] { xdotool("mousemove 30 384 sleep 0.5 click 1 sleep 0.5 mousemove 360 510"); };
+  save();
+  ASSERT_TRUE(says("Saved lights and bookmarks to " + sidecar.string()));
+  const Sidecar kept = readSidecar(sidecar);
+  ASSERT_TRUE(kept.lights);
+  ASSERT_EQ(kept.lights->size(), 2u);
+  const Scene own = loadScene(scene);
+  EXPECT_EQ(kept.lights->at(0), own.lights.at(0));
+  // In the plane of the view: 100 pixels to the left, 80 up.
+  const Light& point = kept.lights->at(1);
+  EXPECT_EQ(point.type, LightType::Point);
+  const glm::dvec3 moved =
+      glm::inverse(glm::dquat(own.cameras[0].orientation)) * (point.position - own.cameras[0].position);
+  EXPECT_LT(moved.z, 0);
+  EXPECT_NEAR(moved.x / moved.y, -100.0 / 80.0, 0.02);
+  const double pixel = 2 * -moved.z * std::tan(own.cameras[0].yfov / 2) / 502;  // the viewport's height
+  EXPECT_NEAR(moved.x / pixel, -100, 2);
+
+  // Where it cannot be saved: said, and nothing is lost.
+  std::filesystem::remove(sidecar);
+  std::filesystem::create_directory(sidecar);
+  drag(565, 201, 700, 300);
+  save();
+  EXPECT_TRUE(says("Lights and bookmarks stay in this window, unsaved"));
+  std::filesystem::remove(sidecar);
+  save();
+  for (int i = 0; i < 100 && !std::filesystem::exists(sidecar); ++i) pause(0.1);
+  EXPECT_GT(readSidecar(sidecar).lights->at(1).position.x, own.cameras[0].position.x);
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0) << "status after Esc, with validation on";
+  EXPECT_EQ(sha256File(scene), sha) << "the scene's file was written to";
+
+  start({}, scene);
+  EXPECT_TRUE(says("lights of a.glb.irad.json"));
+  key("Escape");
+  EXPECT_EQ(window_->wait(60), 0);
 }
 
 TEST_F(WindowTest, FollowsItsSize) {

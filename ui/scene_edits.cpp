@@ -92,8 +92,8 @@ Sidecar SceneEdits::current() const {
 }
 
 bool SceneEdits::modified() const {
-  const Sidecar now = current();
-  return now.lights != saved_.lights || now.bookmarks != saved_.bookmarks;
+  const bool changed = lights == fileLights_ ? saved_.lights.has_value() : saved_.lights != lights;
+  return changed || bookmarks != saved_.bookmarks;
 }
 
 void SceneEdits::save() {

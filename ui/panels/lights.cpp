@@ -125,8 +125,8 @@ class LightsPanel : public Panel {
     const bool sun = light.type == LightType::Sun;
 
     fieldLabel("color", "As shown on a display; the file holds it linear");
-    glm::vec3 shown = encoded(light.color);
-    if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float)) light.color = decoded(shown);
+    glm::vec3 shown = glm::convertLinearToSRGB(light.color);
+    if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float)) light.color = glm::convertSRGBToLinear(shown);
     fieldLabel("intensity", sun ? "Irradiance of a surface that faces the sun, lux (W/m\u00B2)"
                                 : "Candela (W/sr): at a distance d a facing surface receives intensity / d\u00B2");
     ImGui::DragFloat("##intensity", &light.intensity, std::max(light.intensity * 0.01f, 1e-6f), 0,

@@ -1,0 +1,113 @@
+// What the window's user makes of a scene: lights and bookmarks, their names, undo, what is unsaved, where it is kept.
+#include <gtest/gtest.h>
+
+#if IRAD_UI
+
+#include "renderer/error.h"
+#include "tests/scene_files.h"
+#include "ui/scene_edits.h"
+
+namespace irad::test {
+namespace {
+
+struct SceneEditsTest : ::testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = triangleFile().write(folder.path), file = sidecarPath(path);
+  Scene scene = loadScene(path);
+  SceneEdits edits;
+  void SetUp() override { edits.begin(scene, file, ""); }
+  std::vector<std::string> names() const {
+    std::vector<std::string> out;
+    for (const Light& light : edits.lights) out.push_back(light.name);
+    return out;
+  }
+  using Names = std::vector<std::string>;
+};
+
+TEST_F(SceneEditsTest, AddsUnderFreeNamesRemovesAndBringsBack) {
+  EXPECT_EQ(names(), (Names{"default sun"}));
+  EXPECT_EQ(edits.light(), nullptr);
+  EXPECT_FALSE(edits.modified());
+  const Light lamp{.name = "lamp", .type = LightType::Point, .position = {1, 2, 3}};
+  for (int i = 0; i < 3; ++i) edits.add(lamp);
+  EXPECT_EQ(names(), (Names{"default sun", "lamp", "lamp 2", "lamp 3"}));
+  EXPECT_EQ(edits.selected, 3);
+  EXPECT_TRUE(edits.modified());
+
+  edits.selected = 1;
+  edits.remove();
+  EXPECT_EQ(edits.light()->name, "lamp 2");
+  edits.remove();
+  EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
+  EXPECT_EQ(edits.removed()->name, "lamp 2");
+  edits.undoRemoval();
+  edits.undoRemoval();
+  EXPECT_EQ(names(), (Names{"default sun", "lamp", "lamp 2", "lamp 3"}));
+  EXPECT_EQ(edits.light()->position, lamp.position);
+  EXPECT_EQ(edits.removed(), nullptr);
+  for (int i = 0; i < 5; ++i) edits.selected = 0, edits.remove();
+  EXPECT_TRUE(edits.lights.empty());
+  EXPECT_EQ(edits.light(), nullptr);
+}
+
+TEST_F(SceneEditsTest, SavesWhatDiffersFromTheSceneAndReverts) {
+  const size_t door = edits.addBookmark(scene.cameras[0], "door");
+  EXPECT_EQ(edits.addBookmark(scene.cameras[0], "door"), door + 1);
+  EXPECT_EQ(edits.bookmarks[1].name, "door 2");
+  edits.addBookmark(scene.cameras[0], scene.cameras[0].name);
+  EXPECT_EQ(edits.bookmarks[2].name, scene.cameras[0].name + " 2") << "a camera of the scene has that name";
+  edits.rename(1, "door");
+  edits.rename(1, "");
+  EXPECT_EQ(edits.bookmarks[1].name, "door 2") << "taken, or empty";
+  edits.rename(1, "window");
+  EXPECT_TRUE(edits.modified());
+  edits.save();
+  EXPECT_FALSE(edits.modified());
+  EXPECT_TRUE(edits.kept());
+  EXPECT_FALSE(readSidecar(file).lights) << "lights that are the file's own may change there";
+  EXPECT_EQ(readSidecar(file).bookmarks, edits.bookmarks);
+  EXPECT_EQ(readSidecar(file).sceneSha256, scene.sha256);
+
+  edits.lights[0].intensity = 7;
+  edits.bookmarks.clear();
+  edits.save();
+  ASSERT_TRUE(readSidecar(file).lights);
+  EXPECT_EQ((*readSidecar(file).lights)[0].intensity, 7);
+  EXPECT_TRUE(readSidecar(file).bookmarks.empty());
+  edits.lights.clear();
+  edits.revert();
+  EXPECT_EQ(edits.lights.at(0).intensity, 7);
+  EXPECT_FALSE(edits.modified());
+
+  // Loaded again, edits stay.
+  edits.lights[0].intensity = 8;
+  edits.again(scene);
+  EXPECT_EQ(edits.lights[0].intensity, 8);
+  EXPECT_TRUE(edits.modified());
+}
+
+TEST_F(SceneEditsTest, WhatCannotBeSavedStays) {
+  edits.lights[0].intensity = 7;
+  std::filesystem::create_directory(file);  // a file cannot take its place
+  try {
+    edits.save();
+    ADD_FAILURE() << "saved over a folder";
+  } catch (const WorkError& error) {
+    EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(edits.modified());
+  EXPECT_EQ(edits.lights[0].intensity, 7);
+  edits.begin(scene, {}, "nowhere");
+  EXPECT_THROW(edits.save(), WorkError);
+}
+
+}  // namespace
+}  // namespace irad::test
+
+#else
+
+TEST(SceneEdits, NotBuilt) {
+  GTEST_SKIP() << "built without IRAD_UI";
+}
+
+#endif
