@@ -419,6 +419,46 @@ TEST(ExportCommand, TheRecordOfAVoxel) {
   }
 }
 
+TEST(ExportCommand, NumpyReadsMatrixVolumesAndFacets) {
+  if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "python3-numpy is not here";
+  TemporaryFolder folder;
+  const RunResult run =
+      runIrad({"export", "box", "--out", folder.path.string(), "--volume", "albedo,distance", "--matrix", "--facets",
+               "--format", "npy,csv", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  // The CSR triple is in range, its rows are shares of 1; the table holds the arrays' bits; a facet's voxel is solid.
+  const std::string script = R"(
+import json, sys, numpy as n
+d = sys.argv[1] + "/"
+load = lambda name: n.load(d + name + ".npy")
+indptr, indices, data, voxel = load("indptr"), load("indices"), load("data"), load("facet_voxel")
+rows = len(indptr) - 1
+assert rows == len(voxel) > 1000 and indptr[0] == 0 and indptr[-1] == len(indices) == len(data)
+assert (n.diff(indptr) >= 0).all() and indices.min() >= 0 and indices.max() < rows
+sums = n.add.reduceat(data, indptr[:-1][n.diff(indptr) > 0])
+assert data.min() > 0 and .9 < n.median(sums) <= sums.max() < 1 + 1e-5
+table = n.genfromtxt(d + "facets.csv", delimiter=",", names=True, dtype=None)
+assert len(table) == rows
+for name in ["position", "normal", "albedo", "emission", "direct", "irradiance", "radiosity"]:
+    array = load("facet_" + name)
+    assert array.shape == (rows, 3) and array.dtype == n.float32, name
+    for axis, letter in enumerate("xyz"):
+        assert (table[name + "_" + letter].astype(n.float32) == array[:, axis]).all(), name
+distance, grid = load("distance"), json.load(open(d + "manifest.json"))["grid"]
+assert list(distance.shape) == grid["dims"][::-1]
+assert (distance[voxel[:, 2], voxel[:, 1], voxel[:, 0]] == 0).all()
+assert load("albedo").shape == distance.shape + (3,)
+)";
+  std::ofstream(folder.path / "read.py") << script;
+  const RunResult python = runProgram("/usr/bin/python3", {(folder.path / "read.py").string(), folder.path.string()});
+  EXPECT_EQ(python.status, 0) << python.err;
+
+  const RunResult wrong = runIrad({"export", "box", "--facets", "--format", "vdb"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(contains(wrong.err, "--format vdb is for --volume")) << wrong.err;
+  EXPECT_TRUE(contains(runIrad({"export", "box", "--volume", "albedo", "--format", "npz"}).err, "did you mean npy?"));
+}
+
 TEST(BenchCommand, TableCsvAndRatios) {
   test::TemporaryFolder folder;
   const std::string csv = (folder.path / "bench.csv").string();
