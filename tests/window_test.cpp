@@ -330,10 +330,10 @@ TEST_F(WindowTest, InspectsWhatIsClicked) {
   const ScreenPart picked = part(), row = panel();
   EXPECT_GT(picked.difference(first), 0.005) << "no links are drawn";
   // Its column; a filter that no voxel passes; and off again.
-  click(1097, 493);
+  click(1076, 472);
   ASSERT_TRUE(changes(row)) << "no column is shown";
   const ScreenPart column = panel();
-  xdotool("mousemove 1100 543 sleep 0.3 click 1 sleep 0.3 type --delay 60 none");
+  xdotool("mousemove 1130 536 sleep 0.3 click 1 sleep 0.3 type --delay 60 none");
   ASSERT_TRUE(changes(column)) << "the filter is not taken";
   xdotool("key --delay 60 BackSpace BackSpace BackSpace BackSpace mousemove 360 510 sleep 0.3");
   // Another facet's row beside it.

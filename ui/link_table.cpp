@@ -25,7 +25,7 @@ double voxelOrder(const Link& l) {
 
 const std::array kColumns{
     Column{"voxel", "x y z of the far end", "000 000 000", voxelOrder, false},
-    Column{"hits", "Rays of the receiver that met the sender", "0000", [](const Link& l) -> double { return l.hits; },
+    Column{"hits", "Rays of the receiver that met the sender", "000000", [](const Link& l) -> double { return l.hits; },
            false},
     Column{"m", "Distance between the two facets", "00.00", [](const Link& l) { return l.distance; }, false},
     Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2", "0.00e-00",

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "shaders/shared/color_map.h"
+#include "ui/color_bar.h"
 #include "ui/theme.h"
 #include "ui/ticks.h"
 #include "ui/viewport.h"
@@ -12,11 +13,6 @@
 
 namespace irad {
 namespace {
-
-ImU32 packed(const glm::vec3& encoded) {
-  const glm::vec3 c = glm::clamp(encoded, 0.0f, 1.0f) * 255.0f + 0.5f;
-  return IM_COL32(static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z), 255);
-}
 
 class LegendOverlay : public Overlay {
  public:
@@ -44,7 +40,8 @@ class LegendOverlay : public Overlay {
     const std::string unit = quantity.unit.empty() ? "" : " (" + prettyUnit(quantity.unit) + ")";
     list.PushClipRect(low, high, true);
     list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), (quantity.name + unit).c_str());
-    const float bar = drawBar(list, {inside.x, text}, {width, em}, colorMapOf(*info, settings));
+    drawColorBar(list, {inside.x, text}, {width, em}, colorMapOf(*info, settings));
+    const float bar = text + em;
     drawTicks(list, {inside.x, bar}, width, range);
     if (!notes.empty())
       list.AddText({inside.x, bar + line + 0.3f * em}, ImGui::GetColorU32(theme::warning), notes.c_str());
@@ -53,18 +50,6 @@ class LegendOverlay : public Overlay {
   }
 
  private:
-  /// Returns where it ends, below.
-  static float drawBar(ImDrawList& list, glm::vec2 at, glm::vec2 size, uint32_t map) {
-    constexpr int kSteps = 64;
-    for (int i = 0; i < kSteps; ++i) {
-      const float x0 = at.x + size.x * static_cast<float>(i) / kSteps,
-                  x1 = at.x + size.x * static_cast<float>(i + 1) / kSteps;
-      const glm::vec3 color = encodeSrgb(colorMap(map, (static_cast<float>(i) + 0.5f) / kSteps));
-      list.AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(color));
-    }
-    return at.y + size.y;
-  }
-
   static void drawTicks(ImDrawList& list, glm::vec2 at, float width, const ViewRange& range) {
     const ImU32 color = ImGui::GetColorU32(theme::text);
     const float em = ImGui::GetFontSize();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "shaders/shared/emitters.h"
+#include "ui/color_bar.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 #include "ui/widgets.h"
@@ -14,13 +15,6 @@ namespace irad {
 namespace {
 
 constexpr size_t kLines = 500;  ///< of the strongest links
-
-/// Of a share of the largest contribution.
-ImVec4 shade(float share) {
-  const ImVec4 &a = theme::plotLine, &b = theme::accent;
-  const auto mix = [&](float x, float y) { return x + share * (y - x); };
-  return {mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z), mix(0.35f, 0.95f)};
-}
 
 class RowOverlay : public Overlay {
  public:
@@ -31,9 +25,11 @@ class RowOverlay : public Overlay {
     const glm::vec2 low = picture.rect().position, high = low + picture.rect().size;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({low.x, low.y}, {high.x, high.y}, true);
-    const Drawing d{list, picture, in};
-    if (in.shown != Inspection::Show::Comparison) d.drawLinks(in.shown == Inspection::Show::Row);
-    if (in.other) d.box(d.centre(glm::ivec3(in.other->voxel)), theme::good, 2);
+    const Drawing d{list, picture, in, static_cast<uint32_t>(session.edited.view.colorMap)};
+    if (in.shown == Inspection::Show::Comparison && in.comparison)
+      d.drawComparison();
+    else
+      d.drawLinks(in.shown == Inspection::Show::Row);
     d.box(in.voxel->world, theme::accent, 2);
     d.normal();
     if (in.ray) d.drawRay(*in.ray);
@@ -46,6 +42,7 @@ class RowOverlay : public Overlay {
     ImDrawList& list;
     const Picture& picture;
     const Inspection& in;
+    uint32_t map;  ///< COLOR_MAP_*
 
     glm::dvec3 centre(const glm::ivec3& voxel) const {
       return in.voxel->world + in.edge() * (glm::dvec3(voxel) - glm::dvec3(in.voxel->voxel));
@@ -81,21 +78,39 @@ class RowOverlay : public Overlay {
       const Link* pointedAt = nullptr;
       for (const Link& l : links)
         if (in.highlighted == l.facet) pointedAt = &l;
-      for (size_t i = drawn; i-- > 0;) {
-        ImVec4 color = shade(largest > 0 ? strength(links[i]) / largest : 0);
-        if (pointedAt) color.w *= 0.3f;
-        line(facet.position, links[i].position, ImGui::GetColorU32(color), 1);
-      }
+      for (size_t i = drawn; i-- > 0;)
+        line(facet.position, links[i].position,
+             mapColor(map, largest > 0 ? strength(links[i]) / largest : 0, pointedAt ? 0.25f : 0.9f), 1.5f);
       if (pointedAt) {
         line(facet.position, pointedAt->position, ImGui::GetColorU32(theme::text), 3);
         box(centre(glm::ivec3(pointedAt->voxel)), theme::text, 2);
       }
-      const std::string text =
-          fmt::format("{} of {} links, coloured up to {} W/m\u00B2", drawn, links.size(), shortNumber(largest));
-      const glm::vec2 at =
-          picture.rect().position + glm::vec2(0, picture.rect().size.y) + glm::vec2(10, -10 - ImGui::GetFontSize());
-      list.AddText({at.x + 1, at.y + 1}, IM_COL32_BLACK, text.c_str());
-      list.AddText({at.x, at.y}, ImGui::GetColorU32(theme::text), text.c_str());
+      drawKey(fmt::format("{} of {} links: F B", drawn, links.size()), largest);
+    }
+    /// What the colours stand for, in the lower left corner.
+    void drawKey(const std::string& title, float largest) const {
+      const float em = ImGui::GetFontSize(), width = 12 * em;
+      const glm::vec2 at = picture.rect().position + glm::vec2(0, picture.rect().size.y) + glm::vec2(em, -5 * em);
+      list.AddRectFilled({at.x, at.y}, {at.x + width + em, at.y + 4 * em}, IM_COL32(20, 20, 22, 215), 0.3f * em);
+      const glm::vec2 inside = at + glm::vec2(0.5f * em, 0.3f * em);
+      list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), title.c_str());
+      drawColorBar(list, inside + glm::vec2(0, 1.4f * em), {width, 0.7f * em}, map);
+      const std::string high = shortNumber(largest) + " W/m\u00B2";
+      const float below = inside.y + 2.3f * em;
+      list.AddText({inside.x, below}, ImGui::GetColorU32(theme::text), "0");
+      list.AddText({inside.x + width - ImGui::CalcTextSize(high.c_str()).x, below}, ImGui::GetColorU32(theme::text),
+                   high.c_str());
+    }
+    /// Both voxels of a comparison, and lines from the one the mouse is on in the table to those that gather from it.
+    void drawComparison() const {
+      box(centre(glm::ivec3(in.other->voxel)), theme::good, 2);
+      for (const RowComparison::Entry& entry : in.comparison->entries) {
+        if (in.highlighted != entry.facet) continue;
+        const glm::dvec3 sender = centre(glm::ivec3(entry.voxel));
+        if (entry.a > 0) line(in.facet()->position, sender, ImGui::GetColorU32(theme::accent), 2);
+        if (entry.b > 0) line(in.other->position, sender, ImGui::GetColorU32(theme::good), 2);
+        box(sender, theme::text, 2);
+      }
     }
     /// Where it went, and the cells that the field left of it.
     void drawRay(const InspectedRay& ray) const {
