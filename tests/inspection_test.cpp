@@ -1,0 +1,160 @@
+// The window's inspector without a window: picks by pixel, links followed and left, what a relight, a rebuild and
+// another scene leave of a pick.
+#include "tests/gi_fixture.h"
+
+#if IRAD_UI
+
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtx/quaternion.hpp>
+
+#include "renderer/error.h"
+#include "ui/session.h"
+
+namespace irad::test {
+namespace {
+
+class InspectionTest : public GiTest {
+ protected:
+  void SetUp() override {
+    GiTest::SetUp();
+    session_ = std::make_unique<Session>(context());
+    session_->targets = Targets(context(), {64, 48});
+    load(furnaceBox(0.5f));
+  }
+  void load(Scene scene) {
+    scene.path = scene.sha256 = fmt::format("scene {}", ++scenes_);
+    session_->pipeline = std::make_unique<Pipeline>(context(), std::move(scene), at(16, 32));
+    build();
+  }
+  void build() {
+    session_->pipeline->prepare();
+    session_->built = Built{.solve = session_->pipeline->lighting().report};
+  }
+  /// The picture from the middle of the room.
+  void draw(const glm::dvec3& direction, View view) {
+    session_->shown = Camera{};
+    session_->shown.orientation = glm::quat(glm::rotation(glm::vec3(0, 0, -1), glm::vec3(direction)));
+    session_->shown.position = session_->pipeline->scene().origin;
+    session_->shown.znear = 0.01f;
+    session_->view = view;
+    Frame frame = context().begin();
+    session_->pipeline->render(frame, session_->shown, view, session_->targets);
+    frame.submitAndWait();
+  }
+  bool pick(const glm::uvec2& pixel, bool compare = false) {
+    inspection().pick = Inspection::Pick{pixel, compare};
+    return inspection().serve(*session_);
+  }
+  Inspection& inspection() { return session_->inspection; }
+
+  std::unique_ptr<Session> session_;
+  int scenes_ = 0;
+};
+
+TEST_F(InspectionTest, PicksTheFacetInThePixel) {
+  const glm::dvec3 walls[] = {{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const View view : {View{VIEW_LIT}, View{VIEW_VOXEL_ALBEDO}})
+    for (const glm::dvec3& wall : walls) {
+      draw(wall, view);
+      ASSERT_TRUE(pick({32, 24}));
+      ASSERT_TRUE(inspection().facet());
+      // The wall ahead, in its middle, seen from its front.
+      EXPECT_LT(glm::distance(inspection().facet()->normal, -wall), 1e-6);
+      const glm::ivec3 away = glm::abs(glm::ivec3(inspection().voxel->voxel) * 2 - glm::ivec3(17));
+      EXPECT_EQ(away.x + away.y + away.z, 15 + 1 + 1) << "view " << view;
+    }
+  // Nothing changes until something is asked; letting go leaves nothing.
+  EXPECT_FALSE(inspection().serve(*session_));
+  inspection().clear = true;
+  EXPECT_TRUE(inspection().serve(*session_));
+  EXPECT_FALSE(inspection().facet());
+}
+
+TEST_F(InspectionTest, FollowsLinksAndGoesBack) {
+  draw({0, 0, -1}, VIEW_LIT);
+  pick({32, 24});
+  const uint32_t first = inspection().facet()->facet, second = inspection().facet()->row.links.at(0).facet;
+  inspection().follow = second;
+  EXPECT_TRUE(inspection().serve(*session_));
+  EXPECT_EQ(inspection().facet()->facet, second);
+  EXPECT_EQ(inspection().trail, std::vector{first});
+  inspection().goBack = true;
+  EXPECT_TRUE(inspection().serve(*session_));
+  EXPECT_EQ(inspection().facet()->facet, first);
+  EXPECT_TRUE(inspection().trail.empty());
+
+  // A ray beyond the last is the last; a second pick is compared with, not shown.
+  inspection().traceRay = 1000;
+  inspection().serve(*session_);
+  ASSERT_TRUE(inspection().ray);
+  EXPECT_EQ(inspection().ray->ray, 31u);
+  draw({1, 0, 0}, VIEW_LIT);
+  pick({10, 10}, /*compare=*/true);
+  EXPECT_EQ(inspection().facet()->facet, first);
+  ASSERT_TRUE(inspection().other && inspection().comparison);
+  EXPECT_NE(inspection().other->facet, first);
+  EXPECT_EQ(inspection().shown, Inspection::Show::Comparison);
+  // Another pick begins anew.
+  pick({32, 24});
+  EXPECT_FALSE(inspection().other || inspection().ray);
+  EXPECT_EQ(inspection().shown, Inspection::Show::Row);
+}
+
+TEST_F(InspectionTest, ARelightIsTakenOver) {
+  draw({0, 0, -1}, VIEW_LIT);
+  pick({32, 24});
+  inspection().wantReplay = true;
+  inspection().serve(*session_);
+  ASSERT_TRUE(inspection().replay);
+  const glm::dvec3 before = inspection().facet()->radiosity;
+  const uint32_t facet = inspection().facet()->facet;
+  const uint64_t serial = inspection().serial;
+  ASSERT_EQ(inspection().live.size(), 1u);
+
+  Settings settings = session_->pipeline->settings();
+  settings.solver.gpu.lambda = 0.5f;
+  session_->pipeline->set(settings);
+  build();
+  EXPECT_TRUE(inspection().serve(*session_));
+  EXPECT_GT(inspection().serial, serial);
+  EXPECT_EQ(inspection().facet()->facet, facet);
+  EXPECT_EQ(inspection().live.size(), 2u);
+  EXPECT_GT(inspection().live.back().sweep, 0u);
+  EXPECT_FALSE(inspection().replay) << "of the old light";
+  EXPECT_LT(inspection().facet()->radiosity.x, before.x);
+  EXPECT_FALSE(inspection().serve(*session_));
+}
+
+TEST_F(InspectionTest, ARebuildKeepsThePlaceAndAnotherSceneDropsIt) {
+  draw({0, 0, -1}, VIEW_LIT);
+  pick({32, 24});
+  const glm::dvec3 place = inspection().facet()->position;
+  Settings settings = session_->pipeline->settings();
+  settings.voxel.resolution = 24;
+  session_->pipeline->set(settings);
+  build();
+  EXPECT_TRUE(inspection().serve(*session_));
+  ASSERT_TRUE(inspection().facet());
+  EXPECT_LT(glm::distance(inspection().facet()->position, place), 1.0 / 16);
+  EXPECT_NEAR(inspection().edge(), 1.0 / 24, 1e-3);
+
+  // While there is nothing sound to look at, requests are answered in words.
+  session_->halted = true;
+  EXPECT_FALSE(inspection().serve(*session_));
+  EXPECT_TRUE(pick({32, 24}));
+  EXPECT_EQ(session_->messages.size(), 1u);
+  EXPECT_FALSE(inspection().wanted());
+  session_->halted = false;
+
+  load(furnaceBox(0.2f));
+  EXPECT_TRUE(inspection().serve(*session_));
+  EXPECT_FALSE(inspection().facet());
+  EXPECT_THROW(inspection().open(*session_, {8, 8, 8}), UsageError);
+  inspection().open(*session_, {1, 8, 8});
+  EXPECT_TRUE(inspection().facet());
+}
+
+}  // namespace
+}  // namespace irad::test
+
+#endif
