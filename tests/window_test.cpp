@@ -35,6 +35,12 @@ class WindowTest : public ::testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     window_ = std::make_unique<Process>(command, folder_.path, screen_->environment());
   }
+  /// Remembered from an earlier run, as a JSON array of titles: the other panels are where a test looks for them.
+  void fold(const char* panels) {
+    const std::filesystem::path folder = std::filesystem::path(screen_->environment().at("XDG_CONFIG_HOME")) / "irad";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "window.json") << fmt::format(R"({{"format": 1, "folded": {}}})", panels);
+  }
   void xdotool(const std::string& arguments) { screen_->xdotool(arguments); }
   void key(const std::string& name) { screen_->key(name); }
 
@@ -305,9 +311,7 @@ TEST_F(WindowTest, ComparesTwoSetsOfSettings) {
 
 TEST_F(WindowTest, InspectsWhatIsClicked) {
   // With the other panels folded, the inspector's rows are where this test looks for them.
-  const std::filesystem::path config = screen_->environment().at("XDG_CONFIG_HOME");
-  std::filesystem::create_directories(config / "irad");
-  std::ofstream(config / "irad/window.json") << R"({"format": 1, "folded": ["View", "Compare", "Solver", "Memory"]})";
+  fold(R"(["View", "Compare", "Solver", "Memory"])");
   start();
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
@@ -355,9 +359,7 @@ TEST_F(WindowTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   const std::filesystem::path scene = folder_.path / "a.glb", sidecar = sidecarPath(scene);
   std::filesystem::copy_file(assets() / "box.glb", scene);
   const std::string sha = sha256File(scene);
-  const std::filesystem::path config = screen_->environment().at("XDG_CONFIG_HOME");
-  std::filesystem::create_directories(config / "irad");
-  std::ofstream(config / "irad/window.json") << R"({"format": 1, "folded": ["Scene", "Settings"]})";
+  fold(R"(["Scene", "Settings"])");
   start({}, scene);
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));

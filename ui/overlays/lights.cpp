@@ -23,6 +23,13 @@ ImVec2 vec(glm::vec2 v) {
 
 enum class Handle { None, Position, Aim };
 
+/// A handle, and of which light.
+struct Hit {
+  Handle handle = Handle::None;
+  int light = -1;
+  explicit operator bool() const { return handle != Handle::None; }
+};
+
 class LightsOverlay : public Overlay {
  public:
   bool draw(Session& session, const Picture& picture, const PictureMouse& mouse) override {
@@ -34,38 +41,47 @@ class LightsOverlay : public Overlay {
       reach_ = 0.15 * std::max<double>(glm::distance(scene.boundsMin, scene.boundsMax), 1e-6);
     }
 
-    // Who has the mouse: what is held, else what lies nearest under it.
     const bool down = ImGui::IsMouseDown(ImGuiMouseButton_Left);
-    int over = edits.selected;
-    Handle handle = down ? held_ : Handle::None;
-    if (!down && mouse.hovered && !mouse.clicked) handle = under(edits, picture, mouse.position, over);
     if (mouse.pressed) {
-      handle = under(edits, picture, mouse.position, over);
-      if (handle != Handle::None) grab(edits, over, handle, mouse);
-    } else if (handle != Handle::None && mouse.dragged) {
+      // A slow frame sees the press when the mouse has moved on: what it was over in the last one has been pressed.
+      if (!over_) point(edits, picture, mouse);
+      held_ = over_;
+      if (held_) {
+        edits.selected = held_.light;
+        anchor(edits, overAt_, mouse.shift);
+      }
+    } else if (held_ && mouse.dragged) {
       drag(edits, session.shown, picture, mouse);
     }
-    const bool taken = handle != Handle::None || (mouse.clicked && held_ != Handle::None);
-    if (!down) held_ = Handle::None;
+    const bool clicked = held_ && mouse.clicked;
+    if (!down) {
+      held_ = {};
+      over_ = {};
+      if (mouse.hovered && !clicked) point(edits, picture, mouse);
+    }
+    const Hit active = down ? held_ : over_;
+    const bool taken = active || clicked;
 
-    for (int i = 0; i < static_cast<int>(edits.lights.size()); ++i) drawLight(edits, picture, i, taken && i == over);
-    if (taken) {
-      ImGui::SetMouseCursor(handle == Handle::Aim ? ImGuiMouseCursor_ResizeAll : ImGuiMouseCursor_Hand);
-      if (!down && over >= 0) ImGui::SetTooltip("%s", edits.lights.at(static_cast<size_t>(over)).name.c_str());
+    for (int i = 0; i < static_cast<int>(edits.lights.size()); ++i)
+      drawLight(edits, picture, i, active && i == active.light);
+    if (active) {
+      ImGui::SetMouseCursor(active.handle == Handle::Aim ? ImGuiMouseCursor_ResizeAll : ImGuiMouseCursor_Hand);
+      if (!down) ImGui::SetTooltip("%s", edits.lights[static_cast<size_t>(active.light)].name.c_str());
     }
     return taken;
   }
 
  private:
-  int aimed_ = -1;    ///< the light that reach_ is for
-  double reach_ = 1;  ///< length of its arrow, scene units
-  Handle held_ = Handle::None;
+  int aimed_ = -1;            ///< the light that reach_ is for
+  double reach_ = 1;          ///< length of its arrow, scene units
+  Hit held_, over_;           ///< by the pressed button; under the mouse in the last frame
+  glm::vec2 overAt_{0};       ///< where it was then
   glm::dvec3 anchor_{0};      ///< where the handle was when it was taken, or when Shift changed
   glm::vec2 anchorMouse_{0};  ///< and the mouse
   bool anchorShift_ = false;
 
   bool release() {
-    held_ = Handle::None;
+    held_ = over_ = {};
     return false;
   }
 
@@ -73,49 +89,46 @@ class LightsOverlay : public Overlay {
   static float radius() { return 0.45f * ImGui::GetFontSize(); }
   glm::dvec3 tip(const Light& light) const { return light.position + glm::dvec3(light.direction) * reach_; }
 
-  /// The light nearest to the mouse, else the end of the chosen one's arrow; sets whose it is.
-  Handle under(const SceneEdits& edits, const Picture& picture, glm::vec2 mouse, int& light) const {
+  void point(const SceneEdits& edits, const Picture& picture, const PictureMouse& mouse) {
+    over_ = under(edits, picture, mouse.position);
+    overAt_ = mouse.position;
+  }
+
+  /// The light nearest to the mouse, else the end of the chosen one's arrow.
+  Hit under(const SceneEdits& edits, const Picture& picture, glm::vec2 mouse) const {
     const auto distance = [&](const glm::dvec3& world) {
       const std::optional<glm::vec2> at = picture.project(world);
       return at ? glm::distance(*at, mouse) : INFINITY;
     };
     float nearest = 1.6f * radius();
-    Handle found = Handle::None;
+    Hit hit;
     const auto count = static_cast<int>(edits.lights.size());
     for (int i = 0; i < count; ++i)
       if (const float d = distance(edits.lights[static_cast<size_t>(i)].position); d < nearest) {
         nearest = d;
-        found = Handle::Position;
-        light = i;
+        hit = {Handle::Position, i};
       }
-    if (found != Handle::None || edits.selected < 0 || edits.selected >= count) return found;
+    if (hit || edits.selected < 0 || edits.selected >= count) return hit;
     const Light& chosen = edits.lights[static_cast<size_t>(edits.selected)];
-    if (!aimable(chosen) || !(distance(tip(chosen)) < nearest)) return found;
-    light = edits.selected;
-    return Handle::Aim;
+    if (aimable(chosen) && distance(tip(chosen)) < nearest) hit = {Handle::Aim, edits.selected};
+    return hit;
   }
 
-  void grab(SceneEdits& edits, int light, Handle handle, const PictureMouse& mouse) {
-    edits.selected = light;
-    held_ = handle;
-    anchorAt(edits, mouse);
-  }
-
-  void anchorAt(const SceneEdits& edits, const PictureMouse& mouse) {
+  void anchor(const SceneEdits& edits, glm::vec2 mouse, bool shift) {
     const Light& light = edits.lights.at(static_cast<size_t>(edits.selected));
-    anchor_ = held_ == Handle::Aim ? tip(light) : light.position;
-    anchorMouse_ = mouse.position;
-    anchorShift_ = mouse.shift;
+    anchor_ = held_.handle == Handle::Aim ? tip(light) : light.position;
+    anchorMouse_ = mouse;
+    anchorShift_ = shift;
   }
 
   void drag(SceneEdits& edits, const Camera& camera, const Picture& picture, const PictureMouse& mouse) {
     Light* light = edits.light();
     if (light == nullptr) return;
-    if (mouse.shift != anchorShift_) anchorAt(edits, mouse);
+    if (mouse.shift != anchorShift_) anchor(edits, mouse.position, mouse.shift);
     const glm::dvec3 at =
         mouse.shift ? alongView(camera, picture, mouse.position) : inPlane(camera, picture, mouse.position);
     if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kMaxCoordinate)) return;
-    if (held_ == Handle::Position) {
+    if (held_.handle == Handle::Position) {
       light->position = at;
       return;
     }
