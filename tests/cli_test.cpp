@@ -450,7 +450,8 @@ assert (distance[voxel[:, 2], voxel[:, 1], voxel[:, 0]] == 0).all()
 assert load("albedo").shape == distance.shape + (3,)
 )";
   std::ofstream(folder.path / "read.py") << script;
-  const RunResult python = runProgram("/usr/bin/python3", {(folder.path / "read.py").string(), folder.path.string()});
+  const RunResult python =
+      test::runProgram("/usr/bin/python3", {(folder.path / "read.py").string(), folder.path.string()});
   EXPECT_EQ(python.status, 0) << python.err;
 
   const RunResult wrong = runIrad({"export", "box", "--facets", "--format", "vdb"});

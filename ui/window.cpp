@@ -296,6 +296,7 @@ void Window::capture() {
     return !session_.work->cancel;
   });
   session_.work.reset();
+  framesLeft_ = kFramesPerEvent;
 }
 
 /// The scene's file in the window's title, and among those opened lately.
