@@ -7,22 +7,15 @@
 #include "app/command.h"
 #include "app/config.h"
 #include "app/progress.h"
-#include "renderer/image_io.h"
+#include "gi/picture.h"
 
 namespace irad::app {
-
-struct Reference {
-  std::filesystem::path path;  ///< absolute
-  std::string sha256;
-  LinearPicture picture;
-  std::string json() const;  ///< member "reference" of a manifest
-};
 
 struct ReferenceArgument {
   std::optional<std::string> file;
   void declare(Options& options);
   /// Of the option, else of the config (a note says where that file has changed since); none where neither names one.
-  std::optional<Reference> read(const Config& config, ProgressReport& progress) const;
+  std::optional<ReferencePicture> read(const Config& config, ProgressReport& progress) const;
 };
 
 }  // namespace irad::app

@@ -112,17 +112,17 @@ void run(const Arguments& arguments) {
   makeFolder(out);
 
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
-  const std::optional<Reference> reference = arguments.reference.read(session.config, session.progress);
+  const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
   if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
   session.prepare(pipeline);
   Targets targets(*session.context, size);
 
   // The manifest comes last and vouches for the rest: that of an earlier run goes first.
   removeFile(out / "manifest.json");
+  Manifest manifest = session.manifest("render", pipeline);
   std::vector<fs::path> written;
   std::set<std::string> used;
   std::vector<std::string> badPictures;
-  std::vector<std::string> ranges;
   for (size_t c = 0; c < cameras.size(); ++c) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
     for (const ViewInfo& view : chosen) {
@@ -133,7 +133,7 @@ void run(const Arguments& arguments) {
       if (!files.bad.empty())
         badPictures.push_back(fmt::format("numerical watch: picture {}{}: {}", prefix, view.name, files.bad));
       if (view.hasRange())
-        ranges.push_back(rangeJson(*session.context, targets, view, session.settings, prefix + view.name));
+        manifest.viewRanges.push_back(rangeJson(*session.context, targets, view, session.settings, prefix + view.name));
     }
   }
 
@@ -145,16 +145,11 @@ void run(const Arguments& arguments) {
                                                        pipeline.field(), pipeline.matrix(), pipeline.lighting())));
   written.push_back(out / "memory.csv");
 
-  Manifest manifest = session.manifest("render", pipeline);
   manifest.size = size;
   manifest.frames = frames;
   manifest.cameras = cameras;
   for (const ViewInfo& view : chosen) manifest.views.emplace_back(view.name);
-  if (!ranges.empty()) manifest.details.emplace_back("view_ranges", fmt::format("[{}]", fmt::join(ranges, ",")));
-  if (reference) {
-    manifest.arguments = {"--reference", reference->path.string()};
-    manifest.details.emplace_back("reference", reference->json());
-  }
+  if (reference) manifest.reference = &*reference;
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
   writeFile(out / "manifest.json", manifest.toJson());
   written.push_back(out / "manifest.json");

@@ -87,7 +87,7 @@ void run(const Arguments& arguments) {
   if (arguments.screenshot) options.screenshot = *arguments.screenshot;
   if (options.exitAfter == 0) options.preferences = preferencesFile();
   ProgressReport notes;
-  if (auto reference = arguments.reference.read(config, notes)) options.reference = std::move(reference->picture);
+  if (auto reference = arguments.reference.read(config, notes)) options.reference = std::move(reference);
   options.presets = Presets(
       options.preferences.empty() ? fs::path() : options.preferences.parent_path() / "presets",
       [](Settings& settings, const fs::path& file) { settingsFromJson(settings, *readConfigFile(file).settings); });

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/check/check.h"
+#include "gi/picture.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 
@@ -51,6 +52,7 @@ std::string Manifest::commandLine() const {
   for (size_t i = 0; i < now.size(); ++i)
     if (now[i].value != usual[i].value)
       words.insert(words.end(), {"--set", fmt::format("{}={}", now[i].meta.name, now[i].value)});
+  if (reference) words.insert(words.end(), {"--reference", reference->path.string()});
   words.insert(words.end(), arguments.begin(), arguments.end());
   for (std::string& word : words) word = shellQuote(word);
   return fmt::format("{}", fmt::join(words, " "));
@@ -78,6 +80,8 @@ std::string Manifest::toJson() const {
   }
   json["lights"] = Json::parse(lightsToJson(scene->lights));
   if (!views.empty()) json["views"] = views;
+  if (!viewRanges.empty()) json["view_ranges"] = Json::parse(fmt::format("[{}]", fmt::join(viewRanges, ",")));
+  if (reference) json["reference"] = {{"path", reference->path.string()}, {"sha256", reference->sha256}};
   if (!shaders.empty()) json["shaders"] = shaders;
   for (const auto& [name, text] : details) json[name] = Json::parse(text);
   json["files"] = files;

@@ -13,6 +13,8 @@
 
 namespace irad {
 
+struct ReferencePicture;
+
 /// Version of settings files and manifests, their member "format": raised when older programs would misread them. Files
 /// without one are older than it.
 constexpr uint32_t kConfigFormat = 1;
@@ -37,7 +39,9 @@ struct Manifest {
   std::optional<uint32_t> frames;
   std::vector<Camera> cameras;
   std::vector<std::string> views;
-  std::vector<std::string> arguments;                        ///< further options of the reproducing command line
+  std::vector<std::string> viewRanges;          ///< of the pictures that have one: rangeJson (gi/picture.h)
+  const ReferencePicture* reference = nullptr;  ///< that views compared with
+  std::vector<std::string> arguments;           ///< further options of the reproducing command line
   std::vector<std::pair<std::string, std::string>> details;  ///< further members: name, JSON
   std::vector<std::string> shaders;                          ///< that were not the program's own
   std::vector<std::string> files;                            ///< written beside the manifest

@@ -1,10 +1,12 @@
 #include "gi/picture.h"
 
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "gi/watch.h"
 #include "renderer/error.h"
-#include "renderer/image_io.h"
+#include "renderer/scene/sha256.h"
 #include "shaders/shared/view.h"
 
 namespace irad {
@@ -39,6 +41,13 @@ std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& 
                                 {"infinite_pixels", range.infinite},
                                 {"negative_pixels", range.negative}}
       .dump();
+}
+
+ReferencePicture readReference(const std::filesystem::path& path) {
+  LinearPicture picture = readLinear(path);
+  std::ifstream in(path, std::ios::binary);
+  const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  return {std::filesystem::absolute(path).lexically_normal(), sha256(bytes), std::move(picture)};
 }
 
 }  // namespace irad

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gi/views.h"
+#include "renderer/image_io.h"
 
 namespace irad {
 
@@ -21,5 +22,14 @@ PictureFiles writePicture(Context& context, const Targets& targets, const ViewIn
 /// "picture" is `name`.
 std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& view, const Settings& settings,
                       const std::string& name);
+
+/// A picture by others, which the views of group "Reference" show and compare with.
+struct ReferencePicture {
+  std::filesystem::path path;  ///< absolute
+  std::string sha256;          ///< of the file
+  LinearPicture picture;
+};
+/// As readLinear() does; InputError.
+ReferencePicture readReference(const std::filesystem::path& path);
 
 }  // namespace irad

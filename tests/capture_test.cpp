@@ -54,7 +54,14 @@ TEST_F(Capture, LightSolvedAfreshIsAHeadlessRunsAfterAnyEdits) {
   edit([&] { s.solver.gpu.lambda = 0.7f; });
   edit([&] { s.solver.gpu.lambda = 1; });
 
-  Pipeline headless(context(), box(), s);
+  std::vector<Light> lights = window.scene().lights;
+  lights.at(0).intensity *= 0.5f;
+  window.setLights(lights);
+  settle(window);
+
+  Scene edited = box();
+  edited.lights = lights;
+  Pipeline headless(context(), std::move(edited), s);
   headless.prepare();
   bool differs = false;
   for (const View view : {VIEW_LIT, VIEW_IRRADIANCE, VIEW_RADIOSITY, VIEW_SPECULAR, VIEW_DISTANCE, VIEW_ROW_SUM}) {

@@ -45,7 +45,8 @@ void Builder::load(const std::filesystem::path& path) {
     };
     Scene scene = openScene(path, load);
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
-    if (session_.reference) pipeline->setReference(session_.reference->size, session_.reference->pixels);
+    if (session_.reference)
+      pipeline->setReference(session_.reference->picture.size, session_.reference->picture.pixels);
     prepare(session_, *pipeline);
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
     session_.comparison.reset();
@@ -143,7 +144,8 @@ void Builder::compare() {
     Side other;
     other.edited = session_.edited;
     other.pipeline = std::make_unique<Pipeline>(context_, session_.pipeline->scene(), session_.edited);
-    if (session_.reference) other.pipeline->setReference(session_.reference->size, session_.reference->pixels);
+    if (session_.reference)
+      other.pipeline->setReference(session_.reference->picture.size, session_.reference->picture.pixels);
     prepare(other, *other.pipeline);
     other.applied = values(other.edited);
     session_.comparison.emplace().other = std::move(other);

@@ -27,6 +27,7 @@ std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen
                     .size = session.targets.size,
                     .frames = 1,
                     .cameras = {session.camera.camera()},
+                    .reference = session.reference ? &*session.reference : nullptr,
                     .shaders = context.shaders.modified()};
   Targets targets(context, session.targets.size);
   pipeline.solvedAfresh(progress, [&] {
@@ -40,6 +41,8 @@ std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen
            writePicture(context, targets, view, folder.temporary() / view.name).paths)
         manifest.files.push_back(path.filename().string());
       manifest.views.emplace_back(view.name);
+      if (view.hasRange())
+        manifest.viewRanges.push_back(rangeJson(context, targets, view, pipeline.settings(), view.name));
     }
   });
   writeFile(folder.temporary() / "manifest.json", manifest.toJson());

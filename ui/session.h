@@ -11,16 +11,16 @@
 #include <vector>
 
 #include "gi/compare.h"
+#include "gi/picture.h"
 #include "gi/pipeline.h"
 #include "renderer/frame.h"
-#include "renderer/image_io.h"
 #include "shaders/shared/view.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
 #include "ui/inspection.h"
 #include "ui/preferences.h"
-#include "ui/scene_edits.h"
 #include "ui/presets.h"
+#include "ui/scene_edits.h"
 
 namespace irad {
 
@@ -95,7 +95,7 @@ struct Session : Side {
   SceneEdits edits;  ///< lights and bookmarks; the loop hands the lights to the pipeline
 
   View view = 0;
-  std::optional<LinearPicture> reference;  ///< for the views that compare with one; every pipeline gets it
+  std::optional<ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it
   FlyCamera camera;
   int sceneCamera = 0;             ///< index into cameras(): which `camera` began as
   Camera shown;                    ///< of the picture in targets

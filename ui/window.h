@@ -7,8 +7,8 @@
 #include <string>
 
 #include "gi/manifest.h"
+#include "gi/picture.h"
 #include "gi/pipeline.h"
-#include "renderer/image_io.h"
 #include "ui/presets.h"
 
 namespace irad {
@@ -20,9 +20,9 @@ struct WindowOptions {
   Settings settings;
   Settings defaults;  ///< of this device class, for the reset buttons
   View view = 0;
-  std::optional<LinearPicture> reference;  ///< for the views that compare with one
-  std::optional<glm::uvec3> inspect;       ///< voxel to begin with in the inspector
-  std::string camera;                      ///< of the scene, by name; empty: its first
+  std::optional<ReferencePicture> reference;  ///< for the views that compare with one
+  std::optional<glm::uvec3> inspect;          ///< voxel to begin with in the inspector
+  std::string camera;                         ///< of the scene, by name; empty: its first
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";
