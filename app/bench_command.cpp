@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench.h"
+#include "app/bench_ui.h"
 #include "app/devices.h"
 #include "app/session.h"
 #include "app/table.h"
@@ -29,7 +30,7 @@ struct Arguments {
   SettingArguments settings;
   DeviceArguments device;
   PictureArguments picture;
-  bool json = false;
+  bool json = false, ui = false;
 };
 
 const std::vector<std::string> columns{"subsystem", "kind",   "mean_ms", "min_ms", "max_ms",
@@ -152,6 +153,9 @@ void run(const Arguments& arguments) {
   if (arguments.compare) return printComparison(arguments.compare->first, arguments.compare->second);
   arguments.picture.check();
   arguments.sceneOptions.check();
+  if (arguments.ui)
+    return measureUi(arguments.scene, arguments.view, arguments.picture, arguments.settings, arguments.sceneOptions,
+                     arguments.device);
   const Config early = arguments.settings.readConfig();
   const uint32_t frames = arguments.picture.resolveFrames({}, 20);
   const auto count = [](const char* option, const std::optional<std::string>& text, uint64_t otherwise) {
@@ -248,6 +252,8 @@ Command benchCommand() {
                       "into DIR/settings and DIR/versus)");
         options.pair("--compare", "DIR DIR", arguments->compare,
                      "Measure nothing: compare two recordings stage by stage, the second's times over the first's");
+        options.flag("--ui", arguments->ui,
+                     "Measure the window instead: CPU time of all panels per frame (needs a display)");
         options.flag("--json", arguments->json, "Print all samples as JSON instead of the table");
         options.value("--warmup", "N", arguments->warmup, "Frames before the measurement (default 3)");
         options.value("--rebuilds", "N", arguments->rebuilds, "Times that voxels to matrix are rebuilt (default 3)");

@@ -12,10 +12,10 @@
 #include "app/devices.h"
 #include "app/reference.h"
 #include "app/version.h"
+#include "app/view.h"
 #include "app/views.h"
 #include "renderer/error.h"
 #include "ui/preferences.h"
-#include "ui/window.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
@@ -70,7 +70,6 @@ std::filesystem::path findShaders() {
 void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   const Config config = arguments.settings.readConfig();
-  (void)arguments.settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
   arguments.sceneOptions.check();
   WindowOptions options;
   options.program = {versionNumber(), versionCommit()};
@@ -93,24 +92,30 @@ void run(const Arguments& arguments) {
       [](Settings& settings, const fs::path& file) { settingsFromJson(settings, *readConfigFile(file).settings); });
   options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
 
-  DeviceOptions deviceOptions = arguments.device.options();
-  deviceOptions.presentable = true;
-  const std::unique_ptr<Device> device = Device::create(deviceOptions);
-  ShaderLibrary shaders;
-  Timings timings(kTimedFrames);
-  options.settings = arguments.settings.resolve(config, device->isCpu);
-  options.defaults = defaultSettings(device->isCpu);
-  options.load = arguments.sceneOptions.load(config, options.settings);
-  {
-    Context context(*device, shaders, timings);
-    runWindow(context, options);
-  }
-  const std::vector<std::string> messages = device->validationMessages();
-  if (deviceOptions.validate && !messages.empty())
-    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+  openWindow(std::move(options), config, arguments.settings, arguments.sceneOptions, arguments.device);
 }
 
 }  // namespace
+
+void openWindow(WindowOptions options, const Config& config, const SettingArguments& settings,
+                const SceneArguments& scene, const DeviceArguments& device) {
+  (void)settings.resolve(config, /*cpuDevice=*/true);  // a slip is told before a device is opened
+  DeviceOptions deviceOptions = device.options();
+  deviceOptions.presentable = true;
+  const std::unique_ptr<Device> opened = Device::create(deviceOptions);
+  ShaderLibrary shaders;
+  Timings timings(kTimedFrames);
+  options.settings = settings.resolve(config, opened->isCpu);
+  options.defaults = defaultSettings(opened->isCpu);
+  options.load = scene.load(config, options.settings);
+  {
+    Context context(*opened, shaders, timings);
+    runWindow(context, options);
+  }
+  const std::vector<std::string> messages = opened->validationMessages();
+  if (deviceOptions.validate && !messages.empty())
+    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
 
 Command viewCommand() {
   const auto arguments = std::make_shared<Arguments>();

@@ -11,8 +11,7 @@ namespace irad {
 namespace {
 
 constexpr const char* kStage = "GI BuildMatrix";
-constexpr uint64_t kSegmentTable = 64;  ///< offset of the segments' addresses in the record, behind MatrixArrays
-static_assert(sizeof(MatrixArrays) <= kSegmentTable);
+static_assert(sizeof(MatrixArrays) <= FormFactors::kSegmentTable);
 
 /// Rays in one submission: short enough for watchdogs (and for cancelling), long enough to hide the round trip.
 uint64_t raysPerSubmission(const Device& device) {
@@ -36,16 +35,18 @@ void addSums(MatrixStats& stats, const ChunkCounts& sums) {
 }
 
 void writeRecord(Context& context, FormFactors& matrix, const MatrixArrays& arrays) {
-  std::vector<std::byte> bytes(kSegmentTable + std::max<size_t>(1, matrix.segments.size()) * sizeof(uint64_t));
+  std::vector<std::byte> bytes(FormFactors::kSegmentTable +
+                               std::max<size_t>(1, matrix.segments.size()) * sizeof(uint64_t));
   matrix.record = Buffer(context.device, "matrix record", Subsystem::Matrix, bytes.size());
   MatrixArrays written = arrays;
-  written.segments = matrix.record.address + kSegmentTable;
+  written.segments = matrix.record.address + FormFactors::kSegmentTable;
   written.rowStart = matrix.rowStart.address;
   written.rowInfo = matrix.rowInfo.address;
   written.rows = matrix.rows;
   std::memcpy(bytes.data(), &written, sizeof(written));
   for (size_t i = 0; i < matrix.segments.size(); ++i)
-    std::memcpy(bytes.data() + kSegmentTable + i * sizeof(uint64_t), &matrix.segments[i].address, sizeof(uint64_t));
+    std::memcpy(bytes.data() + FormFactors::kSegmentTable + i * sizeof(uint64_t), &matrix.segments[i].address,
+                sizeof(uint64_t));
   upload(context, matrix.record, bytes);
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "renderer/csv.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
 namespace {
@@ -37,6 +38,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.reverse, 4 * V);
   buffer(facets.around, 4 * s);
   buffer(facets.triangle, 4 * s);
+  buffer(facets.record, sizeof(FacetArrays));
   // Fields: one byte per voxel each; JFA seeds one word.
   buffer(field.chebyshev, (V + 3) / 4 * 4);
   image(field.jfaDistance, V);
@@ -47,12 +49,14 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
                    matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries : 8 * matrix.rays * capacity);
   buffer(matrix.rowStart, 4 * uint64_t{matrix.rows});
   buffer(matrix.rowInfo, 8 * uint64_t{matrix.rows});
+  buffer(matrix.record, FormFactors::kSegmentTable + 8 * std::max<uint64_t>(1, matrix.segments.size()));
   // Light: one fp32 vec4 per facet in each array; the thesis's volume holds half-precision RGBA.
   for (const Buffer* b : {&lighting.direct, &lighting.emitted, &lighting.indirect, &lighting.radiosity,
                           &lighting.radiosityNext, &lighting.shaded, &lighting.shadedEmitted})
     buffer(*b, 16 * s);
   buffer(lighting.correction, 16 * s);
   buffer(lighting.rowSum, 4 * s);
+  buffer(lighting.residual, sizeof(SolveResidual));
   image(lighting.volume, 8 * V);
   return out;
 }
@@ -69,12 +73,17 @@ ThesisMemory thesisMemory(uint64_t voxels, uint64_t solidVoxels, uint64_t rays) 
 std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const FacetList& facets,
                                           const Field& field, const FormFactors& matrix, const Lighting& lighting) {
   const auto predictions = predictMemory(facets, field, matrix, lighting);
-  const auto predicted = [&](const std::string& name) -> std::optional<uint64_t> {
-    for (const auto& [known, bytes] : predictions)
-      if (known == name) return bytes;
+  const auto known = [&](const std::string& name) -> std::optional<uint64_t> {
+    for (const auto& [resource, bytes] : predictions)
+      if (resource == name) return bytes;
     return std::nullopt;
   };
+  // Of other images extent and format say what they should take.
+  const auto predicted = [&](const MemoryRow& row) {
+    return row.texelBytes != 0 && !known(row.name) ? row.texelBytes : known(row.name);
+  };
 
+  using Kind = MemoryReportRow::Kind;
   std::vector<MemoryReportRow> rows;
   uint64_t entries = 0, total = 0, volumes = 0, matrixBytes = 0;
   std::vector<std::pair<Subsystem, uint64_t>> subtotals;
@@ -104,18 +113,18 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
     if (row.subsystem == Subsystem::Matrix && isSegment(matrix, row.name))
       entries += row.bytes;
     else
-      rows.push_back({row.name, toString(row.subsystem), row.format, row.bytes, predicted(row.name)});
+      rows.push_back({row.name, toString(row.subsystem), row.format, row.bytes, predicted(row)});
   }
   rows.insert(rows.begin(), {kEntries, toString(Subsystem::Matrix), fmt::format("{} segments", matrix.segments.size()),
-                             entries, predicted(kEntries)});
+                             entries, known(kEntries)});
 
   for (const auto& [subsystem, bytes] : subtotals)
-    rows.push_back({"subtotal", toString(subsystem), "", bytes, std::nullopt});
-  rows.push_back({"total", "all", "", total, std::nullopt});
+    rows.push_back({"subtotal", toString(subsystem), "", bytes, std::nullopt, Kind::Subtotal});
+  rows.push_back({"total", "all", "", total, std::nullopt, Kind::Sum});
   const ThesisMemory thesis = thesisMemory(facets.grid.voxels, facets.solidVoxels, matrix.rays);
-  rows.push_back({"volumes against T eq. 29", "gi", "", volumes, thesis.volumes});
-  rows.push_back({"matrix and list against T eq. 30", "gi", "", matrixBytes, thesis.matrix});
-  rows.push_back({"gi against T eq. 31", "gi", "", volumes + matrixBytes, thesis.total});
+  rows.push_back({"volumes against T eq. 29", "gi", "", volumes, thesis.volumes, Kind::Sum});
+  rows.push_back({"matrix and list against T eq. 30", "gi", "", matrixBytes, thesis.matrix, Kind::Sum});
+  rows.push_back({"gi against T eq. 31", "gi", "", volumes + matrixBytes, thesis.total, Kind::Sum});
   return rows;
 }
 

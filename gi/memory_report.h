@@ -13,9 +13,11 @@ namespace irad {
 struct MemoryReportRow {
   std::string name, subsystem, format;
   std::optional<uint64_t> measured, predicted;  ///< bytes
+  enum class Kind { Resource, Subtotal, Sum } kind = Kind::Resource;
 };
 
-/// Bytes that the formulas give for the stages' resources, by resource name. Units: s facets, V voxels (padding
+/// Bytes that the formulas give for the stages' resources, by resource name; of other images memoryReport() predicts
+/// what their extent and format come to. Units: s facets, V voxels (padding
 /// included), R rays, E matrix entries.
 std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& facets, const Field& field,
                                                             const FormFactors& matrix, const Lighting& lighting);

@@ -205,6 +205,12 @@ void Pipeline::lightsChanged() {
   impl_->dirty = std::min(impl_->dirty, Redo::Gather);
 }
 
+void Pipeline::darken() {
+  if (!impl_->now.light) return;
+  impl_->now.light = makeLighting(impl_->context, *impl_->now.facets, impl_->settings);
+  impl_->dirty = std::min(impl_->dirty, Redo::Gather);
+}
+
 void Pipeline::invalidate(Redo from) {
   impl_->dirty = std::min(impl_->dirty, from);
 }

@@ -40,6 +40,9 @@ class Pipeline {
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
 
+  /// H and B become 0: the next prepare() solves from the dark.
+  void darken();
+
   /// `from` and the stages after it run again at the next prepare(): repeated measurements.
   void invalidate(Redo from);
 

@@ -93,7 +93,8 @@ struct FormFactors {
   std::vector<Buffer> segments;  ///< entries of rowsPerSegment rows each (csr), or of fixed stride (padded)
   Buffer rowStart;               ///< rows: first entry within its segment
   Buffer rowInfo;                ///< rows: entries | ... see shared/matrix.h
-  Buffer record;                 ///< one MatrixArrays
+  Buffer record;                 ///< one MatrixArrays; from kSegmentTable on, the segments' addresses
+  static constexpr uint64_t kSegmentTable = 64;
   MatrixStats stats;
 };
 /// `progress` (0..1) may be empty; it returns false to cancel, upon which a WorkError "cancelled" is thrown.
@@ -103,7 +104,7 @@ FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& 
 /// The facets that emit, to be drawn in proportion to their power. count 0: none, and no buffers.
 struct Emitters {
   uint32_t count = 0;
-  float brightest = 0;  ///< largest luminance(M), W/m^2
+  float brightest = 0;     ///< largest luminance(M), W/m^2
   Buffer entries, record;  ///< Emitter per facet, one EmitterTable
 };
 Emitters listEmitters(Context& context, const FacetList& facets);
@@ -119,8 +120,8 @@ struct Defect {
   uint32_t facet;
   glm::uvec3 voxel;
 };
-/// Where the light of a converged solve comes from and goes to, W/m^2 x voxels^2, by colour channel. By reciprocity what
-/// enters is what is absorbed and what escapes; the rest is how far F departs from A_i F_ij = A_j F_ji.
+/// Where the light of a converged solve comes from and goes to, W/m^2 x voxels^2, by colour channel. By reciprocity
+/// what enters is what is absorbed and what escapes; the rest is how far F departs from A_i F_ij = A_j F_ji.
 struct EnergyBalance {
   glm::dvec3 entering{0};  ///< sum of A (M + D)
   glm::dvec3 absorbed{0};  ///< sum of A (1 - rho) (D + H)
@@ -133,24 +134,25 @@ struct SolveReport {
   float residual = 0;  ///< max |dB| of the last sweep, W/m^2
   float bound = 0;     ///< rho/(1-rho) max|dB|: error bound on B, W/m^2
   float largestH = 0;
-  float largestGain = 0;  ///< rho-bar: largest row gain
+  float largestGain = 0;            ///< rho-bar: largest row gain
   uint32_t nonFinite = 0, nan = 0;  ///< components of B that are NaN or infinite; of those, NaN
   uint32_t negative = 0;            ///< components of M + rho D, H or B, and row sums, below zero
   bool converged = false;
-  bool diverging = false;  ///< growing under any relaxation (solver.lambda too large): stopped, the light before is back
-  bool damped = false;     ///< the guard took omega below solver.omega
-  float omega = 1;         ///< relaxation of the last sweep
-  float growth = 0;        ///< of the residual in the last sweep, as a factor, where it may grow (largestGain >= 1)
+  bool diverging =
+      false;            ///< growing under any relaxation (solver.lambda too large): stopped, the light before is back
+  bool damped = false;  ///< the guard took omega below solver.omega
+  float omega = 1;      ///< relaxation of the last sweep
+  float growth = 0;     ///< of the residual in the last sweep, as a factor, where it may grow (largestGain >= 1)
   std::optional<Defect> defect;         ///< with nonFinite or negative
   std::optional<EnergyBalance> energy;  ///< of a converged solve with solver.lambda 1
   uint32_t clampedVoxels = 0;           ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
   /// No sweep more would change anything for the better.
   bool settled() const { return converged || diverging || nonFinite > 0; }
 };
-/// Steps in where the residual grows. What a sweep multiplies B by, A = lambda rho F, has no negative entry: its spectral
-/// radius r is an eigenvalue (Perron), which a damped sweep turns into 1 - omega + omega r, below 1 only where r is.
-/// Damping therefore mends no true divergence; but where a row gain exceeds 1 and r does not, the residual may grow for
-/// a while, and damping tells the two apart before B has grown far.
+/// Steps in where the residual grows. What a sweep multiplies B by, A = lambda rho F, has no negative entry: its
+/// spectral radius r is an eigenvalue (Perron), which a damped sweep turns into 1 - omega + omega r, below 1 only where
+/// r is. Damping therefore mends no true divergence; but where a row gain exceeds 1 and r does not, the residual may
+/// grow for a while, and damping tells the two apart before B has grown far.
 struct DivergenceGuard {
   static constexpr uint32_t kPatience = 5;  ///< growing sweeps in a row before it halves omega; again, and it gives up
   float lambda = 0, asked = 0;              ///< the settings that it was begun with
@@ -165,12 +167,12 @@ struct DivergenceGuard {
 };
 /// Per-facet light, fp32 vec4 (xyz, w unused): W/m^2.
 struct Lighting {
-  Buffer direct;    ///< D
-  Buffer emitted;   ///< F M: first gather from emissive facets alone (the part of H that is direct light of emitters)
+  Buffer direct;      ///< D
+  Buffer emitted;     ///< F M: first gather from emissive facets alone (the part of H that is direct light of emitters)
   Buffer correction;  ///< what samples of the emitters add to F M by rays; none where they are not sampled
   /// Sum of F M by samples over that by rays; 0: not sampled. Far from 1 the samples are not used (solve.cpp).
   float sampledShare = 0;
-  Buffer indirect;    ///< H
+  Buffer indirect;                  ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer
   Buffer shaded;         ///< H as shading samples it (blurred over neighbours that face the same way, or edge-removed)
   Buffer shadedEmitted;  ///< `emitted` likewise
@@ -182,8 +184,8 @@ struct Lighting {
   DivergenceGuard guard;
   /// solve() computes `emitted` when this is not set, and sets it; clear it when the matrix or the emission changes.
   bool emittedCurrent = false;
-  /// Largest H while sources last shone, W/m^2: in the dark, light below 1e-6 of it is put out; reflections of less than
-  /// specular.threshold of it are not traced.
+  /// Largest H while sources last shone, W/m^2: in the dark, light below 1e-6 of it is put out; reflections of less
+  /// than specular.threshold of it are not traced.
   float litH = 0;
 };
 /// All zero. The volume exists when sampling is ungated; addVolume makes it otherwise (views, exports).
@@ -196,8 +198,8 @@ struct EmitterSource {
   const Emitters* emitters = nullptr;
   const Field* field = nullptr;
 };
-/// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity (from the dark where the last
-/// report has something not finite). Blocking.
+/// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity (from the dark where the
+/// last report has something not finite). Blocking.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
                   const Settings& settings, uint32_t maxSweeps, const EmitterSource& source = {});
 /// `shaded` and `shadedEmitted`; and the volume where it exists: H, or B with ungated sampling (T 5.9), or B - lambda

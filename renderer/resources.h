@@ -87,6 +87,7 @@ struct MemoryRow {
   Subsystem subsystem;
   std::string format;  ///< "buffer" or the image's format and extent
   uint64_t bytes;
+  uint64_t texelBytes = 0;  ///< what an image's extent and format come to
 };
 
 class Allocator {

@@ -533,5 +533,21 @@ TEST(BenchCommand, RecordsAndCompares) {
   EXPECT_EQ(runIrad({"bench", "--compare", out}).status, 2);
 }
 
+TEST(BenchCommand, TheWindowsCostNeedsAWindow) {
+  const char* before = std::getenv("DISPLAY");
+  const std::string kept = before ? before : "";
+  setenv("DISPLAY", ":987", 1);
+  const RunResult run = runIrad({"bench", "box", "--ui", "--frames", "10"});
+  before ? setenv("DISPLAY", kept.c_str(), 1) : unsetenv("DISPLAY");
+#if IRAD_UI
+  EXPECT_EQ(run.status, 4) << run.err;
+  EXPECT_TRUE(contains(run.err, "no window")) << run.err;
+#else
+  EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_TRUE(contains(run.err, "built without its window")) << run.err;
+#endif
+  EXPECT_EQ(run.out, "");
+}
+
 }  // namespace
 }  // namespace irad

@@ -555,6 +555,35 @@ TEST_F(WindowTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, RecordsFramesWhileItIsAskedTo) {
+  start({"--out", (folder_.path / "out").string()});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  // "Record" at the right end of the strip's tabs; the same button ends it.
+  const auto press = [this](int x, int y) {
+    xdotool(fmt::format("mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 sleep 0.3", x, y));
+  };
+  press(930, 552);
+  pause(2);
+  press(930, 552);
+  ASSERT_TRUE(says("Recorded ")) << window_->log();
+  const auto files = contents(folder_.path / "out" / "recording.001");
+  ASSERT_EQ(files.size(), 3u);
+  const auto trace = nlohmann::json::parse(files.at("trace.json"));
+  const auto pictures = [&](const char* stage) {
+    return std::count_if(trace["traceEvents"].begin(), trace["traceEvents"].end(),
+                         [&](const auto& event) { return event["name"] == stage; });
+  };
+  EXPECT_GE(pictures("frame"), 3) << "pictures do not follow each other while it records";
+  EXPECT_GE(pictures("RE Forward"), 3);
+  EXPECT_TRUE(files.at("frames.csv").starts_with("frame,kind,began_ms,cpu_ms,"));
+  // It sleeps again.
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, ALostDeviceEndsItWithAMessage) {
   // In the load, and once pictures are drawn.
   for (const char* fault : {"lost=30", "lost=400"}) {

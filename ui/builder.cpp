@@ -115,7 +115,8 @@ void Builder::apply(bool held) {
     if (redo >= Redo::Shade && !session_.asleep() && session_.paused) return;
   } else {
     session_.next = Redo::Nothing;
-    if (session_.paused && session_.built && !stale_) return;
+    const bool step = std::exchange(session_.step, false);
+    if (session_.paused && session_.built && !stale_ && !step) return;
   }
   stale_ = false;
   if (session_.halted) return;
@@ -209,6 +210,15 @@ bool Builder::progress(const char* stage, float fraction) {
 void Builder::forgetTimes() {
   context_.finish();
   context_.timings.forget();
+}
+
+void Builder::darken() {
+  if (!session_.built) return;
+  session_.pipeline->darken();
+  session_.built->solve = {};
+  session_.woke();
+  session_.halted = false;
+  session_.viewDirty = true;
 }
 
 void Builder::reloadShaders(const std::filesystem::path& folder) {

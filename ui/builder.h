@@ -27,6 +27,8 @@ class Builder {
   void compare();
   /// Compiles what has changed in the folder, and has everything redone that a changed shader had a part in.
   void reloadShaders(const std::filesystem::path& folder);
+  /// H = 0: the solver starts from the dark.
+  void darken();
   /// The frame that was just drawn announced what is next.
   void announced() { shownNext_ = session_.next; }
   /// Something is to be redone though no setting changed.

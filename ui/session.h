@@ -20,6 +20,7 @@
 #include "ui/inspection.h"
 #include "ui/preferences.h"
 #include "ui/presets.h"
+#include "ui/recorder.h"
 #include "ui/scene_edits.h"
 
 namespace irad {
@@ -117,6 +118,7 @@ struct Session : Side {
   /// Both sides of what there is, the edited one first.
   std::vector<Side*> sides();
   bool allAsleep() const { return asleep() && (!comparison || comparison->other.asleep()); }
+  Recorder recorder;
 
   LoadOptions load;                            ///< of scenes; `lights` are the first one's
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
@@ -127,6 +129,7 @@ struct Session : Side {
   std::optional<std::filesystem::path> openScene;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;  ///< begin or end a comparison
+  bool step = false, darken = false;  ///< of the paused solver: a sweep; of any: from H = 0 again
 
   // Shown until dismissed, and printed on standard error.
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }

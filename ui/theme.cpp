@@ -120,6 +120,9 @@ void applyTheme(ImGuiStyle& style, float scale) {
   color[ImGuiCol_Header] = raised;
   color[ImGuiCol_HeaderHovered] = hover;
   color[ImGuiCol_HeaderActive] = hover;
+  color[ImGuiCol_Tab] = raised;
+  color[ImGuiCol_TabActive] = hover;
+  color[ImGuiCol_TabHovered] = faded(theme::accent, 0.45f);
   color[ImGuiCol_Separator] = line;
   color[ImGuiCol_SeparatorHovered] = hover;
   color[ImGuiCol_SeparatorActive] = theme::accent;

@@ -263,6 +263,38 @@ void rightText(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
+bool beginNumberTable(const char* id, const std::vector<const char*>& columns, const std::vector<size_t>& words) {
+  if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
+                         ImGui::GetContentRegionAvail()))
+    return false;
+  const auto isWord = [&](size_t i) { return std::find(words.begin(), words.end(), i) != words.end(); };
+  const float number = ImGui::CalcTextSize("00000.0").x;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  for (size_t i = 0; i < columns.size(); ++i)
+    ImGui::TableSetupColumn(columns[i],
+                            isWord(i) ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed,
+                            isWord(i) ? 1.0f : number);
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+  for (size_t i = 0; i < columns.size(); ++i) {
+    ImGui::TableNextColumn();
+    if (isWord(i))
+      clippedText(columns[i], ImGui::GetContentRegionAvail().x);
+    else
+      rightText(columns[i]);
+  }
+  ImGui::PopStyleColor();
+  return true;
+}
+
+bool Refresh::due(const Session& session) {
+  const bool resting = session.asleep() && !session.viewDirty && !session.work;
+  const double now = ImGui::GetTime();
+  if (!resting && now - last_ < 0.25) return false;
+  last_ = now;
+  return true;
+}
+
 std::string prettyUnit(std::string_view unit) {
   std::string text;
   for (size_t i = 0; i < unit.size(); ++i)
@@ -273,6 +305,12 @@ std::string prettyUnit(std::string_view unit) {
       text += unit[i];
     }
   return text;
+}
+
+std::string milliseconds(double value) {
+  return value < 10     ? fmt::format("{:.2f}", value)
+         : value < 1000 ? fmt::format("{:.1f}", value)
+                        : fmt::format("{:.0f}", value);
 }
 
 std::string mebibytes(uint64_t bytes) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gi/settings.h"
 
@@ -33,8 +34,22 @@ void clippedText(const std::string& text, float width);
 /// Right-aligned in the current table cell or region.
 void rightText(const std::string& text);
 
+/// A table in the rest of the region whose columns hold numbers, but for those whose indices are in `words`, which
+/// share what the numbers leave. True: end it with ImGui::EndTable().
+bool beginNumberTable(const char* id, const std::vector<const char*>& columns, const std::vector<size_t>& words);
+
+/// When to derive anew what is costly: four times a second while frames follow each other, and in the last of them.
+class Refresh {
+ public:
+  bool due(const Session& session);
+
+ private:
+  double last_ = -1;
+};
+
 /// A unit as registries spell it, for the eye: "W/m^2" becomes "W/m²".
 std::string prettyUnit(std::string_view unit);
+std::string milliseconds(double value);  ///< "0.12", "12.3", "1234"
 std::string mebibytes(uint64_t bytes);
 /// 3 significant digits, exponent where needed: "0.0123", "1.2e-06".
 std::string shortNumber(double value);

@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -34,6 +35,13 @@ constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames whi
 constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
 constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
 
+/// CPU time of this thread, ms: what drivers and other programs do meanwhile does not count.
+double threadMilliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 class Window {
  public:
   Window(Context& context, const WindowOptions& options);
@@ -57,6 +65,7 @@ class Window {
   void drawPanels(const Layout& layout);
   bool working() const;
   bool settled() const;
+  bool measured();
   void wait();
 
   Context& context_;
@@ -74,6 +83,7 @@ class Window {
   bool visible_ = true;  ///< the last frame had something to be drawn on
   int framesLeft_ = kFramesPerEvent;
   uint32_t settledFrames_ = 0;
+  bool measuring_ = false;
   uint64_t frameIndex_ = 0;
   Clock::time_point lastDraw_;
   Preferences saved_;         ///< as the file has them
@@ -150,8 +160,16 @@ void Window::run() {
       session_.error(error.what());
     }
     if (options_.exitAfter > 0 && settled() && ++settledFrames_ >= options_.exitAfter) break;
+    if (options_.measuredFrames > 0 && measured()) break;
   }
   if (!options_.screenshot.empty() && image_) saveScreenshot(context_, image_, options_.screenshot);
+}
+
+/// Keeps pictures coming once the light is at rest; true when enough of them have been measured.
+bool Window::measured() {
+  if (!measuring_ && settled()) measuring_ = true;
+  session_.viewDirty |= measuring_;
+  return options_.uiMilliseconds->size() >= options_.measuredFrames;
 }
 
 /// Something is to be done that needs no frame.
@@ -249,6 +267,8 @@ void Window::takeRequests() {
   for (const Action action : std::exchange(session_.actions, {})) act(action);
   savePreferences();
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
+  serveRecorder(session_, options_.captures);
+  if (std::exchange(session_.darken, false)) builder_.darken();
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
   if (const std::optional<bool> compare = std::exchange(session_.compare, std::nullopt)) {
     if (*compare)
@@ -368,6 +388,7 @@ void Window::drawFrame() {
         side->targets = Targets(context_, picture);
         session_.viewDirty = true;
       }
+  double uiBegan = threadMilliseconds();
   layer_.beginFrame();
   // First: of windows that focus does not raise, ImGui keeps those on top that were there before.
   if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
@@ -379,6 +400,7 @@ void Window::drawFrame() {
   drawHelp(session_, where.viewport);
   openDialog_.draw(session_);
   builder_.announced();
+  double uiMs = threadMilliseconds() - uiBegan;
 
   // Frames of the progress bar stay out of the timings: the rebuild's own passes are being summed there.
   Frame frame = busy ? context_.beginUntimed() : context_.begin(frameIndex_);
@@ -396,7 +418,10 @@ void Window::drawFrame() {
     session_.viewDirty = false;
     framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
   }
+  uiBegan = threadMilliseconds();
   layer_.draw(frame, image_);
+  uiMs += threadMilliseconds() - uiBegan;
+  if (measuring_) options_.uiMilliseconds->push_back(uiMs);
   presenter_.present(frame, image_);
   --framesLeft_;
 }

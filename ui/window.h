@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gi/manifest.h"
 #include "gi/picture.h"
@@ -33,6 +34,9 @@ struct WindowOptions {
   // For tests.
   uint32_t exitAfter = 0;            ///< > 0: end after so many frames in which nothing was left to do
   std::filesystem::path screenshot;  ///< of the whole window when it ends, .png
+  // For measurements: once nothing is left to do, pictures follow each other for so many frames, and the window ends.
+  uint32_t measuredFrames = 0;
+  std::vector<double>* uiMilliseconds = nullptr;  ///< CPU time of this thread for panels and their triangles, by frame
 };
 
 /// Runs until the user quits. Throws what stops the first scene from loading; later errors are shown in the window. The

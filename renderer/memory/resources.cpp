@@ -165,6 +165,14 @@ std::string describe(const ImageDesc& d) {
   return text;
 }
 
+/// Of all layers and mips.
+uint64_t countTexels(const ImageDesc& d) {
+  uint64_t texels = 0;
+  for (uint32_t mip = 0; mip < d.mips; ++mip)
+    texels += uint64_t{std::max(1u, d.width >> mip)} * std::max(1u, d.height >> mip) * std::max(1u, d.depth >> mip);
+  return texels * d.layers;
+}
+
 VkImageView makeView(const Device& device, const ImageDesc& d, VkImage image, VkFormat format, VkImageViewType type,
                      VkImageSubresourceRange range, const std::string& name) {
   // A view in another format of the same image must not claim usages that this format lacks.
@@ -256,14 +264,14 @@ Image::Image(const Device& device, const ImageDesc& wanted) : Image() {
                                .usage = desc.usage,
                                .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
   checkLimits(device, info, desc);
-  const uint64_t texels = uint64_t{desc.width} * desc.height * desc.depth * desc.layers;
-  device.memory().check(desc.subsystem, desc.name, texels * format.bytes);
+  const uint64_t texelBytes = countTexels(desc) * format.bytes;
+  device.memory().check(desc.subsystem, desc.name, texelBytes);
   vkCheck(vkCreateImage(device.handle, &info, nullptr, &handle), fmt::format("creating image {}", desc.name));
   Allocator::Impl& allocator = *device.memory().impl_;
   VkMemoryRequirements needs;
   vkGetImageMemoryRequirements(device.handle, handle, &needs);
   const Allocator::Impl::Place place =
-      allocator.allocate(needs, {desc.name, desc.subsystem, describe(desc), 0}, Access::Device, true);
+      allocator.allocate(needs, {desc.name, desc.subsystem, describe(desc), 0, texelBytes}, Access::Device, true);
   allocation_ = place.id;
   vkCheck(vkBindImageMemory(device.handle, handle, place.memory, place.offset), "binding image memory");
   device.name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(handle), desc.name);

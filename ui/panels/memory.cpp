@@ -1,15 +1,22 @@
-// Device memory as the allocator counts it: subtotals per subsystem, each opening into its buffers and images.
+// Device memory: every buffer and image as the allocator measured it, beside what its formula predicts (METHOD 10),
+// with subtotals per subsystem; T eq. 29-31; the heap's budget.
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <map>
+#include <algorithm>
 
+#include "gi/memory_report.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace irad {
 namespace {
+
+std::string bytesText(const std::optional<uint64_t>& bytes) {
+  if (!bytes) return {};
+  return *bytes < 100 * 1024 ? fmt::format("{:.1f} KiB", static_cast<double>(*bytes) / 1024) : mebibytes(*bytes);
+}
 
 class MemoryPanel : public Panel {
  public:
@@ -22,39 +29,88 @@ class MemoryPanel : public Panel {
         static_cast<double>(memory.used()) / static_cast<double>(std::max<uint64_t>(memory.budget(), 1));
     ImGui::ProgressBar(static_cast<float>(share), {-1, ImGui::GetFontSize() * 0.5f}, "");
     valueRow("used", fmt::format("{} of {}", mebibytes(memory.used()), mebibytes(memory.budget())));
+    helpTooltip("Of what this process may take of the device's heap");
     valueRow("peak", mebibytes(memory.peak()));
+    if (ImGui::Button("Save CSV", {-1, 0})) session.recorder.memory = true;
+    helpTooltip("Every row of this table in bytes, into a new folder");
 
-    // Grouped in the enumeration's order; within a subsystem largest first, as the allocator gives them.
-    std::map<Subsystem, std::vector<MemoryRow>> groups;
-    for (MemoryRow& row : session.context.device.memory().rows()) groups[row.subsystem].push_back(std::move(row));
-    if (!ImGui::BeginTable("memory", 2, ImGuiTableFlags_RowBg)) return;
+    // In the middle of a rebuild the pipeline's products come and go.
+    if (session.built && !session.work && refresh_.due(session)) update(session);
+    if (!ImGui::BeginTable("memory", 3, ImGuiTableFlags_RowBg)) return;
+    const float number = ImGui::CalcTextSize("0000.0 MiB").x;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("00000.0 MiB").x);
-    for (const auto& [subsystem, rows] : groups) drawGroup(toString(subsystem), rows);
+    ImGui::TableSetupColumn("measured", ImGuiTableColumnFlags_WidthFixed, number);
+    ImGui::TableSetupColumn("predicted", ImGuiTableColumnFlags_WidthFixed, number);
+    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+    for (const char* heading : {"", "measured", "predicted"}) {
+      ImGui::TableNextColumn();
+      rightText(heading);
+    }
+    ImGui::PopStyleColor();
+    for (const Group& group : groups_) drawGroup(group);
     ImGui::EndTable();
   }
 
  private:
-  static void drawGroup(const char* name, const std::vector<MemoryRow>& rows) {
-    uint64_t total = 0;
-    for (const MemoryRow& row : rows) total += row.bytes;
+  /// A subsystem and what is in it.
+  struct Group {
+    std::string name;
+    std::optional<uint64_t> measured, predicted;  ///< predicted: where it is for every row
+    std::vector<MemoryReportRow> rows;
+  };
+  std::vector<Group> groups_;
+  Refresh refresh_;
+
+  void update(const Session& session) {
+    const Pipeline& p = *session.pipeline;
+    groups_.clear();
+    const std::vector<MemoryReportRow> report =
+        memoryReport(session.context.device.memory().rows(), p.facets(), p.field(), p.matrix(), p.lighting());
+    for (const MemoryReportRow& row : report)
+      if (row.kind == MemoryReportRow::Kind::Subtotal)
+        groups_.push_back({row.subsystem, row.measured, uint64_t{0}, {}});
+    std::sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) { return a.measured > b.measured; });
+    Group sums{"total", std::nullopt, std::nullopt, {}};
+    for (const MemoryReportRow& row : report) {
+      if (row.kind == MemoryReportRow::Kind::Sum) sums.rows.push_back(row);
+      const auto group = std::find_if(groups_.begin(), groups_.end(), [&](auto& g) { return g.name == row.subsystem; });
+      if (row.kind != MemoryReportRow::Kind::Resource || group == groups_.end()) continue;
+      group->rows.push_back(row);
+      group->predicted =
+          group->predicted && row.predicted ? std::optional(*group->predicted + *row.predicted) : std::nullopt;
+    }
+    sums.measured = session.context.device.memory().used();
+    groups_.push_back(std::move(sums));
+  }
+
+  static void drawGroup(const Group& group) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    const bool open = ImGui::TreeNodeEx(name, ImGuiTreeNodeFlags_SpanFullWidth);
-    ImGui::TableNextColumn();
-    rightText(mebibytes(total));
-    if (!open) return;
-    for (const MemoryRow& row : rows) {
-      ImGui::TableNextRow();
+    const bool open = ImGui::TreeNodeEx(group.name.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
+    for (const auto& bytes : {group.measured, group.predicted}) {
       ImGui::TableNextColumn();
-      ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-      clippedText(row.name, ImGui::GetContentRegionAvail().x);
-      helpTooltip(fmt::format("{}\n{}\n{} bytes", row.name, row.format, withThousands(row.bytes)));
-      ImGui::TableNextColumn();
-      rightText(mebibytes(row.bytes));
-      ImGui::PopStyleColor();
+      rightText(bytesText(bytes));
     }
+    if (!open) return;
+    for (const MemoryReportRow& row : group.rows) drawRow(row);
     ImGui::TreePop();
+  }
+
+  static void drawRow(const MemoryReportRow& row) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    clippedText(row.name, ImGui::GetContentRegionAvail().x);
+    helpTooltip(fmt::format("{}\n{}\n{} bytes measured{}", row.name, row.format,
+                            withThousands(row.measured.value_or(0)),
+                            row.predicted ? fmt::format(", {} predicted", withThousands(*row.predicted)) : ""));
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+    clippedText(row.format, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    for (const auto& bytes : {row.measured, row.predicted}) {
+      ImGui::TableNextColumn();
+      rightText(bytesText(bytes));
+    }
   }
 };
 

@@ -1,16 +1,26 @@
-// The solver: how far, how exact, awake or asleep; residual and bound over the sweeps.
+// The solver: how far, how exact, awake or asleep and why; residual and bound over the sweeps; the energy's balance.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "gi/convergence.h"
 #include "ui/panel.h"
+#include "ui/plot.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace irad {
 namespace {
+
+/// The error bound at which the solver sleeps, W/m^2: where H is known to solver.tolerance of its largest value
+/// (gi/solve.cpp).
+double sleepingBound(const Built& built) {
+  const SolveReport& r = built.solve;
+  const double contraction = 1 - r.omega + r.omega * r.largestGain;
+  return contraction * built.tolerance * r.largestH;
+}
 
 class SolverPanel : public Panel {
  public:
@@ -23,34 +33,123 @@ class SolverPanel : public Panel {
       return;
     }
     drawState(session);
+    drawButtons(session);
     const SolveReport& report = session.built->solve;
-    valueRow("sweeps", withThousands(session.sweepsSinceWake));
+    collect(session);
+    valueRow("sweeps", sweepsText(session));
+    helpTooltip("Since the solver last woke; what is left is extrapolated from the bound's slope over the last calls");
     valueRow("residual", shortNumber(report.residual) + " W/m\u00B2");
     helpTooltip("Largest change of B in the last sweep");
     valueRow("error bound", shortNumber(report.bound) + " W/m\u00B2");
     helpTooltip("On B: \u03C1/(1\u2212\u03C1) times the residual, \u03C1 the largest row gain");
-    valueRow("target", shortNumber(session.built->tolerance * report.largestH) + " W/m\u00B2");
-    helpTooltip("solver.tolerance times the largest H");
+    valueRow("sleeps below", shortNumber(sleepingBound(*session.built)) + " W/m\u00B2");
+    helpTooltip("The bound at which H is known to solver.tolerance of its largest value");
     valueRow("row gain \u03C1", shortNumber(report.largestGain));
+    helpTooltip("The largest share of its light that a facet's row passes on: below 1 the solver converges");
+    drawCurves();
+    drawEnergy(*session.built);
     drawWatch(*session.built);
     settingRow(session.edited, session.defaults, "solver.sweeps_per_frame");
-    drawCurves(session);
   }
 
  private:
-  static void drawState(Session& session) {
-    const bool asleep = session.asleep();
-    const auto [color, state] = session.paused            ? std::pair{theme::warning, "paused"}
-                                : session.built->faulty() ? std::pair{theme::error, "stopped: numerical watch"}
-                                : asleep                  ? std::pair{theme::good, "asleep: bound below target"}
-                                                          : std::pair{theme::accent, "awake"};
-    ImGui::AlignTextToFramePadding();
+  std::vector<BoundSample> bounds_;
+  std::vector<float> x_, residual_, bound_;  ///< of the curves
+  double target_ = 0;
+
+  static void drawState(const Session& session) {
+    const SolveReport& report = session.built->solve;
+    const auto [color, state] =
+        session.built->faulty() ? std::pair{theme::error, "Stopped by the numerical watch, see below."}
+        : report.diverging
+            ? std::pair{theme::error, "Stopped: the light would grow without bound (lambda, albedo). The last is kept."}
+        : session.asleep() ? std::pair{theme::good, "Asleep: nothing has changed, and the error bound is below target."}
+        : session.halted   ? std::pair{theme::warning, "Halted: the rebuild failed or was cancelled."}
+        : session.paused   ? std::pair{theme::warning, "Paused before the error bound has come below target."}
+        : report.damped    ? std::pair{theme::warning, "Awake, damped: the residual was growing."}
+                           : std::pair{theme::accent, "Awake: the error bound is still above target."};
+    ImGui::PushTextWrapPos(0);
     ImGui::TextColored(color, "%s", state);
-    const char* label = session.paused ? "Resume" : "Pause";
-    const float width = ImGui::CalcTextSize("Resume").x + 2 * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
-    if (ImGui::Button(label, {width, 0})) session.paused = !session.paused;
+    ImGui::PopTextWrapPos();
+  }
+
+  static void drawButtons(Session& session) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const ImVec2 third{std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3), 0};
+    if (ImGui::Button(session.paused ? "Resume" : "Pause", third)) session.paused = !session.paused;
     helpTooltip("Space");
+    ImGui::SameLine();
+    if (ImGui::Button("Step", third)) session.paused = session.step = true;
+    helpTooltip("One sweep, then pause");
+    ImGui::SameLine();
+    if (ImGui::Button("H = 0", third)) session.darken = true;
+    helpTooltip("Start again from the dark");
+  }
+
+  /// The solver's calls as curves over all sweeps since it woke.
+  void collect(const Session& session) {
+    uint64_t sweeps = session.sweepsSinceWake;
+    for (const SolveSample& s : session.solves) sweeps -= s.sweeps;  // of calls that are no longer kept
+    bounds_.clear(), x_.clear(), residual_.clear(), bound_.clear();
+    for (const SolveSample& s : session.solves) {
+      sweeps += s.sweeps;
+      bounds_.push_back({sweeps, s.bound});
+      x_.push_back(static_cast<float>(sweeps));
+      residual_.push_back(s.residual);
+      bound_.push_back(s.bound);
+    }
+    target_ = sleepingBound(*session.built);
+  }
+
+  std::string sweepsText(const Session& session) const {
+    const std::string done = withThousands(session.sweepsSinceWake);
+    if (session.built->solve.converged) return done + ", at target";
+    const std::optional<double> left = target_ > 0 ? sweepsLeft(bounds_, target_) : std::nullopt;
+    return left ? fmt::format("{}, about {:.0f} left", done, std::ceil(*left)) : done;
+  }
+
+  void drawCurves() const {
+    const float height = std::floor(8 * ImGui::GetFontSize());
+    if (x_.size() < 2) {
+      ImGui::TextColored(theme::dim, "residual and bound: from two calls on");
+      return;
+    }
+    const PlotLine lines[] = {{"error bound", ImGui::GetColorU32(theme::accent), bound_},
+                              {"residual", ImGui::GetColorU32(theme::good), residual_}};
+    PlotAxes axes;
+    axes.logarithmic = true;
+    axes.x = x_;
+    axes.xText = [](float v) { return fmt::format("{:.0f} sweeps", v); };
+    axes.yText = [](float v) { return shortNumber(v); };
+    if (target_ > 0) axes.mark = static_cast<float>(target_);
+    plot({ImGui::GetContentRegionAvail().x, height}, lines, axes);
+    for (const PlotLine& line : lines) {
+      ImGui::PushStyleColor(ImGuiCol_Text, line.color);
+      ImGui::TextUnformatted(line.name.c_str());
+      ImGui::PopStyleColor();
+      ImGui::SameLine();
+    }
+    ImGui::TextColored(theme::dim, "- - sleeps, W/m\u00B2");
+  }
+
+  /// Of all channels, W: scenes' units are taken for metres.
+  static void drawEnergy(const Built& built) {
+    if (!built.solve.energy) {
+      valueRow("energy", "\u2026");
+      helpTooltip("Known once the solver has converged with solver.lambda 1");
+      return;
+    }
+    const EnergyBalance& energy = *built.solve.energy;
+    const double area = built.edge * built.edge;
+    const auto watts = [&](const glm::dvec3& v) { return shortNumber(area * (v.x + v.y + v.z)) + " W"; };
+    valueRow("energy in", watts(energy.entering));
+    helpTooltip("Emitted, and direct light that arrives: the sum over facets of A (M + D)");
+    valueRow("absorbed", watts(energy.absorbed));
+    helpTooltip("The sum of A (1 \u2212 \u03C1)(D + H)");
+    valueRow("escaped", watts(energy.escaped));
+    helpTooltip("The sum of A B (1 \u2212 row sum)");
+    valueRow("imbalance", fmt::format("{:+.2f} %", 100 * energy.imbalance()));
+    helpTooltip(describe(energy, built.edge));
   }
 
   /// The numerical watch.
@@ -58,49 +157,11 @@ class SolverPanel : public Panel {
     const SolveReport& report = built.solve;
     valueRow("NaN, Inf, < 0", fmt::format("{}, {}, {}", report.nan, report.nonFinite - report.nan, report.negative));
     helpTooltip("Components of B that are no number, infinite or negative: all should be 0");
-    valueRow("energy", report.energy ? fmt::format("{:+.2f} %", 100 * report.energy->imbalance()) : "\u2026");
-    helpTooltip(report.energy ? describe(*report.energy, built.edge)
-                              : "Light absorbed and escaping less light entering, as a share of it: known once the "
-                                "solver has converged with solver.lambda 1");
     ImGui::PushTextWrapPos(0);
     for (const Finding& finding : built.findings)
       ImGui::TextColored(finding.severity == Finding::Severity::Error ? theme::error : theme::warning, "%s",
                          finding.text.c_str());
     ImGui::PopTextWrapPos();
-  }
-
-  /// Residual and bound of each call of the solver since it woke, logarithmic.
-  static void drawCurves(const Session& session) {
-    const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4.5f};
-    ImGui::Dummy(size);
-    const ImVec2 high{low.x + size.x, low.y + size.y};
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), ImGui::GetStyle().FrameRounding);
-    float smallest = 1e30f, largest = 0;
-    for (const SolveSample& s : session.solves)
-      for (const float v : {s.residual, s.bound})
-        if (v > 0 && std::isfinite(v)) smallest = std::min(smallest, v), largest = std::max(largest, v);
-    if (session.solves.size() < 2 || largest <= 0) {
-      list.AddText({low.x + 6, low.y + 4}, ImGui::GetColorU32(theme::dim), "residual and bound: from 2 steps on");
-      return;
-    }
-    const float top = std::log10(largest), span = std::max(top - std::log10(smallest), 1.0f);
-    const auto curve = [&](float SolveSample::*member, const ImVec4& color) {
-      std::vector<ImVec2> points;
-      for (size_t i = 0; i < session.solves.size(); ++i) {
-        const float v = std::max(session.solves[i].*member, smallest);
-        const float x = static_cast<float>(i) / static_cast<float>(session.solves.size() - 1);
-        const float y = (top - std::log10(v)) / span;
-        points.push_back({low.x + 4 + x * (size.x - 8), low.y + 4 + std::clamp(y, 0.0f, 1.0f) * (size.y - 8)});
-      }
-      list.AddPolyline(points.data(), static_cast<int>(points.size()), ImGui::GetColorU32(color), 0, 1.5f);
-    };
-    curve(&SolveSample::bound, theme::accent);
-    curve(&SolveSample::residual, theme::good);
-    if (ImGui::IsItemHovered())
-      helpTooltip(fmt::format("Error bound (amber) and residual (green), W/m\u00B2, logarithmic: {} to {}",
-                              shortNumber(smallest), shortNumber(largest)));
   }
 };
 

@@ -1,23 +1,26 @@
-// GPU milliseconds per stage over the last frames, and a plot of whole frames.
+// Milliseconds per stage: a plot of the last frames with their composition, the tables of T 6-10, recordings compared.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cmath>
 
 #include "ui/panel.h"
+#include "ui/plot.h"
+#include "ui/recording_comparison.h"
 #include "ui/theme.h"
+#include "ui/timing_history.h"
 #include "ui/widgets.h"
 
 namespace irad {
 namespace {
 
-constexpr size_t kWindow = 300;  ///< frames that statistics and plot look back on
+constexpr std::array<size_t, 4> kWindows{300, 600, 1000, TimingHistory::kMost};  ///< frames looked back on
+constexpr const char* kPicture = "RE Forward";  ///< frames that ran it drew a picture; others relit or drew panels
 
-std::string milliseconds(double value) {
-  return value < 10     ? fmt::format("{:.2f}", value)
-         : value < 1000 ? fmt::format("{:.1f}", value)
-                        : fmt::format("{:.0f}", value);
+std::string withUnit(double value) {
+  return value < 0.01 && value > 0 ? fmt::format("{:.2g} ms", value) : milliseconds(value) + " ms";
 }
 
 class TimingsPanel : public Panel {
@@ -26,101 +29,215 @@ class TimingsPanel : public Panel {
   Region region() const override { return Region::Bottom; }
 
   void draw(Session& session) override {
-    update(session.context.timings);
-    const ImVec2 space = ImGui::GetContentRegionAvail();
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float table = std::floor(space.x * 0.72f);
-    drawTable({table, space.y});
-    ImGui::SameLine(0, gap);
-    drawPlot({space.x - table - gap, space.y});
+    if (!paused_) history_.update(session.context.timings);
+    const ImVec2 begin = ImGui::GetCursorPos();
+    drawControls(session);
+    ImGui::SetCursorPos(begin);
+    if (!ImGui::BeginTabBar("tabs")) return;
+    if (ImGui::BeginTabItem("Plot")) {
+      drawPlot();
+      ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("Table")) {
+      drawTable(session, /*setup=*/false);
+      ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("One-time")) {
+      drawTable(session, /*setup=*/true);
+      ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("Compare")) {
+      comparison_.draw(session.recorder);
+      ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
   }
 
  private:
-  uint64_t seen_ = UINT64_MAX;
+  TimingHistory history_;
+  bool paused_ = false, logarithmic_ = false;
+  size_t window_ = kWindows[0];
   std::vector<Timings::Row> rows_;
-  std::vector<float> frames_;  ///< GPU ms of the frames that rendered a picture
+  uint64_t rowsOf_ = UINT64_MAX;  ///< Timings::recorded() that rows_ are of
+  size_t rowsWindow_ = 0;
+  Refresh refresh_;
+  RecordingComparison comparison_;
 
-  /// Statistics of the last kWindow frames, and of all one-time work; only when a frame has been added.
-  void update(const Timings& timings) {
-    if (timings.recorded() == seen_) return;
-    seen_ = timings.recorded();
-    rows_ = timingRows(stageSamples(timings.frames(), kWindow));
-    std::stable_sort(rows_.begin(), rows_.end(), [](const auto& a, const auto& b) { return a.kind > b.kind; });
-    frames_.clear();
-    for (const FrameSample& frame : timings.frames())
-      if (std::any_of(frame.stages.begin(), frame.stages.end(), [](auto& s) { return s.first == "RE Forward"; }))
-        frames_.push_back(static_cast<float>(frame.gpuMs()));
+  /// At the right end of the tabs' line.
+  void drawControls(Session& session) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const std::string record =
+        session.recorder.began
+            ? fmt::format("Stop {:.1f} s", 1e-3 * (session.context.timings.now() - *session.recorder.began))
+            : std::string("Record");
+    const auto button = [&](const char* text) { return ImGui::CalcTextSize(text).x + 2 * style.FramePadding.x; };
+    const float combo = button("3000 frames") + ImGui::GetFrameHeight();
+    const float log = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize("log").x;
+    const float width = log + combo + button("Resume") + button("Stop 000.0 s") + 3 * style.ItemSpacing.x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, ImGui::GetContentRegionAvail().x - width));
+    ImGui::Checkbox("log", &logarithmic_);
+    helpTooltip("The plot's milliseconds on a logarithmic axis");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(combo);
+    if (ImGui::BeginCombo("##window", fmt::format("{} frames", window_).c_str())) {
+      for (const size_t frames : kWindows)
+        if (ImGui::Selectable(fmt::format("{} frames", frames).c_str(), frames == window_)) window_ = frames;
+      ImGui::EndCombo();
+    }
+    helpTooltip("How far plot and table look back");
+    ImGui::SameLine();
+    if (ImGui::Button(paused_ ? "Resume" : "Pause", {button("Resume"), 0})) paused_ = !paused_;
+    helpTooltip("Holds plot and tables; the program goes on");
+    ImGui::SameLine();
+    if (ImGui::Button((record + "###record").c_str(), {button("Stop 000.0 s"), 0})) session.recorder.toggle = true;
+    helpTooltip(
+        "Draws pictures without pause until it is stopped, and writes frames.csv, summary.csv and trace.json "
+        "(for Perfetto) into a new folder");
   }
 
-  void drawTable(ImVec2 size) const {
-    constexpr std::array columns{"stage (GPU ms)", "mean", "min", "max", "p95", "samples"};
-    if (!ImGui::BeginTable("timings", static_cast<int>(columns.size()), ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
-                           size))
+  // ---- Plot ----
+
+  void drawPlot() {
+    if (history_.size() == 0) {
+      ImGui::TextColored(theme::dim, "no frame yet");
       return;
-    const float number = ImGui::CalcTextSize("00000.0").x;
-    ImGui::TableSetupScrollFreeze(0, 1);
-    for (size_t i = 0; i < columns.size(); ++i)
-      ImGui::TableSetupColumn(columns[i],
-                              i == 0 ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed,
-                              i == 0 ? 1.0f : number);
-    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-    for (size_t i = 0; i < columns.size(); ++i) {
-      ImGui::TableSetColumnIndex(static_cast<int>(i));
-      ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-      if (i == 0)
-        ImGui::TextUnformatted(columns[i]);
-      else
-        rightText(columns[i]);
-      ImGui::PopStyleColor();
     }
+    const ImVec2 space = ImGui::GetContentRegionAvail();
+    const float list = std::floor(std::min(0.3f * space.x, 13 * ImGui::GetFontSize()));
+    const size_t first = history_.size() - std::min(window_, history_.size());
+    // The list is drawn beside the plot, but shows the frame that the plot is asked for.
+    const ImVec2 begin = ImGui::GetCursorPos();
+    ImGui::SetCursorPosX(begin.x + list + ImGui::GetStyle().ItemSpacing.x);
+    ImGui::BeginGroup();
+    const float bars = 2 * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
+    const ImVec2 rest = ImGui::GetContentRegionAvail();
+    const std::optional<size_t> hovered = drawLines({rest.x, rest.y - bars}, first);
+    const size_t frame = hovered.value_or(std::min(history_.lastWith(kPicture, window_), history_.size() - 1));
+    drawBars(frame);
+    ImGui::EndGroup();
+    ImGui::SetCursorPos(begin);
+    drawStages({list, space.y}, frame);
+  }
+
+  /// Returns the frame under the mouse.
+  std::optional<size_t> drawLines(ImVec2 size, size_t first) {
+    const size_t count = history_.size() - first;
+    const size_t columns = std::clamp<size_t>(static_cast<size_t>(size.x / 2), 1, count);
+    std::vector<float> x(columns);
+    for (size_t i = 0; i < columns; ++i)  // frames before the newest
+      x[i] = -static_cast<float>(count - 1 - std::min(count - 1, i * count / columns));
+    std::vector<std::vector<float>> values;
+    std::vector<PlotLine> lines;
+    values.reserve(history_.stages().size());
+    for (size_t s = 0; s < history_.stages().size(); ++s) {
+      const TimingHistory::Stage& stage = history_.stages()[s];
+      if (!stage.shown) continue;
+      values.push_back(TimingHistory::peaks(stage.ms, first, columns));
+      lines.push_back({stage.name, seriesColor(s), values.back()});
+    }
+    PlotAxes axes;
+    axes.logarithmic = logarithmic_;
+    axes.x = x;
+    axes.xText = [](float v) { return v >= 0 ? std::string("newest") : fmt::format("{} frames ago", -v); };
+    axes.yText = [](float v) { return withUnit(v); };
+    axes.bridge = 3;  // pictures and relights take turns
+    const std::optional<size_t> column = plot({size.x, size.y}, lines, axes);
+    if (!column) return std::nullopt;
+    return history_.size() - 1 - static_cast<size_t>(-x[*column]);
+  }
+
+  /// One frame: GPU by stages, and CPU, on one scale.
+  void drawBars(size_t frame) {
+    const float gpu = history_.gpuMs(frame), cpu = history_.cpuMs(frame), most = std::max({gpu, cpu, 1e-6f});
+    const float label = ImGui::CalcTextSize("GPU 0000.00 ms ").x, height = ImGui::GetTextLineHeight();
+    const auto bar = [&](const char* name, float total, auto&& parts, const char* help) {
+      const ImVec2 low = ImGui::GetCursorScreenPos();
+      const float width = ImGui::GetContentRegionAvail().x - label;
+      ImGui::TextColored(theme::dim, "%s %s", name, withUnit(total).c_str());
+      ImGui::SameLine(0, 0);
+      ImGui::SetCursorScreenPos({low.x + label, low.y});
+      ImGui::Dummy({std::max(width, 1.0f), height});
+      helpTooltip(help);
+      float x = low.x + label;
+      parts([&](float ms, uint32_t color) {
+        const float end = x + std::max(0.0f, width) * ms / most;
+        ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + 2}, {end, low.y + height - 2}, color);
+        x = end;
+      });
+    };
+    const auto byStage = [&](auto&& part) {
+      for (size_t s = 0; s < history_.stages().size(); ++s)
+        if (const float ms = history_.stages()[s].ms[frame]; !std::isnan(ms)) part(ms, seriesColor(s));
+    };
+    bar("GPU", gpu, byStage, "GPU time of this frame by stages, in the colours of the list");
+    bar(
+        "CPU", cpu, [&](auto&& part) { part(cpu, ImGui::GetColorU32(theme::dim)); },
+        "CPU time of this frame: a picture's until it is submitted; a relight's until it is done, the GPU's included");
+  }
+
+  /// Names and times of one frame; a click shows or hides, a double click shows that one alone.
+  void drawStages(ImVec2 size, size_t frame) {
+    ImGui::BeginChild("stages", size);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 1});
+    // Those that ran in the frame first.
+    for (const bool ran : {true, false})
+      for (size_t s = 0; s < history_.stages().size(); ++s)
+        if (std::isnan(history_.stages()[s].ms[frame]) != ran) drawStage(s, frame);
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+  }
+
+  void drawStage(size_t s, size_t frame) {
+    const float box = ImGui::GetTextLineHeight(), number = ImGui::CalcTextSize("0000.00").x;
+    TimingHistory::Stage& stage = history_.stages()[s];
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (ImGui::Selectable(("##" + stage.name).c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) {
+      stage.shown = !stage.shown;
+      if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        for (TimingHistory::Stage& other : history_.stages()) other.shown = &other == &stage;
+    }
+    helpTooltip("Click: in the plot or not\nDouble click: this one alone");
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 low{at.x + 0.2f * box, at.y + 0.2f * box}, high{at.x + 0.8f * box, at.y + 0.8f * box};
+    if (stage.shown)
+      list.AddRectFilled(low, high, seriesColor(s));
+    else
+      list.AddRect(low, high, seriesColor(s));
+    const ImU32 color = ImGui::GetColorU32(stage.shown ? theme::text : theme::dim);
+    const ImVec4 clip{at.x, at.y, at.x + width - number, at.y + 2 * box};
+    list.AddText(nullptr, 0, {at.x + 1.1f * box, at.y}, color, stage.name.c_str(), nullptr, 0, &clip);
+    if (std::isnan(stage.ms[frame])) return;
+    const std::string ms = milliseconds(stage.ms[frame]);
+    list.AddText({at.x + width - ImGui::CalcTextSize(ms.c_str()).x, at.y}, color, ms.c_str());
+  }
+
+  // ---- Tables ----
+
+  void drawTable(const Session& session, bool setup) {
+    const Timings& timings = session.context.timings;
+    const bool stale = timings.recorded() != rowsOf_ || rowsWindow_ != window_;
+    if (stale && !paused_ && refresh_.due(session)) {
+      rows_ = timingRows(stageSamples(timings.frames(), window_));
+      rowsOf_ = timings.recorded();
+      rowsWindow_ = window_;
+    }
+    if (!beginNumberTable("times", {"stage, GPU ms", "mean", "min", "max", "std", "p50", "p95", "p99", "samples"}, {0}))
+      return;
     for (const Timings::Row& row : rows_) {
+      if ((row.kind == WorkKind::Setup) != setup) continue;
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      clippedText(row.kind == WorkKind::Setup ? row.stage + " (once)" : row.stage, ImGui::GetContentRegionAvail().x);
-      for (const double value : {row.stats.mean, row.stats.min, row.stats.max, row.stats.p95}) {
+      clippedText(row.stage, ImGui::GetContentRegionAvail().x);
+      const TimingStats& s = row.stats;
+      for (const double value : {s.mean, s.min, s.max, s.std, s.p50, s.p95, s.p99}) {
         ImGui::TableNextColumn();
         rightText(milliseconds(value));
       }
       ImGui::TableNextColumn();
-      rightText(fmt::format("{}", row.stats.samples));
+      rightText(fmt::format("{}", s.samples));
     }
     ImGui::EndTable();
-  }
-
-  void drawPlot(ImVec2 size) const {
-    if (size.x < 40 || size.y < 30) return;
-    const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImVec2 high{low.x + size.x, low.y + size.y};
-    ImGui::Dummy(size);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), ImGui::GetStyle().FrameRounding);
-    constexpr float pad = 6;
-    if (frames_.empty()) {
-      list.AddText({low.x + pad, low.y + 4}, ImGui::GetColorU32(theme::dim), "no frame yet");
-      return;
-    }
-    // One bar of two pixels per picture, the newest at the right edge.
-    const float line = ImGui::GetTextLineHeight(), step = 2;
-    const ImVec2 plotLow{low.x + pad, low.y + line + 8}, plotHigh{high.x - pad, high.y - pad};
-    const auto shown = std::min(frames_.size(), static_cast<size_t>((plotHigh.x - plotLow.x) / step));
-    const float largest = *std::max_element(frames_.end() - static_cast<ptrdiff_t>(shown), frames_.end());
-    for (size_t i = 0; i < shown; ++i) {
-      const float x = plotHigh.x - step * static_cast<float>(i + 1);
-      const float y =
-          plotHigh.y - frames_[frames_.size() - 1 - i] / std::max(largest, 1e-3f) * (plotHigh.y - plotLow.y);
-      list.AddRectFilled({x, y}, {x + step, plotHigh.y}, ImGui::GetColorU32(theme::plotFill));
-      list.AddRectFilled({x, y}, {x + step, std::min(y + 2, plotHigh.y)}, ImGui::GetColorU32(theme::plotLine));
-    }
-    const std::string title = fmt::format("picture {} ms", milliseconds(frames_.back()));
-    const ImVec4 clip{low.x, low.y, high.x, high.y};
-    list.AddText(nullptr, 0, {low.x + pad, low.y + 4}, ImGui::GetColorU32(theme::dim), title.c_str(), nullptr, 0,
-                 &clip);
-    const float offset = (plotHigh.x - ImGui::GetMousePos().x) / step;
-    if (offset > 0 && offset < static_cast<float>(shown))
-      helpTooltip(
-          fmt::format("GPU time of a picture, all stages and the panels\n{} ms, {} pictures ago; largest shown {} ms",
-                      milliseconds(frames_[frames_.size() - 1 - static_cast<size_t>(offset)]),
-                      static_cast<size_t>(offset), milliseconds(largest)));
   }
 };
 

@@ -1,0 +1,46 @@
+#include "app/bench_ui.h"
+
+#include <fmt/format.h>
+
+#include "renderer/error.h"
+
+#if IRAD_UI
+#include "app/view.h"
+#include "app/views.h"
+#include "renderer/timings.h"
+#endif
+
+namespace irad::app {
+
+#if IRAD_UI
+
+void measureUi(const std::optional<std::string>& scene, const std::optional<std::string>& view,
+               const PictureArguments& picture, const SettingArguments& settings, const SceneArguments& sceneOptions,
+               const DeviceArguments& device) {
+  constexpr double kMark = 1;  // ms
+  const Config config = settings.readConfig();
+  std::vector<double> ms;
+  WindowOptions options;
+  options.scene = findScene(scene, config, "box");
+  options.builtIn = builtInFolders();
+  if (picture.size) options.size = parseSize(*picture.size);
+  options.view = findViews({view.value_or("lit")}).at(0).view;
+  options.measuredFrames = picture.resolveFrames({}, 300);
+  options.uiMilliseconds = &ms;
+  openWindow(options, config, settings, sceneOptions, device);
+  const TimingStats s = statistics(ms);
+  fmt::print("UI, CPU ms per frame, window of {} x {}, {} frames\n", options.size.x, options.size.y, s.samples);
+  fmt::print("p50 {:.3f}  mean {:.3f}  p95 {:.3f}  p99 {:.3f}  max {:.3f}\n", s.p50, s.mean, s.p95, s.p99, s.max);
+  fmt::print("mark: p50 < {} ms: {}\n", kMark, s.p50 < kMark ? "held" : "missed");
+}
+
+#else
+
+void measureUi(const std::optional<std::string>&, const std::optional<std::string>&, const PictureArguments&,
+               const SettingArguments&, const SceneArguments&, const DeviceArguments&) {
+  throw UsageError("--ui: this program was built without its window (IRAD_UI=OFF)");
+}
+
+#endif
+
+}  // namespace irad::app

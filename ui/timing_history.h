@@ -1,0 +1,41 @@
+// The times of the last frames, stage by stage, as plots want them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/timings.h"
+
+namespace irad {
+
+class TimingHistory {
+ public:
+  static constexpr size_t kMost = 3000;  ///< frames kept, at least
+
+  struct Stage {
+    std::string name;
+    std::vector<float> ms;  ///< of every frame kept; NaN where it did not run
+    bool shown = true;
+  };
+
+  /// Takes what was measured since the last call; set-up work is left out.
+  void update(const Timings& timings);
+
+  size_t size() const { return cpuMs_.size(); }
+  std::vector<Stage>& stages() { return stages_; }
+  float cpuMs(size_t frame) const { return cpuMs_.at(frame); }
+  float gpuMs(size_t frame) const;
+  /// The last frame that ran the stage, of the last `window`; size() where none did.
+  size_t lastWith(const char* stage, size_t window) const;
+
+  /// The largest value in each of `columns` equal parts of the frames from `first` on; NaN where there is none.
+  static std::vector<float> peaks(const std::vector<float>& ms, size_t first, size_t columns);
+
+ private:
+  void append(const FrameSample& frame);
+  uint64_t seen_ = 0;
+  std::vector<Stage> stages_;
+  std::vector<float> cpuMs_;
+};
+
+}  // namespace irad
