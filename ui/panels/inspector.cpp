@@ -67,7 +67,8 @@ class InspectorPanel : public Panel {
 
   static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
     valueRow("voxel", three(in.voxel->voxel));
-    valueRow("world", three(in.voxel->world) + " m");
+    const glm::dvec3& world = in.voxel->world;
+    valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g} m", world.x, world.y, world.z));
     helpTooltip("The voxel's centre");
     valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
     helpTooltip("To the nearest solid voxel by the distance field in use, in voxels");
@@ -157,7 +158,7 @@ class InspectorPanel : public Panel {
       valueRow("\u03A3 F B", three(links.contribution));
       helpTooltip("Sum of the contributions, W/m\u00B2: H but for the emitters' samples and the residual");
     }
-    valueRow("reciprocity", fmt::format("{:.3f}", links.exchange > 0 ? links.opposite / links.exchange : 0));
+    valueRow("reciprocity", links.exchange > 0 ? fmt::format("{:.3f}", links.opposite / links.exchange) : "no links");
     helpTooltip("Sum of A F the other way round over that of A F: 1 but for the noise of few rays");
     const LinkTable::Result result = table_.draw(links, 2 * in.serial + (row ? 0 : 1));
     in.highlighted = result.hovered;
