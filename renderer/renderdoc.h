@@ -18,7 +18,7 @@ class RenderDoc {
   /// capture keys away from it: F12 is ours. None: not there.
   static std::optional<RenderDoc> find();
   /// Runs `work`; all that it submits to the device is one capture. Returns its file, STEM_capture.rdc or with a
-  /// number; WorkError where RenderDoc made none.
+  /// number. What `work` throws is thrown on, and no file stays; WorkError where RenderDoc made none.
   std::filesystem::path capture(const Device& device, const std::filesystem::path& stem,
                                 const std::function<void()>& work) const;
 
