@@ -69,6 +69,12 @@ struct ViewInputs {
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
               Targets& targets);
 
+/// Two pictures of the view `info`, `values` less `reference`, all of one size: of light and colours the luminance,
+/// between normals the angle in degrees. Into the linear, range and display targets of `out`, by the diverging map.
+void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings, const Targets& values,
+                    const Targets& reference, Targets& out);
+Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
+
 /// "RE Specular" in compute over the G-buffer (METHOD section 8): traces settings.specular.rays rays per pixel in the
 /// GGX lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Writes targets.specular.
 void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,

@@ -73,11 +73,12 @@ struct Side {
 
 /// A second side of the same scene, drawn from the same camera.
 struct Comparison {
-  enum class Show { Split, A, B } show = Show::Split;
+  enum class Show { Split, A, B, Difference } show = Show::Split;
   Side other;            ///< the one that is not edited
   bool editsB = false;   ///< the session's own side is B
   bool sameSeed = true;  ///< both take the edited side's
   float split = 0.5f;    ///< share of the viewport's width that is A's
+  Targets difference;    ///< B less A, while that is shown
   struct Result {
     Metrics picture;      ///< of B's linear picture against A's
     VoxelMetrics voxels;  ///< of B's H against A's
@@ -102,6 +103,7 @@ struct Session : Side {
   Camera shown;                    ///< of the picture in targets
   bool viewDirty = true;           ///< the picture must be rendered again
   View rangeView = 0;              ///< of which `range` is
+  bool rangeOfDifference = false;  ///< of B less A
   std::optional<ViewRange> range;  ///< that the picture in targets was drawn with; none until it has come back
 
   bool underRenderDoc = false;  ///< captureFrame can be served
@@ -117,6 +119,7 @@ struct Session : Side {
   void swapSides();  ///< the other one is edited
   /// Both sides of what there is, the edited one first.
   std::vector<Side*> sides();
+  bool showsDifference() const { return comparison && comparison->show == Comparison::Show::Difference; }
   bool allAsleep() const { return asleep() && (!comparison || comparison->other.asleep()); }
   Recorder recorder;
 

@@ -23,6 +23,7 @@ constexpr ImWchar kGlyphs[] = {0x0020, 0x00FF,  // Latin-1: superscripts, degree
                                0x2010, 0x2026,  // dashes, quotation marks, ellipsis
                                0x2190, 0x2199,  // arrows
                                0x21BA, 0x21BA,  // reset
+                               0x2212, 0x2212,  // minus
                                0x2260, 0x2265,  // comparisons
                                0};
 

@@ -91,6 +91,10 @@ void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
   const Image &a = session.sideA().targets.display, &b = session.sideB().targets.display;
   if (!a || !b) return;
   const Comparison& comparison = *session.comparison;
+  if (comparison.show == Comparison::Show::Difference && comparison.difference.display) {
+    ImGui::Image(layer.texture(comparison.difference.display), size);
+    return ImGui::SetCursorPos({0, 0});
+  }
   const float split = comparison.show == Comparison::Show::Split ? comparison.split
                       : comparison.show == Comparison::Show::A   ? 1.0f
                                                                  : 0.0f;
@@ -109,11 +113,15 @@ bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, b
   const float em = ImGui::GetFontSize();
   const auto letter = [&](const char* text, float x, bool edited) {
     const ImVec2 at{x, where.position.y + em * 0.5f}, half = ImGui::CalcTextSize(text);
-    list.AddRectFilled({at.x - em * 0.7f, at.y}, {at.x + em * 0.7f, at.y + em * 1.5f}, IM_COL32(0, 0, 0, 150),
-                       em * 0.2f);
+    const float wide = std::max(em * 0.7f, half.x / 2 + em * 0.3f);
+    list.AddRectFilled({at.x - wide, at.y}, {at.x + wide, at.y + em * 1.5f}, IM_COL32(0, 0, 0, 150), em * 0.2f);
     list.AddText({at.x - half.x / 2, at.y + em * 0.25f}, ImGui::GetColorU32(edited ? theme::accent : theme::text),
                  text);
   };
+  if (comparison.show == Comparison::Show::Difference) {
+    letter("B \u2212 A", where.position.x + where.size.x / 2, false);
+    return false;
+  }
   if (comparison.show != Comparison::Show::Split) {
     const bool a = comparison.show == Comparison::Show::A;
     letter(a ? "A" : "B", where.position.x + where.size.x / 2, a != comparison.editsB);

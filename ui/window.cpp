@@ -62,6 +62,7 @@ class Window {
   void fly();
   void drawFrame();
   void readRange(Frame& frame);
+  void drawDifference(Frame& frame);
   void drawPanels(const Layout& layout);
   bool working() const;
   bool settled() const;
@@ -176,8 +177,7 @@ bool Window::measured() {
 bool Window::working() const {
   return session_.work || session_.openScene || session_.capture || session_.captureAll || session_.captureFrame ||
          session_.reloadShaders || session_.rebuild || session_.compare || session_.inspection.wanted() ||
-         builder_.stale() ||
-         (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
+         builder_.stale() || (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 
 bool Window::settled() const {
@@ -250,6 +250,7 @@ void Window::act(Action action) {
     case Action::Flicker:
       if (session_.comparison) {
         using Show = Comparison::Show;
+        if (session_.showsDifference()) session_.viewDirty = true;  // for the range of its own
         session_.comparison->show = session_.comparison->show == Show::A ? Show::B : Show::A;
       }
       break;
@@ -414,6 +415,7 @@ void Window::drawFrame() {
       range = &session_.targets.viewRange;
     }
     if (session_.comparison) session_.comparison->result.reset();
+    drawDifference(frame);
     readRange(frame);
     session_.viewDirty = false;
     framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
@@ -426,14 +428,26 @@ void Window::drawFrame() {
   --framesLeft_;
 }
 
+void Window::drawDifference(Frame& frame) {
+  const ViewInfo* info = viewInfo(session_.view);
+  if (!session_.showsDifference() || info == nullptr) return;
+  const Targets &a = session_.sideA().targets, &b = session_.sideB().targets;
+  Targets& difference = session_.comparison->difference;
+  if (difference.size != a.size) difference = Targets(context_, a.size);
+  irad::drawDifference(frame, *info, session_.edited, b, a, difference);
+}
+
 /// What the legend needs comes back with the frame.
 void Window::readRange(Frame& frame) {
   const View view = session_.view;
-  if (const ViewInfo* info = viewInfo(view); info == nullptr || !info->hasRange()) return;
-  frame.readback(session_.targets.viewRange, 0, sizeof(ViewRange), [this, view](std::span<const uint8_t> bytes) {
+  const bool difference = session_.showsDifference();
+  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(info->hasRange() || difference)) return;
+  const Targets& targets = difference ? session_.comparison->difference : session_.targets;
+  frame.readback(targets.viewRange, 0, sizeof(ViewRange), [this, view, difference](std::span<const uint8_t> bytes) {
     session_.range.emplace();
     std::memcpy(&*session_.range, bytes.data(), sizeof(ViewRange));
     session_.rangeView = view;
+    session_.rangeOfDifference = difference;
   });
 }
 

@@ -120,6 +120,12 @@ struct ShadowViewPush {
   uint pcf;
 };
 
+/// view/difference.comp
+struct DifferencePush {
+  uvec2 size;  ///< pixels
+  uint kind;   ///< of the view that both pictures show
+};
+
 /// view/reference.comp, pixels.
 struct ReferencePush {
   uvec2 size, referenceSize;

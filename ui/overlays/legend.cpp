@@ -18,9 +18,13 @@ class LegendOverlay : public Overlay {
  public:
   bool draw(Session& session, const Picture& picture, const PictureMouse&) override {
     const ViewInfo* info = viewInfo(session.view);
-    if (info == nullptr || !info->hasRange() || !session.range || session.rangeView != session.view) return false;
+    const bool difference = session.showsDifference();
+    if (info == nullptr || !(info->hasRange() || difference) || !session.range || session.rangeView != session.view ||
+        session.rangeOfDifference != difference)
+      return false;
     const Settings& settings = session.pipeline->settings();
-    const Quantity quantity = shownQuantity(*info, settings);
+    const Quantity quantity = difference ? differenceQuantity(*info, settings) : shownQuantity(*info, settings);
+    const uint32_t map = difference ? uint32_t{COLOR_MAP_BLUE_RED} : colorMapOf(*info, settings);
     const ViewRange& range = *session.range;
 
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing(), margin = em;
@@ -40,7 +44,7 @@ class LegendOverlay : public Overlay {
     const std::string unit = quantity.unit.empty() ? "" : " (" + prettyUnit(quantity.unit) + ")";
     list.PushClipRect(low, high, true);
     list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), (quantity.name + unit).c_str());
-    drawColorBar(list, {inside.x, text}, {width, em}, colorMapOf(*info, settings));
+    drawColorBar(list, {inside.x, text}, {width, em}, map);
     const float bar = text + em;
     drawTicks(list, {inside.x, bar}, width, range);
     if (!notes.empty())

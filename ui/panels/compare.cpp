@@ -54,8 +54,14 @@ class ComparePanel : public Panel {
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "show");
     using Show = Comparison::Show;
-    for (const auto& [show, label] : {std::pair{Show::Split, "both##show"}, {Show::A, "A##show"}, {Show::B, "B##show"}})
-      if (choice(label, comparison.show == show)) comparison.show = show;
+    for (const auto& [show, label] : {std::pair{Show::Split, "both##show"},
+                                      {Show::A, "A##show"},
+                                      {Show::B, "B##show"},
+                                      {Show::Difference, "B \u2212 A##show"}})
+      if (choice(label, comparison.show == show)) {
+        comparison.show = show;
+        session.viewDirty = true;
+      }
     helpTooltip("X: the other one");
     ImGui::Checkbox("same seed", &comparison.sameSeed);
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
