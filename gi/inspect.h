@@ -105,8 +105,8 @@ struct RowComparison {
 };
 RowComparison compareRows(const Links& a, const Links& b);
 
-/// Holds the facets, the field, B, D and H of a pipeline in host memory (about 150 B a facet and 8 B a voxel) from its
-/// first use on; rows and columns are read when asked for.
+/// Holds the facets, the field, B, D and H of a pipeline in host memory (about 160 B a facet and 8 B a voxel, 12 with
+/// jump flooding) from its first use on; rows and columns are read when asked for.
 class Inspector {
  public:
   /// After a prepare() that succeeded; the pipeline outlives it.
@@ -152,7 +152,7 @@ class Inspector {
   std::vector<glm::vec3> direct_, irradiance_, radiosity_, correction_;
 };
 
-/// "facet 123", "left the grid", "the back of a face", "started behind a surface".
+/// "facet 123", "left the grid", "the back of a face", "invalid: began behind a surface".
 std::string describeMet(uint32_t met);
 /// Whether the three traces of a ray agree, and where not.
 std::string describe(const InspectedRay& ray);

@@ -15,7 +15,7 @@ class LinkTable {
   struct Result {
     std::optional<uint32_t> hovered, followed;  ///< facets
   };
-  /// `serial` changes when the links do. `there`: what the far end does, "from" or "to".
+  /// `serial` changes when the links do.
   Result draw(const Links& links, uint64_t serial);
 
  private:
