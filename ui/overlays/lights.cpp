@@ -103,11 +103,13 @@ class LightsOverlay : public Overlay {
     float nearest = 1.6f * radius();
     Hit hit;
     const auto count = static_cast<int>(edits.lights.size());
-    for (int i = 0; i < count; ++i)
-      if (const float d = distance(edits.lights[static_cast<size_t>(i)].position); d < nearest) {
-        nearest = d;
-        hit = {Handle::Position, i};
-      }
+    for (int i = 0; i < count; ++i) {
+      float d = distance(edits.lights[static_cast<size_t>(i)].position);
+      if (i == edits.selected) d -= 1;  // of lights in one place (duplicates) the chosen one
+      if (d >= nearest) continue;
+      nearest = d;
+      hit = {Handle::Position, i};
+    }
     if (hit || edits.selected < 0 || edits.selected >= count) return hit;
     const Light& chosen = edits.lights[static_cast<size_t>(edits.selected)];
     if (aimable(chosen) && distance(tip(chosen)) < nearest) hit = {Handle::Aim, edits.selected};

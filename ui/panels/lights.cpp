@@ -24,16 +24,16 @@ const char* typeName(const Light& light) {
   return kTypes[static_cast<size_t>(light.type)];
 }
 
-/// Where the camera is, shining where it looks: a white surface that faces it at half of the scene's diagonal has
+/// Where the camera is, shining where it looks: a white surface that faces it at a quarter of the scene's diagonal has
 /// radiance 1. Lamps stand a little ahead, where they can be seen and taken hold of.
 Light lightAtCamera(LightType type, const Camera& camera, float diagonal) {
   const glm::vec3 forward = glm::normalize(camera.orientation * glm::vec3(0, 0, -1));
-  const float distance = 0.5f * diagonal;
+  const float distance = 0.25f * diagonal;
   Light light;
   light.type = type;
   light.name = typeName(light);
   light.direction = forward;
-  light.position = camera.position + glm::dvec3(forward) * (0.2 * distance);
+  light.position = camera.position + glm::dvec3(forward) * (0.4 * distance);
   light.intensity = std::numbers::pi_v<float> * (type == LightType::Sun ? 1.0f : distance * distance);
   light.intensity = std::clamp(light.intensity, 1e-6f, 1e12f);
   light.outerCos = std::cos(30 * kDegree);
@@ -126,7 +126,8 @@ class LightsPanel : public Panel {
 
     fieldLabel("color", "As shown on a display; the file holds it linear");
     glm::vec3 shown = glm::convertLinearToSRGB(light.color);
-    if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float)) light.color = glm::convertSRGBToLinear(shown);
+    if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float))
+      light.color = glm::convertSRGBToLinear(shown);
     fieldLabel("intensity", sun ? "Irradiance of a surface that faces the sun, lux (W/m\u00B2)"
                                 : "Candela (W/sr): at a distance d a facing surface receives intensity / d\u00B2");
     ImGui::DragFloat("##intensity", &light.intensity, std::max(light.intensity * 0.01f, 1e-6f), 0,
