@@ -48,7 +48,8 @@ void drawVoxels(Frame& frame, View view, const ViewInputs& inputs, const Buffer&
   push.grid = facets.grid;
   push.facets = facets.record.address;
   push.view = view;
-  push.shape = packShape(resolveShape(view, chosen.shape).value(), static_cast<uint32_t>(chosen.axis));
+  const uint32_t shape = resolveShape(view, chosen.shape).value();
+  push.shape = packShape(shape, static_cast<uint32_t>(chosen.axis));
   push.slice = chosen.slice;
   push.isovalue = chosen.isovalue;
   push.row = packRow(inputs.matrix != nullptr ? inputs.matrix->rays : 1,
@@ -80,6 +81,8 @@ void drawVoxels(Frame& frame, View view, const ViewInputs& inputs, const Buffer&
 
   Pass pass = frame.pass("View");
   pass.shader("view/voxel_view.comp")
+      .constant(0, view)
+      .constant(1, shape)
       .read(camera, facets.record, facets.shape, facets.albedo, facets.emission, facets.reverse);
   for (const Buffer* buffer : read) pass.read(*buffer);
   pass.write(targets.linear).push(push).run([&](Commands& commands) {

@@ -57,16 +57,16 @@ float cellLines(ViewRay ray, float t, vec3 cell, vec3 side) {
   return 1.0 - 0.3 * line * clamp(2.0 - pixel * 10.0, 0.0, 1.0);
 }
 
-vec4 drawCubes(ViewRay ray) {
+vec4 drawCubes(FacetArrays facets, ViewRay ray) {
   float enter, leave;
   vec3 side;
   if (!crossGrid(ray, enter, leave, side)) return vec4(0.0);
   for (Walk w = beginWalk(ray, enter, side); inGrid(w); advance(ray, w)) {
-    if (!isCube(uvec3(w.cell))) continue;
-    vec4 value = voxelValue(uvec3(w.cell), ray.origin - (w.cell + 0.5));
+    if (!isCube(facets, uvec3(w.cell))) continue;
+    vec4 value = voxelValue(facets, uvec3(w.cell), ray.origin - (w.cell + 0.5));
     if (value.a == 0.0) return vec4(0.0);
     float ink = cellLines(ray, w.t, w.cell, w.side);
-    if (push.view == VIEW_VOXEL_ALBEDO || showsField()) ink *= 1.0 - 0.15 * w.side.x - 0.08 * w.side.z;
+    if (VIEW == VIEW_VOXEL_ALBEDO || showsField()) ink *= 1.0 - 0.15 * w.side.x - 0.08 * w.side.z;
     return vec4(value.rgb, ink);
   }
   return vec4(0.0);
@@ -74,7 +74,7 @@ vec4 drawCubes(ViewRay ray) {
 
 /// The plane through the centres of one layer of cells; what lies before it is cut away. `forward`: where the camera
 /// looks.
-vec4 drawSlice(ViewRay ray, vec3 forward) {
+vec4 drawSlice(FacetArrays facets, ViewRay ray, vec3 forward) {
   uint axis = push.shape >> 2;
   if (axis == AXIS_OF_CAMERA) {
     vec3 a = abs(forward);
@@ -88,20 +88,20 @@ vec4 drawSlice(ViewRay ray, vec3 forward) {
   cell = mix(cell, vec3(layer), across);
   if (!(t > 0.0) || any(lessThan(cell, vec3(0.0))) || any(greaterThanEqual(cell, vec3(push.grid.dims))))
     return vec4(0.0);
-  vec4 value = voxelValue(uvec3(cell), ray.origin - (cell + 0.5));
+  vec4 value = voxelValue(facets, uvec3(cell), ray.origin - (cell + 0.5));
   return vec4(value.rgb, value.a * cellLines(ray, t, cell, across));
 }
 
 /// Along the whole ray. Distances: the sum of their inverses (T Fig. 5c), a solid cell counting as half a voxel away;
 /// errors: the one of largest magnitude; everything else: the mean over the length that has a value.
-vec4 drawProjection(ViewRay ray) {
+vec4 drawProjection(FacetArrays facets, ViewRay ray) {
   float enter, leave;
   vec3 side;
   if (!crossGrid(ray, enter, leave, side)) return vec4(0.0);
   vec3 sum = vec3(0.0);
   float extent = 0.0;
   for (Walk w = beginWalk(ray, enter, side); inGrid(w); advance(ray, w)) {
-    vec4 value = voxelValue(uvec3(w.cell), ray.origin - (w.cell + 0.5));
+    vec4 value = voxelValue(facets, uvec3(w.cell), ray.origin - (w.cell + 0.5));
     if (value.a == 0.0) continue;
     float part = w.until - w.t;
     if (showsDistance()) {
@@ -134,7 +134,7 @@ float level(vec3 p) {
 
 /// The surface where the field has the isovalue, lit from the eye. A distance grows by at most 1 per voxel and axis, and
 /// so does what lies between: sphere tracing with steps of its value / sqrt(3).
-vec4 drawIsosurface(ViewRay ray) {
+vec4 drawIsosurface(FacetArrays facets, ViewRay ray) {
   float enter, leave;
   vec3 side;
   if (!crossGrid(ray, enter, leave, side)) return vec4(0.0);
@@ -159,7 +159,7 @@ vec4 drawIsosurface(ViewRay ray) {
                     level(at + vec3(0, 0, 0.5)) - level(at - vec3(0, 0, 0.5)));
   float facing = t > enter && dot(slope, slope) > 0.0 ? abs(dot(normalize(slope), ray.direction)) : 1.0;
   uvec3 voxel = uvec3(clamp(floor(at), vec3(0.0), vec3(push.grid.dims) - 1.0));
-  vec4 shown = voxelValue(voxel, ray.origin - at);
+  vec4 shown = voxelValue(facets, voxel, ray.origin - at);
   return vec4(shown.rgb, shown.a * (0.3 + 0.7 * facing));
 }
 

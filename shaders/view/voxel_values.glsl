@@ -1,4 +1,4 @@
-// What the voxel views show of one voxel. The including shader declares `push` (VoxelViewPush).
+// What the voxel views show of one voxel. The including shader declares `push` (VoxelViewPush) and VIEW.
 #ifndef IRAD_VIEW_VOXEL_VALUES_GLSL
 #define IRAD_VIEW_VOXEL_VALUES_GLSL
 #include "shared/debug_views.h"
@@ -31,7 +31,7 @@ float rowSum(MatrixArrays m, uint row) {
 
 /// What the view shows for one facet of a voxel that holds `count`.
 vec3 facetValue(FacetArrays facets, uint facet, uint count) {
-  switch (push.view) {
+  switch (VIEW) {
     case VIEW_VOXEL_ALBEDO: return unpackAlbedo(facets.albedo.at[facet]);
     case VIEW_VOXEL_NORMAL: return facetNormal(facets, facet);
     case VIEW_VOXEL_EMISSION: return facets.hasEmission != 0u ? facets.emission.at[facet] : vec3(0.0);
@@ -44,7 +44,7 @@ vec3 facetValue(FacetArrays facets, uint facet, uint count) {
   if (uvec2(push.matrix) == uvec2(0u)) return vec3(0.0);
   MatrixArrays m = push.matrix.at[0];
   uvec2 info = m.rowInfo.at[facet];
-  switch (push.view) {
+  switch (VIEW) {
     case VIEW_ROW_OCCUPANCY: return vec3(float(rowEntries(info)) / float(rowRays()));
     case VIEW_INVALID_RAYS: return vec3(float(rowInvalid(info)) / float(rowRays()));
     case VIEW_ROW_SUM: return vec3(rowSum(m, facet));
@@ -54,13 +54,13 @@ vec3 facetValue(FacetArrays facets, uint facet, uint count) {
 
 /// Whether the view's values are those of a field, which every voxel has, rather than of facets.
 bool showsField() {
-  return push.view == VIEW_DISTANCE || (push.view >= VIEW_DISTANCE_CHEBYSHEV && push.view <= VIEW_CHEBYSHEV_ERROR);
+  return VIEW == VIEW_DISTANCE || (VIEW >= VIEW_DISTANCE_CHEBYSHEV && VIEW <= VIEW_CHEBYSHEV_ERROR);
 }
 bool showsDistance() {
-  return push.view == VIEW_DISTANCE || push.view == VIEW_DISTANCE_CHEBYSHEV || push.view == VIEW_DISTANCE_JFA;
+  return VIEW == VIEW_DISTANCE || VIEW == VIEW_DISTANCE_CHEBYSHEV || VIEW == VIEW_DISTANCE_JFA;
 }
 bool showsError() {
-  return push.view == VIEW_JFA_ERROR || push.view == VIEW_JFA_FIELD_ERROR || push.view == VIEW_CHEBYSHEV_ERROR;
+  return VIEW == VIEW_JFA_ERROR || VIEW == VIEW_JFA_FIELD_ERROR || VIEW == VIEW_CHEBYSHEV_ERROR;
 }
 
 /// The stored distance field, voxels.
@@ -80,7 +80,7 @@ float seedDistance(uvec3 voxel, uint index) {
 float exactDistance(uint index) {
   uint d = push.exact.at[index];
   if (d == NO_DISTANCE) return -1.0;
-  return push.view == VIEW_CHEBYSHEV_ERROR ? float(min(d, 255u)) : sqrt(float(d));  // that field ends at 255
+  return VIEW == VIEW_CHEBYSHEV_ERROR ? float(min(d, 255u)) : sqrt(float(d));  // that field ends at 255
 }
 
 /// By what a field view's cubes and isosurface are cut out, voxels.
@@ -88,27 +88,26 @@ float levelDistance(uvec3 voxel) {
   const float far = 1e4;
   uint index = voxelIndex(voxel, push.grid.dims);
   if (showsDistance()) return storedDistance(index);
-  float d = push.view == VIEW_JFA_SEEDS ? seedDistance(voxel, index) : exactDistance(index);
+  float d = VIEW == VIEW_JFA_SEEDS ? seedDistance(voxel, index) : exactDistance(index);
   return d < 0.0 ? far : d;
 }
 
 vec4 fieldValue(uvec3 voxel) {
   uint index = voxelIndex(voxel, push.grid.dims);
   if (showsDistance()) return vec4(vec3(storedDistance(index)), 1.0);
-  if (push.view == VIEW_JFA_SEEDS) {
+  if (VIEW == VIEW_JFA_SEEDS) {
     uint seed = push.seeds.at[index];
     return seed == NO_SEED ? vec4(0.0) : vec4(vec3(unpackVoxel(seed)), 1.0);
   }
   float exact = exactDistance(index);
-  float found = push.view == VIEW_JFA_ERROR ? seedDistance(voxel, index) : storedDistance(index);
+  float found = VIEW == VIEW_JFA_ERROR ? seedDistance(voxel, index) : storedDistance(index);
   return exact < 0.0 || found < 0.0 ? vec4(0.0) : vec4(vec3(found - exact), 1.0);
 }
 
 /// The value of a voxel, as seen from `towards` (relative to its centre): of two facets the one that faces there more.
 /// Alpha 0: it has none.
-vec4 voxelValue(uvec3 voxel, vec3 towards) {
+vec4 voxelValue(FacetArrays facets, uvec3 voxel, vec3 towards) {
   if (showsField()) return fieldValue(voxel);
-  FacetArrays facets = push.facets.at[0];
   uint entry = facets.reverse.at[voxelIndex(voxel, push.grid.dims)];
   if (entry == NO_FACET) return vec4(0.0);
   uint facet = entry & ~SECOND_FACET;
@@ -118,9 +117,9 @@ vec4 voxelValue(uvec3 voxel, vec3 towards) {
 }
 
 /// Whether a voxel is drawn as a cube.
-bool isCube(uvec3 voxel) {
+bool isCube(FacetArrays facets, uvec3 voxel) {
   if (showsField()) return levelDistance(voxel) <= push.isovalue;
-  return push.facets.at[0].reverse.at[voxelIndex(voxel, push.grid.dims)] != NO_FACET;
+  return facets.reverse.at[voxelIndex(voxel, push.grid.dims)] != NO_FACET;
 }
 
 #endif
