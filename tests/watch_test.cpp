@@ -384,5 +384,17 @@ TEST(WatchedCommands, InfiniteLightIsNamedAndPictured) {
     EXPECT_TRUE(std::filesystem::exists(folder.path / "out" / name)) << name;
 }
 
+TEST_F(Watch, FromTheDarkTheSameLightComesBack) {
+  Pipeline pipeline(context(), room(), at(16, 32));
+  pipeline.prepare();
+  const std::vector<uint32_t> solved = bits(pipeline.lighting().indirect);
+  pipeline.darken();
+  EXPECT_FALSE(pipeline.asleep());
+  for (const uint32_t word : bits(pipeline.lighting().indirect)) ASSERT_EQ(word, 0u);
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  EXPECT_EQ(bits(pipeline.lighting().indirect), solved);
+}
+
 }  // namespace
 }  // namespace irad::test

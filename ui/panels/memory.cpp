@@ -73,7 +73,7 @@ class MemoryPanel : public Panel {
     std::sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) { return a.measured > b.measured; });
     Group sums{"total", std::nullopt, std::nullopt, {}};
     for (const MemoryReportRow& row : report) {
-      if (row.kind == MemoryReportRow::Kind::Sum) sums.rows.push_back(row);
+      if (row.kind == MemoryReportRow::Kind::Sum && row.predicted) sums.rows.push_back(row);  // T eq. 29-31
       const auto group = std::find_if(groups_.begin(), groups_.end(), [&](auto& g) { return g.name == row.subsystem; });
       if (row.kind != MemoryReportRow::Kind::Resource || group == groups_.end()) continue;
       group->rows.push_back(row);
@@ -104,9 +104,11 @@ class MemoryPanel : public Panel {
     helpTooltip(fmt::format("{}\n{}\n{} bytes measured{}", row.name, row.format,
                             withThousands(row.measured.value_or(0)),
                             row.predicted ? fmt::format(", {} predicted", withThousands(*row.predicted)) : ""));
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-    clippedText(row.format, ImGui::GetContentRegionAvail().x);
-    ImGui::PopStyleColor();
+    if (!row.format.empty()) {
+      ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+      clippedText(row.format, ImGui::GetContentRegionAvail().x);
+      ImGui::PopStyleColor();
+    }
     for (const auto& bytes : {row.measured, row.predicted}) {
       ImGui::TableNextColumn();
       rightText(bytesText(bytes));
