@@ -285,8 +285,8 @@ void Window::takeRequests() {
 void Window::frame() {
   builder_.apply(/*held=*/ImGui::IsAnyItemActive());
   if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
+  fly();  // first: on a slow machine the keys of a flight and the one that saves come together
   capture();
-  fly();
   if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
 }
 
