@@ -489,6 +489,24 @@ TEST_F(WindowTest, TakesDroppedScenesAndRefusesOthersInWords) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, ADroppedPictureIsTheReference) {
+  start({"--view", "reference-picture"});
+  xdotool("mousemove 360 510");
+  const auto black = [](const ScreenPart& p) { return p.deviation() < 0.01; };
+  ASSERT_TRUE(settles([this] { return part(); }, black)) << "a reference that nobody gave";
+  // Neither a file that is no picture nor one that is gone; then a picture that is not black.
+  std::ofstream(folder_.path / "bad.exr") << "no picture";
+  for (const char* name : {"bad.exr", "gone.hdr"}) {
+    ASSERT_TRUE(drop({folder_.path / name}));
+    EXPECT_TRUE(says(name)) << window_->log();
+  }
+  ASSERT_TRUE(settles([this] { return part(); }, black));
+  ASSERT_TRUE(drop({std::filesystem::path(IRAD_SOURCE_DIR) / "tests/golden/box.main.lit.exr"}));
+  ASSERT_TRUE(settles([this] { return part(); }, lit)) << "the picture is not taken";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, ReloadsShadersAndWhatTheyMade) {
   const std::filesystem::path shaders = copyShaders();
   start({"--shaders", shaders.string(), "--view", "voxel-albedo"});

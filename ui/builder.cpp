@@ -93,6 +93,19 @@ void Builder::applyLights() {
   }
 }
 
+void Builder::openReference(const std::filesystem::path& path) {
+  try {
+    ReferencePicture reference = readReference(path);
+    for (Side* side : session_.sides())
+      if (side->pipeline) side->pipeline->setReference(reference.picture.size, reference.picture.pixels);
+    session_.reference = std::move(reference);
+    session_.viewDirty = true;
+    session_.note(fmt::format("{} is what the views reference-picture and error compare with", path.string()));
+  } catch (const Error& error) {
+    session_.error(error.what());
+  }
+}
+
 void Builder::apply(bool held) {
   if (!session_.pipeline) return;
   applyLights();

@@ -19,6 +19,8 @@ class Builder {
   /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded; throws what went
   /// wrong.
   void load(const std::filesystem::path& path);
+  /// Takes another reference picture, for every side; what is wrong with the file is said, and the old one stays.
+  void openReference(const std::filesystem::path& path);
   /// Hands edits to the pipeline, redoes what they call for, and lets the solver go on until it sleeps. What will be
   /// redone is on screen for a frame before it starts, and waits for as long as the mouse `holds` the widget.
   void apply(bool held);

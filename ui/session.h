@@ -129,7 +129,7 @@ struct Session : Side {
 
   // Requests.
   std::vector<Action> actions;  ///< as if their keys had been pressed
-  std::optional<std::filesystem::path> openScene;
+  std::optional<std::filesystem::path> openScene, openReference;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;  ///< begin or end a comparison
   bool step = false, darken = false;  ///< of the paused solver: a sweep; of any: from H = 0 again

@@ -175,9 +175,10 @@ bool Window::measured() {
 
 /// Something is to be done that needs no frame.
 bool Window::working() const {
-  return session_.work || session_.openScene || session_.capture || session_.captureAll || session_.captureFrame ||
-         session_.reloadShaders || session_.rebuild || session_.compare || session_.inspection.wanted() ||
-         builder_.stale() || (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
+  return session_.work || session_.openScene || session_.openReference || session_.capture || session_.captureAll ||
+         session_.captureFrame || session_.reloadShaders || session_.rebuild || session_.compare ||
+         session_.inspection.wanted() || builder_.stale() ||
+         (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 
 bool Window::settled() const {
@@ -205,7 +206,11 @@ void Window::wait() {
 }
 
 void Window::takeKeys() {
-  for (const std::filesystem::path& path : input_.takeDrops()) session_.openScene = path;
+  for (const std::filesystem::path& path : input_.takeDrops()) {
+    const std::string extension = path.extension().string();
+    const bool picture = extension == ".exr" || extension == ".hdr" || extension == ".pfm";
+    (picture ? session_.openReference : session_.openScene) = path;
+  }
   const std::vector<Input::Press> presses = input_.takePresses();
   if (ImGui::GetIO().WantTextInput) return;
   for (const Input::Press& press : presses) {
@@ -269,6 +274,7 @@ void Window::takeRequests() {
   savePreferences();
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
   serveRecorder(session_, options_.captures);
+  if (session_.openReference) builder_.openReference(*std::exchange(session_.openReference, std::nullopt));
   if (std::exchange(session_.darken, false)) builder_.darken();
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
   if (const std::optional<bool> compare = std::exchange(session_.compare, std::nullopt)) {

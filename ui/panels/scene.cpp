@@ -71,7 +71,7 @@ class ScenePanel : public Panel {
 
   void drawOpen(Session& session) {
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputTextWithHint("##open", "drop a .glb or .gltf, or type its path", &path_,
+    if (ImGui::InputTextWithHint("##open", "drop a .glb, .gltf or .exr, or type a path", &path_,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         !path_.empty())
       session.openScene = path_;
