@@ -17,21 +17,21 @@ struct Targets {
   Targets() = default;
   Targets(Context& context, glm::uvec2 size);
   glm::uvec2 size{0};
-  Image depth;      ///< D32, 1 = nothing
-  Image normal;     ///< RGBA16F: shading normal xyz, roughness
-  Image geometric;  ///< RGBA16F: geometric normal xyz (towards the viewer), metallic
-  Image albedo;     ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
-  Image f0;         ///< RGBA16F: specular reflectance at normal incidence; w: 1 = has a specular lobe
-  Image direct;     ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
-  Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
-  Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2
-  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M); 0 where no view asks
-  Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
-  Buffer glossy;    ///< pixels that trace specular rays (shaders/shared/passes.h)
-  Image linear;     ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn
+  Image depth;       ///< D32, 1 = nothing
+  Image normal;      ///< RGBA16F: shading normal xyz, roughness
+  Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic
+  Image albedo;      ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
+  Image f0;          ///< RGBA16F: specular reflectance at normal incidence; w: 1 = has a specular lobe
+  Image direct;      ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
+  Image highlight;   ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
+  Image indirect;    ///< RGBA32F: indirect irradiance H, W/m^2
+  Image emitted;     ///< RGBA32F: the part of H that comes straight from emissive facets (F M); 0 where no view asks
+  Image specular;    ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
+  Buffer glossy;     ///< pixels that trace specular rays (shaders/shared/passes.h)
+  Image linear;      ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn
   Buffer viewRange;  ///< one ViewRange (shaders/shared/view.h), of views that have one
   Buffer viewBins;   ///< histogram of their values
-  Image display;    ///< RGBA8: what is shown and written as PNG (sRGB-encoded)
+  Image display;     ///< RGBA8: what is shown and written as PNG (sRGB-encoded)
 };
 
 /// Where shading finds indirect light. Null pointers: there is none (H = 0).

@@ -131,7 +131,7 @@ struct Session : Side {
   std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene, openReference;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
-  std::optional<bool> compare;  ///< begin or end a comparison
+  std::optional<bool> compare;        ///< begin or end a comparison
   bool step = false, darken = false;  ///< of the paused solver: a sweep; of any: from H = 0 again
 
   // Shown until dismissed, and printed on standard error.
