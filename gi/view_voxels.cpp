@@ -47,9 +47,8 @@ void drawVoxels(Frame& frame, View view, const ViewInputs& inputs, const Buffer&
   push.camera = camera.address;
   push.grid = facets.grid;
   push.facets = facets.record.address;
-  push.view = view;
   const uint32_t shape = resolveShape(view, chosen.shape).value();
-  push.shape = packShape(shape, static_cast<uint32_t>(chosen.axis));
+  push.axis = static_cast<uint32_t>(chosen.axis);
   push.slice = chosen.slice;
   push.isovalue = chosen.isovalue;
   push.row = packRow(inputs.matrix != nullptr ? inputs.matrix->rays : 1,

@@ -54,7 +54,10 @@ class CompareVoxels : public GiTest {
     return s;
   }
   VoxelMetrics compare(const Solved& values, const Solved& reference) {
-    return compareVoxels(context(), values.world.facets, values.light, reference.world.facets, reference.light);
+    const auto irradiance = [&](const Solved& s) {
+      return readVolume(context(), Volume::irradiance, s.world.facets, s.world.field, s.light);
+    };
+    return compareVoxels(irradiance(values), irradiance(reference));
   }
 };
 

@@ -1,15 +1,16 @@
-// Reads EXR files for comparisons: every channel by name, and the metrics of DESIGN.md.
+// Reads EXR files for comparisons: every channel by name, and the metrics.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "renderer/metrics.h"
 
 namespace irad::test {
 
@@ -43,37 +44,16 @@ inline Picture readExr(const std::filesystem::path& path, const std::string& lay
   return out;
 }
 
-/// Root of the mean of (a - b)^2, channels averaged.
-inline double rmse(const Picture& a, const Picture& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
-    sum += glm::dot(d, d);
-  }
-  return std::sqrt(sum / (3.0 * static_cast<double>(a.pixels.size())));
-}
-
-/// The largest |a - b| of any channel; NaN where any is.
-inline double worstPixel(const Picture& a, const Picture& b) {
-  double worst = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      const double d = std::abs(double(a.pixels[i][c]) - b.pixels[i][c]);
-      if (std::isnan(d)) return d;
-      worst = std::max(worst, d);
-    }
-  return worst;
-}
-
-/// Mean of (a - b)^2 / (b^2 + epsilon), channels averaged.
-inline double relMse(const Picture& a, const Picture& b, double epsilon) {
-  double sum = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      const double d = double(a.pixels[i][c]) - b.pixels[i][c];
-      sum += d * d / (double(b.pixels[i][c]) * b.pixels[i][c] + epsilon);
-    }
-  return sum / (3.0 * static_cast<double>(a.pixels.size()));
+/// renderer/metrics.h; where anything is not finite there is nothing to compare: all NaN.
+inline Metrics metrics(const Picture& a, const Picture& b) {
+  const auto four = [](const Picture& p) {
+    std::vector<glm::vec4> out;
+    for (const glm::vec3& c : p.pixels) out.emplace_back(c, 1);
+    return out;
+  };
+  Metrics m = measure(four(a), four(b));
+  if (m.leftOut > 0) m.rmse = m.relMse = m.psnr = m.meanError = m.largest = std::nan("");
+  return m;
 }
 
 }  // namespace irad::test

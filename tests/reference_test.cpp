@@ -74,7 +74,7 @@ class Reference : public GpuTest {
     const Ratios r{oursDirect.mean() / direct.mean(), oursBounced.mean() / bounced.mean()};
     printf("%s: direct %.4f %.4f %.4f, indirect %.4f %.4f %.4f of Cycles; relMSE (eps .01) %.4f, %.4f\n",
            reference.stem().c_str(), r.direct.x, r.direct.y, r.direct.z, r.indirect.x, r.indirect.y, r.indirect.z,
-           relMse(oursDirect, direct, 0.01), relMse(oursBounced, bounced, 0.01));
+           metrics(oursDirect, direct).relMse, metrics(oursBounced, bounced).relMse);
     return r;
   }
   static void expectMarks(const Ratios& r) {

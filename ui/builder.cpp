@@ -45,8 +45,7 @@ void Builder::load(const std::filesystem::path& path) {
     };
     Scene scene = openScene(path, load);
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
-    if (session_.reference)
-      pipeline->setReference(session_.reference->picture.size, session_.reference->picture.pixels);
+    giveReference(*pipeline);
     prepare(session_, *pipeline);
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
     session_.comparison.reset();
@@ -93,12 +92,15 @@ void Builder::applyLights() {
   }
 }
 
+void Builder::giveReference(Pipeline& pipeline) {
+  if (session_.reference) pipeline.setReference(session_.reference->picture.size, session_.reference->picture.pixels);
+}
+
 void Builder::openReference(const std::filesystem::path& path) {
   try {
-    ReferencePicture reference = readReference(path);
+    session_.reference = readReference(path);
     for (Side* side : session_.sides())
-      if (side->pipeline) side->pipeline->setReference(reference.picture.size, reference.picture.pixels);
-    session_.reference = std::move(reference);
+      if (side->pipeline) giveReference(*side->pipeline);
     session_.viewDirty = true;
     session_.note(fmt::format("{} is what the views reference-picture and error compare with", path.string()));
   } catch (const Error& error) {
@@ -158,8 +160,7 @@ void Builder::compare() {
     Side other;
     other.edited = session_.edited;
     other.pipeline = std::make_unique<Pipeline>(context_, session_.pipeline->scene(), session_.edited);
-    if (session_.reference)
-      other.pipeline->setReference(session_.reference->picture.size, session_.reference->picture.pixels);
+    giveReference(*other.pipeline);
     prepare(other, *other.pipeline);
     other.applied = values(other.edited);
     session_.comparison.emplace().other = std::move(other);

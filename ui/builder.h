@@ -38,6 +38,7 @@ class Builder {
 
  private:
   void applyLights();
+  void giveReference(Pipeline& pipeline);
   void rebuild(Side& side, std::string what);
   void prepare(Side& side, Pipeline& pipeline);
   void follow();

@@ -17,10 +17,12 @@ void measureComparison(Context& context, Session& session) {
   Comparison& comparison = *session.comparison;
   const Side &a = session.sideA(), &b = session.sideB();
   if (comparison.result || !session.allAsleep() || !a.targets.linear || a.targets.size != b.targets.size) return;
+  const auto irradiance = [&](const Pipeline& p) {
+    return readVolume(context, Volume::irradiance, p.facets(), p.field(), p.lighting());
+  };
   comparison.result =
       Comparison::Result{.picture = measure(linearPixels(context, b.targets), linearPixels(context, a.targets)),
-                         .voxels = compareVoxels(context, b.pipeline->facets(), b.pipeline->lighting(),
-                                                 a.pipeline->facets(), a.pipeline->lighting())};
+                         .voxels = compareVoxels(irradiance(*b.pipeline), irradiance(*a.pipeline))};
 }
 
 std::vector<SettingDifference> differences(const Settings& a, const Settings& b) {

@@ -45,7 +45,7 @@ void OpenDialog::enter(const std::filesystem::path& folder) {
 void OpenDialog::choose(Session& session, const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return enter(path.lexically_normal());
-  session.openScene = path;  // errors of the file are the loader's to tell
+  session.open(path);  // errors of the file are the loader's to tell
   session.showOpen = false;
 }
 

@@ -67,6 +67,12 @@ void Session::useSceneCamera(int index) {
   viewDirty = true;
 }
 
+void Session::open(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  const bool picture = extension == ".exr" || extension == ".hdr" || extension == ".pfm";
+  (picture ? openReference : openScene) = path;
+}
+
 void Side::woke() {
   solves.clear();
   sweepsSinceWake = 0;

@@ -139,9 +139,10 @@ struct Session : Side {
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   /// Of a scene that was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
-  std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
-  void useSceneCamera(int index);       ///< of cameras()
-  void saveEdits();                     ///< says what became of it
+  std::vector<Camera> cameras() const;           ///< the scene's, then the bookmarks
+  void useSceneCamera(int index);                ///< of cameras()
+  void open(const std::filesystem::path& path);  ///< a scene, or a reference picture, by its extension
+  void saveEdits();                              ///< says what became of it
 
  private:
   void say(Message::Kind kind, std::string text);

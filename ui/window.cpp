@@ -206,11 +206,7 @@ void Window::wait() {
 }
 
 void Window::takeKeys() {
-  for (const std::filesystem::path& path : input_.takeDrops()) {
-    const std::string extension = path.extension().string();
-    const bool picture = extension == ".exr" || extension == ".hdr" || extension == ".pfm";
-    (picture ? session_.openReference : session_.openScene) = path;
-  }
+  for (const std::filesystem::path& path : input_.takeDrops()) session_.open(path);
   const std::vector<Input::Press> presses = input_.takePresses();
   if (ImGui::GetIO().WantTextInput) return;
   for (const Input::Press& press : presses) {

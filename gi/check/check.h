@@ -23,8 +23,7 @@ struct CheckCase {
   /// What Scene::expectedIrradiance of `scene` is; none where the oracle does not give it.
   glm::dvec3 (*expected)(const glm::dvec3& position, const glm::dvec3& normal) = nullptr;
   const char* pending = nullptr;  ///< why it cannot be run yet
-  const char* red = nullptr;  ///< why it is known to fail; the test suite says so and notices when it no longer does
-  bool soak = false;          ///< long: CheckRun::quick shortens it
+  bool soak = false;              ///< long: CheckRun::quick shortens it
 };
 
 /// All cases, in the catalogue's order.

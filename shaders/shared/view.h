@@ -34,14 +34,12 @@ struct VoxelViewPush {
   UintArray bytes;      ///< a distance field, 4 voxels per uint
   UintArray seeds;      ///< packVoxel of a solid voxel, or NO_SEED
   UintArray exact;      ///< exact distance (view/exact_distance.comp)
-  uint view;
-  uint shape;       ///< packShape
+  uint axis;        ///< of a slice
   float slice;      ///< 0..1
   float isovalue;   ///< voxels
   float byteScale;  ///< voxels that one step of `bytes` stands for
   uint row;         ///< packRow
 };
-IRAD_FN uint packShape(uint shape, uint axis) { return shape | (axis << 2); }
 IRAD_FN uint packRow(uint rays, uint padded, uint normalEncoding) {
   return rays | (padded << 16) | (normalEncoding << 17);
 }

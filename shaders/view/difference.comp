@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/debug_views.h"
+#include "shared/emitters.h"
 #include "shared/view.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,8 +11,6 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D values;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D referenceValues;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D difference;
 layout(push_constant, scalar) uniform PushBlock { DifferencePush push; };
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
   if (any(greaterThanEqual(gl_GlobalInvocationID.xy, push.size))) return;

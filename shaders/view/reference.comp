@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/debug_views.h"
+#include "shared/emitters.h"
 #include "shared/view.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,8 +11,6 @@ layout(constant_id = 0) const uint VIEW = 0u;
 layout(set = 0, binding = 0) uniform sampler2D referencePicture;
 layout(set = 0, binding = 1, rgba32f) uniform image2D linearTarget;
 layout(push_constant, scalar) uniform PushBlock { ReferencePush push; };
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;

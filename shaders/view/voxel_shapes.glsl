@@ -75,7 +75,7 @@ vec4 drawCubes(FacetArrays facets, ViewRay ray) {
 /// The plane through the centres of one layer of cells; what lies before it is cut away. `forward`: where the camera
 /// looks.
 vec4 drawSlice(FacetArrays facets, ViewRay ray, vec3 forward) {
-  uint axis = push.shape >> 2;
+  uint axis = push.axis;
   if (axis == AXIS_OF_CAMERA) {
     vec3 a = abs(forward);
     axis = a.x > a.y && a.x > a.z ? 0u : (a.y > a.z ? 1u : 2u);

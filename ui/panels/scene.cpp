@@ -74,7 +74,7 @@ class ScenePanel : public Panel {
     if (ImGui::InputTextWithHint("##open", "drop a .glb, .gltf or .exr, or type a path", &path_,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         !path_.empty())
-      session.openScene = path_;
+      session.open(path_);
   }
 };
 
