@@ -34,11 +34,10 @@ struct Result {
   const char* status() const { return check->run == nullptr ? "pending" : outcome.passed() ? "pass" : "FAIL"; }
   /// The thesis's value of a figure; NaN where it has none.
   double thesisValue(const std::string& figure) const {
-    if (thesis)
-      for (const CheckFigure& f : thesis->figures)
-        if (f.name == figure) return f.value;
-    return std::nan("");
+    const CheckFigure* found = thesis ? thesis->find(figure) : nullptr;
+    return found != nullptr ? found->value : std::nan("");
   }
+  const CheckFigure* decisive() const { return outcome.decisive(thesis ? &*thesis : nullptr); }
 };
 
 std::string number(double value) {
@@ -60,7 +59,7 @@ void print(const Result& result, bool allFigures) {
     line += result.check->pending;
   else if (!outcome.error.empty())
     line += outcome.error;
-  else if (const CheckFigure* figure = outcome.decisive())
+  else if (const CheckFigure* figure = result.decisive())
     line += figureText(result, *figure);
   fmt::print("{}\n", line);
   if (allFigures)
@@ -114,17 +113,23 @@ std::string toCsv(const std::vector<Result>& results) {
 
 constexpr std::string_view kTableHead = "| case | figure | ours | mark | | thesis | ms |\n";
 
+/// Text in a cell: a bar would end it.
+std::string cell(std::string text) {
+  for (size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+  return text;
+}
+
 /// The table of docs/stability.md: the decisive figure of each case.
 std::string toMarkdown(const std::vector<Result>& results) {
   std::string out(kTableHead);
   out += "|---|---|--:|---|---|--:|--:|\n";
   for (const Result& r : results) {
-    const CheckFigure* f = r.outcome.decisive();
+    const CheckFigure* f = r.decisive();
     if (f == nullptr || !r.outcome.error.empty())
       out += fmt::format("| {} | {} | | | {} | | |\n", r.check->name,
                          r.check->run == nullptr ? r.check->pending : r.outcome.error, r.status());
     else
-      out += fmt::format("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", r.check->name, f->name, number(f->value),
+      out += fmt::format("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", r.check->name, cell(f->name), number(f->value),
                          f->mark, r.status(), number(r.thesisValue(f->name)), r.outcome.milliseconds);
   }
   return out;
@@ -150,7 +155,7 @@ void run(const Arguments& arguments) {
   if (chosen.empty())
     for (const CheckCase& check : checkCases()) chosen.push_back(&check);
 
-  Session session(arguments.settings, arguments.device);
+  Session session(arguments.settings, arguments.device, /*timedFrames=*/1);  // nobody reads them, and soak runs long
   Settings settings = session.settings;
   if (arguments.settings.sizesAreDefault()) applyCheckSizes(settings);
   CheckOptions options{.quick = arguments.quick, .program = "/proc/self/exe", .scenes = {}};

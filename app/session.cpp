@@ -11,8 +11,8 @@
 
 namespace irad::app {
 
-Session::Session(const SettingArguments& arguments, const DeviceArguments& deviceArguments)
-    : config(arguments.readConfig()), sizesAreDefault_(arguments.sizesAreDefault()) {
+Session::Session(const SettingArguments& arguments, const DeviceArguments& deviceArguments, size_t timedFrames)
+    : config(arguments.readConfig()), timings(timedFrames), sizesAreDefault_(arguments.sizesAreDefault()) {
   (void)arguments.resolve(config, /*cpuDevice=*/true);
   device = Device::create(deviceArguments.options());
   context = std::make_unique<Context>(*device, shaders, timings);

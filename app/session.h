@@ -13,8 +13,9 @@
 namespace irad::app {
 
 struct Session {
-  /// Checks the settings first (so that a slip is told before a device is opened), then opens the device.
-  Session(const SettingArguments& settings, const DeviceArguments& device);
+  /// Checks the settings first (so that a slip is told before a device is opened), then opens the device. Times are
+  /// kept of the last `timedFrames` frames.
+  Session(const SettingArguments& settings, const DeviceArguments& device, size_t timedFrames = SIZE_MAX);
 
   Config config;
   std::unique_ptr<Device> device;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "gi/check/cases.h"
 #include "renderer/error.h"
@@ -58,10 +59,19 @@ bool CheckOutcome::passed() const {
          std::all_of(figures.begin(), figures.end(), [](const CheckFigure& figure) { return figure.passed(); });
 }
 
-const CheckFigure* CheckOutcome::decisive() const {
+const CheckFigure* CheckOutcome::find(const std::string& figure) const {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& f) { return f.name == figure; });
+  return found != figures.end() ? &*found : nullptr;
+}
+
+const CheckFigure* CheckOutcome::decisive(const CheckOutcome* beside) const {
+  const auto strains = [&](const CheckFigure& figure) {
+    const CheckFigure* other = beside != nullptr ? beside->find(figure.name) : nullptr;
+    return std::pair(figure.strain, other != nullptr ? other->strain : 0.0);
+  };
   const CheckFigure* worst = nullptr;
   for (const CheckFigure& figure : figures)
-    if (!figure.mark.empty() && (worst == nullptr || figure.strain > worst->strain)) worst = &figure;
+    if (!figure.mark.empty() && (worst == nullptr || strains(figure) > strains(*worst))) worst = &figure;
   return worst != nullptr || figures.empty() ? worst : &figures.front();
 }
 

@@ -41,8 +41,10 @@ struct CheckOutcome {
   std::string error;  ///< the case threw: what
   double milliseconds = 0;
   bool passed() const;
-  /// The figure that the case's line shows: of the judged ones that with the greatest strain. Null: none.
-  const CheckFigure* decisive() const;
+  /// The figure that the case's line shows: of the judged ones that with the greatest strain, and where several have it
+  /// the one that strains `beside` most. Null: none.
+  const CheckFigure* decisive(const CheckOutcome* beside = nullptr) const;
+  const CheckFigure* find(const std::string& figure) const;
 };
 /// Runs one case. Errors of the program become CheckOutcome::error.
 CheckOutcome runCheck(Context& context, const CheckCase& check, const Settings& settings, const CheckOptions& options);
