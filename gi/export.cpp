@@ -15,10 +15,6 @@ namespace irad {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<glm::vec3> firstThree(const std::vector<glm::vec4>& values) {
-  return {values.begin(), values.end()};
-}
-
 /// Normals of all facets, unit.
 std::vector<glm::vec3> normals(Context& context, const FacetList& facets) {
   std::vector<glm::vec3> out;
@@ -75,10 +71,10 @@ VolumeValues readVolume(Context& context, Volume volume, const FacetList& facets
       out.values = hostDistances(context, facets.grid, field);
       return out;
     case Volume::radiosity:
-      values = firstThree(downloadAs<glm::vec4>(context, lighting.radiosity));
+      values = perFacet(context, facets, lighting.radiosity);
       break;
     case Volume::irradiance:
-      values = firstThree(downloadAs<glm::vec4>(context, lighting.indirect));
+      values = perFacet(context, facets, lighting.indirect);
       break;
     case Volume::albedo:
       values = albedos(context, facets);
@@ -142,9 +138,9 @@ FacetTable readFacets(Context& context, const FacetList& facets, const Lighting&
   add("normal", normals(context, facets));
   add("albedo", albedos(context, facets));
   add("emission", emissions(context, facets));
-  add("direct", firstThree(downloadAs<glm::vec4>(context, lighting.direct)));
-  add("irradiance", firstThree(downloadAs<glm::vec4>(context, lighting.indirect)));
-  add("radiosity", firstThree(downloadAs<glm::vec4>(context, lighting.radiosity)));
+  add("direct", perFacet(context, facets, lighting.direct));
+  add("irradiance", perFacet(context, facets, lighting.indirect));
+  add("radiosity", perFacet(context, facets, lighting.radiosity));
   return table;
 }
 

@@ -130,7 +130,8 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   FacetList list;
   list.grid = voxels.grid;
   list.encoding = settings.voxel.normals;
-  list.hasEmission = voxels.scene->anyEmission;
+  const EffectMode emission = settings.effects.emission;
+  list.hasEmission = emission == EffectMode::automatic ? voxels.scene->anyEmission : emission == EffectMode::on;
   const uint32_t bits = voxels.grid.mortonBits.x + voxels.grid.mortonBits.y + voxels.grid.mortonBits.z;
   CompactPush push{};
   push.grid = voxels.gridRecord.address;

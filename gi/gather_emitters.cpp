@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gi/emitter_rule.h"
 #include "gi/ray_kernel.h"
 #include "gi/sweep.h"
 
@@ -16,14 +17,13 @@ bool sampleEmitters(const Settings& settings, const EmitterSource& source, uint3
   if (!source.emitters || source.emitters->count == 0) return false;
   if (settings.matrix.emitterSampling != EmitterSampling::automatic)
     return settings.matrix.emitterSampling == EmitterSampling::on;
-  return source.emitters->count < facets / 10;
+  return emittersAreFew(source.emitters->count, facets);
 }
 
 /// Compares the sums over all facets of F M by samples and by rays, and says whether the samples may stand in. They see
 /// emissive facets alone, rays also a face's extension into voxels that other faces took: where a lamp's edges are a
 /// good part of it, as in a strip along a wall, that is too much to lose.
 bool agrees(Context& context, const FormFactors& matrix, const Emitters& emitters, Lighting& light) {
-  constexpr double kLoss = 0.05;
   const auto sampled = downloadAs<glm::vec4>(context, light.emitted);
   const auto correction = downloadAs<glm::vec4>(context, light.correction);
   double bySamples = 0, byRays = 0;
@@ -33,7 +33,7 @@ bool agrees(Context& context, const FormFactors& matrix, const Emitters& emitter
   }
   const double hits = byRays / emitters.brightest * matrix.rays;  // at least
   light.sampledShare = byRays > 0 ? static_cast<float>(bySamples / byRays) : 0;
-  return std::abs(bySamples - byRays) <= byRays * (kLoss + 3 / std::sqrt(std::max(hits, 1.0)));
+  return std::abs(bySamples - byRays) <= byRays * (kEmitterAgreement + 3 / std::sqrt(std::max(hits, 1.0)));
 }
 
 /// light.emitted becomes F M by samples, light.correction what that adds to F M by rays.
@@ -67,21 +67,19 @@ void gatherEmitters(Context& context, const FacetList& facets, const FormFactors
                     const Settings& settings, Sweep& sweep, Lighting& light) {
   light.correction = Buffer();
   light.sampledShare = 0;
+  light.emittedCurrent = true;
+  if (!facets.hasEmission) return;
   const auto byRays = [&] {
+    // M as a vector, in the spare half of B's double buffer; then one product.
     Frame frame = context.begin();
-    if (facets.hasEmission) {
-      // M as a vector, in the spare half of B's double buffer; then one product.
-      frame.pass(kStage)
-          .shader("gi/emission.comp")
-          .read(facets.record, facets.emission)
-          .write(light.radiosityNext)
-          .push(EmissionPush{facets.record.address, light.radiosityNext.address})
-          .dispatch(facets.count);
-      sweep.begin(frame, kStage, light.radiosityNext);
-      sweep.record(frame, kStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
-    } else {
-      frame.pass(kStage).fill(light.emitted, 0);
-    }
+    frame.pass(kStage)
+        .shader("gi/emission.comp")
+        .read(facets.record, facets.emission)
+        .write(light.radiosityNext)
+        .push(EmissionPush{facets.record.address, light.radiosityNext.address})
+        .dispatch(facets.count);
+    sweep.begin(frame, kStage, light.radiosityNext);
+    sweep.record(frame, kStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
     frame.submit();
   };
   byRays();
@@ -95,7 +93,6 @@ void gatherEmitters(Context& context, const FacetList& facets, const FormFactors
       byRays();
     }
   }
-  light.emittedCurrent = true;
 }
 
 }  // namespace irad

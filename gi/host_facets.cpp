@@ -37,6 +37,14 @@ oracle::Facets oracleFacets(Context& context, const FacetList& list) {
           downloadAs<uint32_t>(context, list.around)};
 }
 
+std::vector<glm::vec3> perFacet(Context& context, const FacetList& list, const Buffer& values) {
+  std::vector<glm::vec3> out;
+  if (values)
+    for (const glm::vec4& v : downloadAs<glm::vec4>(context, values)) out.emplace_back(v);
+  out.resize(list.count, glm::vec3(0));  // an empty list still has 16 bytes
+  return out;
+}
+
 std::vector<float> hostDistances(Context& context, const Grid& grid, const Field& field) {
   const bool jfa = field.method == FieldMethod::jfa;
   const std::vector<std::byte> bytes = jfa ? download(context, field.jfaDistance) : download(context, field.chebyshev);

@@ -21,6 +21,9 @@ HostFacets hostFacets(Context& context, const FacetList& list);
 /// The same list as the oracle's rays take it.
 oracle::Facets oracleFacets(Context& context, const FacetList& list);
 
+/// One value per facet of a buffer of vec4; 0 where there is none (Lighting of no light).
+std::vector<glm::vec3> perFacet(Context& context, const FacetList& list, const Buffer& values);
+
 /// Of every voxel to the nearest solid one in the metric of field.method, voxels.
 std::vector<float> hostDistances(Context& context, const Grid& grid, const Field& field);
 

@@ -16,17 +16,6 @@
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
-namespace {
-
-std::vector<glm::vec3> perFacet(Context& context, const Buffer& buffer, size_t count) {
-  if (!buffer) return std::vector<glm::vec3>(count, glm::vec3(0));
-  const std::vector<glm::vec4> values = downloadAs<glm::vec4>(context, buffer);
-  std::vector<glm::vec3> out(values.begin(), values.end());
-  out.resize(count);  // an empty list still has 16 bytes
-  return out;
-}
-
-}  // namespace
 
 Inspector::Inspector(Context& context, const Pipeline& pipeline) : context_(context), pipeline_(pipeline) {
   refresh();
@@ -39,7 +28,10 @@ void Inspector::refresh() {
     facets_ = hostFacets(context_, list);
     list_ = oracleFacets(context_, list);
     triangles_ = list.triangle ? downloadAs<uint32_t>(context_, list.triangle) : std::vector<uint32_t>{};
-    const Field& field = pipeline_.field();
+    // Where no ray of the pipeline reads a field it has none.
+    madeField_.reset();
+    if (!pipeline_.field()) madeField_ = buildField(context_, list, pipeline_.settings());
+    const Field& field = this->field();
     field_ = {field.method == FieldMethod::jfa, hostDistances(context_, list.grid, field)};
     seeds_.clear();
     if (field.jfaSeeds) {
@@ -47,13 +39,14 @@ void Inspector::refresh() {
       seeds_.resize(bytes.size() / sizeof(uint32_t));
       std::memcpy(seeds_.data(), bytes.data(), bytes.size());
     }
-    rows_ = downloadAs<glm::uvec2>(context_, pipeline_.matrix().rowInfo);
+    const Buffer& rows = pipeline_.matrix().rowInfo;
+    rows_ = rows ? downloadAs<glm::uvec2>(context_, rows) : std::vector<glm::uvec2>(list.count);
     build_ = pipeline_.revision().build;
   }
-  direct_ = perFacet(context_, light.direct, list.count);
-  irradiance_ = perFacet(context_, light.indirect, list.count);
-  radiosity_ = perFacet(context_, light.radiosity, list.count);
-  correction_ = perFacet(context_, light.correction, list.count);
+  direct_ = perFacet(context_, list, light.direct);
+  irradiance_ = perFacet(context_, list, light.indirect);
+  radiosity_ = perFacet(context_, list, light.radiosity);
+  correction_ = perFacet(context_, list, light.correction);
 }
 
 bool Inspector::contains(const glm::ivec3& voxel) const {
@@ -185,7 +178,12 @@ Link Inspector::link(uint32_t receiver, uint32_t sender, uint32_t hits, uint32_t
   return l;
 }
 
+const Field& Inspector::field() const {
+  return madeField_ ? *madeField_ : pipeline_.field();
+}
+
 void Inspector::addLinks(uint32_t i, InspectedFacet& record) const {
+  if (!pipeline_.matrix()) return;  // there is no light to link
   const HostRow row = merged(readRow(context_, pipeline_.matrix(), i));
   const std::vector<uint32_t> column = readColumn(context_, pipeline_.matrix(), i);
   std::vector<uint32_t> inRow(column.size(), 0);
@@ -255,13 +253,15 @@ RowComparison compareRows(const Links& a, const Links& b) {
 SolveHistory replaySolve(Context& context, const Pipeline& pipeline, const std::vector<uint32_t>& facets,
                          const Progress& progress) {
   const FacetList& list = pipeline.facets();
-  const Settings& settings = pipeline.settings();
+  const Settings& settings = pipeline.obeyed();
+  SolveHistory history;
+  history.converged = !pipeline.lighting();
+  if (history.converged) return history;
   Lighting light = makeLighting(context, list, settings);
   Frame copy = context.beginUntimed();
   copy.pass("Copy").copy(pipeline.lighting().direct, light.direct, light.direct.bytes);
   copy.submit();
   const Emitters emitters = listEmitters(context, list);
-  SolveHistory history;
   while (!history.converged && history.irradiance.size() < settings.solver.maxSweeps) {
     if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
     const SolveReport report =

@@ -136,6 +136,7 @@ class Inspector {
   glm::dvec3 toVoxels(const glm::dvec3& world) const;
   std::vector<uint32_t> traceOnDevice(uint32_t facet) const;
   std::optional<MeshNormal> meshNormal(uint32_t facet) const;
+  const Field& field() const;
   Link link(uint32_t receiver, uint32_t sender, uint32_t hits, uint32_t hitsBack, bool row) const;
   void addLinks(uint32_t facet, InspectedFacet& record) const;
   RayPath path(const oracle::Ray& ray, const oracle::DistanceField* field, double& margin) const;
@@ -146,6 +147,7 @@ class Inspector {
   HostFacets facets_;
   oracle::Facets list_;
   std::vector<uint32_t> triangles_;
+  std::optional<Field> madeField_;  ///< where the pipeline has none
   oracle::DistanceField field_;
   std::vector<uint32_t> seeds_;   ///< packVoxel, with jump flooding
   std::vector<glm::uvec2> rows_;  ///< MatrixArrays::rowInfo

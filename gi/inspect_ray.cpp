@@ -11,7 +11,7 @@ std::vector<uint32_t> Inspector::traceOnDevice(uint32_t facet) const {
   const MatrixParams& params = pipeline_.settings().matrix.gpu;
   const Buffer met(context_.device, "rays of a row", Subsystem::Staging, 4ull * params.rays);
   Frame frame = context_.beginUntimed();
-  traceRows(frame, rayKernel(pipeline_.facets(), pipeline_.field(), params), params, facet, /*rows=*/1, met);
+  traceRows(frame, rayKernel(pipeline_.facets(), field(), params), params, facet, /*rows=*/1, met);
   frame.submitAndWait();
   std::vector<uint32_t> out = downloadAs<uint32_t>(context_, met);
   out.resize(params.rays);

@@ -52,11 +52,12 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(matrix.record, FormFactors::kSegmentTable + 8 * std::max<uint64_t>(1, matrix.segments.size()));
   // Light: one fp32 vec4 per facet in each array; the thesis's volume holds half-precision RGBA.
   for (const Buffer* b : {&lighting.direct, &lighting.emitted, &lighting.indirect, &lighting.radiosity,
-                          &lighting.radiosityNext, &lighting.shaded, &lighting.shadedEmitted})
+                          &lighting.radiosityNext, &lighting.blurred, &lighting.blurredEmitted})
     buffer(*b, 16 * s);
   buffer(lighting.correction, 16 * s);
   buffer(lighting.rowSum, 4 * s);
   buffer(lighting.residual, sizeof(SolveResidual));
+  buffer(lighting.blurChange, sizeof(uint32_t));
   image(lighting.volume, 8 * V);
   return out;
 }

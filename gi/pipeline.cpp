@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gi/host_facets.h"
+#include "gi/planned.h"
 #include "renderer/error.h"
 
 namespace irad {
@@ -22,12 +23,17 @@ double since(std::chrono::steady_clock::time_point start) {
 
 struct Pipeline::Impl {
   Impl(Context& c, Scene s, const Settings& wanted)
-      : context(c), scene(std::move(s)), settings(wanted), onDevice(c, scene) {}
+      : context(c), scene(std::move(s)), settings(wanted), planned(scene, wanted), onDevice(c, scene) {
+    materials = onDevice.materialValues;
+    useMaterials();
+  }
 
   Context& context;
   Scene scene;
-  Settings settings;
+  Settings settings;  ///< the user's; stages get planned.settings()
+  Planned planned;
   SceneOnDevice onDevice;
+  std::vector<GpuMaterial> materials;  ///< as the scene has them
   Buffer camera;
   uint64_t frameIndex = 0;
   Revision revision;
@@ -52,6 +58,62 @@ struct Pipeline::Impl {
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
 
+  // ---- What the plan says ----
+
+  /// Decides anew on what is known by now, and makes due what that changes.
+  void decide() {
+    const Settings before = planned.settings();
+    dirty = std::min(dirty, planned.decide(settings));
+    const EffectSettings &was = before.effects, &is = planned.settings().effects;
+    shadowsDirty |= was.sun != is.sun || was.point != is.point || was.spot != is.spot || was.alphaTest != is.alphaTest;
+    if (was.emission != is.emission || was.alphaTest != is.alphaTest || was.normalMap != is.normalMap) useMaterials();
+  }
+
+  void useMaterials() {
+    std::vector<GpuMaterial> wanted = planned.materials(materials);
+    const auto bytes = [](const auto& v) { return std::as_bytes(std::span(v)); };
+    if (!std::ranges::equal(bytes(wanted), bytes(onDevice.materialValues)))
+      onDevice.setMaterials(context, std::move(wanted));
+  }
+
+  void lookAtLights(std::span<const GpuLight> lights) {
+    planned.traits.lights.clear();
+    for (const GpuLight& light : lights)
+      planned.traits.lights.push_back(measureLight(light, scene, settings.voxel.resolution));
+    decide();
+  }
+
+  /// What the products have shown.
+  void learn(const Products& p) {
+    const MatrixStats& stats = p.matrix->stats;
+    planned.traits.build = BuildTraits{
+        .voxels = p.facets->grid.voxels,
+        .facets = p.facets->count,
+        .solidVoxels = p.facets->solidVoxels,
+        .emitters = p.emitters->count,
+        .sampledShare = p.light ? p.light->sampledShare : 0,
+        .sampled = p.light && p.light->correction,
+        .matrix = static_cast<bool>(*p.matrix),
+        .escaped = stats.rays > 0 ? static_cast<double>(stats.escaped) / static_cast<double>(stats.rays) : 0};
+  }
+
+  /// The light's state, which changes from frame to frame.
+  LightState lightState() const {
+    LightState state = planned.traits.light;
+    state.due = shadowsDirty ? std::min(dirty, Redo::Gather) : dirty;
+    if (!now.light) return state;
+    const SolveReport& r = now.light->report;
+    state.settled = r.settled();
+    state.bound = r.bound;
+    state.tolerance = r.allowed;
+    return state;
+  }
+
+  bool lit() const { return planned.on(Effect::matrix); }
+  bool relights() const { return settings.effects.relight != EffectMode::off; }
+
+  // ---- What is due ----
+
   void prepare(uint32_t maxSweeps, const Progress& progress) {
     if (dirty <= Redo::Voxels) {
       // The new list's products replace the old ones together, once they are lit. Until then the old picture stays.
@@ -64,6 +126,9 @@ struct Pipeline::Impl {
         build(now, dirty, progress);
         dirty = Redo::Gather;
       }
+      fitField(now);
+      if (!relights()) return;
+      if (settings.effects.relight == EffectMode::on) dirty = std::min(dirty, Redo::Gather);
       if (dirty > Redo::Scatter && now.light->report.settled()) return;
       relight(now, dirty <= Redo::Scatter ? dirty : Redo::Solve, maxSweeps, progress);
     }
@@ -74,6 +139,7 @@ struct Pipeline::Impl {
   void build(Products& p, Redo first, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     ++revision.build;
+    const Settings& obeyed = planned.settings();
     const auto report = [&](const char* stage, float fraction) {
       if (progress && !progress(stage, fraction)) throw WorkError("cancelled");
     };
@@ -82,9 +148,9 @@ struct Pipeline::Impl {
     // compacted in Morton order, with the map back from voxels.
     if (first <= Redo::Voxels) {
       report("GI Voxelization", 0);
-      Voxels voxels = voxelize(context, onDevice, settings);
+      Voxels voxels = voxelize(context, onDevice, obeyed);
       report("GI CompactList", 0);
-      p.facets = compactFacets(context, voxels, settings);
+      p.facets = compactFacets(context, voxels, obeyed);
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
       p.reference = makeReference(*p.facets);
@@ -92,19 +158,31 @@ struct Pipeline::Impl {
 
     // 3. Distance to the nearest solid voxel, for every voxel.
     std::optional<Field> field;
-    if (first <= Redo::Field) {
+    if (first <= Redo::Field || planned.on(Effect::field) != static_cast<bool>(*p.field)) {
       report("GI SDF", 0);
-      field = buildField(context, *p.facets, settings);
+      field = planned.on(Effect::field) ? buildField(context, *p.facets, obeyed) : Field{obeyed.field.method};
     }
 
     // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
     report("GI BuildMatrix", 0);
     // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first.
     if (first <= Redo::Voxels) now.matrix.reset();
-    p.matrix = buildMatrix(context, *p.facets, field ? *field : *p.field, settings,
-                           [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); });
+    p.matrix = lit() ? buildMatrix(context, *p.facets, field ? *field : *p.field, obeyed,
+                                   [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); })
+                     : FormFactors{};
     if (field) p.field = std::move(field);
     if (p.light) p.light->emittedCurrent = false;  // F M of the old F
+    learn(p);
+    context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
+  }
+
+  /// Rays may come to need the field, or need it no longer, of the same voxels.
+  void fitField(Products& p) {
+    if (planned.on(Effect::field) == static_cast<bool>(*p.field)) return;
+    const auto start = std::chrono::steady_clock::now();
+    ++revision.build;
+    const Settings& obeyed = planned.settings();
+    p.field = planned.on(Effect::field) ? buildField(context, *p.facets, obeyed) : Field{obeyed.field.method};
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
@@ -124,34 +202,63 @@ struct Pipeline::Impl {
     ++revision.light;
     // A new list has no light yet: given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
-    if (!p.light) p.light = makeLighting(context, *p.facets, settings);
+    if (!lit()) return darken(p);
+    if (first <= Redo::Solve) {
+      planned.traits.light.noise.reset();
+      decide();
+    }
+    if (!p.light || !*p.light) {
+      p.light = makeLighting(context, *p.facets, planned.settings());
+      first = Redo::Gather;
+    }
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
-      gather(frame, onDevice, *shadows, *p.facets, *p.light, settings);
+      gather(frame, onDevice, *shadows, *p.facets, *p.light, planned.settings());
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
-      solve(context, *p.facets, *p.matrix, *p.light, settings, maxSweeps, {&*p.emitters, &*p.field});
+      solve(context, *p.facets, *p.matrix, *p.light, planned.settings(), maxSweeps, {&*p.emitters, &*p.field});
       solvedFrame = frameIndex;
     }
-    Frame frame = context.begin(frameIndex);
-    scatter(frame, *p.facets, *p.light, settings);
-    frame.submitAndWait();
+    scatterInto(p);
+    // Of light at rest it is known how much the blur changes; where that is nothing that shows, H is shown without.
+    learn(p);
+    const SolveReport& report = p.light->report;
+    if (report.settled() && report.blurChange && !planned.traits.light.noise) {
+      planned.traits.light.noise = report.largestH > 0 ? *report.blurChange / report.largestH : 0;
+      const bool blurred = planned.on(Effect::blur);
+      decide();
+      if (blurred && !planned.on(Effect::blur)) scatterInto(p);
+    }
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
+  }
+
+  void scatterInto(Products& p) {
+    Frame frame = context.begin(frameIndex);
+    scatter(frame, *p.facets, *p.light, planned.settings());
+    frame.submitAndWait();
+  }
+
+  /// No light, or nothing that shows it: H is 0 without being stored.
+  void darken(Products& p) {
+    p.light.emplace();
+    p.light->report.converged = true;
+    learn(p);
   }
 
   IndirectInputs indirectInputs(View view) const {
     IndirectInputs in;
-    if (!now.facets || now.facets->count == 0 || !now.light) return in;
+    if (!now.facets || now.facets->count == 0 || !now.light || !*now.light) return in;
     in.grid = &now.gridRecord;
     in.shape = &now.facets->shape;
     in.reverse = &now.facets->reverse;
     in.around = &now.facets->around;
-    in.shaded = &now.light->shaded;
-    if (view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) in.shadedEmitted = &now.light->shadedEmitted;
+    in.shaded = &now.light->shaded();
+    if ((view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) && now.light->emitted)
+      in.shadedEmitted = &now.light->shadedEmitted();
     in.volume = now.light->volume ? &now.light->volume : nullptr;
     in.normalEncoding = static_cast<uint32_t>(now.facets->encoding);
-    in.sample = settings.sample.gpu;
+    in.sample = planned.settings().sample.gpu;
     return in;
   }
 };
@@ -171,18 +278,32 @@ SceneOnDevice& Pipeline::device() {
 const Settings& Pipeline::settings() const {
   return impl_->settings;
 }
+const Settings& Pipeline::obeyed() const {
+  return impl_->planned.settings();
+}
+EffectPlan Pipeline::plan(std::optional<bool> redraw) const {
+  SceneTraits traits = impl_->planned.traits;
+  traits.light = impl_->lightState();
+  traits.redraw = redraw;
+  return irad::plan(traits, impl_->settings, &impl_->planned.plan());
+}
+const SceneTraits& Pipeline::traits() const {
+  return impl_->planned.traits;
+}
+uint64_t Pipeline::flips() const {
+  return impl_->planned.flips();
+}
 
 Redo Pipeline::set(const Settings& settings) {
-  const Redo first = difference(impl_->settings, settings);
-  if (impl_->settings.light.shadowResolution != settings.light.shadowResolution) impl_->shadowsDirty = true;
+  Impl& p = *impl_;
+  if (p.settings.light.shadowResolution != settings.light.shadowResolution) p.shadowsDirty = true;
   // F M depends on how emitters are sampled, which no other stage does.
-  const MatrixSettings &before = impl_->settings.matrix, &after = settings.matrix;
-  if (impl_->now.light &&
-      (before.emitterSampling != after.emitterSampling || before.emitterSamples != after.emitterSamples))
-    impl_->now.light->emittedCurrent = false;
-  impl_->settings = settings;
-  impl_->dirty = std::min(impl_->dirty, first);
-  return impl_->dirty;
+  const MatrixSettings &before = p.settings.matrix, &after = settings.matrix;
+  if (p.now.light && (before.emitterSampling != after.emitterSampling || before.emitterSamples != after.emitterSamples))
+    p.now.light->emittedCurrent = false;
+  p.settings = settings;
+  p.lookAtLights(p.onDevice.lightValues);
+  return p.dirty;
 }
 
 void Pipeline::setLights(std::vector<Light> lights) {
@@ -195,8 +316,9 @@ void Pipeline::setLights(std::vector<Light> lights) {
   p.onDevice.setLights(p.context, std::move(values));
   p.shadows = std::move(maps);
   p.scene.lights = std::move(lights);
-  p.shadowsDirty = false;
   p.dirty = std::min(p.dirty, Redo::Gather);
+  p.lookAtLights(p.onDevice.lightValues);
+  p.shadowsDirty = false;
   p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
 }
 
@@ -206,8 +328,9 @@ void Pipeline::lightsChanged() {
 }
 
 void Pipeline::darken() {
-  if (!impl_->now.light) return;
-  impl_->now.light = makeLighting(impl_->context, *impl_->now.facets, impl_->settings);
+  Impl& p = *impl_;
+  if (!p.now.light) return;
+  if (*p.now.light) p.now.light = makeLighting(p.context, *p.now.facets, p.planned.settings());
   impl_->dirty = std::min(impl_->dirty, Redo::Gather);
 }
 
@@ -219,6 +342,7 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
   const uint32_t sweeps = maxSweeps != 0 ? maxSweeps : p.settings.solver.maxSweeps;
   if (p.shadowsDirty) {
+    p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
     const auto start = std::chrono::steady_clock::now();
     p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution);
     p.shadowsDirty = false;
@@ -228,11 +352,14 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
 }
 
 bool Pipeline::asleep() const {
-  return current() && impl_->now.light->report.settled();
+  if (impl_->settings.effects.relight == EffectMode::on) return false;
+  return current() && (impl_->now.light->report.settled() || !impl_->relights());
 }
 
 bool Pipeline::current() const {
-  return impl_->dirty >= Redo::Shade && !impl_->shadowsDirty && impl_->now.light;
+  const Impl& p = *impl_;
+  return p.dirty >= (p.relights() ? Redo::Shade : Redo::Gather) && !p.shadowsDirty && p.now.light &&
+         p.planned.on(Effect::field) == static_cast<bool>(*p.now.field);
 }
 
 void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()>& draw) {
@@ -243,7 +370,11 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
     Impl& p;
     std::optional<Lighting> light = std::exchange(p.now.light, std::nullopt);
     uint64_t solvedFrame = p.solvedFrame;
+    Planned planned = p.planned;
+    Redo dirty = p.dirty;
     ~Before() {
+      p.planned = std::move(planned);
+      p.dirty = dirty;
       p.now.light = std::move(light);
       p.solvedFrame = solvedFrame;
     }
@@ -273,16 +404,16 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.scene = &p.onDevice;
   if (p.now.facets) inputs.facets = &*p.now.facets;
   if (p.now.field) inputs.field = &*p.now.field;
-  if (p.now.matrix) inputs.matrix = &*p.now.matrix;
-  if (p.now.light) inputs.lighting = &*p.now.light;
+  if (p.now.matrix && *p.now.matrix) inputs.matrix = &*p.now.matrix;
+  if (p.now.light && *p.now.light) inputs.lighting = &*p.now.light;
   if (p.now.emitters) inputs.emitters = &*p.now.emitters;
   if (p.now.reference) inputs.reference = &p.now.reference;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;
   inputs.fields = &p.now.fields;
   inputs.range = range;
-  traceSpecular(frame, inputs, p.camera, p.settings, targets);
-  drawView(frame, view, inputs, p.camera, p.settings, targets);
+  traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);
+  drawView(frame, view, inputs, p.camera, p.planned.settings(), targets);
 }
 
 void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels) {

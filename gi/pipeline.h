@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "gi/plan.h"
 #include "gi/stages.h"
 #include "gi/views.h"
 #include "gi/watch.h"
@@ -31,6 +32,14 @@ class Pipeline {
   const Scene& scene() const;
   SceneOnDevice& device();
   const Settings& settings() const;
+  /// The settings that the stages have: with the effect plan's decisions.
+  const Settings& obeyed() const;
+  /// Which effects run, which do not, and why, as of now. `redraw`: SceneTraits::redraw.
+  EffectPlan plan(std::optional<bool> redraw = {}) const;
+  /// What the plan was decided on.
+  const SceneTraits& traits() const;
+  /// How often an effect has gone on or off.
+  uint64_t flips() const;
   /// Takes new settings; returns the first stage that the next prepare() will redo.
   Redo set(const Settings& settings);
   /// Takes other lights, of any number, and draws their shadow maps; gather, solve and scatter follow at the next
@@ -71,6 +80,7 @@ class Pipeline {
 
   /// What was read of the products before is stale once these are larger.
   Revision revision() const;
+  // Of a scene that does not call for them field, matrix and light are none: false, without a buffer.
   const FacetList& facets() const;
   const Field& field() const;
   const FormFactors& matrix() const;  ///< after a prepare() that succeeded

@@ -1,6 +1,7 @@
 // The presets and the defaults by device class (METHOD, first paragraphs).
 #include <fmt/format.h>
 
+#include "gi/plan.h"
 #include "gi/settings.h"
 #include "renderer/error.h"
 #include "renderer/near_match.h"
@@ -30,6 +31,11 @@ void thesis(Settings& s) {
   s.specular.gpu.rays = 2;
   s.specular.gpu.traversal = TRAVERSAL_DDA;
   s.specular.gpu.filter_ = 0;
+  // Its stages run whatever the scene holds. But its lights are those that shine, light at rest is not solved again,
+  // and a voxel keeps one facet.
+  forceEffects(s, EffectMode::on);
+  s.effects.secondFacet = s.effects.relight = EffectMode::automatic;
+  s.effects.sun = s.effects.point = s.effects.spot = EffectMode::automatic;
 }
 
 void fast(Settings& s, bool cpuDevice) {

@@ -9,18 +9,16 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
   const Device& device = context.device;
   Lighting light;
   light.direct = Buffer(device, "direct irradiance D", Subsystem::Solver, bytes);
-  light.emitted = Buffer(device, "emitted share F M", Subsystem::Solver, bytes);
+  if (facets.hasEmission) light.emitted = Buffer(device, "emitted share F M", Subsystem::Solver, bytes);
   light.indirect = Buffer(device, "indirect irradiance H", Subsystem::Solver, bytes);
   light.radiosity = Buffer(device, "radiosity B (a)", Subsystem::Solver, bytes);
   light.radiosityNext = Buffer(device, "radiosity B (b)", Subsystem::Solver, bytes);
-  light.shaded = Buffer(device, "shaded H", Subsystem::Solver, bytes);
-  light.shadedEmitted = Buffer(device, "shaded F M", Subsystem::Solver, bytes);
   light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual));
   light.rowSum = Buffer(device, "row sums of F", Subsystem::Solver, 4ull * facets.count);
   Frame frame = context.begin();
   for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
-                          &light.shaded, &light.shadedEmitted, &light.residual, &light.rowSum})
-    frame.pass("GI Solve Clear").fill(*b, 0);
+                          &light.residual, &light.rowSum})
+    if (*b) frame.pass("GI Solve Clear").fill(*b, 0);
   frame.submit();
   if (settings.sample.gpu.gated == 0) addVolume(context, facets, light);
   return light;
@@ -38,30 +36,51 @@ void addVolume(Context& context, const FacetList& facets, Lighting& light) {
   light.clamped = Buffer(context.device, "clamped voxels", Subsystem::Volumes, sizeof(uint32_t));
 }
 
-void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
-  constexpr const char* kStage = "GI Scatter";
-  const SampleParams& sample = settings.sample.gpu;
-  if (sample.gated != 0 && facets.count > 0) {
-    ScatterFacetsPush push{};
-    push.facets = facets.record.address;
-    push.indirect = light.indirect.address;
-    push.emitted = light.emitted.address;
-    push.shaded = light.shaded.address;
-    push.shadedEmitted = light.shadedEmitted.address;
-    push.dims = facets.grid.dims;
-    push.blur = sample.filter_ == FILTER_BLUR;
-    frame.pass(kStage)
-        .shader("gi/scatter_facets.comp")
-        .constant(0, static_cast<uint32_t>(facets.encoding))
-        .read(facets.record, facets.voxel, facets.shape, facets.reverse, facets.around, light.indirect, light.emitted)
-        .write(light.shaded, light.shadedEmitted)
-        .push(push)
-        .dispatch(facets.count);
+namespace {
+
+constexpr const char* kStage = "GI Scatter";
+
+/// Fits the blurred copies to what is wanted of them.
+void fitBlurred(const Device& device, const FacetList& facets, Lighting& light, bool wanted) {
+  if (!wanted) {
+    for (Buffer* b : {&light.blurred, &light.blurredEmitted, &light.blurChange}) *b = Buffer();
+    return;
   }
-  if (!light.volume) return;
+  const uint64_t bytes = 16ull * facets.count;
+  if (!light.blurred) light.blurred = Buffer(device, "blurred H", Subsystem::Solver, bytes);
+  if (!light.blurChange) light.blurChange = Buffer(device, "change by the blur", Subsystem::Solver, sizeof(uint32_t));
+  if (light.emitted && !light.blurredEmitted)
+    light.blurredEmitted = Buffer(device, "blurred F M", Subsystem::Solver, bytes);
+}
+
+void blur(Frame& frame, const FacetList& facets, Lighting& light) {
+  ScatterFacetsPush push{};
+  push.facets = facets.record.address;
+  push.indirect = light.indirect.address;
+  push.emitted = light.emitted.address;
+  push.blurred = light.blurred.address;
+  push.blurredEmitted = light.blurredEmitted.address;
+  push.change = light.blurChange.address;
+  push.dims = facets.grid.dims;
+  frame.pass(kStage).fill(light.blurChange, 0);
+  Pass pass = frame.pass(kStage);
+  pass.shader("gi/scatter_facets.comp")
+      .constant(0, static_cast<uint32_t>(facets.encoding))
+      .constant(1, static_cast<bool>(light.emitted))
+      .read(facets.record, facets.voxel, facets.shape, facets.reverse, facets.around, light.indirect)
+      .write(light.blurred, light.blurChange)
+      .push(push);
+  if (light.emitted) pass.read(light.emitted).write(light.blurredEmitted);
+  pass.dispatch(facets.count);
+  frame.readback(light.blurChange, 0, sizeof(float), [&change = light.report.blurChange](std::span<const uint8_t> b) {
+    std::memcpy(&change.emplace(), b.data(), sizeof(float));
+  });
+}
+
+void scatterVolume(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
   frame.pass("GI Scatter Clear").clear(light.volume, ClearColor{});
   if (facets.count == 0) return;
-  const bool holdsRadiosity = sample.gated == 0 || settings.scatter.edgeRemoval;
+  const bool holdsRadiosity = settings.sample.gpu.gated == 0 || settings.scatter.edgeRemoval;
   const Buffer& value = holdsRadiosity ? light.radiosity : light.indirect;
   ScatterVolumePush push{};
   push.facets = facets.record.address;
@@ -80,6 +99,16 @@ void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Setti
   frame.readback(light.clamped, 0, sizeof(uint32_t), [&count = light.report.clampedVoxels](std::span<const uint8_t> b) {
     std::memcpy(&count, b.data(), sizeof(count));
   });
+}
+
+}  // namespace
+
+void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
+  const SampleParams& sample = settings.sample.gpu;
+  const bool blurs = sample.gated != 0 && sample.filter_ == FILTER_BLUR && facets.count > 0;
+  fitBlurred(frame.context().device, facets, light, blurs);
+  if (blurs) blur(frame, facets, light);
+  if (light.volume) scatterVolume(frame, facets, light, settings);
 }
 
 }  // namespace irad

@@ -29,6 +29,9 @@ enum class ViewShape : uint32_t { cubes, slice, projection, isosurface, automati
 enum class Axis : uint32_t { x, y, z, automatic };
 enum class RangeMode : uint32_t { standard, automatic, percentile, manual };
 enum class ColorMap : uint32_t { violetYellow, heat, grey };
+/// Of an effect (gi/plan.h). automatic: where the scene calls for it; on: done though it is not called for; off: not done
+/// though it is.
+enum class EffectMode : uint32_t { automatic, on, off };
 
 /// The first stage that has to run again when a setting changes; later ones follow. Ordered.
 enum class Redo : uint32_t { Voxels, Field, Matrix, Gather, Solve, Scatter, Shade, Nothing };
@@ -106,6 +109,13 @@ struct ThesisSettings {
   bool literal = false;  ///< bring back the thesis's plain slips (METHOD, first paragraph)
 };
 
+/// Overrides of the effect plan.
+struct EffectSettings {
+  EffectMode emission{}, sun{}, point{}, spot{}, matrix{}, specular{}, secondFacet{}, field{}, relight{}, alphaTest{},
+      normalMap{}, blur{};
+  float blurNoise = 2e-3f;  ///< share of the largest H that the blur may change for it to be left out
+};
+
 struct Settings {
   VoxelSettings voxel;
   FieldSettings field;
@@ -119,6 +129,7 @@ struct Settings {
   CameraSettings camera;
   ViewSettings view;
   ThesisSettings thesis;
+  EffectSettings effects;
   bool lambertian = false;  ///< scene.lambertian: all materials Lambertian (LoadOptions::lambertian)
 };
 
@@ -171,6 +182,10 @@ struct EnumNames<SolverKernel> {
   static constexpr std::array names{"auto", "tree", "subgroup", "row"};
 };
 
+template <>
+struct EnumNames<EffectMode> {
+  static constexpr std::array names{"auto", "on", "off"};
+};
 template <>
 struct EnumNames<ViewShape> {
   static constexpr std::array names{"cubes", "slice", "projection", "isosurface", "auto"};
@@ -253,6 +268,19 @@ void visit(Settings& s, F&& f) {
   f(s.view.percentile, Meta{"view.percentile", 50, 100, "%", "Upper end of the percentile range; the lower is 100 less this.", Nothing});
   f(s.view.colorMap, Meta{"view.color_map", 0, 0, "", "Colours of scalar views, even in lightness; signed views are always blue-red.", Nothing});
   f(s.thesis.literal, Meta{"thesis.literal", 0, 1, "", "Bring back the thesis's plain slips, to show what they cost.", Voxels});
+  f(s.effects.emission, Meta{"effects.emission", 0, 0, "", "Light of emissive surfaces, and themselves in the picture; auto: where a material emits.", Voxels});
+  f(s.effects.sun, Meta{"effects.sun", 0, 0, "", "Suns with their shadow maps; auto: those with an intensity.", Gather});
+  f(s.effects.point, Meta{"effects.point", 0, 0, "", "Point lights with their shadow maps; auto: those with an intensity whose range reaches the scene.", Gather});
+  f(s.effects.spot, Meta{"effects.spot", 0, 0, "", "Spot lights with their shadow maps; auto: those with an intensity whose range and cone reach the scene.", Gather});
+  f(s.effects.matrix, Meta{"effects.matrix", 0, 0, "", "Indirect light: matrix and solver; auto: where there is light, and something that reflects it.", Matrix});
+  f(s.effects.specular, Meta{"effects.specular", 0, 0, "", "Reflections; auto: where there is light, and a material that is not Lambertian.", Shade});
+  f(s.effects.secondFacet, Meta{"effects.second_facet", 0, 0, "", "Search for second facets of voxels; auto: unless it is known to find none. off: as voxel.facets=1.", Nothing});
+  f(s.effects.field, Meta{"effects.field", 0, 0, "", "Distance field kept beside the voxels; auto: where rays read it.", Shade});
+  f(s.effects.relight, Meta{"effects.relight", 0, 0, "", "Gather, solve and scatter; auto: until the error bound is below solver.tolerance; on: in every frame of the window; off: the light stays as it is.", Nothing});
+  f(s.effects.alphaTest, Meta{"effects.alpha_test", 0, 0, "", "Cut-outs by alpha; auto: where a material has one.", Voxels});
+  f(s.effects.normalMap, Meta{"effects.normal_map", 0, 0, "", "Normal maps; auto: where a material has one.", Shade});
+  f(s.effects.blur, Meta{"effects.blur", 0, 0, "", "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than effects.blur_noise.", Scatter});
+  f(s.effects.blurNoise, Meta{"effects.blur_noise", 0, 1, "", "Largest change of H, as a share of the largest, that is left to noise: below, there is no blur.", Scatter});
   f(s.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
 }
 

@@ -28,6 +28,7 @@ void judge(SolveReport& report, const SolveResidual& r, float omega, float toler
   const float q = (1 - omega) + omega * report.largestGain;
   const float reach = q < 1 ? report.residual / (1 - q) : std::numeric_limits<float>::infinity();
   report.bound = report.residual == 0 ? 0 : q * reach;
+  report.allowed = q * tolerance * report.largestH;
   // H is one product behind B: its error is bounded by |dB| / (1 - q), row sums being <= 1.
   report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
 }

@@ -33,7 +33,7 @@ void exclusiveScan(Frame& frame, const char* stage, const Buffer& values, uint32
 struct Voxels {
   Grid grid;
   Buffer gridRecord;                     ///< one Grid
-  uint32_t slots = 1;                    ///< voxel.facets
+  uint32_t slots = 1;                    ///< facets of a voxel that were looked for
   Buffer keys;                           ///< slots x voxels uints, voxelKey of shared/voxelize.h; 0 = empty
   const SceneOnDevice* scene = nullptr;  ///< of which compactFacets reads the winners' attributes
 };
@@ -67,9 +67,11 @@ struct Field {
   FieldMethod method = FieldMethod::chebyshev;
   Buffer
       chebyshev;  ///< one byte per voxel, 4 per uint, x fastest: exact Chebyshev distance to the nearest solid, 0..255
-  Image jfaDistance;             ///< R8_UNORM volume: Euclidean distance / maxDistance
-  float jfaMax = 0;              ///< voxels that 1.0 stands for
-  Image jfaSeeds;                ///< R32_UINT packVoxel of the nearest seed, the last pass
+  Image jfaDistance;  ///< R8_UNORM volume: Euclidean distance / maxDistance
+  float jfaMax = 0;   ///< voxels that 1.0 stands for
+  Image jfaSeeds;     ///< R32_UINT packVoxel of the nearest seed, the last pass
+  /// False: no field was made.
+  explicit operator bool() const { return chebyshev || jfaDistance; }
 };
 /// Builds what `settings` and the solid set (facets.reverse) call for.
 Field buildField(Context& context, const FacetList& facets, const Settings& settings);
@@ -87,6 +89,7 @@ struct MatrixStats {
   uint64_t bytesUsed = 0, bytesAllocated = 0;  ///< used: of filled entries (padded: 8 B per hit)
   uint32_t largestRow = 0;
 };
+/// Where none was built there are no rows, and no buffers.
 struct FormFactors {
   MatrixFormat format = MatrixFormat::csr;
   uint32_t rows = 0, rays = 0;
@@ -96,6 +99,7 @@ struct FormFactors {
   Buffer record;                 ///< one MatrixArrays; from kSegmentTable on, the segments' addresses
   static constexpr uint64_t kSegmentTable = 64;
   MatrixStats stats;
+  explicit operator bool() const { return static_cast<bool>(record); }
 };
 /// `progress` (0..1) may be empty; it returns false to cancel, upon which a WorkError "cancelled" is thrown.
 FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
@@ -133,6 +137,7 @@ struct SolveReport {
   uint32_t sweeps = 0;
   float residual = 0;  ///< max |dB| of the last sweep, W/m^2
   float bound = 0;     ///< rho/(1-rho) max|dB|: error bound on B, W/m^2
+  float allowed = 0;   ///< bound at which the solver sleeps, W/m^2
   float largestH = 0;
   float largestGain = 0;            ///< rho-bar: largest row gain
   uint32_t nonFinite = 0, nan = 0;  ///< components of B that are NaN or infinite; of those, NaN
@@ -145,6 +150,7 @@ struct SolveReport {
   float growth = 0;     ///< of the residual in the last sweep, as a factor, where it may grow (largestGain >= 1)
   std::optional<Defect> defect;         ///< with nonFinite or negative
   std::optional<EnergyBalance> energy;  ///< of a converged solve with solver.lambda 1
+  std::optional<float> blurChange;      ///< by scatter(), where it blurs: the most that this changes H by, W/m^2
   uint32_t clampedVoxels = 0;           ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
   /// No sweep more would change anything for the better.
   bool settled() const { return converged || diverging || nonFinite > 0; }
@@ -167,28 +173,37 @@ struct DivergenceGuard {
 };
 /// Per-facet light, fp32 vec4 (xyz, w unused): W/m^2.
 struct Lighting {
-  Buffer direct;      ///< D
-  Buffer emitted;     ///< F M: first gather from emissive facets alone (the part of H that is direct light of emitters)
+  Buffer direct;  ///< D
+  /// F M: first gather from emissive facets alone (the part of H that is direct light of emitters). None where nothing
+  /// emits.
+  Buffer emitted;
   Buffer correction;  ///< what samples of the emitters add to F M by rays; none where they are not sampled
   /// Sum of F M by samples over that by rays; 0: not sampled. Far from 1 the samples are not used (solve.cpp).
   float sampledShare = 0;
   Buffer indirect;                  ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer
-  Buffer shaded;         ///< H as shading samples it (blurred over neighbours that face the same way, or edge-removed)
-  Buffer shadedEmitted;  ///< `emitted` likewise
-  Image volume;          ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
-  Buffer residual;       ///< solver's reductions, see shared/solve.h
-  Buffer rowSum;         ///< sum_j F_ij, one float each
-  Buffer clamped;        ///< counter of the volume's clamped voxels; with the volume
+  Buffer blurred;         ///< H averaged over neighbours that face the same way; none where shading samples H itself
+  Buffer blurredEmitted;  ///< `emitted` likewise
+  Buffer blurChange;      ///< largest |blurred - H|, float bits; with `blurred`
+  Image volume;           ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
+  Buffer residual;        ///< solver's reductions, see shared/solve.h
+  Buffer rowSum;          ///< sum_j F_ij, one float each
+  Buffer clamped;         ///< counter of the volume's clamped voxels; with the volume
   SolveReport report;
   DivergenceGuard guard;
   /// solve() computes `emitted` when this is not set, and sets it; clear it when the matrix or the emission changes.
   bool emittedCurrent = false;
+  /// What shading samples, H and F M, blurred or not.
+  const Buffer& shaded() const { return blurred ? blurred : indirect; }
+  const Buffer& shadedEmitted() const { return blurred ? blurredEmitted : emitted; }
+  /// False: there is no light and nothing is stored of it; every value is 0.
+  explicit operator bool() const { return static_cast<bool>(radiosity); }
   /// Largest H while sources last shone, W/m^2: in the dark, light below 1e-6 of it is put out; reflections of less
   /// than specular.threshold of it are not traced.
   float litH = 0;
 };
-/// All zero. The volume exists when sampling is ungated; addVolume makes it otherwise (views, exports).
+/// All zero. The volume exists when sampling is ungated; addVolume makes it otherwise (views, exports). Blurred copies
+/// exist where scatter() blurs, which makes and frees them.
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
 void addVolume(Context& context, const FacetList& facets, Lighting& light);
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
@@ -202,9 +217,10 @@ struct EmitterSource {
 /// last report has something not finite). Blocking.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
                   const Settings& settings, uint32_t maxSweeps, const EmitterSource& source = {});
-/// `shaded` and `shadedEmitted`; and the volume where it exists: H, or B with ungated sampling (T 5.9), or B - lambda
-/// (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a voxel, alpha 1. `light` must stay
-/// where it is until the frame has finished: light.report.clampedVoxels is read back.
+/// `blurred` and `blurredEmitted`, with report.blurChange; and the volume where it exists: H, or B with ungated
+/// sampling (T 5.9), or B - lambda (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a
+/// voxel, alpha 1. `light` must stay where it is until the frame has finished: light.report.clampedVoxels and
+/// blurChange are read back.
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
 
 }  // namespace irad

@@ -21,9 +21,9 @@ const Buffer& ViewFields::grid(Frame& frame, const FacetList& facets) {
 }
 
 ViewFields::Bytes ViewFields::bytes(Frame& frame, const FacetList& facets, const Field* inUse, FieldMethod method) {
-  const bool have = inUse != nullptr && inUse->method == method;
+  const bool have = inUse != nullptr && *inUse && inUse->method == method;
   if (method == FieldMethod::chebyshev) {
-    if (have && inUse->chebyshev) return {inUse->chebyshev, 1.0f};
+    if (have) return {inUse->chebyshev, 1.0f};
     if (!chebyshev_)
       chebyshev_ = recordField(frame, kStage, facets, grid(frame, facets), FieldMethod::chebyshev).chebyshev;
     return {chebyshev_, 1.0f};

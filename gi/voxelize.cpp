@@ -72,7 +72,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
                                  triangles, MAX_TRIANGLES));
   Voxels voxels;
   voxels.scene = &scene;
-  voxels.slots = settings.voxel.facets;
+  voxels.slots = settings.effects.secondFacet == EffectMode::off ? 1 : settings.voxel.facets;
   const auto grid = settings.thesis.literal ? makeLiteralGrid : makeGrid;
   voxels.grid = grid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
   voxels.gridRecord = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&voxels.grid, 1));
@@ -82,7 +82,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   push.scene = scene.record.address;
   push.grid = voxels.gridRecord.address;
   push.keys = voxels.keys.address;
-  push.slots = voxels.slots;
+  push.slots = settings.voxel.facets;
   std::vector<Range> ranges = triangles > 0 ? triangleRanges(scene) : std::vector<Range>{};
   const bool raster = settings.voxel.method == VoxelMethod::raster;
   Buffer tileStarts;

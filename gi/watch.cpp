@@ -41,7 +41,7 @@ std::optional<Defect> findDefect(Context& context, const FacetList& facets, cons
       {"GI Solve", "radiosity", light.radiosity, 4, 3},
   };
   for (const Product& p : products) {
-    if (&p.values == &facets.emission && !facets.hasEmission) continue;
+    if ((&p.values == &facets.emission || &p.values == &light.emitted) && !facets.hasEmission) continue;
     const auto values = downloadAs<float>(context, p.values);
     for (uint32_t i = 0; i < facets.count; ++i)
       if (const auto wrong = whatIsWrong(std::span(values).subspan(i * p.stride, p.count)))

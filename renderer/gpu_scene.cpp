@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "renderer/error.h"
+#include "renderer/scene/texel_range.h"
 
 namespace irad {
 namespace {
@@ -81,18 +82,10 @@ GpuLight toGpu(const Light& light, const glm::dvec3& origin) {
   return gpu;
 }
 
-/// Largest texel per channel: what an emissive factor can be multiplied by at most.
-glm::vec3 largestTexel(const SceneImage& image) {
-  glm::uvec3 largest(0);
-  for (size_t i = 0; i + 3 < image.rgba.size(); i += 4)
-    for (int c = 0; c < 3; ++c) largest[c] = std::max<uint32_t>(largest[c], image.rgba[i + c]);
-  return glm::vec3(largest) / 255.0f;
-}
-
-bool emits(const Scene& scene, const Material& m) {
-  glm::vec3 most = m.emission;
-  if (m.emissiveTexture.image >= 0 && std::max({most.x, most.y, most.z}) > 0.0f)
-    most *= largestTexel(scene.images.at(m.emissiveTexture.image));
+bool emits(const Scene& scene, uint32_t material, const glm::vec3& factor) {
+  const int image = scene.materials.at(material).emissiveTexture.image;
+  const glm::vec3 most =
+      factor == glm::vec3(0) || image < 0 ? factor : factor * glm::vec3(texelRange(scene.images.at(image)).most);
   return std::max({most.x, most.y, most.z}) > 0.0f;
 }
 
@@ -141,13 +134,26 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
     }
   }
   materialSets = MaterialSets(context, bound);
-  for (const Draw& draw : scene.draws) {
-    anyEmission = anyEmission || emits(scene, scene.materials.at(draw.material));
-    anyAlphaMask = anyAlphaMask || (materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
-  }
+  surveyMaterials();
 
   // Lights, and the record that every geometry pass gets the address of.
   setLights(context, gpuLights(scene.lights, scene.origin));
+}
+
+void SceneOnDevice::surveyMaterials() {
+  anyEmission = anyAlphaMask = false;
+  for (const Draw& draw : scene.draws) {
+    const GpuMaterial& m = materialValues.at(draw.material);
+    anyEmission = anyEmission || emits(scene, draw.material, m.emission);
+    anyAlphaMask = anyAlphaMask || (m.flags & MATERIAL_ALPHA_MASK) != 0;
+  }
+}
+
+void SceneOnDevice::setMaterials(Context& context, std::vector<GpuMaterial> values) {
+  IRAD_CHECK_OP(values.size(), ==, materialValues.size());
+  upload(context, materials, std::as_bytes(std::span<const GpuMaterial>(values)));
+  materialValues = std::move(values);
+  surveyMaterials();
 }
 
 void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values) {

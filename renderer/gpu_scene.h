@@ -23,8 +23,13 @@ class SceneOnDevice {
   bool anyEmission = false;  ///< a factor and a texel of its texture (a texture's maximum counts) are > 0
   bool anyAlphaMask = false;
 
+  /// Takes other values of the same materials, such as some without their emission.
+  void setMaterials(Context& context, std::vector<GpuMaterial> values);
   /// Takes other lights, of any number: `lightValues`, `lights` and `record`. The old ones stay when it throws.
   void setLights(Context& context, std::vector<GpuLight> values);
+
+ private:
+  void surveyMaterials();
 };
 
 /// Lights as passes read them; without shadow maps, which drawShadows gives them.

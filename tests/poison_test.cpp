@@ -30,7 +30,7 @@ std::vector<std::vector<uint32_t>> results(Context& context, const Settings& set
   const Lighting& light = pipeline.lighting();
   const FacetList& facets = pipeline.facets();
   for (const Buffer* b : {&facets.voxel, &facets.shape, &facets.reverse, &light.direct, &light.indirect,
-                          &light.radiosity, &light.emitted, &light.shaded, &light.rowSum})
+                          &light.radiosity, &light.emitted, &light.shaded(), &light.rowSum})
     out.push_back(downloadAs<uint32_t>(context, *b));
   Targets targets(context, {48, 40});
   for (const ViewInfo& view : views()) {

@@ -73,8 +73,8 @@ struct Lit {
     in.shape = &facets.shape;
     in.reverse = &facets.reverse;
     in.around = &facets.around;
-    in.shaded = &light.shaded;
-    in.shadedEmitted = &light.shadedEmitted;
+    in.shaded = &light.shaded();
+    in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume : nullptr;
     in.normalEncoding = static_cast<uint32_t>(facets.encoding);
     in.sample = stage.settings.sample.gpu;
@@ -242,7 +242,7 @@ TEST_F(Views, RimsOfThinSlabsAreLit) {
   Settings settings = smallSettings();
   Lit lit(context(), b.finish(), settings);
   const std::vector<glm::vec4> h(lit.facets.count, glm::vec4(1));
-  upload(context(), lit.light.shaded, std::as_bytes(std::span(h)));
+  upload(context(), lit.light.shaded(), std::as_bytes(std::span(h)));
   uint32_t rim = 0;
   for (const glm::vec4& c : lit.draw(VIEW_IRRADIANCE, {640, 640}).linear) {
     if (c.w == 0) continue;

@@ -200,8 +200,7 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .clampedAlbedo = facets.clampedAlbedo,
                      .edge = facets.grid.edge,
                      .solve = report,
-                     .findings = pipeline.findings(),
-                     .tolerance = pipeline.settings().solver.tolerance};
+                     .findings = pipeline.findings()};
   side.solves.push_back({report.sweeps, report.residual, report.bound});
   if (side.solves.size() > 400) side.solves.pop_front();
   side.sweepsSinceWake += report.sweeps;

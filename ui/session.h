@@ -47,7 +47,6 @@ struct Built {
   double edge = 0;  ///< of a voxel
   SolveReport solve;
   std::vector<Finding> findings;  ///< of the numerical watch, errors first
-  float tolerance = 0;            ///< share of the largest H at which it sleeps
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 

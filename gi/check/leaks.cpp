@@ -101,7 +101,7 @@ void blurWallCase(CheckRun& run) {
     const auto pipeline = run.prepare(rowOfRooms(thickness));
     const HostFacets facets = run.facets(*pipeline);
     const double lit = bothSides(thickness, facets, run.read(*pipeline, pipeline->lighting().indirect)).lit;
-    const Sides shaded = bothSides(thickness, facets, run.read(*pipeline, pipeline->lighting().shaded));
+    const Sides shaded = bothSides(thickness, facets, run.read(*pipeline, pipeline->lighting().shaded()));
     double pixel = 0;
     for (const Camera& camera : pipeline->scene().cameras)
       for (const glm::vec4& p : run.picture(*pipeline, camera, VIEW_IRRADIANCE, {96, 96}).pixels)

@@ -19,12 +19,6 @@ double strainOf(double deviation, double allowed) {
   return allowed > 0 ? deviation / allowed : std::numeric_limits<double>::infinity();
 }
 
-std::vector<glm::vec3> firstThree(const std::vector<glm::vec4>& values, size_t count) {
-  std::vector<glm::vec3> out(values.begin(), values.end());
-  out.resize(count);  // an empty list still has 16 bytes
-  return out;
-}
-
 uint64_t nonFinite(float x) {
   return std::isfinite(x) ? 0 : 1;
 }
@@ -70,13 +64,16 @@ void CheckRun::info(std::string name, double value) {
 }
 
 std::unique_ptr<Pipeline> CheckRun::prepare(Scene scene, const Settings& chosen) const {
-  auto pipeline = std::make_unique<Pipeline>(context, std::move(scene), chosen);
+  // Cases read the matrix and the light itself, and put light of their own in: they are there whatever the scene has.
+  Settings whole = chosen;
+  whole.effects.matrix = whole.effects.field = EffectMode::on;
+  auto pipeline = std::make_unique<Pipeline>(context, std::move(scene), whole);
   pipeline->prepare();
   return pipeline;
 }
 
 std::vector<glm::vec3> CheckRun::read(const Pipeline& pipeline, const Buffer& perFacet) const {
-  return firstThree(downloadAs<glm::vec4>(context, perFacet), pipeline.facets().count);
+  return irad::perFacet(context, pipeline.facets(), perFacet);
 }
 
 void CheckRun::setAlbedo(Pipeline& pipeline, const std::vector<glm::vec3>& albedo) const {

@@ -8,6 +8,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
+layout(constant_id = 1) const bool EMITTED = true;  ///< F M too
 layout(push_constant, scalar) uniform Push { ScatterFacetsPush p; };
 
 const float FACING = 0.5f;  // least cosine between the normals
@@ -17,46 +18,48 @@ void main() {
   uint facet = irad_index();
   FacetArrays f = p.facets.at[0];
   if (facet >= f.count) return;
-  vec3 h = p.indirect.at[facet].xyz;
-  vec3 e = p.emitted.at[facet].xyz;
-  if (p.blur != 0u) {
-    FacetMap map = FacetMap(f.shape, f.reverse, f.around, p.dims, NORMALS);
-    uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
-    uint shape = f.shape.at[facet];
-    vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
-    float offset = facetOffset(shape);
-    uint own = facetEntry(map, ivec3(voxel));
-    vec3 sumH = vec3(0.0f), sumE = vec3(0.0f);
-    float total = 0.0f;
-    for (int i = 0; i < 27; ++i) {
-      ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
-      uint entry = facetEntry(map, ivec3(voxel) + step_);
-      if (entry == NO_FACET) continue;
-      float tent = (step_.x == 0 ? 2.0f : 1.0f) * (step_.y == 0 ? 2.0f : 1.0f) * (step_.z == 0 ? 2.0f : 1.0f);
-      uint first = entry & ~SECOND_FACET;
-      uint last = entry >= SECOND_FACET ? first + 1u : first;
-      for (uint other = first; other <= last; ++other) {
-        uint otherShape = f.shape.at[other];
-        vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
-        // Both ways: the other's plane point from the own plane, and the own point from the other plane.
-        float away = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape)) - offset;
-        float back = dot(otherNormal, normal * offset - vec3(step_)) - facetOffset(otherShape);
-        float facing = dot(normal, otherNormal);
-        if (facing <= FACING || max(abs(away), abs(back)) >= LEVEL) continue;
-        if (other != facet &&
-            (hiddenByWall(map, own, facet, normal, vec3(step_) + otherNormal * facetOffset(otherShape)) ||
-             hiddenByWall(map, entry, other, otherNormal, normal * offset - vec3(step_))))
-          continue;
-        sumH += tent * p.indirect.at[other].xyz;
-        sumE += tent * p.emitted.at[other].xyz;
-        total += tent;
-      }
-    }
-    if (total > 0.0f) {  // the facet itself always agrees; 0 only with a normal that is not a number
-      h = sumH / total;
-      e = sumE / total;
+  vec3 unblurred = p.indirect.at[facet].xyz;
+  vec3 h = unblurred;
+  vec3 e = EMITTED ? p.emitted.at[facet].xyz : vec3(0.0f);
+  FacetMap map = FacetMap(f.shape, f.reverse, f.around, p.dims, NORMALS);
+  uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
+  uint shape = f.shape.at[facet];
+  vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
+  float offset = facetOffset(shape);
+  uint own = facetEntry(map, ivec3(voxel));
+  vec3 sumH = vec3(0.0f), sumE = vec3(0.0f);
+  float total = 0.0f;
+  for (int i = 0; i < 27; ++i) {
+    ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+    uint entry = facetEntry(map, ivec3(voxel) + step_);
+    if (entry == NO_FACET) continue;
+    float tent = (step_.x == 0 ? 2.0f : 1.0f) * (step_.y == 0 ? 2.0f : 1.0f) * (step_.z == 0 ? 2.0f : 1.0f);
+    uint first = entry & ~SECOND_FACET;
+    uint last = entry >= SECOND_FACET ? first + 1u : first;
+    for (uint other = first; other <= last; ++other) {
+      uint otherShape = f.shape.at[other];
+      vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
+      // Both ways: the other's plane point from the own plane, and the own point from the other plane.
+      float away = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape)) - offset;
+      float back = dot(otherNormal, normal * offset - vec3(step_)) - facetOffset(otherShape);
+      float facing = dot(normal, otherNormal);
+      if (facing <= FACING || max(abs(away), abs(back)) >= LEVEL) continue;
+      if (other != facet &&
+          (hiddenByWall(map, own, facet, normal, vec3(step_) + otherNormal * facetOffset(otherShape)) ||
+           hiddenByWall(map, entry, other, otherNormal, normal * offset - vec3(step_))))
+        continue;
+      sumH += tent * p.indirect.at[other].xyz;
+      if (EMITTED) sumE += tent * p.emitted.at[other].xyz;
+      total += tent;
     }
   }
-  p.shaded.at[facet] = vec4(h, 0.0f);
-  p.shadedEmitted.at[facet] = vec4(e, 0.0f);
+  if (total > 0.0f) {  // the facet itself always agrees; 0 only with a normal that is not a number
+    h = sumH / total;
+    e = sumE / total;
+  }
+  p.blurred.at[facet] = vec4(h, 0.0f);
+  if (EMITTED) p.blurredEmitted.at[facet] = vec4(e, 0.0f);
+  vec3 change = abs(h - unblurred);
+  uint bits = floatBitsToUint(max(change.r, max(change.g, change.b)));
+  if (bits > p.change.at[0]) atomicMax(p.change.at[0], bits);
 }

@@ -90,13 +90,14 @@ struct SampleEmittersPush {
 /// one's nose weighs too much.
 IRAD_CONST float EMITTERS_NEAR = 4.0f;
 
-/// gi/scatter_facets.comp: H (and F M) as shading samples them.
+/// gi/scatter_facets.comp: H (and F M) blurred, as shading samples them.
 struct ScatterFacetsPush {
   FacetRecord facets;
   Vec4Array indirect, emitted;
-  Vec4Array shaded, shadedEmitted;
+  Vec4Array blurred, blurredEmitted;
+  UintArray change;  ///< [0]: float bits of the largest |blurred - H|, W/m^2
   uvec3 dims;
-  uint blur;
+  uint pad;
 };
 
 /// gi/scatter_volume.comp (T 5.9): one facet per solid voxel into the sampled volume.

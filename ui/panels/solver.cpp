@@ -14,14 +14,6 @@
 namespace irad {
 namespace {
 
-/// The error bound at which the solver sleeps, W/m^2: where H is known to solver.tolerance of its largest value
-/// (gi/solve.cpp).
-double sleepingBound(const Built& built) {
-  const SolveReport& r = built.solve;
-  const double contraction = 1 - r.omega + r.omega * r.largestGain;
-  return contraction * built.tolerance * r.largestH;
-}
-
 class SolverPanel : public Panel {
  public:
   const char* title() const override { return "Solver"; }
@@ -42,7 +34,7 @@ class SolverPanel : public Panel {
     helpTooltip("Largest change of B in the last sweep");
     valueRow("error bound", shortNumber(report.bound) + " W/m\u00B2");
     helpTooltip("On B: \u03C1/(1\u2212\u03C1) times the residual, \u03C1 the largest row gain");
-    valueRow("sleeps below", shortNumber(sleepingBound(*session.built)) + " W/m\u00B2");
+    valueRow("sleeps below", shortNumber(session.built->solve.allowed) + " W/m\u00B2");
     helpTooltip("The bound at which H is known to solver.tolerance of its largest value");
     valueRow("row gain \u03C1", shortNumber(report.largestGain));
     helpTooltip("The largest share of its light that a facet's row passes on: below 1 the solver converges");
@@ -98,7 +90,7 @@ class SolverPanel : public Panel {
       residual_.push_back(s.residual);
       bound_.push_back(s.bound);
     }
-    target_ = sleepingBound(*session.built);
+    target_ = session.built->solve.allowed;
   }
 
   std::string sweepsText(const Session& session) const {

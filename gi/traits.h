@@ -1,0 +1,75 @@
+// What a scene has that decides which effects it calls for (gi/plan.h), as plain numbers: measured on the CPU when it
+// is loaded, kept current under edits of its lights, and added to by what the pipeline learns of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gi/settings.h"
+#include "renderer/scene/scene.h"
+#include "shaders/shared/scene_gpu.h"
+
+namespace irad {
+
+/// Of a material, over all that its textures hold: upper bounds where nothing else is said.
+struct MaterialTraits {
+  uint32_t triangles = 0;    ///< that have it
+  float emission = 0;        ///< emitted radiance, luminance, W/(m^2 sr); > 0 where any channel of any texel is
+  float albedo = 0;          ///< of the largest channel
+  float f0 = 0;              ///< specular reflectance at normal incidence; 0: Lambertian
+  float leastRoughness = 1;  ///< lower bound
+  float roughness = 1;
+  bool alphaTest = false, normalMap = false;
+};
+
+struct LightTraits {
+  LightType type = LightType::Sun;
+  bool shines = false;   ///< intensity > 0
+  bool reaches = false;  ///< a point of the scene's bounds; conservative
+  bool cube = false;     ///< six shadow maps instead of one (lightUsesCube)
+  bool lights() const { return shines && reaches; }
+};
+
+/// Of the voxels and their matrix, once they are built.
+struct BuildTraits {
+  uint64_t voxels = 0;
+  uint32_t facets = 0, solidVoxels = 0;
+  uint32_t emitters = 0;   ///< facets that emit
+  float sampledShare = 0;  ///< Lighting::sampledShare
+  bool sampled = false;    ///< the emitters' light is by samples
+  bool matrix = false;     ///< there is one
+  double escaped = 0;      ///< share of its rays that left the grid
+};
+
+/// Of the light as it is.
+struct LightState {
+  Redo due = Redo::Voxels;  ///< first stage that has to run again
+  bool settled = false;     ///< the solver has nothing left to do
+  float bound = 0;          ///< error bound on B, W/m^2
+  float tolerance = 0;      ///< bound at which the solver sleeps, W/m^2
+  /// Largest change that the blur makes to H, as a share of the largest H; none before it was taken of this light.
+  std::optional<float> noise;
+};
+
+struct SceneTraits {
+  std::vector<MaterialTraits> materials;
+  std::vector<LightTraits> lights;
+  uint32_t triangles = 0;
+  /// All faces look one way, within half the angle at which a voxel keeps a second one, and none shows its back.
+  bool facesOneWay = false;
+
+  std::optional<BuildTraits> build;
+  LightState light;
+  uint64_t pixels = 0;           ///< of the picture that was drawn last
+  std::optional<bool> redraw{};  ///< the window has to draw its picture again; none: pictures are drawn on request
+};
+
+/// Reads every texel of the images that decide something, once each. `resolution`: voxels along the longest axis.
+SceneTraits measure(const Scene& scene, uint32_t resolution);
+
+/// `light` is in the scene's local space. A facet's points may lie a voxel outside of the scene's bounds: two are
+/// allowed for.
+LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution);
+
+}  // namespace irad
