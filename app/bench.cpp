@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 
 #include "renderer/error.h"
 #include "shaders/shared/bench.h"
@@ -75,6 +76,20 @@ void Bench::cameraFrame() {
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
   context_.timings.endFrame(frame_++, /*setup=*/false, wall.count());
   collect(WorkKind::Camera);
+}
+
+std::vector<glm::vec4> Bench::picture() {
+  std::vector<glm::vec4> pixels;
+  pipeline_.solvedAfresh({}, [&] {
+    Frame frame = context_.beginUntimed();
+    pipeline_.render(frame, camera_, view_, targets_);
+    frame.submitAndWait();
+    const std::vector<std::byte> bytes = download(context_, targets_.linear);
+    pixels.resize(bytes.size() / sizeof(glm::vec4));
+    std::memcpy(pixels.data(), bytes.data(), bytes.size());
+  });
+  context_.timings.reset();
+  return pixels;
 }
 
 void Bench::forget() {

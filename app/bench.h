@@ -19,12 +19,15 @@ class Bench {
   void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
   void cameraFrame();  ///< one picture, nothing else dirty
   void forget();       ///< drops the samples so far: the warm-up
+  /// Radiance of the picture that a solve from the dark gives, bottom row last.
+  std::vector<glm::vec4> picture();
 
   /// Per kind and stage; the stage "wall" is all of a call, on the CPU's clock.
   std::vector<StageSamples> samples() const;
   /// A group per call and kind of work.
   const std::deque<FrameSample>& frames() const { return frames_; }
   const Pipeline& pipeline() const { return pipeline_; }
+  Pipeline& pipeline() { return pipeline_; }
   /// Rays of the build over the median build time; 0 when not measured.
   double megaRaysPerSecond() const;
   /// Bytes that one Jacobi sweep has to move: every matrix entry (csr 4 B, padded 8 B) and the fp32 vec4 of B that it

@@ -108,8 +108,14 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
+  // What is exported is asked for, whether or not a picture calls for it.
+  for (EffectMode* asked : {&session.settings.effects.matrix, &session.settings.effects.field})
+    if (*asked == EffectMode::automatic) *asked = EffectMode::on;
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
   session.prepare(pipeline);
+  if (arguments.matrix && !pipeline.matrix()) throw UsageError("--matrix: effects.matrix = off, there is no matrix");
+  if (std::ranges::find(volumes, Volume::distance) != volumes.end() && !pipeline.field())
+    throw UsageError("--volume distance: effects.field = off, there is no distance field");
   session.checkNumbers(pipeline);  // before anything is written: whoever reads an array does not look at it
   std::optional<Inspector> inspector;
   if (inspected) inspector.emplace(*session.context, pipeline).requireFacets(*inspected);

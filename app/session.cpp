@@ -59,7 +59,8 @@ Manifest Session::manifest(std::string subcommand, const Pipeline& pipeline) con
           .device = &device->info,
           .scene = &pipeline.scene(),
           .settings = &settings,
-          .cpuDevice = device->isCpu};
+          .cpuDevice = device->isCpu,
+          .details = {{"effects", planJson(pipeline.plan())}}};
 }
 
 void Session::checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors) {

@@ -392,6 +392,7 @@ std::vector<Finding> Pipeline::findings() const {
 
 void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range) {
   Impl& p = *impl_;
+  p.planned.traits.pixels = uint64_t{targets.size.x} * targets.size.y;
   const GpuCamera gpu = makeGpuCamera(p.scene, camera, targets.size);
   frame.pass("Camera").update(p.camera, gpu);
 

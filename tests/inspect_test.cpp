@@ -73,6 +73,7 @@ TEST_F(Inspect, ColumnsAreTheTransposeOfRows) {
   for (const MatrixFormat format : {MatrixFormat::csr, MatrixFormat::padded}) {
     Settings settings = at(16, 48);
     settings.matrix.format = format;
+    settings.effects.matrix = EffectMode::on;  // though there is no light
     open(furnishedRoom(), settings);
     const uint32_t facet = some();
     std::map<uint32_t, uint32_t> gathered;  // by row

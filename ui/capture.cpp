@@ -31,6 +31,7 @@ std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen
                     .shaders = context.shaders.modified()};
   Targets targets(context, session.targets.size);
   pipeline.solvedAfresh(progress, [&] {
+    manifest.details.emplace_back("effects", planJson(pipeline.plan()));
     for (const ViewInfo& view : chosen) {
       const float done = static_cast<float>(manifest.views.size()) / static_cast<float>(chosen.size());
       if (!progress(view.label, done)) throw WorkError("cancelled");
