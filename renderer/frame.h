@@ -40,6 +40,8 @@ class Context {
   /// occlusion, emissive), visible to all stages.
   VkDescriptorSetLayout materialLayout() const;
   Frame begin(uint64_t frameIndex = 0);
+  /// What was asked of the device so far.
+  Counters counters() const { return device.counters.now(); }
   Frame beginUntimed();  ///< whose passes get no row in the timing table: transfers, tests
   /// Delivers what finished frames owe, readbacks and times, in order; finish() waits for those in flight first.
   void collect();

@@ -270,6 +270,7 @@ std::unique_ptr<GpuPipeline> PipelineCache::build(const std::vector<std::string>
     throw;
   }
   destroyModules();
+  ++device_.counters.pipelines;
   device_.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline->handle), pipeline->name);
   return pipeline;
 }
