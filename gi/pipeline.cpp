@@ -140,6 +140,24 @@ struct Pipeline::Impl {
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
   }
 
+  ShadowNeeds shadowNeeds() const { return {.alphaTest = onDevice.anyAlphaMask}; }
+
+  /// Materials and lights that the scene has, and reflections where they are traced.
+  ForwardEffects forwardEffects() const {
+    ForwardEffects e;
+    e.lights = kindsOf(onDevice.shining);
+    e.emission = onDevice.anyEmission;
+    e.alphaTest = onDevice.anyAlphaMask;
+    e.normalMap = e.highlights = false;
+    for (const Draw& draw : scene.draws) {
+      const uint32_t flags = onDevice.materialValues.at(draw.material).flags;
+      e.normalMap |= (flags & MATERIAL_NORMAL_TEXTURE) != 0;
+      e.highlights |= (flags & MATERIAL_LAMBERTIAN) == 0;
+    }
+    e.specular = e.highlights && settings.specular.mode != SpecularMode::off;
+    return e;
+  }
+
   IndirectInputs indirectInputs(View view) const {
     IndirectInputs in;
     if (!now.facets || now.facets->count == 0 || !now.light) return in;
@@ -191,8 +209,8 @@ void Pipeline::setLights(std::vector<Light> lights) {
     if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
   std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
   const auto start = std::chrono::steady_clock::now();
-  ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution);
-  p.onDevice.setLights(p.context, std::move(values));
+  ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
+  p.onDevice.setLights(p.context, std::move(values), p.shadowNeeds().shines);
   p.shadows = std::move(maps);
   p.scene.lights = std::move(lights);
   p.shadowsDirty = false;
@@ -220,7 +238,7 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   const uint32_t sweeps = maxSweeps != 0 ? maxSweeps : p.settings.solver.maxSweeps;
   if (p.shadowsDirty) {
     const auto start = std::chrono::steady_clock::now();
-    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution);
+    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution, p.shadowNeeds());
     p.shadowsDirty = false;
     p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
   }
@@ -267,7 +285,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   ShadeParams shade = p.settings.camera.gpu;
   shade.exposure = std::exp2(p.settings.camera.exposureEv);
   const IndirectInputs indirect = p.indirectInputs(view);
-  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets);
+  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, p.forwardEffects());
 
   ViewInputs inputs;
   inputs.scene = &p.onDevice;
