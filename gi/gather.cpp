@@ -16,13 +16,14 @@ void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows,
   push.samples = settings.gather.samples;
   push.shadowBias = settings.camera.gpu.shadowBias;
   push.pcf = settings.camera.gpu.pcf;
-  frame.pass("GI Gather")
-      .shader("gi/gather.comp")
-      .constant(0, static_cast<uint32_t>(facets.encoding))
-      .read(scene.record, scene.lights, facets.record, facets.voxel, facets.shape)
+  Pass pass = frame.pass("GI Gather");
+  pass.shader("gi/gather.comp");
+  specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
+  pass.constant(0, static_cast<uint32_t>(facets.encoding))
+      .read(scene.record, scene.shiningLights, facets.record, facets.voxel, facets.shape)
       .write(light.direct)
-      .sample(shadows.flat, shadows.sampler)
-      .sample(shadows.cubes, shadows.sampler)
+      .sampleDepth(shadows.flat, shadows.sampler, /*cube*/ false)
+      .sampleDepth(shadows.cubes, shadows.sampler, /*cube*/ true)
       .push(push)
       .dispatch(facets.count);
 }

@@ -246,6 +246,25 @@ struct Pipeline::Impl {
     learn(p);
   }
 
+  // ---- Pictures ----
+
+  ShadowNeeds shadowNeeds() const {
+    return {.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); },
+            .alphaTest = planned.on(Effect::alphaTest)};
+  }
+
+  ForwardEffects forwardEffects() const {
+    ForwardEffects e;
+    e.lights = {.sun = planned.on(Effect::sun), .spot = planned.on(Effect::spot), .point = planned.on(Effect::point)};
+    e.emission = planned.on(Effect::emission);
+    e.alphaTest = planned.on(Effect::alphaTest);
+    e.normalMap = planned.on(Effect::normalMap);
+    e.specular = planned.on(Effect::specular);
+    const auto& materials = planned.traits.materials;
+    e.highlights = std::ranges::any_of(materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });
+    return e;
+  }
+
   IndirectInputs indirectInputs(View view) const {
     IndirectInputs in;
     if (!now.facets || now.facets->count == 0 || !now.light || !*now.light) return in;
@@ -312,8 +331,8 @@ void Pipeline::setLights(std::vector<Light> lights) {
     if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
   std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
   const auto start = std::chrono::steady_clock::now();
-  ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution);
-  p.onDevice.setLights(p.context, std::move(values));
+  ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
+  p.onDevice.setLights(p.context, std::move(values), p.shadowNeeds().shines);
   p.shadows = std::move(maps);
   p.scene.lights = std::move(lights);
   p.dirty = std::min(p.dirty, Redo::Gather);
@@ -344,7 +363,7 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   if (p.shadowsDirty) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
     const auto start = std::chrono::steady_clock::now();
-    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution);
+    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution, p.shadowNeeds());
     p.shadowsDirty = false;
     p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
   }
@@ -399,7 +418,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   ShadeParams shade = p.settings.camera.gpu;
   shade.exposure = std::exp2(p.settings.camera.exposureEv);
   const IndirectInputs indirect = p.indirectInputs(view);
-  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets);
+  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, p.forwardEffects());
 
   ViewInputs inputs;
   inputs.scene = &p.onDevice;

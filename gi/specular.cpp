@@ -34,11 +34,15 @@ float leastReflected(float threshold, float largestH) {
 
 void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                    Targets& targets) {
-  const bool possible = inputs.facets != nullptr && inputs.field != nullptr && inputs.lighting != nullptr;
-  if (settings.specular.mode == SpecularMode::off || !possible) {
-    frame.pass("RE Specular").clear(targets.specular, ClearColor{});
-    return;
-  }
+  const bool traces = settings.specular.mode != SpecularMode::off && targets.f0 && targets.indirect &&
+                      inputs.facets != nullptr && inputs.field != nullptr && inputs.lighting != nullptr;
+  const bool lists = traces && settings.specular.mode == SpecularMode::compute;
+  targets.fit(frame.context(), &Targets::specular, traces);
+  if (lists != static_cast<bool>(targets.glossy))
+    targets.glossy = lists ? Buffer(frame.context().device, "glossy pixels", Subsystem::Targets,
+                                    4ull * (GLOSSY_FIRST + targets.size.x * targets.size.y))
+                           : Buffer();
+  if (!traces) return;
   const FacetList& facets = *inputs.facets;
   const Field& field = *inputs.field;
   const Lighting& lighting = *inputs.lighting;

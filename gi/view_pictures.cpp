@@ -28,12 +28,13 @@ void drawShadowView(Frame& frame, View view, const ViewInputs& inputs, const Buf
   Pass pass = frame.pass("View");
   pass.shader(view == VIEW_SHADOW ? "view/shadow.comp" : "view/shadow_map.comp").read(camera, inputs.scene->lights);
   if (view == VIEW_SHADOW)
-    pass.sample(inputs.shadows->flat, inputs.shadows->sampler)
-        .sample(inputs.shadows->cubes, inputs.shadows->sampler)
+    pass.sampleDepth(inputs.shadows->flat, inputs.shadows->sampler, /*cube*/ false)
+        .sampleDepth(inputs.shadows->cubes, inputs.shadows->sampler, /*cube*/ true)
         .sample(targets.depth, point)
         .read(targets.geometric);
   else
-    pass.sample(inputs.shadows->flat, point).sample(inputs.shadows->cubes, point);
+    pass.sampleDepth(inputs.shadows->flat, point, /*cube*/ false)
+        .sampleDepth(inputs.shadows->cubes, point, /*cube*/ true);
   pass.write(targets.linear).push(push).run([&](Commands& commands) { groups(commands, targets); });
 }
 

@@ -1,6 +1,7 @@
 // The range of a view's values, and the display picture that it leads to. Reductions are of integers: the same picture
 // gives the same range, bit for bit.
 #include "gi/view_passes.h"
+#include "shaders/shared/passes.h"
 #include "shaders/shared/view.h"
 
 namespace irad {
@@ -49,7 +50,8 @@ void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, gl
   push.surroundings = resolveShape(info.view, settings.view.shape) == SHAPE_SLICE ? 1 : 0;
   frame.pass("View")
       .shader("view/finish.comp")
-      .read(targets.viewRange, targets.linear, targets.albedo, targets.direct, targets.indirect)
+      .constant(0, (targets.present() & TARGET_INDIRECT) != 0)
+      .read(targets.viewRange, targets.linear, targets.albedo, targets.direct, targets.bound(&Targets::indirect))
       .write(targets.display)
       .push(push)
       .run([&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });

@@ -94,10 +94,11 @@ void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& 
   frame.pass("View")
       .shader("view/debug_view.comp")
       .constant(0, view)
+      .constant(1, targets.present())
       .read(camera)
       .sample(targets.depth, pointSampler(frame.context().device))
-      .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.highlight, targets.indirect,
-            targets.emitted, targets.specular)
+      .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.bound(&Targets::highlight),
+            targets.bound(&Targets::indirect), targets.bound(&Targets::emitted), targets.bound(&Targets::specular))
       .write(targets.linear, targets.display)
       .push(push)
       .run([&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });

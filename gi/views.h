@@ -76,7 +76,8 @@ void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings
 Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
 
 /// "RE Specular" in compute over the G-buffer (METHOD section 8): traces settings.specular.rays rays per pixel in the
-/// GGX lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Writes targets.specular.
+/// GGX lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Makes and writes
+/// targets.specular; gives it back, and records nothing, where specular.mode is off or f0 or H is absent.
 void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                    Targets& targets);
 

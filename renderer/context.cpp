@@ -72,6 +72,32 @@ void MaterialSets::Retire::operator()(VkDescriptorPool pool) const {
   device->retire([handle = device->handle, pool] { vkDestroyDescriptorPool(handle, pool, nullptr); });
 }
 
+std::vector<PipelineUse> Context::pipelinesUsed() {
+  return impl->pipelines.takeUsed();
+}
+
+void Context::bridgeVariants(bool on, std::function<void()> beforeCompile) {
+  impl->pipelines.bridge = on;
+  impl->pipelines.beforeCompile = std::move(beforeCompile);
+}
+
+size_t Context::variantsCompiling() const {
+  return impl->pipelines.compiling();
+}
+
+const Image& Context::Impl::placeholder(bool cube) {
+  Image& image = placeholders[cube ? 1 : 0];
+  if (!image)
+    image = Image(device, {.name = cube ? "no shadow cubes" : "no shadow maps",
+                           .subsystem = Subsystem::Shadow,
+                           .format = VK_FORMAT_D32_SFLOAT,
+                           .layers = cube ? 6u : 1u,
+                           .cube = cube,
+                           .array = !cube,
+                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+  return image;
+}
+
 std::unique_ptr<FrameSlot> Context::Impl::takeSlot() {
   if (!idle.empty()) {
     std::unique_ptr<FrameSlot> slot = std::move(idle.back());
@@ -165,6 +191,7 @@ void Context::finish() {
 
 Frame Context::begin(uint64_t frameIndex) {
   impl->collect(timings);
+  impl->pipelines.collect();
   while (impl->inFlight.size() >= kFramesInFlight) {
     device.wait(impl->inFlight.front()->timelineValue);
     impl->collect(timings);

@@ -13,13 +13,13 @@ struct Range {
 };
 
 /// Opaque neighbours in the index buffer are one range if they are culled alike: depth knows no materials.
-std::vector<Range> ranges(const SceneOnDevice& scene, bool masked, bool cull) {
+std::vector<Range> ranges(const SceneOnDevice& scene, const DepthPass& depth, bool masked) {
   std::vector<Range> ranges;
   for (const Draw& draw : scene.scene.draws) {
     const uint32_t flags = scene.materialValues.at(draw.material).flags;
-    if (((flags & MATERIAL_ALPHA_MASK) != 0) != masked) continue;
+    if ((depth.alphaTest && (flags & MATERIAL_ALPHA_MASK) != 0) != masked) continue;
     const VkCullModeFlags mode =
-        cull && (flags & MATERIAL_DOUBLE_SIDED) == 0 ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+        depth.cull && (flags & MATERIAL_DOUBLE_SIDED) == 0 ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     if (!masked && !ranges.empty()) {
       Range& last = ranges.back();
       if (last.cull == mode && last.firstIndex + last.indexCount == draw.firstIndex) {
@@ -44,12 +44,12 @@ void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth)
       .depthCompare(depth.compare)
       .run([&](Commands& commands) {
         commands.push(push);
-        for (const Range& range : ranges(scene, /*masked*/ false, depth.cull)) {
+        for (const Range& range : ranges(scene, depth, /*masked*/ false)) {
           commands.cull(range.cull);
           commands.drawIndexed(range.indexCount, range.firstIndex);
         }
       });
-  if (!scene.anyAlphaMask) return;
+  if (!depth.alphaTest) return;
   frame.pass(depth.stage)
       .shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
       .indices(scene.indices)
@@ -57,7 +57,7 @@ void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth)
       .depth(depth.target, /*write*/ true, {}, depth.layer)
       .depthCompare(depth.compare)
       .run([&](Commands& commands) {
-        for (const Range& range : ranges(scene, /*masked*/ true, depth.cull)) {
+        for (const Range& range : ranges(scene, depth, /*masked*/ true)) {
           push.material = range.material;
           commands.cull(range.cull);
           commands.bindMaterial(scene.materialSets.at(range.material));

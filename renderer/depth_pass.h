@@ -14,7 +14,8 @@ struct DepthPass {
   uint64_t offset = 0;  ///< of the Projection in `projections`, bytes
   float clear = 1;
   VkCompareOp compare = VK_COMPARE_OP_LESS_OR_EQUAL;
-  bool cull = false;  ///< backs of single-sided materials
+  bool cull = false;      ///< backs of single-sided materials
+  bool alphaTest = true;  ///< false: masked materials are opaque
 };
 
 /// Opaque triangles in as few draws as their culling allows; then masked materials, which look at their textures.

@@ -228,7 +228,7 @@ uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore presentWait, VkSem
     vkCheck(losesHere() ? VK_ERROR_DEVICE_LOST : vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE),
             "submitting commands");
     impl_->submitted = value;
-    ++counters.submits;
+    ++counters.submissions;
   }
   impl_->collect(handle);
   return value;

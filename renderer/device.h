@@ -4,12 +4,13 @@
 
 #include <volk.h>
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
+
+#include "renderer/counters.h"
 
 namespace irad {
 
@@ -36,13 +37,6 @@ struct DeviceInfo {
   std::vector<std::string> missing;  ///< needs it does not meet, in words; empty: suitable
 };
 
-/// Counts of what was asked of the device, for tests and `irad plan --prove`.
-struct DeviceCounters {
-  std::atomic<uint64_t> dispatches{0}, draws{0}, submits{0}, allocations{0};
-  std::atomic<uint64_t> resources{0};  ///< buffers and images that asked for memory
-  std::atomic<uint64_t> exchanges{0};  ///< submissions and waits
-};
-
 class Device {
  public:
   /// Throws DeviceError listing every device and what it lacks when none is suitable.
@@ -66,7 +60,7 @@ class Device {
   bool anisotropy = false;     ///< samplers may be anisotropic
   bool memoryBudget = false;   ///< VK_EXT_memory_budget
   bool isCpu = false;          ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
-  mutable DeviceCounters counters;
+  mutable LiveCounters counters;
 
   Allocator& memory() const { return *allocator_; }
 

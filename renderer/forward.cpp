@@ -4,24 +4,10 @@
 #include <cmath>
 
 #include "renderer/depth_pass.h"
-#include "renderer/error.h"
 #include "shaders/shared/passes.h"
-#include "shaders/shared/view.h"
 
 namespace irad {
 namespace {
-
-Image target(const Device& device, const char* name, VkFormat format, glm::uvec2 size, VkImageUsageFlags attachment) {
-  ImageDesc desc;
-  desc.name = name;
-  desc.subsystem = Subsystem::Targets;
-  desc.format = format;
-  desc.width = size.x;
-  desc.height = size.y;
-  desc.usage =
-      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | attachment;
-  return Image(device, desc);
-}
 
 bool hasFlag(const SceneOnDevice& scene, const Draw& draw, uint32_t flag) {
   return (scene.materialValues.at(draw.material).flags & flag) != 0;
@@ -33,13 +19,6 @@ VkCullModeFlags culling(const SceneOnDevice& scene, const Draw& draw) {
 
 constexpr uint32_t kAnyTexture = MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE |
                                  MATERIAL_NORMAL_TEXTURE | MATERIAL_OCCLUSION_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
-
-/// IRAD_SHADOW_KINDS of shaders/forward/shadow.glsl.
-uint32_t shadowKinds(const SceneOnDevice& scene) {
-  uint32_t kinds = 0;
-  for (const GpuLight& light : scene.lightValues) kinds |= lightUsesCube(light.type, light.outerCos) ? 2 : 1;
-  return kinds;
-}
 
 /// Largest and smallest distance of the bounds' corners along the view direction.
 glm::dvec2 depthOfBounds(const Scene& scene, const glm::dvec3& eye, const glm::dvec3& forward) {
@@ -55,28 +34,6 @@ glm::dvec2 depthOfBounds(const Scene& scene, const glm::dvec3& eye, const glm::d
 }
 
 }  // namespace
-
-Targets::Targets(Context& context, glm::uvec2 extent) : size(extent) {
-  IRAD_CHECK(size.x > 0 && size.y > 0, "{} x {}", size.x, size.y);
-  const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
-  const VkFormat half = VK_FORMAT_R16G16B16A16_SFLOAT, full = VK_FORMAT_R32G32B32A32_SFLOAT;
-  const Device& device = context.device;
-  depth = target(device, "depth", VK_FORMAT_D32_SFLOAT, size, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-  normal = target(device, "normal, roughness", half, size, color);
-  geometric = target(device, "geometric normal, metallic", half, size, color);
-  albedo = target(device, "albedo, occlusion", half, size, color);
-  f0 = target(device, "specular reflectance", half, size, color);
-  direct = target(device, "direct irradiance", full, size, color);
-  highlight = target(device, "highlights and emission", full, size, color);
-  indirect = target(device, "indirect irradiance", full, size, color);
-  emitted = target(device, "irradiance of emitters", full, size, color);
-  specular = target(device, "specular radiance", full, size, color);
-  glossy = Buffer(device, "glossy pixels", Subsystem::Targets, 4ull * (GLOSSY_FIRST + size.x * size.y));
-  viewRange = Buffer(device, "range of the view", Subsystem::Targets, sizeof(ViewRange));
-  viewBins = Buffer(device, "histogram of the view", Subsystem::Targets, 4ull * RANGE_BINS);
-  linear = target(device, "linear picture", full, size, color);
-  display = target(device, "display picture", VK_FORMAT_R8G8B8A8_UNORM, size, color);
-}
 
 GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 size) {
   // Camera axes in local space; the position relative to the scene's origin in double precision.
@@ -145,64 +102,93 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
 }
 
 void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
-                 const Buffer& camera, const ShadeParams& shade, Targets& targets) {
+                 const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects) {
+  Context& context = frame.context();
   const std::vector<Draw>& draws = scene.scene.draws;
+  const bool highlights = effects.highlights && shade.specularDirect != 0;
+  const bool fromVolume =
+      effects.indirect && indirect.volume != nullptr && indirect.grid != nullptr && indirect.sample.gated == 0;
+  const bool fromFacets = effects.indirect && !fromVolume && indirect.grid != nullptr && indirect.shaded != nullptr;
+  const bool emitted = fromFacets && effects.emission && indirect.shadedEmitted != nullptr;
+
+  targets.fit(context, &Targets::f0, effects.specular);
+  targets.fit(context, &Targets::highlight, highlights || effects.emission);
+  targets.fit(context, &Targets::indirect, fromVolume || fromFacets);
+  targets.fit(context, &Targets::emitted, emitted);
 
   // Depth prepass: masked materials look at their textures here, so that shading writes each pixel once.
   drawDepth(frame, scene,
-            {.stage = "RE Depth", .target = targets.depth, .projections = camera, .clear = 1, .cull = true});
+            {.stage = "RE Depth",
+             .target = targets.depth,
+             .projections = camera,
+             .clear = 1,
+             .cull = true,
+             .alphaTest = effects.alphaTest});
 
   // Background: zero in every target.
-  const auto shadedTargets = {&targets.normal, &targets.geometric, &targets.albedo,   &targets.f0,
-                              &targets.direct, &targets.highlight, &targets.indirect, &targets.emitted};
   SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp};
   nearest.linearMag = nearest.linearMin = nearest.mips = nearest.linearMips = false;
-  Pass background = frame.pass("RE Forward");
-  background.shader("forward/background.comp").sample(targets.depth, sampler(frame.context().device, nearest));
-  for (const Image* image : shadedTargets) background.write(*image);
-  background.dispatch(uint64_t{targets.size.x} * targets.size.y);
+  frame.pass("RE Forward")
+      .shader("forward/background.comp")
+      .constant(0, targets.present())
+      .sample(targets.depth, sampler(context.device, nearest))
+      .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
+             targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.bound(&Targets::emitted))
+      .dispatch(uint64_t{targets.size.x} * targets.size.y);
 
   // Shading, material by material.
   ForwardPush push{};
   push.scene = scene.record.address;
   push.camera = camera.address;
   push.materials = scene.materials.address;
-  push.lights = scene.lights.address;
-  push.lightCount = static_cast<uint32_t>(scene.lightValues.size());
+  push.lights = scene.shiningLights.address;
+  push.lightCount = static_cast<uint32_t>(scene.shining.size());
   push.sampling = indirect.sample;
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
-  const bool fromVolume = indirect.volume != nullptr && indirect.grid != nullptr && indirect.sample.gated == 0;
-  const bool fromFacets = !fromVolume && indirect.grid != nullptr && indirect.shaded != nullptr;
-  const bool emitters = indirect.shadedEmitted != nullptr && scene.anyEmission;
 
-  // What the scene does not have is left out of the shader. Untextured materials have a pass of their own: a device
-  // that runs both sides of a branch would otherwise fetch five textures that are not there.
+  // Untextured materials have a pass of their own: a device that runs both sides of a branch would otherwise fetch five
+  // textures that are not there.
   for (const bool textured : {false, true}) {
-    if (std::none_of(draws.begin(), draws.end(),
-                     [&](const Draw& d) { return hasFlag(scene, d, kAnyTexture) == textured; }))
-      continue;
+    const auto drawnHere = [&](const Draw& draw) {
+      return (effects.textures && hasFlag(scene, draw, kAnyTexture)) == textured;
+    };
+    if (std::none_of(draws.begin(), draws.end(), drawnHere)) continue;
+    const Image none;
     Pass pass = frame.pass("RE Forward");
     pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
-    pass.constant(0, shadowKinds(scene))
-        .constant(1, textured)
-        .constant(2, std::clamp(shade.pcf, 1u, 5u) | 1u)
-        .constant(3, push.lightCount > UNIFORM_LIGHTS);
+    specialize(pass, FORWARD_LIGHTS, effects.lights, scene.shining);
+    pass.effect(FORWARD_TEXTURED, textured)
+        .effect(FORWARD_NORMAL_MAP, effects.normalMap)
+        .effect(FORWARD_EMISSION, effects.emission)
+        .effect(FORWARD_HIGHLIGHTS, highlights)
+        .effect(FORWARD_F0, effects.specular)
+        .effect(FORWARD_INDIRECT, fromVolume || fromFacets)
+        .constant(FORWARD_PCF, std::clamp(shade.pcf, 1u, 5u) | 1u)
+        .constant(FORWARD_MANY_LIGHTS, push.lightCount > UNIFORM_LIGHTS);
     pass.read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
-              scene.indices, scene.materials, scene.lights, camera);
-    pass.sample(shadows.flat, shadows.sampler).sample(shadows.cubes, shadows.sampler);
+              scene.indices, scene.materials, scene.shiningLights, camera);
+    pass.sampleDepth(shadows.flat, shadows.sampler, /*cube*/ false)
+        .sampleDepth(shadows.cubes, shadows.sampler, /*cube*/ true);
     if (fromVolume) {
       push.grid = indirect.grid->address;
       pass.read(*indirect.grid);
       SamplerDesc linear{Wrap::Clamp, Wrap::Clamp};
       linear.mips = linear.linearMips = false;
-      pass.sample(*indirect.volume, sampler(frame.context().device, linear));
+      pass.sample(*indirect.volume, sampler(context.device, linear));
     }
-    pass.uniform(scene.lights);
-    for (const Image* image : shadedTargets) pass.color(*image);
+    pass.uniform(scene.shiningLights);
+    pass.color(targets.normal)
+        .color(targets.geometric)
+        .color(targets.albedo)
+        .colorIfAny(targets.f0)
+        .color(targets.direct)
+        .colorIfAny(targets.highlight)
+        .colorIfAny(targets.indirect);
+    if (!fromVolume) pass.colorIfAny(fromFacets ? targets.linear : none);  // the lookup's normal
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
-        if (hasFlag(scene, draw, kAnyTexture) != textured) continue;
+        if (!drawnHere(draw)) continue;
         const GpuMaterial& material = scene.materialValues.at(draw.material);
         push.material = draw.material;
         push.baseColor = material.baseColor;
@@ -217,14 +203,9 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       }
     });
   }
-  if (fromVolume) return;
+  if (!fromFacets) return;
 
   // Indirect light of the facets: in compute, where no lane is spent outside a triangle.
-  if (!fromFacets) {
-    for (const Image* image : {&targets.indirect, &targets.emitted})
-      frame.pass("RE Forward").clear(*image, ClearColor{});
-    return;
-  }
   IndirectPush lookup{};
   lookup.camera = camera.address;
   lookup.grid = indirect.grid->address;
@@ -232,16 +213,18 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   lookup.reverse = indirect.reverse->address;
   lookup.around = indirect.around->address;
   lookup.shaded = indirect.shaded->address;
-  lookup.shadedEmitted = emitters ? indirect.shadedEmitted->address : 0;
+  lookup.shadedEmitted = emitted ? indirect.shadedEmitted->address : 0;
   lookup.sampling = indirect.sample;
   lookup.size = targets.size;
   Pass pass = frame.pass("RE Forward");
   pass.shader("forward/indirect.comp")
       .constant(0, indirect.normalEncoding)
-      .constant(1, emitters)
+      .constant(1, emitted)
       .read(camera, *indirect.grid, *indirect.shape, *indirect.reverse, *indirect.around, *indirect.shaded)
-      .write(targets.indirect, targets.emitted);
-  if (emitters) pass.read(*indirect.shadedEmitted);
+      .write(targets.indirect)
+      .read(targets.linear)
+      .write(emitted ? targets.emitted : targets.indirect);
+  if (emitted) pass.read(*indirect.shadedEmitted);
   pass.push(lookup).run(
       [&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
 }

@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/pipeline_use.h"
 #include "renderer/resources.h"
 #include "renderer/shaders.h"
 #include "renderer/timings.h"
@@ -40,6 +41,16 @@ class Context {
   /// occlusion, emissive), visible to all stages.
   VkDescriptorSetLayout materialLayout() const;
   Frame begin(uint64_t frameIndex = 0);
+  /// What was asked of the device so far.
+  Counters counters() const { return device.counters.now(); }
+  /// The pipelines that passes were recorded with since the last call.
+  std::vector<PipelineUse> pipelinesUsed();
+  /// For windows: a pipeline with effects left out (Pass::effect) that is not there yet is compiled by a thread of its
+  /// own, while the one with all effects, if that is there, draws the same picture. Off, which is the default: every
+  /// pass waits for its own. `beforeCompile`: called by that thread, with which tests hold it up. An error of the
+  /// thread is thrown by a later begin().
+  void bridgeVariants(bool on, std::function<void()> beforeCompile = {});
+  size_t variantsCompiling() const;
   Frame beginUntimed();  ///< whose passes get no row in the timing table: transfers, tests
   /// Delivers what finished frames owe, readbacks and times, in order; finish() waits for those in flight first.
   void collect();
@@ -112,6 +123,9 @@ class Pass {
   Pass& shaders(std::initializer_list<std::string_view> names);
   /// Specialization constant `id`.
   Pass& constant(uint32_t id, uint32_t value);
+  /// Specialization constant `id`, a bool that is true in the shader's text: false leaves out an effect that adds
+  /// nothing to the picture, so that the pipeline with it draws the same.
+  Pass& effect(uint32_t id, bool on);
 
   template <class... R>
   Pass& read(const R&... resources) {
@@ -125,6 +139,9 @@ class Pass {
     return *this;
   }
   Pass& sample(const Image& image, VkSampler sampler);
+  /// A depth array, or cube array, that is empty where the scene has no such: the variant of the shader that the
+  /// constants choose does not read it then.
+  Pass& sampleDepth(const Image& image, VkSampler sampler, bool cube);
   /// A buffer as a uniform block: its first 16 KiB (what every device has). For what all lanes read alike.
   Pass& uniform(const Buffer& buffer);
   /// A storage image bound through its aliasView (e.g. rgba8 as r32ui).
@@ -132,6 +149,7 @@ class Pass {
 
   // Raster only. Without attachments `extent` gives the render area (attachment-less voxelization).
   Pass& color(const Image& image, std::optional<ClearColor> clear = {});
+  Pass& colorIfAny(const Image& image);  ///< an empty image: what the shader writes there is dropped
   Pass& depth(const Image& image, bool write, std::optional<float> clear = {}, int layer = 0);
   Pass& depthBias(float constant, float slope);
   Pass& depthCompare(VkCompareOp op);

@@ -50,10 +50,13 @@ struct Context::Impl {
 
   const Device& device;
   PipelineCache pipelines;
+  std::array<Image, 2> placeholders;
   std::vector<std::unique_ptr<FrameSlot>> idle;
   std::deque<std::unique_ptr<FrameSlot>> inFlight;  ///< in order of submission
 
   std::unique_ptr<FrameSlot> takeSlot();
+  /// One texel of depth, for Pass::sampleDepth. Nobody reads it.
+  const Image& placeholder(bool cube);
   /// Delivers what finished frames owe: readbacks and timings, in order of submission.
   void collect(Timings& timings);
   void deliver(FrameSlot& slot, Timings& timings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "renderer/error.h"
 #include "renderer/scene/texel_range.h"
@@ -156,8 +157,10 @@ void SceneOnDevice::setMaterials(Context& context, std::vector<GpuMaterial> valu
   surveyMaterials();
 }
 
-void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values) {
-  Buffer buffer = uploadArray(context, "lights", values);
+void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values, const LightFilter& shines) {
+  std::vector<GpuLight> some;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(some), shines);
+  Buffer all = uploadArray(context, "lights", values), those = uploadArray(context, "shining lights", some);
   GpuScene gpu{};
   gpu.positions = positions.address;
   gpu.normals = normals.address;
@@ -168,12 +171,18 @@ void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values) {
   gpu.indices = indices.address;
   gpu.triangleMaterials = triangleMaterials.address;
   gpu.materials = materials.address;
-  gpu.lights = buffer.address;
-  gpu.lightCount = static_cast<uint32_t>(values.size());
+  gpu.lights = those.address;
+  gpu.lightCount = static_cast<uint32_t>(some.size());
   gpu.triangleCount = scene.triangleCount();
   record = makeBuffer(context, "scene record", Subsystem::Scene, std::span<const GpuScene>(&gpu, 1));
-  lights = std::move(buffer);
+  lights = std::move(all);
+  shiningLights = std::move(those);
   lightValues = std::move(values);
+  shining = std::move(some);
+}
+
+bool hasIntensity(const GpuLight& light) {
+  return std::max({light.intensity.x, light.intensity.y, light.intensity.z}) > 0.0f;
 }
 
 std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin) {

@@ -9,24 +9,32 @@
 
 namespace irad {
 
+/// Which lights of a list shine on the scene.
+using LightFilter = std::function<bool(const GpuLight&)>;
+bool hasIntensity(const GpuLight& light);
+
 class SceneOnDevice {
  public:
   SceneOnDevice(Context& context, const Scene& scene);
 
   const Scene& scene;  ///< must outlive this
-  Buffer positions, normals, tangents, uv0, uv1, colors, indices, triangleMaterials, materials, lights;
-  Buffer record;  ///< one GpuScene
+  Buffer positions, normals, tangents, uv0, uv1, colors, indices, triangleMaterials, materials;
+  Buffer lights;         ///< all of them
+  Buffer shiningLights;  ///< those that passes sum up
+  Buffer record;         ///< one GpuScene, of the latter
   std::vector<Image> textures;
   MaterialSets materialSets;                ///< per material, set 1
   std::vector<GpuMaterial> materialValues;  ///< as uploaded
   std::vector<GpuLight> lightValues;        ///< as uploaded, with what drawShadows fills in
+  std::vector<GpuLight> shining;            ///< likewise
   bool anyEmission = false;  ///< a factor and a texel of its texture (a texture's maximum counts) are > 0
   bool anyAlphaMask = false;
 
   /// Takes other values of the same materials, such as some without their emission.
   void setMaterials(Context& context, std::vector<GpuMaterial> values);
-  /// Takes other lights, of any number: `lightValues`, `lights` and `record`. The old ones stay when it throws.
-  void setLights(Context& context, std::vector<GpuLight> values);
+  /// Takes other lights, of any number, of which some shine on the scene: `lightValues`, `shining`, their buffers and
+  /// `record`. The old ones stay when it throws.
+  void setLights(Context& context, std::vector<GpuLight> values, const LightFilter& shines = hasIntensity);
 
  private:
   void surveyMaterials();

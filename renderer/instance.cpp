@@ -11,12 +11,21 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
+/// An attachment without a format is unused: what the shader writes there is dropped (VkPipelineRenderingCreateInfo).
+/// The layer of Vulkan 1.3.239 compares the types all the same.
+bool isDroppedOutput(const VkDebugUtilsMessengerCallbackDataEXT* data) {
+  return data->pMessageIdName && data->pMessage &&
+         std::strcmp(data->pMessageIdName, "UNASSIGNED-CoreValidation-Shader-InterfaceTypeMismatch") == 0 &&
+         std::strstr(data->pMessage, "VK_FORMAT_UNDEFINED");
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                          VkDebugUtilsMessageTypeFlagsEXT types,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   if (severity < VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT) return VK_FALSE;
   if (types & VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT) return VK_FALSE;
   if (data->pMessageIdName && std::strcmp(data->pMessageIdName, "Loader Message") == 0) return VK_FALSE;
+  if (isDroppedOutput(data)) return VK_FALSE;
   auto* log = static_cast<ValidationLog*>(user);
   const std::lock_guard lock(log->mutex);
   log->messages.emplace_back(data->pMessage ? data->pMessage : "(no text)");

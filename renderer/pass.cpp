@@ -15,15 +15,19 @@ Pass Frame::pass(std::string_view stage) {
 }
 
 Pass& Pass::shader(std::string_view name) {
-  state_->shaders.emplace_back(name);
+  state_->pipeline.shaders.emplace_back(name);
   return *this;
 }
 Pass& Pass::shaders(std::initializer_list<std::string_view> names) {
-  for (const std::string_view name : names) state_->shaders.emplace_back(name);
+  for (const std::string_view name : names) state_->pipeline.shaders.emplace_back(name);
   return *this;
 }
 Pass& Pass::constant(uint32_t id, uint32_t value) {
-  state_->constants[id] = value;
+  state_->pipeline.constants[id] = value;
+  return *this;
+}
+Pass& Pass::effect(uint32_t id, bool on) {
+  if (!on) state_->pipeline.leftOut.insert(id);
   return *this;
 }
 void Pass::use(const Buffer& buffer, bool write) {
@@ -38,6 +42,9 @@ Pass& Pass::sample(const Image& image, VkSampler sampler) {
   IRAD_CHECK(image.handle && sampler, "{}: sampling an empty image or without a sampler", stage_);
   state_->bound.push_back({&image, false, false, sampler});
   return *this;
+}
+Pass& Pass::sampleDepth(const Image& image, VkSampler sampler, bool cube) {
+  return sample(image ? image : frame_->context().impl->placeholder(cube), sampler);
 }
 Pass& Pass::uniform(const Buffer& buffer) {
   IRAD_CHECK(buffer.handle, "{}: an empty uniform buffer", stage_);
@@ -62,23 +69,27 @@ Pass& Pass::color(const Image& image, std::optional<ClearColor> clear) {
   state_->colors.push_back({&image, clear});
   return *this;
 }
+Pass& Pass::colorIfAny(const Image& image) {
+  state_->colors.push_back({image ? &image : nullptr, {}});
+  return *this;
+}
 Pass& Pass::depth(const Image& image, bool write, std::optional<float> clear, int layer) {
   IRAD_CHECK(image.handle, "{}: an empty depth target", stage_);
   IRAD_CHECK_OP(layer, <, static_cast<int>(image.desc.layers));
   state_->depth = &image;
-  state_->raster.depthWrite = write;
+  state_->pipeline.raster.depthWrite = write;
   state_->depthClear = clear;
   state_->depthLayer = layer;
   return *this;
 }
 Pass& Pass::depthBias(float constant, float slope) {
-  state_->raster.depthBias = true;
+  state_->pipeline.raster.depthBias = true;
   state_->biasConstant = constant;
   state_->biasSlope = slope;
   return *this;
 }
 Pass& Pass::depthCompare(VkCompareOp op) {
-  state_->raster.compare = op;
+  state_->pipeline.raster.compare = op;
   return *this;
 }
 Pass& Pass::indices(const Buffer& buffer) {
@@ -92,11 +103,11 @@ Pass& Pass::extent(uint32_t width, uint32_t height) {
   return *this;
 }
 Pass& Pass::additive() {
-  state_->raster.blend = Blend::Additive;
+  state_->pipeline.raster.blend = Blend::Additive;
   return *this;
 }
 Pass& Pass::alphaBlend() {
-  state_->raster.blend = Blend::Alpha;
+  state_->pipeline.raster.blend = Blend::Alpha;
   return *this;
 }
 
@@ -175,7 +186,7 @@ const char* kindName(VkDescriptorType type) {
 
 void Pass::record(const std::function<void(VkCommandBuffer)>& body) {
   // Without a shader the stages of read() and write() are unknown: all of them.
-  if (state_->shaders.empty()) state_->resolveUses(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+  if (state_->pipeline.shaders.empty()) state_->resolveUses(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
   Frame::Impl& frame = *frame_->impl_;
   IRAD_CHECK(frame.slot, "pass {} after the frame was submitted", stage_);
   const VkCommandBuffer commands = frame.slot->commands;
@@ -194,9 +205,10 @@ void Pass::record(const std::function<void(VkCommandBuffer)>& body) {
 void Pass::run(const std::function<void(Commands&)>& body) {
   State& s = *state_;
   Context& context = frame_->context();
-  for (const State::Color& c : s.colors) s.raster.colors.push_back(c.image->desc.format);
-  if (s.depth) s.raster.depth = s.depth->desc.format;
-  GpuPipeline& pipeline = context.impl->pipelines.get(s.shaders, s.constants, s.raster);
+  for (const State::Color& c : s.colors)
+    s.pipeline.raster.colors.push_back(c.image ? c.image->desc.format : VK_FORMAT_UNDEFINED);
+  if (s.depth) s.pipeline.raster.depth = s.depth->desc.format;
+  GpuPipeline& pipeline = context.impl->pipelines.get(s.pipeline);
   s.resolveUses(pipeline.stages);
 
   // The bindings of set 0, in the order in which the pass names them.
@@ -258,6 +270,10 @@ void Pass::rasterize(VkCommandBuffer cmd, Commands& commands, const std::functio
   };
   std::vector<VkRenderingAttachmentInfo> colors;
   for (const State::Color& c : s.colors) {
+    if (!c.image) {
+      colors.push_back({.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO});
+      continue;
+    }
     agree(*c.image);
     VkRenderingAttachmentInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                    .imageView = c.image->layerViews.empty() ? c.image->view : c.image->layerViews[0],
@@ -270,7 +286,7 @@ void Pass::rasterize(VkCommandBuffer cmd, Commands& commands, const std::functio
   VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   if (s.depth) {
     agree(*s.depth);
-    const bool writes = s.raster.depthWrite || s.depthClear;
+    const bool writes = s.pipeline.raster.depthWrite || s.depthClear;
     depth.imageView = s.depth->layerViews.empty() ? s.depth->view : s.depth->layerViews[s.depthLayer];
     depth.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
     depth.loadOp = s.depthClear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;

@@ -29,8 +29,7 @@ inline VkImageAspectFlags aspect(const Image& image) {
 }
 
 struct Pass::State {
-  std::vector<std::string> shaders;
-  std::map<uint32_t, uint32_t> constants;
+  PipelineRequest pipeline;
 
   struct BufferUse {
     const Buffer* buffer;
@@ -52,7 +51,7 @@ struct Pass::State {
   std::vector<Declared> declared;
 
   struct Color {
-    const Image* image;
+    const Image* image;  ///< null: the output is dropped
     std::optional<ClearColor> clear;
   };
   std::vector<Color> colors;
@@ -62,7 +61,6 @@ struct Pass::State {
   int depthLayer = 0;
   uint32_t width = 0, height = 0;
   float biasConstant = 0, biasSlope = 0;
-  RasterState raster;
 
   /// Adds a use, merged with earlier ones of the same resource.
   void add(ResourceState& state, const Image* image, const Use& use) {
@@ -85,8 +83,9 @@ struct Pass::State {
       const VkAccessFlags2 storage = i.write ? kStorageWrite : kStorageRead;
       add(i.image->state, i.image, {stages, i.sampler ? VK_ACCESS_2_SHADER_SAMPLED_READ_BIT : storage});
     }
-    for (const Color& c : colors) add(c.image->state, c.image, kColorTarget);
-    if (depth) add(depth->state, depth, raster.depthWrite || depthClear ? kDepthWrite : kDepthRead);
+    for (const Color& c : colors)
+      if (c.image) add(c.image->state, c.image, kColorTarget);
+    if (depth) add(depth->state, depth, pipeline.raster.depthWrite || depthClear ? kDepthWrite : kDepthRead);
   }
 };
 

@@ -1,139 +1,12 @@
 #include "renderer/pipeline.h"
 
-#include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include "renderer/error.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
-namespace {
-
-struct Stage {
-  const char* extension;
-  VkShaderStageFlagBits bit;
-  VkPipelineStageFlags2 barrierStage;
-};
-constexpr Stage kStages[] = {
-    {".comp", VK_SHADER_STAGE_COMPUTE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT},
-    {".vert", VK_SHADER_STAGE_VERTEX_BIT, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT},
-    {".geom", VK_SHADER_STAGE_GEOMETRY_BIT, VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT},
-    {".frag", VK_SHADER_STAGE_FRAGMENT_BIT, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT},
-};
-
-const Stage& stageOf(const std::string& name) {
-  for (const Stage& stage : kStages)
-    if (name.ends_with(stage.extension)) return stage;
-  invariantFailed(__FILE__, __LINE__, fmt::format("shader '{}' has no stage extension", name));
-}
-
-std::string keyOf(const std::vector<std::string>& shaders, const std::map<uint32_t, uint32_t>& constants,
-                  const RasterState& raster, bool compute) {
-  std::string key;
-  for (const std::string& name : shaders) key += name + "|";
-  for (const auto& [id, value] : constants) key += fmt::format("{}={}|", id, value);
-  if (compute) return key;
-  for (const VkFormat format : raster.colors) key += fmt::format("c{}|", static_cast<int>(format));
-  return key + fmt::format("d{} w{} b{} o{} a{}", static_cast<int>(raster.depth), raster.depthWrite, raster.depthBias,
-                           static_cast<int>(raster.compare), static_cast<int>(raster.blend));
-}
-
-/// Bindings of set 0 over all stages; stages that name the same binding must agree on its kind.
-std::vector<ShaderBinding> mergedBindings(const std::vector<const ShaderModule*>& modules, bool& material) {
-  std::vector<ShaderBinding> merged;
-  for (const ShaderModule* module : modules)
-    for (const ShaderBinding& b : module->bindings) {
-      if (b.set == 1) {
-        IRAD_CHECK(b.binding < kMaterialTextures && !b.storageImage && !b.uniformBlock,
-                   "{}: set 1 binding {} ({}) is not a material's", module->name, b.binding, b.name);
-        material = true;
-        continue;
-      }
-      IRAD_CHECK(b.set == 0, "{}: {} is in set {}", module->name, b.name, b.set);
-      const auto same =
-          std::find_if(merged.begin(), merged.end(), [&](const auto& m) { return m.binding == b.binding; });
-      if (same == merged.end())
-        merged.push_back(b);
-      else
-        IRAD_CHECK(same->storageImage == b.storageImage && same->uniformBlock == b.uniformBlock,
-                   "{}: binding {} ({}) differs from another stage's {}", module->name, b.binding, b.name, same->name);
-    }
-  std::sort(merged.begin(), merged.end(), [](const auto& a, const auto& b) { return a.binding < b.binding; });
-  return merged;
-}
-
-VkPipelineColorBlendAttachmentState blendState(Blend blend) {
-  VkPipelineColorBlendAttachmentState state{.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                                              VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
-  if (blend == Blend::None) return state;
-  const bool alpha = blend == Blend::Alpha;
-  state.blendEnable = VK_TRUE;
-  state.srcColorBlendFactor = alpha ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
-  state.dstColorBlendFactor = alpha ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
-  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  state.dstAlphaBlendFactor = alpha ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
-  return state;
-}
-
-VkPipeline buildRaster(const Device& device, VkPipelineCache cache, const GpuPipeline& pipeline,
-                       const std::vector<VkPipelineShaderStageCreateInfo>& stages, const RasterState& raster) {
-  const VkPipelineVertexInputStateCreateInfo vertexInput{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};  // vertices are pulled
-  const VkPipelineInputAssemblyStateCreateInfo assembly{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-      .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-  const VkPipelineViewportStateCreateInfo viewport{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-  const VkPipelineRasterizationStateCreateInfo rasterization{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-      .polygonMode = VK_POLYGON_MODE_FILL,
-      .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
-      .depthBiasEnable = raster.depthBias ? VK_TRUE : VK_FALSE,
-      .lineWidth = 1.0f};
-  const VkPipelineMultisampleStateCreateInfo samples{.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-                                                     .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-  const VkPipelineDepthStencilStateCreateInfo depth{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-      .depthTestEnable = raster.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE,
-      .depthWriteEnable = raster.depthWrite ? VK_TRUE : VK_FALSE,
-      .depthCompareOp = raster.compare};
-  const std::vector<VkPipelineColorBlendAttachmentState> blends(raster.colors.size(), blendState(raster.blend));
-  const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                  .attachmentCount = static_cast<uint32_t>(blends.size()),
-                                                  .pAttachments = blends.data()};
-  const VkDynamicState dynamics[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
-                                     VK_DYNAMIC_STATE_DEPTH_BIAS};
-  const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                 .dynamicStateCount = static_cast<uint32_t>(std::size(dynamics)),
-                                                 .pDynamicStates = dynamics};
-  const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                .colorAttachmentCount = static_cast<uint32_t>(raster.colors.size()),
-                                                .pColorAttachmentFormats = raster.colors.data(),
-                                                .depthAttachmentFormat = raster.depth};
-  const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                          .pNext = &rendering,
-                                          .stageCount = static_cast<uint32_t>(stages.size()),
-                                          .pStages = stages.data(),
-                                          .pVertexInputState = &vertexInput,
-                                          .pInputAssemblyState = &assembly,
-                                          .pViewportState = &viewport,
-                                          .pRasterizationState = &rasterization,
-                                          .pMultisampleState = &samples,
-                                          .pDepthStencilState = &depth,
-                                          .pColorBlendState = &blend,
-                                          .pDynamicState = &dynamic,
-                                          .layout = pipeline.layout};
-  VkPipeline handle = VK_NULL_HANDLE;
-  vkCheck(vkCreateGraphicsPipelines(device.handle, cache, 1, &info, nullptr, &handle),
-          fmt::format("creating pipeline {}", pipeline.name));
-  return handle;
-}
-
-}  // namespace
-
-VkDescriptorType descriptorType(const ShaderBinding& binding) {
-  if (binding.uniformBlock) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-  return binding.storageImage ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-}
 
 PipelineCache::PipelineCache(const Device& device, const ShaderLibrary& shaders)
     : device_(device), shaders_(shaders), generation_(shaders.generation()) {
@@ -146,19 +19,13 @@ PipelineCache::PipelineCache(const Device& device, const ShaderLibrary& shaders)
 }
 
 PipelineCache::~PipelineCache() {
-  dropPipelines();
+  thread_.reset();  // it uses what follows
+  entries_.clear();
   device_.retire([device = device_.handle, cache = cache_, layouts = layouts_, setLayouts = setLayouts_] {
     for (const auto& [key, layout] : layouts) vkDestroyPipelineLayout(device, layout, nullptr);
     for (const auto& [key, layout] : setLayouts) vkDestroyDescriptorSetLayout(device, layout, nullptr);
     vkDestroyPipelineCache(device, cache, nullptr);
   });
-}
-
-void PipelineCache::dropPipelines() {
-  for (const auto& [key, pipeline] : pipelines_)
-    device_.retire(
-        [device = device_.handle, handle = pipeline->handle] { vkDestroyPipeline(device, handle, nullptr); });
-  pipelines_.clear();
 }
 
 VkDescriptorSetLayout PipelineCache::setLayout(const std::vector<ShaderBinding>& bindings) {
@@ -194,84 +61,80 @@ VkPipelineLayout PipelineCache::pipelineLayout(VkDescriptorSetLayout set0, bool 
   return layouts_[{set0, material}] = layout;
 }
 
-GpuPipeline& PipelineCache::get(const std::vector<std::string>& shaders, const std::map<uint32_t, uint32_t>& constants,
-                                const RasterState& raster) {
-  IRAD_CHECK(!shaders.empty(), "a pass without a shader");
-  if (generation_ != shaders_.generation()) {
-    dropPipelines();
-    generation_ = shaders_.generation();
-  }
-  const bool compute = stageOf(shaders.front()).bit == VK_SHADER_STAGE_COMPUTE_BIT;
-  const std::string key = keyOf(shaders, constants, raster, compute);
-  if (const auto it = pipelines_.find(key); it != pipelines_.end()) return *it->second;
-  return *pipelines_.emplace(key, build(shaders, constants, raster)).first->second;
+PipelineCache::Entry& PipelineCache::entry(const PipelineRequest& request) {
+  Entry& entry = entries_[request.key()];
+  if (entry.use.shaders.empty()) entry.use = {request.shaders, request.allConstants()};
+  return entry;
 }
 
-std::unique_ptr<GpuPipeline> PipelineCache::build(const std::vector<std::string>& shaders,
-                                                  const std::map<uint32_t, uint32_t>& constants,
-                                                  const RasterState& raster) {
-  auto pipeline = std::make_unique<GpuPipeline>();
-  std::vector<const ShaderModule*> modules;
-  for (const std::string& name : shaders) {
-    modules.push_back(&shaders_.get(name));
-    pipeline->name += (pipeline->name.empty() ? "" : " + ") + name;
-    pipeline->stages |= stageOf(name).barrierStage;
-    pipeline->pushBytes = std::max(pipeline->pushBytes, modules.back()->pushBytes);
-  }
-  IRAD_CHECK(pipeline->pushBytes <= kPushBytes, "{}: {} bytes of push constants", pipeline->name, pipeline->pushBytes);
-  const bool compute = stageOf(shaders.front()).bit == VK_SHADER_STAGE_COMPUTE_BIT;
-  IRAD_CHECK(!compute || shaders.size() == 1, "{}: a compute shader stands alone", pipeline->name);
-  pipeline->bindPoint = compute ? VK_PIPELINE_BIND_POINT_COMPUTE : VK_PIPELINE_BIND_POINT_GRAPHICS;
-  pipeline->bindings = mergedBindings(modules, pipeline->material);
-  pipeline->set0 = setLayout(pipeline->bindings);
-  pipeline->layout = pipelineLayout(pipeline->set0, pipeline->material);
-  pipeline->localSize = modules.front()->localSize;
-  for (int i = 0; i < 3; ++i)
-    if (const auto it = constants.find(modules.front()->localSizeId[i]); it != constants.end())
-      pipeline->localSize[i] = it->second;
+bool PipelineCache::ready(Entry& entry) {
+  if (entry.pending.valid() && entry.pending.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    entry.pipeline = entry.pending.get();
+  return entry.pipeline != nullptr;
+}
 
-  std::vector<VkSpecializationMapEntry> entries;
-  std::vector<uint32_t> values;
-  for (const auto& [id, value] : constants) {
-    entries.push_back({id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
-    values.push_back(value);
+PipelineParts PipelineCache::parts(const PipelineRequest& request) {
+  PipelineParts parts = gatherParts(device_, shaders_, request);
+  parts.pipeline->set0 = setLayout(parts.pipeline->bindings);
+  parts.pipeline->layout = pipelineLayout(parts.pipeline->set0, parts.pipeline->material);
+  return parts;
+}
+
+void PipelineCache::compileMeanwhile(Entry& entry, const PipelineRequest& request) {
+  if (entry.pending.valid()) return;
+  CompileThread::Job job([parts = parts(request), before = beforeCompile, cache = cache_]() mutable {
+    if (before) before();
+    return compile(std::move(parts), cache);
+  });
+  entry.pending = job.get_future();
+  if (!thread_) thread_.emplace();
+  thread_->add(std::move(job));
+}
+
+GpuPipeline& PipelineCache::get(const PipelineRequest& request) {
+  if (generation_ != shaders_.generation()) {
+    if (thread_) thread_->drop();
+    entries_.clear();
+    generation_ = shaders_.generation();
   }
-  const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
-                                            values.size() * sizeof(uint32_t), values.data()};
-  // The modules live only while the pipeline is made.
-  std::vector<VkPipelineShaderStageCreateInfo> stages;
-  const auto destroyModules = [&] {
-    for (const auto& stage : stages) vkDestroyShaderModule(device_.handle, stage.module, nullptr);
-  };
-  try {
-    for (const ShaderModule* module : modules) {
-      const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                          .codeSize = module->spirv.size() * sizeof(uint32_t),
-                                          .pCode = module->spirv.data()};
-      VkShaderModule handle = VK_NULL_HANDLE;
-      vkCheck(vkCreateShaderModule(device_.handle, &info, nullptr, &handle), module->name);
-      device_.name(VK_OBJECT_TYPE_SHADER_MODULE, reinterpret_cast<uint64_t>(handle), module->name);
-      stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                        .stage = stageOf(module->name).bit,
-                        .module = handle,
-                        .pName = "main",
-                        .pSpecializationInfo = values.empty() ? nullptr : &specialization});
+  Entry& wanted = entry(request);
+  Entry* given = &wanted;
+  if (!ready(wanted)) {
+    if (bridge && !request.leftOut.empty()) {
+      // With all effects the picture is the same. Where that pipeline is not there either, this thread compiles the one
+      // that is asked for, and the other thread that with all effects, for when something else is asked for.
+      PipelineRequest all = request;
+      all.leftOut.clear();
+      Entry& general = entry(all);
+      if (ready(general)) {
+        compileMeanwhile(wanted, request);
+        given = &general;
+      } else {
+        compileMeanwhile(general, all);
+      }
     }
-    if (compute) {
-      const VkComputePipelineCreateInfo info{
-          .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = stages.front(), .layout = pipeline->layout};
-      vkCheck(vkCreateComputePipelines(device_.handle, cache_, 1, &info, nullptr, &pipeline->handle),
-              fmt::format("creating pipeline {}", pipeline->name));
-    } else {
-      pipeline->handle = buildRaster(device_, cache_, *pipeline, stages, raster);
-    }
-  } catch (...) {
-    destroyModules();
-    throw;
+    if (given == &wanted)
+      wanted.pipeline = wanted.pending.valid() ? wanted.pending.get() : compile(parts(request), cache_);
   }
-  destroyModules();
-  device_.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline->handle), pipeline->name);
-  return pipeline;
+  given->used = true;
+  return *given->pipeline;
+}
+
+void PipelineCache::collect() {
+  for (auto& [key, entry] : entries_) ready(entry);
+}
+
+size_t PipelineCache::compiling() const {
+  size_t count = 0;
+  for (const auto& [key, entry] : entries_) count += entry.pending.valid() ? 1 : 0;
+  return count;
+}
+
+std::vector<PipelineUse> PipelineCache::takeUsed() {
+  std::vector<PipelineUse> used;
+  for (auto& [key, entry] : entries_)
+    if (std::exchange(entry.used, false)) used.push_back(entry.use);
+  return used;
 }
 
 }  // namespace irad

@@ -45,6 +45,9 @@ ShaderModule reflect(std::string name, std::vector<uint32_t> spirv);
 /// What a device executes: the module without its names, sources and lines.
 std::vector<uint32_t> withoutDebugInfo(std::span<const uint32_t> spirv);
 
+/// Instructions of the module's functions, their labels, variables and parameters included.
+uint64_t functionInstructions(std::span<const uint32_t> spirv);
+
 /// What a reload did.
 struct ShaderReload {
   std::string errors;                ///< the compiler's messages; not empty: nothing was replaced

@@ -127,13 +127,13 @@ Image depthArray(const Device& device, const char* name, uint32_t size, uint32_t
 
 }  // namespace
 
-ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights,
-                       uint32_t resolution) {
-  // Give each light its layers. A light of no intensity needs none.
+ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
+                       const ShadowNeeds& needs) {
+  // Give each light that shines its layers.
   uint32_t flats = 0, cubes = 0;
   for (GpuLight& light : lights) {
     light.shadowLayer = -1;
-    if (std::max({light.intensity.x, light.intensity.y, light.intensity.z}) <= 0.0f) continue;
+    if (!needs.shines(light)) continue;
     light.shadowLayer = static_cast<int>(lightUsesCube(light.type, light.outerCos) ? cubes++ : flats++);
   }
 
@@ -144,13 +144,13 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   const uint32_t cubeSize = size / 2;
 
   ShadowMaps maps;
-  maps.flat = depthArray(context.device, "shadow maps", flats > 0 ? size : 1, std::max(flats, 1u), /*cube*/ false);
-  maps.cubes =
-      depthArray(context.device, "shadow cubes", cubes > 0 ? cubeSize : 1, 6 * std::max(cubes, 1u), /*cube*/ true);
+  if (flats > 0) maps.flat = depthArray(context.device, "shadow maps", size, flats, /*cube*/ false);
+  if (cubes > 0) maps.cubes = depthArray(context.device, "shadow cubes", cubeSize, 6 * cubes, /*cube*/ true);
   SamplerDesc compare{Wrap::Clamp, Wrap::Clamp};
   compare.mips = compare.linearMips = false;
   compare.compare = true;
   maps.sampler = sampler(context.device, compare);
+  if (flats + cubes == 0) return maps;
 
   // Fit each light's projections to the scene.
   std::vector<Face> faces;
@@ -187,25 +187,38 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
                .projections = projections,
                .offset = i * sizeof(Projection),
                .clear = 0,
-               .compare = VK_COMPARE_OP_GREATER_OR_EQUAL});
-  // Placeholders are cleared to the far end.
-  for (const Image* unused : {flats == 0 ? &maps.flat : nullptr, cubes == 0 ? &maps.cubes : nullptr}) {
-    if (unused == nullptr) continue;
-    for (uint32_t layer = 0; layer < unused->desc.layers; ++layer)
-      frame.pass("RE Shadow")
-          .shaders({"forward/depth.vert", "forward/depth.frag"})
-          .depth(*unused, /*write*/ true, 0.0f, static_cast<int>(layer))
-          .run([](Commands&) {});
-  }
+               .compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
+               .alphaTest = needs.alphaTest});
   frame.submitAndWait();
   return maps;
 }
 
-ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution) {
+ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution, const ShadowNeeds& needs) {
   std::vector<GpuLight> lights = scene.lightValues;
-  ShadowMaps maps = drawShadows(context, scene, lights, resolution);
-  scene.setLights(context, std::move(lights));
+  ShadowMaps maps = drawShadows(context, scene, lights, resolution, needs);
+  scene.setLights(context, std::move(lights), needs.shines);
   return maps;
+}
+
+LightKinds kindsOf(std::span<const GpuLight> shining) {
+  LightKinds kinds{false, false, false};
+  for (const GpuLight& light : shining) {
+    kinds.sun |= light.type == LIGHT_SUN;
+    kinds.spot |= light.type == LIGHT_SPOT;
+    kinds.point |= light.type == LIGHT_POINT;
+  }
+  return kinds;
+}
+
+void specialize(Pass& pass, uint32_t first, const LightKinds& kinds, std::span<const GpuLight> shining) {
+  const bool wideSpot = std::any_of(shining.begin(), shining.end(), [](const GpuLight& light) {
+    return light.type == LIGHT_SPOT && lightUsesCube(light.type, light.outerCos);
+  });
+  pass.effect(first + LIGHT_SUN, kinds.sun)
+      .effect(first + LIGHT_POINT, kinds.point)
+      .effect(first + LIGHT_SPOT, kinds.spot)
+      .effect(first + LIGHT_FLAT_MAPS, kinds.sun || kinds.spot)
+      .effect(first + LIGHT_CUBE_MAPS, kinds.point || (kinds.spot && wideSpot));
 }
 
 }  // namespace irad

@@ -8,18 +8,30 @@
 namespace irad {
 
 struct ShadowMaps {
-  Image flat;   ///< D32, reversed (1 near, 0 far), layers: sun and spot lights (at least one layer, so that it can
-                ///< always be bound)
-  Image cubes;  ///< D32, cube array: point lights (at least one)
+  Image flat;   ///< D32, reversed (1 near, 0 far), layers: sun and spot lights; empty where none shines
+  Image cubes;  ///< D32, cube array: point lights and wide spots; empty where none shines
   VkSampler sampler = VK_NULL_HANDLE;  ///< compare, linear
 };
 
-/// Draws the map of every light ("RE Shadow") and fills in its layer and matrix. `resolution`: texels per side of a
-/// flat map, twice those of a cube's; less where there are too many. DeviceError when the device has not the layers or
-/// the memory.
-ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights,
-                       uint32_t resolution);
+struct ShadowNeeds {
+  LightFilter shines = hasIntensity;  ///< lights that get a map
+  bool alphaTest = true;              ///< DepthPass::alphaTest
+};
+/// Draws the map of every light that shines ("RE Shadow") and fills in its layer and matrix; the others' layer is -1.
+/// `resolution`: texels per side of a flat map, twice those of a cube's; less where there are too many. DeviceError
+/// when the device has not the layers or the memory.
+ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
+                       const ShadowNeeds& needs = {});
 /// Of the scene's own lights, which are uploaded again. They and their maps stay when it throws.
-ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution);
+ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution, const ShadowNeeds& needs = {});
+
+/// Types of light that shine.
+struct LightKinds {
+  bool sun = true, spot = true, point = true;
+};
+LightKinds kindsOf(std::span<const GpuLight> shining);
+/// Sets the constants of shaders/forward/shadow.glsl, which begin at `first`, for a pass that sums up the lights
+/// `shining`, none of another kind.
+void specialize(Pass& pass, uint32_t first, const LightKinds& kinds, std::span<const GpuLight> shining);
 
 }  // namespace irad

@@ -32,6 +32,8 @@ enum Op : uint32_t {
   OpSpecConstant = 50,
   OpConstantComposite = 44,
   OpSpecConstantComposite = 51,
+  OpFunction = 54,
+  OpFunctionEnd = 56,
   OpVariable = 59,
   OpDecorate = 71,
   OpMemberDecorate = 72,
@@ -269,6 +271,17 @@ std::vector<uint32_t> withoutDebugInfo(std::span<const uint32_t> spirv) {
       code.insert(code.end(), words.begin(), words.end());
   });
   return code;
+}
+
+uint64_t functionInstructions(std::span<const uint32_t> spirv) {
+  uint64_t count = 0;
+  bool inside = false;
+  forEachInstruction(spirv, [&](uint32_t op, std::span<const uint32_t>) {
+    inside |= op == OpFunction;
+    count += inside ? 1 : 0;
+    inside &= op != OpFunctionEnd;
+  });
+  return count;
 }
 
 std::vector<ReflectedStruct> reflectStructs(std::span<const uint32_t> spirv) {

@@ -68,6 +68,59 @@ TEST_F(Core, DispatchChainWithHazards) {
   EXPECT_EQ(device().counters.dispatches - before, 4u);
 }
 
+TEST_F(Core, CountersCountWhatIsAskedFor) {
+  const uint32_t n = 64;
+  const Buffer a = values("a", std::vector<uint32_t>(n, 2)), b = values("b", std::vector<uint32_t>(n, 0));
+  const Buffer groups = values("groups", {0, 1, 1});
+  const SquarePush push{a.address, b.address, n, 1};
+  const auto asked = [&](const std::function<void(Frame&)>& record) {
+    const Counters before = context().counters();
+    Frame frame = context().begin();
+    record(frame);
+    frame.submitAndWait();
+    return context().counters().since(before);
+  };
+  const auto square = [&](Frame& frame, uint32_t constant) {
+    Pass pass = frame.pass("Square");
+    pass.shader(shader("square.comp")).constant(77, constant).read(a).write(b).push(push);
+    return pass;
+  };
+  // Transfers are work of another kind; an indirect dispatch counts though it finds no groups, no threads do not.
+  const Counters work = asked([&](Frame& frame) {
+    frame.pass("Fill").fill(b, 1);
+    square(frame, 0).dispatch(n);
+    square(frame, 0).dispatchIndirect(groups);
+    square(frame, 0).dispatch(0);
+  });
+  EXPECT_EQ(work.dispatches, 2u);
+  EXPECT_EQ(work.draws, 0u);
+  EXPECT_EQ(work.submissions, 1u);
+  EXPECT_EQ(work.resources(), 0u);
+  // A pipeline counts when it is compiled, once per set of constants.
+  EXPECT_EQ(asked([&](Frame& frame) { square(frame, 1).dispatch(n); }).pipelines, 1u);
+  EXPECT_EQ(asked([&](Frame& frame) { square(frame, 1).dispatch(n); }).pipelines, 0u);
+  // Draws, and what is made.
+  const Buffer vertices = makeBuffer<glm::vec4>(context(), "vertices", Subsystem::Staging,
+                                                std::vector<glm::vec4>{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}});
+  const Counters drawn = asked([&](Frame& frame) {
+    const Image image(device(), {.name = "counted",
+                                 .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                 .width = 4,
+                                 .height = 4,
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
+    frame.pass("Draw")
+        .shaders({shader("triangle.vert"), shader("white.frag")})
+        .read(vertices)
+        .color(image, ClearColor{})
+        .push(vertices.address)
+        .draw(3);
+  });
+  EXPECT_EQ(drawn.draws, 1u);
+  EXPECT_EQ(drawn.dispatches, 0u);
+  EXPECT_EQ(drawn.images, 1u);
+  EXPECT_EQ(drawn.buffers, 0u);
+}
+
 TEST_F(Core, TimersAreSane) {
   const uint32_t n = 4 << 20;
   const Buffer a = values("a", std::vector<uint32_t>(n, 3)), b = values("b", std::vector<uint32_t>(n, 0));

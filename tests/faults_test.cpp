@@ -51,7 +51,7 @@ struct Disarm {
 template <class Act>
 std::string withoutMemoryAt(uint64_t n, Act&& act) {
   const Device& device = *gpu().device;
-  gpu().device->options.failResource = device.counters.resources + n;
+  gpu().device->options.failResource = device.counters.resources() + n;
   const Disarm disarm;
   std::string message;
   try {
@@ -60,7 +60,7 @@ std::string withoutMemoryAt(uint64_t n, Act&& act) {
     EXPECT_EQ(error.exitStatus, 4);
     message = error.what();
   }
-  const bool reached = device.counters.resources >= device.options.failResource;
+  const bool reached = device.counters.resources() >= device.options.failResource;
   EXPECT_EQ(reached, !message.empty()) << "resource " << n << ": the failure was swallowed";
   return message;
 }

@@ -105,12 +105,17 @@ struct Stage {
     shadows = drawShadows(context, device, settings.light.shadowResolution);
   }
   Picture draw(View view, glm::uvec2 size, size_t cameraIndex = 0, const ViewInputs& inputs = {},
-               const IndirectInputs& indirect = {}) {
+               const IndirectInputs& indirect = {}, const ForwardEffects& effects = {}) {
     Targets targets(context, size);
+    return draw(view, targets, cameraIndex, inputs, indirect, effects);
+  }
+  Picture draw(View view, Targets& targets, size_t cameraIndex, const ViewInputs& inputs,
+               const IndirectInputs& indirect, const ForwardEffects& effects) {
+    const glm::uvec2 size = targets.size;
     const GpuCamera gpu = makeGpuCamera(scene, scene.cameras.at(cameraIndex), size);
     const Buffer camera = makeBuffer(context, "camera", Subsystem::Targets, std::span<const GpuCamera>(&gpu, 1));
     Frame frame = context.begin();
-    drawForward(frame, device, shadows, indirect, camera, settings.camera.gpu, targets);
+    drawForward(frame, device, shadows, indirect, camera, settings.camera.gpu, targets, effects);
     traceSpecular(frame, inputs, camera, settings, targets);
     drawView(frame, view, inputs, camera, settings, targets);
     frame.submitAndWait();

@@ -175,7 +175,7 @@ TEST_F(Lights, WithoutMemoryForAnyOfTheirResourcesTheOldStay) {
   DeviceOptions& options = gpu().device->options;
   uint64_t n = 1;
   for (;; ++n) {
-    options.failResource = gpu().device->counters.resources + n;
+    options.failResource = gpu().device->counters.resources() + n;
     std::string message;
     try {
       pipeline.setLights(threeLights());

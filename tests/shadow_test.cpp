@@ -184,6 +184,37 @@ TEST_F(Shadow, LightsOfNoIntensityGetNoMap) {
   EXPECT_EQ(stage.device.lightValues[2].shadowLayer, 0);
   EXPECT_EQ(stage.shadows.flat.desc.layers, 1u);
   EXPECT_EQ(stage.shadows.cubes.desc.layers, 6u);
+  EXPECT_EQ(stage.device.shining.size(), 2u);
+}
+
+TEST_F(Shadow, LightsThatDoNotShineGetNoMapAndNoDraw) {
+  SceneBuilder b = occluderScene();
+  b.addLight(LightType::Sun, 1);
+  b.addLight(LightType::Point, 1).position = {0, 3, 0};
+  const Scene scene = b.finish();
+  SceneOnDevice device(context(), scene);
+  const uint64_t used = context().device.memory().used();
+  const auto drawn = [&](const LightFilter& shines) {
+    const Counters before = context().counters();
+    const ShadowMaps maps = drawShadows(context(), device, 64, {.shines = shines});
+    EXPECT_EQ(static_cast<bool>(maps.flat), device.lightValues[0].shadowLayer >= 0);
+    EXPECT_EQ(static_cast<bool>(maps.cubes), device.lightValues[1].shadowLayer >= 0);
+    return context().counters().since(before);
+  };
+  // A flat map is one picture of the scene, a cube six.
+  const uint64_t draws = drawn([](const GpuLight& l) { return l.type == LIGHT_SUN; }).draws;
+  EXPECT_GT(draws, 0u);
+  EXPECT_EQ(device.shining.size(), 1u);
+  EXPECT_EQ(drawn([](const GpuLight& l) { return l.type == LIGHT_POINT; }).draws, 6 * draws);
+  EXPECT_EQ(drawn(hasIntensity).draws, 7 * draws);
+  // Nothing shines: nothing is drawn or made. The lights are all there, for the views, in their order.
+  const Counters dark = drawn([](const GpuLight&) { return false; });
+  EXPECT_EQ(dark.draws, 0u);
+  EXPECT_EQ(dark.images, 0u);
+  EXPECT_EQ(device.lightValues.size(), 2u);
+  EXPECT_TRUE(device.shining.empty());
+  context().device.waitIdle();
+  EXPECT_LE(context().device.memory().used(), used);
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ Window::Window(Context& context, const WindowOptions& options)
       layer_(context, presenter_.window()),
       builder_(context, session_, [this] { breathe(); }) {
   presenter_.attach(context);
+  context.bridgeVariants(true);
   session_.edited = options.settings;
   session_.defaults = options.defaults;
   session_.view = options.view;

@@ -135,7 +135,8 @@ Allocator::Impl::Place Allocator::Impl::allocate(const VkMemoryRequirements& nee
   Block* block = nullptr;
   uint64_t offset = 0;
   const bool dedicated = needs.size > blockSize / 2;
-  const bool refused = ++device.counters.resources == device.options.failResource;
+  ++(image ? device.counters.images : device.counters.buffers);
+  const bool refused = device.counters.resources() == device.options.failResource;
   if (!dedicated && !refused) {
     for (const auto& candidate : blocks)
       if (!candidate->dedicated && candidate->type == type && candidate->images == image &&

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "RE Forward": the targets are zero where the depth prepass left nothing. Clears of whole targets would go through the
+// "RE Forward": the targets that are there are zero where the depth prepass left nothing. Clears of whole targets would go through the
 // raster units, which are few on some devices.
-#include "shared/types.h"
+#include "shared/passes.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint TARGETS = TARGETS_ALL;  ///< those that are there
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D geometricTarget;
@@ -23,9 +24,9 @@ void main() {
   imageStore(normalTarget, pixel, vec4(0.0));
   imageStore(geometricTarget, pixel, vec4(0.0));
   imageStore(albedoTarget, pixel, vec4(0.0));
-  imageStore(f0Target, pixel, vec4(0.0));
+  if ((TARGETS & TARGET_F0) != 0u) imageStore(f0Target, pixel, vec4(0.0));
   imageStore(directTarget, pixel, vec4(0.0));
-  imageStore(highlightTarget, pixel, vec4(0.0));
-  imageStore(indirectTarget, pixel, vec4(0.0));
-  imageStore(emittedTarget, pixel, vec4(0.0));
+  if ((TARGETS & TARGET_HIGHLIGHT) != 0u) imageStore(highlightTarget, pixel, vec4(0.0));
+  if ((TARGETS & TARGET_INDIRECT) != 0u) imageStore(indirectTarget, pixel, vec4(0.0));
+  if ((TARGETS & TARGET_EMITTED) != 0u) imageStore(emittedTarget, pixel, vec4(0.0));
 }

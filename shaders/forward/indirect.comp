@@ -1,5 +1,5 @@
 // "RE Forward", last step: indirect light from the facets around each visible point, which the fragment stage has left
-// in the targets (position in `indirect`, normal in `emitted`; w = 0 where nothing is drawn).
+// in the targets (position in `indirect`, w = 0 where nothing is drawn; normal in `linear`, which views fill later).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
@@ -8,12 +8,13 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMAL_ENCODING = NORMALS_OCT16;
-layout(constant_id = 1) const bool EMITTED = true;  ///< F M too
+layout(constant_id = 1) const bool EMITTED = true;  ///< F M too: there is a target for it
 layout(push_constant, scalar) uniform PushBlock {
   IndirectPush push;
 };
 layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
-layout(set = 0, binding = 1, rgba32f) uniform image2D emittedTarget;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D lookupTarget;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
 
 void main() {
   Grid grid = push.grid.at[0];
@@ -24,11 +25,10 @@ void main() {
   if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
   vec4 position = imageLoad(indirectTarget, pixel);
   if (position.w == 0.0) return;
-  vec3 normal = imageLoad(emittedTarget, pixel).xyz;
+  vec3 normal = imageLoad(lookupTarget, pixel).xyz;
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   Receiver r = receiverAt(map, (position.xyz - grid.origin) * grid.inverseEdge, normal, viewer);
-  vec3 emitted = EMITTED ? facetIndirect(map, push.shadedEmitted, push.sampling, r) : vec3(0.0);
+  if (EMITTED) imageStore(emittedTarget, pixel, vec4(facetIndirect(map, push.shadedEmitted, push.sampling, r), 1.0));
   imageStore(indirectTarget, pixel, vec4(facetIndirect(map, push.shaded, push.sampling, r), 1.0));
-  imageStore(emittedTarget, pixel, vec4(emitted, 1.0));
 }

@@ -21,17 +21,20 @@ uint bestFacet(FacetMap map, ivec3 v, Receiver r, out float agreement) {
   uint entry = facetEntry(map, v);
   if (entry == NO_FACET || hiddenVoxel(r, vec3(v) + 0.5)) return NO_FACET;
   uint facet = entry & ~SECOND_FACET;
-  uint best = NO_FACET;
-  agreement = facetAgreement(map.shape.at[facet], map.encoding, vec3(v), r);
-  if (agreement > 0.0) best = facet;
-  if ((entry & SECOND_FACET) != 0u) {
-    float other = facetAgreement(map.shape.at[facet + 1u], map.encoding, vec3(v), r);
-    if (other > agreement) {
-      agreement = other;
-      best = facet + 1u;
-    }
+  uint shape = map.shape.at[facet];
+  agreement = facetAgreement(shape, map.encoding, vec3(v), r);
+  if (entry < SECOND_FACET) return agreement > 0.0 ? facet : NO_FACET;
+  uint wallShape = map.shape.at[facet + 1u];
+  float other = facetAgreement(wallShape, map.encoding, vec3(v), r);
+  if (other > agreement) {
+    agreement = other;
+    ++facet;
+    uint first = shape;
+    shape = wallShape;
+    wallShape = first;
   }
-  return best == NO_FACET || hiddenByWall(map, entry, best, r.normal, r.position - vec3(v) - 0.5) ? NO_FACET : best;
+  bool hidden = agreement <= 0.0 || hiddenByWall(map, facet, shape, wallShape, r.normal, r.position - vec3(v) - 0.5);
+  return hidden ? NO_FACET : facet;
 }
 
 /// The eight voxels whose centres surround `q`: the sum of their facets' values, as they stand for the receiver's

@@ -1,18 +1,22 @@
 // "RE Forward", fragment stage: surface and direct light, and with IRAD_VOLUME the thesis's indirect lookup; without,
 // what forward/indirect.comp needs for the lookup in the facets. Written once per visible pixel (the depth prepass and
 // EQUAL see to it); renderer/forward.h says what each target holds.
-layout(constant_id = 0) const uint SHADOW_KINDS = 3u;  ///< as IRAD_SHADOW_KINDS; 0: no lights
-layout(constant_id = 1) const bool TEXTURED = true;    ///< a material of this pass has a texture
-layout(constant_id = 2) const uint PCF = 3u;
-layout(constant_id = 3) const bool MANY_LIGHTS = true;  ///< more than the uniform block holds
-#define IRAD_SHADOW_KINDS SHADOW_KINDS
+#define IRAD_LIGHT_CONSTANTS FORWARD_LIGHTS
 #define IRAD_TEXTURED TEXTURED
+#include "shared/passes.h"
+layout(constant_id = FORWARD_TEXTURED) const bool TEXTURED = true;
+layout(constant_id = FORWARD_NORMAL_MAP) const bool NORMAL_MAP = true;
+layout(constant_id = FORWARD_EMISSION) const bool EMISSION = true;
+layout(constant_id = FORWARD_HIGHLIGHTS) const bool HIGHLIGHTS = true;
+layout(constant_id = FORWARD_F0) const bool F0 = true;
+layout(constant_id = FORWARD_INDIRECT) const bool INDIRECT = true;
+layout(constant_id = FORWARD_PCF) const uint PCF = 3u;
+layout(constant_id = FORWARD_MANY_LIGHTS) const bool MANY_LIGHTS = true;
 
 #include "forward/indirect.glsl"
 #include "forward/material.glsl"
 #include "forward/shadow.glsl"
 #include "shared/ggx.h"
-#include "shared/passes.h"
 
 layout(push_constant, scalar) uniform PushBlock {
   ForwardPush push;
@@ -35,7 +39,9 @@ layout(location = 3) out vec4 outF0;
 layout(location = 4) out vec4 outDirect;
 layout(location = 5) out vec4 outHighlight;
 layout(location = 6) out vec4 outIndirect;
-layout(location = 7) out vec4 outEmitted;
+#ifndef IRAD_VOLUME
+layout(location = 7) out vec4 outLookup;
+#endif
 
 /// The triangle's own normal, towards the viewer. One without area takes the vertices'.
 vec3 orientedFace(vec3 view) {
@@ -45,7 +51,7 @@ vec3 orientedFace(vec3 view) {
 }
 
 vec3 mappedNormal(GpuMaterial m, vec3 n) {
-  if (!TEXTURED || (m.flags & MATERIAL_NORMAL_TEXTURE) == 0u) return n;
+  if (!TEXTURED || !NORMAL_MAP || (m.flags & MATERIAL_NORMAL_TEXTURE) == 0u) return n;
   vec3 t = tangent.xyz - n * dot(n, tangent.xyz);
   float l2 = dot(t, t);
   if (!(l2 > 0.0)) return n;
@@ -89,8 +95,8 @@ void main() {
   float occlusion = 1.0;
   if (TEXTURED && (m.flags & MATERIAL_OCCLUSION_TEXTURE) != 0u)
     occlusion += m.occlusionStrength * (texture(occlusionTexture, textureUv(m, TEXTURE_OCCLUSION, uv)).r - 1.0);
-  vec3 emission = m.emission;
-  if (TEXTURED && (m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
+  vec3 emission = EMISSION ? m.emission : vec3(0.0);
+  if (EMISSION && TEXTURED && (m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
     emission *= texture(emissiveTexture, textureUv(m, TEXTURE_EMISSIVE, uv)).rgb;
 
   // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (METHOD section 1: D).
@@ -98,7 +104,7 @@ void main() {
   float alpha = max(roughness * roughness, GGX_LEAST_ALPHA);
   vec3 direct = vec3(0.0);
   vec3 highlight = vec3(0.0);
-  for (uint i = 0u; SHADOW_KINDS != 0u && i < push.lightCount; ++i) {
+  for (uint i = 0u; anyLight() && i < push.lightCount; ++i) {
     GpuLight light = lights[MANY_LIGHTS ? 0u : i];
     if (MANY_LIGHTS) light = push.lights.at[i];
     vec3 l = lightDirection(light, local);
@@ -107,10 +113,10 @@ void main() {
     if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
     // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The facet
     // gather knows its planes less well and takes all of it.)
-    float bias = lightUsesCube(light.type, light.outerCos) ? push.shadowBias : 0.5 * push.shadowBias;
+    float bias = hasCubeMap(light) ? push.shadowBias : 0.5 * push.shadowBias;
     e *= shadowVisibility(light, local, face, bias, PCF);
     direct += e;
-    if (lambertian || push.specularDirect == 0u) continue;
+    if (!HIGHLIGHTS || lambertian || push.specularDirect == 0u) continue;
     vec3 h = normalize(l + view);
     highlight += e * fresnelSchlick(f0, max(dot(view, h), 0.0)) *
                  (ggxDistribution(max(dot(n, h), 0.0), alpha) * ggxVisibility(nl, nv, alpha));
@@ -119,16 +125,16 @@ void main() {
   outNormal = vec4(n, roughness);
   outGeometric = vec4(face, metallic);
   outAlbedo = vec4(albedo, occlusion);
-  outF0 = vec4(f0, lambertian ? 0.0 : 1.0);
+  if (F0) outF0 = vec4(f0, lambertian ? 0.0 : 1.0);
   outDirect = vec4(direct, 1.0);
-  outHighlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
+  if (HIGHLIGHTS || EMISSION) outHighlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
+  if (!INDIRECT) return;
 #ifdef IRAD_VOLUME
   Grid grid = push.grid.at[0];
   vec3 p = (local - grid.origin) * grid.inverseEdge;
   outIndirect = vec4(volumeIndirect(grid, push.sampling, p, lookup), 1.0);
-  outEmitted = vec4(0.0, 0.0, 0.0, 1.0);
 #else
   outIndirect = vec4(local, 1.0);
-  outEmitted = vec4(lookup, 1.0);
+  outLookup = vec4(lookup, 1.0);
 #endif
 }

@@ -1,6 +1,6 @@
 // Light from the analytic lights and its visibility through the shadow maps: one definition for shading and for the
-// facet gather. The including shader binds the maps; by default they are set 0, bindings 0 and 1. Where it knows that a
-// scene has no light of one sort it says so (IRAD_SHADOW_KINDS), and the code for that sort is left out.
+// facet gather. The including shader binds the maps; by default they are set 0, bindings 0 and 1. Specialization constants
+// leave out the lights that a scene does not have, from the number IRAD_LIGHT_CONSTANTS on.
 #ifndef IRAD_FORWARD_SHADOW_GLSL
 #define IRAD_FORWARD_SHADOW_GLSL
 #include "shared/scene_gpu.h"
@@ -14,22 +14,33 @@
 #ifndef IRAD_SHADOW_CUBE_BINDING
 #define IRAD_SHADOW_CUBE_BINDING 1
 #endif
-/// Bit 0: lights with flat maps, bit 1: with cubes.
-#ifndef IRAD_SHADOW_KINDS
-#define IRAD_SHADOW_KINDS 3u
+#ifndef IRAD_LIGHT_CONSTANTS
+#define IRAD_LIGHT_CONSTANTS 0u
 #endif
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_SUN) const bool SUNS = true;
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_POINT) const bool POINTS = true;
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_SPOT) const bool SPOTS = true;
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_FLAT_MAPS) const bool FLAT_MAPS = true;
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_CUBE_MAPS) const bool CUBE_MAPS = true;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArrayShadow shadowFlat;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
 
+bool anyLight() { return SUNS || POINTS || SPOTS; }
+bool isSun(GpuLight light) { return SUNS && (!(POINTS || SPOTS) || light.type == LIGHT_SUN); }
+bool isSpot(GpuLight light) { return SPOTS && (!(SUNS || POINTS) || light.type == LIGHT_SPOT); }
+bool hasCubeMap(GpuLight light) {
+  return CUBE_MAPS && (!FLAT_MAPS || lightUsesCube(light.type, light.outerCos));
+}
+
 /// Unit vector from `position` towards the light.
 vec3 lightDirection(GpuLight light, vec3 position) {
-  return light.type == LIGHT_SUN ? -light.direction : normalize(light.position - position);
+  return isSun(light) ? -light.direction : normalize(light.position - position);
 }
 
 /// Light that reaches `position` on a surface facing it, W/m^2: lux for a sun, I / d^2 times KHR_lights_punctual's range
 /// window for the others, times the squared angular ramp of a spot. Shadows apart.
 vec3 lightIntensity(GpuLight light, vec3 position) {
-  if (light.type == LIGHT_SUN) return light.intensity;
+  if (isSun(light)) return light.intensity;
   vec3 toLight = light.position - position;
   float d2 = dot(toLight, toLight);
   if (!(d2 > 0.0)) return vec3(0.0);
@@ -38,7 +49,7 @@ vec3 lightIntensity(GpuLight light, vec3 position) {
     float r2 = d2 / (light.range * light.range);
     attenuation *= clamp(1.0 - r2 * r2, 0.0, 1.0);
   }
-  if (light.type == LIGHT_SPOT) {
+  if (isSpot(light)) {
     float c = dot(light.direction, -toLight) * inversesqrt(d2);
     float ramp = light.innerCos > light.outerCos
                      ? clamp((c - light.outerCos) / (light.innerCos - light.outerCos), 0.0, 1.0)
@@ -129,7 +140,7 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
 float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float biasTexels, uint pcf) {
   if (light.shadowLayer < 0) return 1.0;
   pcf |= 1u;  // odd
-  if (IRAD_SHADOW_KINDS == 2u || (IRAD_SHADOW_KINDS == 3u && lightUsesCube(light.type, light.outerCos))) {
+  if (hasCubeMap(light)) {
     vec3 a = abs(localPosition - light.position);
     float major = max(a.x, max(a.y, a.z));
     float along = a.x == major ? normal.x : (a.y == major ? normal.y : normal.z);
@@ -139,7 +150,7 @@ float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float bi
   float cosine = dot(normal, lightDirection(light, localPosition));
   float along = dot(normal, light.direction);
   float texel = light.shadowTexel;
-  if (light.type == LIGHT_SPOT) texel *= dot(localPosition - light.position, light.direction);
+  if (isSpot(light)) texel *= dot(localPosition - light.position, light.direction);
   float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * texel;
   return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift, texel, pcf);
 }

@@ -68,14 +68,12 @@ bool convexInVoxel(uint around) {
   return (around & AROUND_SELF) != 0u && before < 5 && ((around >> (AROUND_CONVEX_SHIFT + uint(before))) & 1u) != 0u;
 }
 
-/// Whether the other face of a facet's voxel is a wall on it that hides the facet from `point`, given from the voxel's
-/// centre: the point is behind the wall, or all of the facet is. `entry`: the voxel's, of the reverse map.
-bool hiddenByWall(FacetMap map, uint entry, uint facet, vec3 normal, vec3 point) {
-  if (entry < SECOND_FACET || (map.shape.at[facet] & FACET_CORNER) == 0u) return false;
-  uint wall = (entry & ~SECOND_FACET) == facet ? facet + 1u : facet - 1u;
-  uint shape = map.shape.at[wall];
-  vec3 facing = decodeNormal(shape & 0xFFFFu, map.encoding);
-  float offset = facetOffset(shape);
+/// Whether the other face of a voxel that has two is a wall on a facet, and hides it from `point`, given from the
+/// voxel's centre: the point is behind the wall, or all of the facet is. `shape`, `wallShape`: of the two.
+bool hiddenByWall(FacetMap map, uint facet, uint shape, uint wallShape, vec3 normal, vec3 point) {
+  if ((shape & FACET_CORNER) == 0u) return false;
+  vec3 facing = decodeNormal(wallShape & 0xFFFFu, map.encoding);
+  float offset = facetOffset(wallShape);
   return abs(dot(facing, normal)) < WALL_COSINE &&
          (dot(facing, point) - offset < -TRACE_ON_PLANE || offset > allBehind(facing)) &&
          !convexInVoxel(map.around.at[facet]);

@@ -2,10 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI Gather" (METHOD section 6, T 5.7): direct irradiance D of every facet from the sun, spot and point lights, averaged
 // over points of the facet's plane within its cell, through the shadow maps and the very functions that shading uses.
+#include "shared/solve.h"
+#define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/shadow.glsl"
 #include "shared/grid.h"
 #include "shared/normals.h"
-#include "shared/solve.h"
 #include "shared/trace.h"
 
 layout(local_size_x = 64) in;
@@ -27,7 +28,7 @@ void main() {
   for (uint k = 0u; k < p.samples; ++k) {
     vec2 jitter = hammersley(k, p.samples, uvec2(0u, 0x80000000u / p.samples));
     vec3 position = p.origin + p.edge * facetPoint(voxel, normal, facetOffset(shape), jitter);
-    for (uint i = 0u; i < scene.lightCount; ++i) {
+    for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
       GpuLight light = scene.lights.at[i];
       vec3 irradiance = lightIrradiance(light, position, normal);
       if (irradiance == vec3(0.0f)) continue;

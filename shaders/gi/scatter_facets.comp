@@ -27,6 +27,8 @@ void main() {
   vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
   float offset = facetOffset(shape);
   uint own = facetEntry(map, ivec3(voxel));
+  bool walled = own >= SECOND_FACET;
+  uint wallShape = walled ? f.shape.at[(own & ~SECOND_FACET) == facet ? facet + 1u : facet - 1u] : 0u;
   vec3 sumH = vec3(0.0f), sumE = vec3(0.0f);
   float total = 0.0f;
   for (int i = 0; i < 27; ++i) {
@@ -45,8 +47,10 @@ void main() {
       float facing = dot(normal, otherNormal);
       if (facing <= FACING || max(abs(away), abs(back)) >= LEVEL) continue;
       if (other != facet &&
-          (hiddenByWall(map, own, facet, normal, vec3(step_) + otherNormal * facetOffset(otherShape)) ||
-           hiddenByWall(map, entry, other, otherNormal, normal * offset - vec3(step_))))
+          ((walled && hiddenByWall(map, facet, shape, wallShape, normal,
+                                   vec3(step_) + otherNormal * facetOffset(otherShape))) ||
+           (last > first && hiddenByWall(map, other, otherShape, f.shape.at[first + last - other], otherNormal,
+                                         normal * offset - vec3(step_)))))
         continue;
       sumH += tent * p.indirect.at[other].xyz;
       if (EMITTED) sumE += tent * p.emitted.at[other].xyz;

@@ -22,6 +22,26 @@ struct DepthPush {
   uint padding;
 };
 
+/// Specialization constants of "RE Forward" (forward/shade.glsl). The effects leave out what they are false for.
+IRAD_CONST uint FORWARD_LIGHTS = 0u;  ///< LIGHT_SUN and so on follow
+IRAD_CONST uint FORWARD_TEXTURED = 5u;    ///< effect: a material of the pass has a texture
+IRAD_CONST uint FORWARD_NORMAL_MAP = 6u;  ///< effect: ... a normal map
+IRAD_CONST uint FORWARD_EMISSION = 7u;    ///< effect
+IRAD_CONST uint FORWARD_HIGHLIGHTS = 8u;  ///< effect: the lights' specular lobe
+IRAD_CONST uint FORWARD_F0 = 9u;          ///< effect: reflections are traced
+IRAD_CONST uint FORWARD_INDIRECT = 10u;   ///< effect
+IRAD_CONST uint FORWARD_PCF = 11u;
+IRAD_CONST uint FORWARD_MANY_LIGHTS = 12u;  ///< more than UNIFORM_LIGHTS
+
+/// Targets that are there only where a picture is composed from them: bits of a specialization constant of the shaders
+/// that read or write them. An absent term is 0.
+IRAD_CONST uint TARGET_F0 = 1u;
+IRAD_CONST uint TARGET_HIGHLIGHT = 2u;
+IRAD_CONST uint TARGET_INDIRECT = 4u;
+IRAD_CONST uint TARGET_EMITTED = 8u;
+IRAD_CONST uint TARGET_SPECULAR = 16u;
+IRAD_CONST uint TARGETS_ALL = 31u;
+
 /// Lights that "RE Forward" reads through a uniform block; with more of them all are read by address.
 IRAD_CONST uint UNIFORM_LIGHTS = 64u;
 

@@ -40,6 +40,12 @@ IRAD_CONST uint LIGHT_SUN = 0u;
 IRAD_CONST uint LIGHT_POINT = 1u;
 IRAD_CONST uint LIGHT_SPOT = 2u;
 
+/// Specialization constants of shaders that sum up lights (forward/shadow.glsl), counted from the first that such a
+/// shader gives them: LIGHT_SUN, LIGHT_POINT and LIGHT_SPOT say which types of light shine, these which shadow maps
+/// there are. What is false has no code.
+IRAD_CONST uint LIGHT_FLAT_MAPS = 3u;
+IRAD_CONST uint LIGHT_CUBE_MAPS = 4u;
+
 /// Whether a light's shadow is drawn in six cube faces: points, and spots too wide for one perspective map.
 IRAD_FN bool lightUsesCube(uint type, float outerCos) {
   return type == LIGHT_POINT || (type == LIGHT_SPOT && outerCos < 0.342f);  // half-angle over 70 degrees

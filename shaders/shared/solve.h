@@ -55,6 +55,9 @@ IRAD_FN ivec2 solveTexel(uint i) {
   return ivec2(int(i % SOLVE_IMAGE_WIDTH), int(i / SOLVE_IMAGE_WIDTH));
 }
 
+/// The first of gi/gather.comp's specialization constants about lights: LIGHT_SUN and so on follow.
+IRAD_CONST uint GATHER_LIGHTS = 1u;
+
 /// gi/gather.comp: D per facet.
 struct GatherPush {
   SceneArray scene;

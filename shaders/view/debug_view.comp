@@ -1,11 +1,13 @@
 // Views composed from the targets of the forward pass (METHOD section 1: radiance = albedo (D + H) / pi + ...).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/passes.h"
 #include "shared/view.h"
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint VIEW = 0u;  ///< known to the compiler: no view pays for what the others read
+layout(constant_id = 1) const uint TARGETS = TARGETS_ALL;  ///< those that are there
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -19,6 +21,9 @@ layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D linearTarget;
 layout(set = 0, binding = 10, rgba8) uniform writeonly image2D displayTarget;
 layout(push_constant, scalar) uniform PushBlock { ViewPush push; };
 
+/// A term of the picture; 0 where its target is absent.
+#define IRAD_TERM(bit, target) ((TARGETS & bit) != 0u ? imageLoad(target, pixel).rgb : vec3(0.0))
+
 void main() {
   GpuCamera camera = push.camera.at[0];
   if (any(greaterThanEqual(gl_GlobalInvocationID.xy, camera.size))) return;
@@ -27,19 +32,19 @@ void main() {
   bool drawn = depth < 1.0;
   vec4 albedo = imageLoad(albedoTarget, pixel);
   vec3 direct = imageLoad(directTarget, pixel).rgb;
-  vec3 highlight = imageLoad(highlightTarget, pixel).rgb;
-  vec3 indirect = imageLoad(indirectTarget, pixel).rgb;
+  vec3 highlight = IRAD_TERM(TARGET_HIGHLIGHT, highlightTarget);
+  vec3 indirect = IRAD_TERM(TARGET_INDIRECT, indirectTarget);
 
   vec3 value = vec3(0.0);
   switch (VIEW) {
     case VIEW_LIT:
       value = albedo.rgb * (direct + albedo.a * indirect) * (1.0 / IRAD_PI) + highlight +
-              albedo.a * imageLoad(specularTarget, pixel).rgb;
+              albedo.a * IRAD_TERM(TARGET_SPECULAR, specularTarget);
       break;
     case VIEW_NO_GI:
     case VIEW_DIRECT: value = albedo.rgb * direct * (1.0 / IRAD_PI) + highlight; break;
     case VIEW_INDIRECT: value = albedo.rgb * indirect * (albedo.a / IRAD_PI); break;
-    case VIEW_SPECULAR: value = albedo.a * imageLoad(specularTarget, pixel).rgb; break;
+    case VIEW_SPECULAR: value = albedo.a * IRAD_TERM(TARGET_SPECULAR, specularTarget); break;
     case VIEW_ALBEDO: value = albedo.rgb; break;
     case VIEW_NORMAL: value = imageLoad(normalTarget, pixel).xyz; break;
     case VIEW_ROUGHNESS_METALLIC:
@@ -53,9 +58,9 @@ void main() {
       if (!drawn) value = vec3(0.0);
       break;
     }
-    case VIEW_DIRECT_IRRADIANCE: value = direct + imageLoad(emittedTarget, pixel).rgb; break;
+    case VIEW_DIRECT_IRRADIANCE: value = direct + IRAD_TERM(TARGET_EMITTED, emittedTarget); break;
     case VIEW_IRRADIANCE: value = indirect; break;
-    case VIEW_EMITTER_IRRADIANCE: value = imageLoad(emittedTarget, pixel).rgb; break;
+    case VIEW_EMITTER_IRRADIANCE: value = IRAD_TERM(TARGET_EMITTED, emittedTarget); break;
     default: {
       // A view that nobody wrote: magenta.
       imageStore(linearTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));

@@ -7,6 +7,7 @@
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool INDIRECT = true;  ///< there is such a target
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D linearTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D albedoTarget;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D directTarget;
@@ -17,7 +18,8 @@ layout(push_constant, scalar) uniform PushBlock { FinishPush push; };
 /// The lit scene in dim grey.
 vec3 surroundings(ivec2 pixel) {
   vec4 albedo = imageLoad(albedoTarget, pixel);
-  vec3 light = imageLoad(directTarget, pixel).rgb + albedo.a * imageLoad(indirectTarget, pixel).rgb;
+  vec3 indirect = INDIRECT ? imageLoad(indirectTarget, pixel).rgb : vec3(0.0);
+  vec3 light = imageLoad(directTarget, pixel).rgb + albedo.a * indirect;
   vec3 shown = displayLight(albedo.rgb * light * (1.0 / IRAD_PI), push.exposure, push.toneCurve);
   return vec3(0.35 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
 }

@@ -1,0 +1,41 @@
+// What pictures are composed from, per pixel.
+#pragma once
+
+#include "renderer/frame.h"
+
+namespace irad {
+
+/// Results of the forward pass, of traced reflections and of views. fp32 where light is held, so that emission from
+/// 1e-6 to 1e6 survives. Those that stand apart exist only where a pass writes them: an absent term is 0.
+struct Targets {
+  Targets() = default;
+  Targets(Context& context, glm::uvec2 size);
+  glm::uvec2 size{0};
+  Image depth;       ///< D32, 1 = nothing
+  Image normal;      ///< RGBA16F: shading normal xyz, roughness
+  Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic
+  Image albedo;      ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
+  Image direct;      ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
+  Image linear;      ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn.
+                     ///< Passes before the view keep what they need for themselves there
+  Buffer viewRange;  ///< one ViewRange (shaders/shared/view.h), of views that have one
+  Buffer viewBins;   ///< histogram of their values
+  Image display;     ///< RGBA8: what is shown and written as PNG (sRGB-encoded)
+
+  Image f0;         ///< RGBA16F: specular reflectance at normal incidence; w: 1 = has a specular lobe
+  Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
+  Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; before forward/indirect.comp the position
+  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M), where a view asks
+  Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
+  Buffer glossy;  ///< pixels that trace specular rays (shaders/shared/passes.h); with `specular`, where that is listed
+
+  /// Makes one of the latter images, or gives it back once the device has finished with it.
+  void fit(Context& context, Image Targets::*image, bool wanted);
+  /// TARGET_* of shaders/shared/passes.h: those of them that exist.
+  uint32_t present() const;
+  /// The image; an absent one's place is taken by another of its format, which the shader, told by present(), leaves
+  /// alone.
+  const Image& bound(Image Targets::*image) const;
+};
+
+}  // namespace irad
