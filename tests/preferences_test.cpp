@@ -54,7 +54,7 @@ TEST(Preferences, BadFilesAreNamedWithMemberAndValue) {
       {"{\"format\": 9}", {"format", "9"}},
       {"{}", {"format", "null"}},
       {"[]", {"an object"}},
-      {"{", {"no JSON"}},
+      {"{", {"not JSON"}},
   };
   for (const auto& [text, parts] : bad) {
     std::ofstream(file) << text;
