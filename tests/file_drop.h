@@ -4,6 +4,7 @@
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
+#undef None  // a macro of X.h, an enumerator of ours
 
 #include <chrono>
 #include <memory>

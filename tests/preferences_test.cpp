@@ -28,7 +28,7 @@ TEST(Preferences, ComeBackAsTheyWere) {
   EXPECT_EQ(readPreferences(file), p);
   p.resetLayout();
   EXPECT_EQ(p.sizes, PanelSizes());
-  EXPECT_TRUE(p.folded.empty());
+  EXPECT_EQ(p.folded, Preferences().folded);
   EXPECT_EQ(p.recent.size(), 2u);
 }
 
@@ -54,7 +54,7 @@ TEST(Preferences, BadFilesAreNamedWithMemberAndValue) {
       {"{\"format\": 9}", {"format", "9"}},
       {"{}", {"format", "null"}},
       {"[]", {"an object"}},
-      {"{", {"no JSON"}},
+      {"{", {"not JSON"}},
   };
   for (const auto& [text, parts] : bad) {
     std::ofstream(file) << text;

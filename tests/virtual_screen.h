@@ -1,11 +1,9 @@
 // A virtual X server of a suite's own, processes in it, synthetic keys and mouse, and what its screen shows.
 #pragma once
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -15,6 +13,7 @@
 #include <sstream>
 #include <thread>
 
+#include "gi/check/process.h"
 #include "tests/support.h"
 
 namespace irad::test {
@@ -25,51 +24,32 @@ inline void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// A child process with its standard error in a file.
-class Process {
+/// A program in a folder and an environment of its own, what it prints in a file there.
+class Program {
  public:
-  Process(const std::vector<std::string>& command, const std::filesystem::path& folder,
+  Program(const std::vector<std::string>& command, const std::filesystem::path& folder,
           const std::map<std::string, std::string>& environment)
-      : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")) {
-    pid_ = fork();
-    if (pid_ != 0) return;
-    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    const int log = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    dup2(log, STDOUT_FILENO);
-    dup2(log, STDERR_FILENO);
-    if (chdir(folder.c_str()) != 0) _exit(126);
-    std::vector<char*> arguments;
-    for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
-    arguments.push_back(nullptr);
-    execvp(arguments[0], arguments.data());
-    _exit(127);
-  }
+      : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")),
+        process_("/usr/bin/env", throughEnv(command, folder, environment), log_, log_) {}
   /// Asked first, so that a server removes its lock and socket.
-  ~Process() {
+  ~Program() {
     if (!running()) return;
-    kill(pid_, SIGTERM);
-    if (wait(5) != -1) return;
-    kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
+    kill(process_.pid(), SIGTERM);
+    wait(5);
   }
-  Process(const Process&) = delete;
 
-  bool running() {
-    if (!status_ && waitpid(pid_, &raw_, WNOHANG) == pid_)
-      status_ = WIFEXITED(raw_) ? WEXITSTATUS(raw_) : 128 + WTERMSIG(raw_);
-    return !status_;
-  }
+  bool running() { return !process_.poll(); }
   /// Exit status, or -1 when it still runs after `seconds`.
   int wait(double seconds) {
     for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); running();) {
       if (Clock::now() > end) return -1;
       pause(0.02);
     }
-    return *status_;
+    return *process_.poll();
   }
   /// Processor time used so far by all its threads, seconds.
   double cpuSeconds() const {
-    const std::string stat = slurp(fmt::format("/proc/{}/stat", pid_));
+    const std::string stat = slurp(fmt::format("/proc/{}/stat", process_.pid()));
     std::istringstream fields(stat.substr(stat.rfind(')') + 2));
     std::string skipped;
     for (int i = 3; i < 14; ++i) fields >> skipped;
@@ -80,10 +60,17 @@ class Process {
   std::string log() const { return slurp(log_); }
 
  private:
+  /// env(1) becomes the program: the process is the same.
+  static std::vector<std::string> throughEnv(const std::vector<std::string>& command,
+                                             const std::filesystem::path& folder,
+                                             const std::map<std::string, std::string>& environment) {
+    std::vector<std::string> words{"-C", folder.string()};
+    for (const auto& [name, value] : environment) words.push_back(name + "=" + value);
+    words.insert(words.end(), command.begin(), command.end());
+    return words;
+  }
   std::filesystem::path log_;
-  pid_t pid_ = -1;
-  int raw_ = 0;
-  std::optional<int> status_;
+  Process process_;
 };
 
 inline bool installed(const std::string& program) {
@@ -95,6 +82,14 @@ struct ScreenPart {
   int width = 0, height = 0;
   std::vector<uint8_t> rgb;
   bool operator==(const ScreenPart&) const = default;
+  /// Channel 0 to 2 of a pixel.
+  template <class Self>
+  static auto& channel(Self& self, int x, int y, int c) {
+    return self.rgb.at(3 * (static_cast<size_t>(y) * static_cast<size_t>(self.width) + static_cast<size_t>(x)) +
+                       static_cast<size_t>(c));
+  }
+  uint8_t at(int x, int y, int c) const { return channel(*this, x, y, c); }
+  uint8_t& at(int x, int y, int c) { return channel(*this, x, y, c); }
 
   /// Pixels of this colour (0xRRGGBB).
   int count(uint32_t color) const {
@@ -133,7 +128,7 @@ class VirtualScreen {
     if (pipe(fds) != 0) throw std::runtime_error("pipe");
     // -noreset: else it starts anew, and refuses connections meanwhile, whenever its last client leaves.
     server_ =
-        std::make_unique<Process>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
+        std::make_unique<Program>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
                                                            fmt::format("{}x{}x24", width, height), "-fbdir",
                                                            folder_.path.string(), "-nolisten", "tcp", "-noreset"},
                                   folder_.path, std::map<std::string, std::string>{});
@@ -179,7 +174,7 @@ class VirtualScreen {
 
  private:
   TemporaryFolder folder_;
-  std::unique_ptr<Process> server_;
+  std::unique_ptr<Program> server_;
   std::string display_;
 };
 

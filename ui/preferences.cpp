@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "renderer/error.h"
+#include "renderer/json_reader.h"
 #include "renderer/output_file.h"
 
 namespace irad {
@@ -47,7 +47,7 @@ std::vector<std::string> strings(const std::filesystem::path& file, const Json& 
 
 void Preferences::resetLayout() {
   sizes = {};
-  folded.clear();
+  folded = Preferences().folded;
 }
 
 void Preferences::opened(const std::filesystem::path& scene) {
@@ -72,14 +72,7 @@ Preferences readPreferences(const std::filesystem::path& file) {
   Preferences preferences;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return preferences;
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  Json json;
-  try {
-    json = Json::parse(in);
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: no JSON: {}", file.string(), error.what()));
-  }
+  const Json json = readJsonFile(file);
   if (!json.is_object()) fail(file, "the file", json, "an object");
   if (json.value("format", Json()) != kFormat) fail(file, "format", json.value("format", Json()), "1");
   for (const Member& member : kSizes) {
@@ -88,6 +81,7 @@ Preferences readPreferences(const std::filesystem::path& file) {
     if (!size.is_number() || !(size >= 0) || !(size <= kLargest)) fail(file, member.name, size, "from 0 to 4000");
     preferences.sizes.*member.size = size;
   }
+  preferences.folded.clear();
   for (const std::string& title : strings(file, json, "folded")) preferences.folded.insert(title);
   for (const std::string& path : strings(file, json, "recent")) preferences.recent.emplace_back(path);
   preferences.recent.resize(std::min(preferences.recent.size(), kMostRecent));

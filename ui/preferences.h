@@ -12,7 +12,8 @@ namespace irad {
 
 struct Preferences {
   PanelSizes sizes;
-  std::set<std::string> folded;               ///< titles of panels
+  /// Titles of panels. At first those are folded that would push the settings out of a window of 720 lines.
+  std::set<std::string> folded = {"Cameras", "Lights"};
   std::vector<std::filesystem::path> recent;  ///< scenes, absolute, the last one first
 
   bool operator==(const Preferences&) const = default;

@@ -16,7 +16,9 @@ std::string freeName(const std::string& wanted, const std::vector<std::string>& 
 }
 
 void SceneEdits::begin(const Scene& scene, std::filesystem::path file, std::string reason) {
+  const bool handles = showHandles;
   *this = {};
+  showHandles = handles;
   file_ = std::move(file);
   reason_ = std::move(reason);
   lights = scene.lights;

@@ -19,7 +19,7 @@ class SceneEdits {
   std::vector<Light> lights;
   std::vector<Camera> bookmarks;
   int selected = -1;        ///< the light that has handles and whose fields are shown; -1: none
-  bool showHandles = true;  ///< in the picture
+  bool showHandles = true;  ///< in the picture; of other scenes too
 
   /// Begins with what the scene came with. `file`: where save() writes; empty where `reason` says why nowhere.
   void begin(const Scene& scene, std::filesystem::path file, std::string reason);

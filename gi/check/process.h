@@ -20,6 +20,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t pid() const { return pid_; }
   /// Exit status as a shell reports it (128 + signal); none while it runs.
   std::optional<int> poll() { return look(/*block=*/false); }
   int wait() { return *look(/*block=*/true); }

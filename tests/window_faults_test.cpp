@@ -1,0 +1,169 @@
+// What goes wrong in the window, and what becomes of it: bad files, shaders with mistakes, wrong numbers, a lost
+// device, work given up.
+#include "tests/scene_files.h"
+#include "tests/window_fixture.h"
+
+namespace irad::test {
+namespace {
+
+using WindowFaultsTest = WindowTest;
+
+TEST_F(WindowFaultsTest, TakesDroppedScenesAndRefusesOthersInWords) {
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+
+  // What is no scene leaves a message and the picture: no glTF, a folder, a file that goes before it is read.
+  std::ofstream(folder_.path / "bad.glb") << "not a scene";
+  for (const char* name : {"bad.glb", ".", "gone.glb"}) {
+    ASSERT_TRUE(drop({folder_.path / name}));
+    EXPECT_TRUE(says(name)) << window_->log();
+    ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; })) << name;
+  }
+  const ScreenPart messages = screen_->grab(340, 400, 300, 120);
+  EXPECT_GT(messages.deviation(), 0.03);
+
+  // A scene replaces the one shown, whatever its name; of several the last is taken.
+  const std::filesystem::path triangle = triangleFile().write(folder_.path, "100% drei\u00E9ck #1.gltf");
+  ASSERT_TRUE(drop({assets() / "box.glb", triangle}));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.2; }))
+      << "the dropped scene is not shown";
+  ASSERT_TRUE(drop({assets() / "box.glb"}));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "the first scene did not come back with the same bits";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowFaultsTest, ADroppedPictureIsTheReference) {
+  start({"--view", "reference-picture"});
+  xdotool("mousemove 360 510");
+  const auto black = [](const ScreenPart& p) { return p.meanLuminance() < 0.01; };  // but for a light's handle
+  ASSERT_TRUE(settles([this] { return part(); }, black)) << "a reference that nobody gave";
+  // Neither a file that is no picture nor one that is gone; then a picture that is not black.
+  std::ofstream(folder_.path / "bad.exr") << "no picture";
+  for (const char* name : {"bad.exr", "gone.hdr"}) {
+    ASSERT_TRUE(drop({folder_.path / name}));
+    EXPECT_TRUE(says(name)) << window_->log();
+  }
+  ASSERT_TRUE(settles([this] { return part(); }, black));
+  ASSERT_TRUE(drop({std::filesystem::path(IRAD_SOURCE_DIR) / "tests/golden/box.main.lit.exr"}));
+  ASSERT_TRUE(settles([this] { return part(); }, lit)) << "the picture is not taken";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
+  const std::filesystem::path shaders = copyShaders();
+  start({"--shaders", shaders.string(), "--view", "voxel-albedo"});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+
+  key("F5");
+  EXPECT_TRUE(says("no shader has changed"));
+
+  // An error: the message names file and line, the old shaders stay.
+  const std::filesystem::path facets = shaders / "gi/facet_shade.comp";
+  const std::string good = slurp(facets);
+  std::ofstream(facets) << good << "\nmistake\n";
+  key("F5");
+  EXPECT_TRUE(says("The old shaders stay in use"));
+  EXPECT_TRUE(says("facet_shade.comp")) << window_->log();
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
+
+  // A shader of the voxels: they are made anew, and what follows from them.
+  const std::string packed = "packAlbedo(";
+  std::string changed = good;
+  ASSERT_NE(changed.find(packed), std::string::npos);
+  changed.replace(changed.find(packed), packed.size(), packed + "vec3(0.9, 0.1, 0.5) * ");
+  std::ofstream(facets) << changed;
+  key("F5");
+  EXPECT_TRUE(says("Compiled again: gi/facet_shade.comp"));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.5; }))
+      << "the voxels keep what the old shader made of them";
+  std::ofstream(facets) << good;
+  key("F5");
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "the first picture did not come back with its shader";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowFaultsTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
+  const std::filesystem::path shaders = copyShaders();
+  start({"--shaders", shaders.string()});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+  const auto top = [this] { return screen_->grab(340, 32, 650, 30); };
+  constexpr uint32_t kAlarm = 0x9E1714;
+  EXPECT_EQ(top().count(kAlarm), 0);
+
+  // One facet's direct light becomes NaN.
+  const std::filesystem::path gather = shaders / "gi/gather.comp";
+  const std::string good = slurp(gather), wanted = "vec4(sum / float(p.samples), 0.0f)";
+  std::string bad = good;
+  const size_t at = bad.find(wanted);
+  ASSERT_NE(at, std::string::npos);
+  bad.replace(at, wanted.size(), "vec4(facet == 1000u ? vec3(uintBitsToFloat(0x7FC00000u | facet)) : sum, 0.0f)");
+  std::ofstream(gather) << bad;
+  key("F5");
+  ASSERT_TRUE(settles(top, [&](const ScreenPart& p) { return p.count(kAlarm) > 650 * 30 / 2; })) << "no banner";
+  std::ofstream(gather) << good;
+  key("F5");
+  ASSERT_TRUE(settles(top, [&](const ScreenPart& p) { return p.count(kAlarm) == 0; })) << "the banner stays";
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
+      << "the first picture did not come back";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowFaultsTest, ALostDeviceEndsItWithAMessage) {
+  // In the load, and once pictures are drawn.
+  for (const char* fault : {"lost=30", "lost=400"}) {
+    start({"--inject", fault});
+    for (int i = 0; i < 400 && window_->running(); ++i) {  // something to draw until it happens
+      screen_->xdotool(fmt::format("mousemove {} 510", 360 + i % 2));
+    }
+    EXPECT_EQ(window_->wait(60), 1) << fault;
+    EXPECT_TRUE(says("irad: error: ")) << fault;
+    EXPECT_TRUE(says("the device was lost")) << fault;
+  }
+}
+
+TEST_F(WindowFaultsTest, LoadsAndRebuildsCanBeCancelled) {
+  // Large enough for some seconds of work.
+  const std::filesystem::path shaders = copyShaders();
+  start({"--shaders", shaders.string(), "--set", "voxel.resolution=64", "--set", "matrix.rays=256"});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = part();
+
+  const std::filesystem::path copy = folder_.path / "copy.glb";
+  std::filesystem::copy_file(assets() / "box.glb", copy);
+  cancel([&] { ASSERT_TRUE(drop({copy})); });
+  EXPECT_TRUE(says("copy.glb: loading was cancelled"));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
+
+  // Another sequence of rays in every row.
+  const std::filesystem::path rays = shaders / "shared/sampling.h";
+  std::string text = slurp(rays);
+  const size_t half = text.find("0.5");
+  ASSERT_NE(half, std::string::npos);
+  text.replace(half, 3, "0.4");
+  std::ofstream(rays) << text;
+  cancel([&] { key("F5"); });
+  EXPECT_TRUE(says("The rebuild was cancelled"));
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
+
+  // Esc ends the program in the middle of the work.
+  ASSERT_TRUE(drop({copy}));
+  pause(0.5);
+  key("Escape");
+  EXPECT_EQ(window_->wait(5), 0);
+}
+
+}  // namespace
+}  // namespace irad::test
