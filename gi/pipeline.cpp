@@ -331,12 +331,17 @@ void Pipeline::setLights(std::vector<Light> lights) {
     if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
   std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
   const auto start = std::chrono::steady_clock::now();
-  ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
-  p.onDevice.setLights(p.context, std::move(values), p.shadowNeeds().shines);
-  p.shadows = std::move(maps);
+  p.lookAtLights(values);
+  try {
+    ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
+    p.onDevice.setLights(p.context, std::move(values), p.shadowNeeds().shines);
+    p.shadows = std::move(maps);
+  } catch (...) {
+    p.lookAtLights(p.onDevice.lightValues);
+    throw;
+  }
   p.scene.lights = std::move(lights);
   p.dirty = std::min(p.dirty, Redo::Gather);
-  p.lookAtLights(p.onDevice.lightValues);
   p.shadowsDirty = false;
   p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
 }

@@ -49,8 +49,8 @@ struct Lit {
     in.shape = &facets.shape;
     in.reverse = &facets.reverse;
     in.around = &facets.around;
-    in.shaded = &light.shaded;
-    in.shadedEmitted = &light.shadedEmitted;
+    in.shaded = &light.shaded();
+    in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume : nullptr;
     in.normalEncoding = static_cast<uint32_t>(facets.encoding);
     in.sample = stage.settings.sample.gpu;
