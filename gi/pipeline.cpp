@@ -331,13 +331,18 @@ void Pipeline::setLights(std::vector<Light> lights) {
     if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
   std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
   const auto start = std::chrono::steady_clock::now();
-  p.lookAtLights(values);
+  const Planned planned = p.planned;
+  const Redo dirty = p.dirty;
+  const bool shadowsDirty = p.shadowsDirty;
   try {
+    p.lookAtLights(values);
     ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
     p.onDevice.setLights(p.context, std::move(values), p.shadowNeeds().shines);
     p.shadows = std::move(maps);
   } catch (...) {
-    p.lookAtLights(p.onDevice.lightValues);
+    p.planned = planned;
+    p.dirty = dirty;
+    p.shadowsDirty = shadowsDirty;
     throw;
   }
   p.scene.lights = std::move(lights);

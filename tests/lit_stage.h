@@ -50,7 +50,7 @@ struct Lit {
     in.reverse = &facets.reverse;
     in.around = &facets.around;
     in.shaded = &light.shaded();
-    in.shadedEmitted = &light.shadedEmitted();
+    if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume : nullptr;
     in.normalEncoding = static_cast<uint32_t>(facets.encoding);
     in.sample = stage.settings.sample.gpu;
