@@ -88,6 +88,7 @@ class Window {
   uint64_t frameIndex_ = 0;
   Clock::time_point lastDraw_;
   Preferences saved_;         ///< as the file has them
+  bool compiling_ = false;    ///< the context has variants to compile
   bool toldUnsaved_ = false;  ///< that it cannot be written
 };
 
@@ -183,7 +184,7 @@ bool Window::working() const {
 }
 
 bool Window::settled() const {
-  return !working() && !session_.viewDirty && session_.next == Redo::Nothing;
+  return !working() && !session_.viewDirty && session_.next == Redo::Nothing && context_.variantsCompiling() == 0;
 }
 
 /// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor. What
@@ -290,6 +291,9 @@ void Window::frame() {
   if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
   fly();  // first: on a slow machine the keys of a flight and the one that saves come together
   capture();
+  // What stood in for the variants that have come may have shown an effect that is switched off.
+  const bool compiling = context_.variantsCompiling() > 0;
+  if (std::exchange(compiling_, compiling) && !compiling) session_.viewDirty = true;
   if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
 }
 
@@ -313,6 +317,12 @@ void Window::capture() {
   session_.work = Work{.what = session_.captureAll ? "Saving all views" : "Saving the view"};
   const bool all = std::exchange(session_.captureAll, false);
   session_.capture = false;
+  // Files hold what the settings say: no pipeline stands in for another.
+  struct Exact {
+    Context& context;
+    explicit Exact(Context& c) : context(c) { context.bridgeVariants(false); }
+    ~Exact() { context.bridgeVariants(true); }
+  } exact(context_);
   saveCapture(session_, all, options_.captures, options_.program, [this](const char* stage, float fraction) {
     session_.work->stage = stage;
     session_.work->fraction = fraction;
