@@ -48,8 +48,10 @@ MaterialTraits measureMaterial(const Material& m, Texels& texels) {
   } else {
     const TexelRange rough = texels.range(m.metallicRoughnessTexture);
     t.albedo = largest(base) * (1 - std::min(m.metallic * rough.least.b, 1.0f));
-    t.f0 = std::max(0.04f * (1 - std::min(m.metallic * rough.least.b, 1.0f)),
-                    largest(base) * std::min(m.metallic * rough.most.b, 1.0f));
+    // A black metal reflects as well, at grazing angles.
+    const float least = std::numeric_limits<float>::min();
+    t.f0 = std::max({least, 0.04f * (1 - std::min(m.metallic * rough.least.b, 1.0f)),
+                     largest(base) * std::min(m.metallic * rough.most.b, 1.0f)});
     t.leastRoughness = std::min(m.roughness * rough.least.g, 1.0f);
     t.roughness = std::min(m.roughness * rough.most.g, 1.0f);
   }

@@ -393,6 +393,17 @@ TEST(Traits, MaterialsBoundTheirTextures) {
   EXPECT_TRUE(t.normalMap);
 }
 
+TEST(Traits, ABlackMetalIsNotLambertian) {
+  test::SceneBuilder b;
+  b.addQuad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  Material& m = b.scene.materials[0];
+  m.baseColor = {0, 0, 0, 1};
+  m.metallic = 1;
+  EXPECT_EQ(measure(b.finish(), 64).materials.at(0).f0, 0.0f);
+  m.lambertian = false;
+  EXPECT_GT(measure(b.finish(), 64).materials.at(0).f0, 0.0f);
+}
+
 TEST(Traits, LightsReachWhatTheirRangeAndConeLeave) {
   test::SceneBuilder b;
   b.addBox({-1, -1, -1}, {1, 1, 1});
