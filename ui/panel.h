@@ -25,6 +25,7 @@ class Panel {
   X(Lights)            \
   X(Cameras)           \
   X(Settings)          \
+  X(Effects)           \
   X(View)              \
   X(Compare)           \
   X(Inspector)         \

@@ -1,0 +1,431 @@
+// The pipeline obeys the plan: what is not called for is neither recorded nor allocated, appears with what calls for it
+// and goes with it; and leaving it out changes no bit of the picture.
+#include <fmt/format.h>
+
+#include <cstring>
+#include <random>
+#include <set>
+
+#include "gi/pipeline.h"
+#include "tests/gi_fixture.h"
+
+namespace irad::test {
+namespace {
+
+using Stages = std::set<std::string>;
+
+class Effects : public GiTest {
+ protected:
+  static Settings small() {
+    Settings s = at(16, 32);
+    s.light.shadowResolution = 128;
+    return s;
+  }
+  Timings& timings() { return context().timings; }
+  /// Stages recorded since the last call.
+  Stages recorded() {
+    Stages out;
+    for (const Timings::Row& row : timings().rows()) out.insert(row.stage);
+    timings().reset();
+    return out;
+  }
+  static bool any(const Stages& stages, const std::string& prefix) {
+    return std::any_of(stages.begin(), stages.end(), [&](const std::string& s) { return s.starts_with(prefix); });
+  }
+  uint64_t bytes(std::initializer_list<Subsystem> subsystems) {
+    context().finish();
+    uint64_t sum = 0;
+    for (const MemoryRow& row : context().device.memory().rows())
+      for (const Subsystem s : subsystems) sum += row.subsystem == s ? row.bytes : 0;
+    return sum;
+  }
+  bool holds(const std::string& name) {
+    context().finish();
+    for (const MemoryRow& row : context().device.memory().rows())
+      if (row.name == name) return true;
+    return false;
+  }
+  std::vector<glm::vec4> draw(Pipeline& pipeline, View view = VIEW_LIT, glm::uvec2 size = {32, 24}) {
+    Targets targets(context(), size);
+    Frame frame = context().begin();
+    pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
+    frame.submitAndWait();
+    timings().endFrame(0, /*setup=*/false, 0);
+    const std::vector<std::byte> raw = download(context(), targets.linear);
+    std::vector<glm::vec4> out(size_t{size.x} * size.y);
+    std::memcpy(out.data(), raw.data(), raw.size());
+    return out;
+  }
+  static Light lamp(double x, float candela = 3) {
+    return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
+  }
+  static bool same(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
+  }
+};
+
+TEST_F(Effects, NoLightNoMatrixNoFieldNoLightBuffersAndBlack) {
+  const uint64_t before = bytes({Subsystem::Matrix, Subsystem::Solver, Subsystem::Field, Subsystem::Shadow});
+  timings().reset();
+  Pipeline pipeline(context(), furnishedRoom(), small());
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  for (const glm::vec4& p : draw(pipeline)) ASSERT_EQ(glm::vec3(p), glm::vec3(0));
+  const Stages stages = recorded();
+  EXPECT_TRUE(any(stages, "GI Voxelization"));
+  for (const char* stage : {"GI BuildMatrix", "GI SDF", "GI Gather", "GI Solve", "GI Scatter"})
+    EXPECT_FALSE(any(stages, stage)) << stage;
+  EXPECT_EQ(bytes({Subsystem::Matrix, Subsystem::Solver, Subsystem::Field}), before);
+  const EffectPlan plan = pipeline.plan();
+  EXPECT_TRUE(plan.off(Effect::matrix));
+  EXPECT_TRUE(contains(plan.row(Effect::matrix).reason, "no light at all")) << plan.row(Effect::matrix).reason;
+  EXPECT_GT(plan.row(Effect::matrix).bytesNotAllocated, 0u);
+  // Views of what is not there are drawn too.
+  for (const ViewInfo& view : views()) draw(pipeline, view.view);
+}
+
+TEST_F(Effects, ALightBringsTheMatrixInOnePrepareAndTakesItsMemoryWithIt) {
+  Pipeline pipeline(context(), furnishedRoom(), small());
+  pipeline.prepare();
+  draw(pipeline);
+  const uint64_t dark = bytes({Subsystem::Matrix, Subsystem::Solver, Subsystem::Field, Subsystem::Shadow});
+  pipeline.setLights({lamp(0)});
+  EXPECT_FALSE(pipeline.asleep());
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  EXPECT_GT(bytes({Subsystem::Matrix}), 0u);
+  const std::vector<glm::vec4> lit = draw(pipeline);
+  Scene scene = furnishedRoom();
+  scene.lights = {lamp(0)};
+  {
+    Pipeline fresh(context(), scene, small());
+    fresh.prepare();
+    EXPECT_TRUE(same(lit, draw(fresh)));
+  }
+  pipeline.setLights({});
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  for (const glm::vec4& p : draw(pipeline)) ASSERT_EQ(glm::vec3(p), glm::vec3(0));
+  EXPECT_EQ(bytes({Subsystem::Matrix, Subsystem::Solver, Subsystem::Field, Subsystem::Shadow}), dark);
+  EXPECT_GE(pipeline.flips(), 2u);
+}
+
+TEST_F(Effects, ALightThatIsTurnedDownKeepsTheMatrixForWhenItIsTurnedUp) {
+  Scene scene = furnishedRoom();
+  scene.lights = {lamp(0)};
+  Pipeline pipeline(context(), scene, small());
+  pipeline.prepare();
+  const std::vector<glm::vec4> lit = draw(pipeline);
+  pipeline.setLights({lamp(0, /*candela=*/0)});
+  pipeline.prepare();
+  for (const glm::vec4& p : draw(pipeline)) ASSERT_EQ(glm::vec3(p), glm::vec3(0));
+  EXPECT_EQ(pipeline.plan().row(Effect::matrix).state, EffectState::asleep);
+  EXPECT_FALSE(pipeline.lighting());
+  EXPECT_TRUE(pipeline.matrix());
+  recorded();
+  pipeline.setLights({lamp(0)});
+  pipeline.prepare();
+  EXPECT_FALSE(any(recorded(), "GI BuildMatrix"));
+  EXPECT_TRUE(same(draw(pipeline), lit));  // from the dark, as before
+}
+
+TEST_F(Effects, CameraMovesRedrawAloneAndLightMovesRelightAlone) {
+  Scene scene = furnishedRoom();
+  scene.lights = {lamp(0)};
+  Pipeline pipeline(context(), scene, small());
+  pipeline.prepare();
+  draw(pipeline);
+  recorded();
+  EXPECT_TRUE(pipeline.asleep());
+  draw(pipeline);
+  Stages stages = recorded();
+  EXPECT_TRUE(any(stages, "RE Forward"));
+  EXPECT_FALSE(any(stages, "GI ")) << "a picture alone";
+  pipeline.setLights({lamp(0.1)});
+  pipeline.prepare();
+  stages = recorded();
+  EXPECT_TRUE(any(stages, "GI Gather"));
+  for (const char* stage : {"GI Voxelization", "GI SDF", "GI CompactList", "GI BuildMatrix"})
+    EXPECT_FALSE(any(stages, stage)) << stage;
+  // Nothing is due: nothing is recorded.
+  const Counters before = context().counters();
+  pipeline.prepare();
+  EXPECT_EQ(context().counters().since(before).dispatches, 0u);
+  EXPECT_EQ(context().counters().since(before).draws, 0u);
+}
+
+TEST_F(Effects, ADiffuseSceneHasNoSpecularPassOrTarget) {
+  Scene scene = furnishedRoom();
+  scene.lights = {lamp(0)};
+  for (Material& m : scene.materials) m.lambertian = true;
+  Pipeline pipeline(context(), scene, small());
+  pipeline.prepare();
+  recorded();
+  Targets targets(context(), {32, 24});
+  Frame frame = context().begin();
+  pipeline.render(frame, scene.cameras.at(0), VIEW_LIT, targets);
+  frame.submitAndWait();
+  timings().endFrame(0, false, 0);
+  EXPECT_FALSE(any(recorded(), "RE Specular"));
+  EXPECT_FALSE(targets.specular);
+  EXPECT_FALSE(targets.glossy);
+  EXPECT_TRUE(pipeline.plan().off(Effect::specular));
+  EXPECT_EQ(pipeline.plan().row(Effect::specular).bytesNotAllocated, 32u * 24 * 20);
+}
+
+TEST_F(Effects, LightsThatDoNotReachGetNoShadowMap) {
+  Scene scene = furnishedRoom();
+  Light far = lamp(100);
+  far.range = 5;
+  scene.lights = {lamp(0), far};
+  Pipeline pipeline(context(), scene, small());
+  pipeline.prepare();
+  EXPECT_EQ(pipeline.shadows().cubes.desc.layers, 6u);
+  scene.lights = {far};
+  pipeline.setLights(scene.lights);
+  pipeline.prepare();
+  EXPECT_FALSE(pipeline.shadows().cubes);
+  EXPECT_FALSE(holds("shadow cubes"));
+  Settings forced = small();
+  forced.effects.point = EffectMode::on;
+  pipeline.set(forced);
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.shadows().cubes);
+}
+
+TEST_F(Effects, EmissionThatIsNotThereTakesNoMemory) {
+  Scene scene = furnishedRoom();
+  scene.lights = {lamp(0)};
+  Pipeline pipeline(context(), scene, small());
+  pipeline.prepare();
+  EXPECT_FALSE(pipeline.facets().hasEmission);
+  EXPECT_FALSE(pipeline.lighting().emitted);
+  EXPECT_FALSE(holds("emitted share F M"));
+  Settings forced = small();
+  forced.effects.emission = EffectMode::on;
+  EXPECT_EQ(pipeline.set(forced), Redo::Voxels);
+  pipeline.prepare();
+  EXPECT_TRUE(holds("emitted share F M"));
+  pipeline.set(small());
+  pipeline.prepare();
+  EXPECT_FALSE(holds("emitted share F M"));
+}
+
+TEST_F(Effects, OneLitTexelLightsTheRoom) {
+  SceneBuilder room;
+  const uint32_t grey = room.material(glm::vec3(0.5f));
+  const uint32_t lit = room.material(glm::vec3(0.5f));
+  room.box({grey, grey, grey, lit, grey, grey}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  Scene scene = room.finish("texel");
+  const uint32_t size = 512;
+  SceneImage image{"emissive", size, size, /*srgb=*/true, std::vector<uint8_t>(4ull * size * size, 0)};
+  scene.images.push_back(image);
+  scene.materials[lit].emission = glm::vec3(1000);
+  scene.materials[lit].emissiveTexture.image = 0;
+  {
+    Pipeline dark(context(), scene, small());
+    dark.prepare();
+    EXPECT_TRUE(dark.plan().off(Effect::emission));
+    EXPECT_TRUE(dark.plan().off(Effect::matrix));
+  }
+  scene.images[0].rgba[4 * (size * size / 2 + size / 2)] = 255;
+  Pipeline pipeline(context(), scene, small());
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.plan().on(Effect::emission));
+  EXPECT_TRUE(pipeline.plan().on(Effect::matrix));
+  EXPECT_TRUE(pipeline.facets().hasEmission);
+}
+
+TEST_F(Effects, TheFieldFollowsTheRaysThatReadIt) {
+  Scene scene = furnishedRoom();  // too rough for specular rays
+  scene.lights = {lamp(0)};
+  Settings dda = small();
+  dda.matrix.gpu.traversal = TRAVERSAL_DDA;
+  Pipeline pipeline(context(), scene, dda);
+  pipeline.prepare();
+  EXPECT_FALSE(pipeline.field());
+  EXPECT_EQ(bytes({Subsystem::Field}), 0u);
+  const std::vector<glm::vec4> without = draw(pipeline);
+  // Its views make their own, and give it back.
+  EXPECT_FALSE(same(draw(pipeline, VIEW_DISTANCE), without));
+  EXPECT_GT(bytes({Subsystem::Field}), 0u);
+  draw(pipeline);
+  EXPECT_EQ(bytes({Subsystem::Field}), 0u);
+  recorded();
+  Settings forced = dda;
+  forced.effects.field = EffectMode::on;
+  pipeline.set(forced);
+  EXPECT_FALSE(pipeline.asleep());
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.field());
+  EXPECT_FALSE(any(recorded(), "GI BuildMatrix"));
+  EXPECT_TRUE(same(draw(pipeline), without));
+  pipeline.invalidate(Redo::Matrix);  // traced through the field
+  pipeline.darken();
+  pipeline.prepare();
+  EXPECT_TRUE(same(draw(pipeline), without));
+}
+
+TEST_F(Effects, BlurOfEvenLightIsLeftOutWithinItsEpsilon) {
+  Settings s = small();
+  s.effects.blurNoise = 1e-2f;
+  Pipeline pipeline(context(), furnaceBox(0.5f), s);
+  pipeline.prepare();
+  const EffectRow row = pipeline.plan().row(Effect::blur);
+  EXPECT_EQ(row.state, EffectState::off) << row.reason;
+  EXPECT_TRUE(pipeline.asleep());
+  EXPECT_FALSE(pipeline.lighting().blurred);
+  EXPECT_FALSE(holds("blurred H"));
+  const std::vector<glm::vec4> without = draw(pipeline, VIEW_IRRADIANCE);
+  s.effects.blur = EffectMode::on;
+  pipeline.set(s);
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.lighting().blurred);
+  const std::vector<glm::vec4> with = draw(pipeline, VIEW_IRRADIANCE);
+  for (size_t i = 0; i < with.size(); ++i)
+    ASSERT_NEAR(with[i].x, without[i].x, row.epsilon * pipeline.lighting().report.largestH);
+  // Uneven light is blurred.
+  Pipeline uneven(context(), lampRoom().finish("lamp"), s = small());
+  uneven.prepare();
+  EXPECT_TRUE(uneven.plan().on(Effect::blur)) << uneven.plan().row(Effect::blur).reason;
+}
+
+TEST_F(Effects, OffIsReallyOff) {
+  const auto with = [&](const char* setting) {
+    Settings s = small();
+    applySetting(s, setting);
+    Pipeline pipeline(context(), mixedRoom(), s);
+    pipeline.prepare();
+    return draw(pipeline);
+  };
+  const std::vector<glm::vec4> whole = with("effects.specular=auto");
+  EXPECT_TRUE(same(with("effects.specular=off"), with("specular.mode=off")));
+  EXPECT_TRUE(same(with("effects.second_facet=off"), with("voxel.facets=1")));
+  EXPECT_TRUE(same(with("effects.blur=off"), with("sample.filter=linear")));
+  for (const char* off :
+       {"effects.specular=off", "effects.emission=off", "effects.point=off", "effects.sun=off", "effects.matrix=off"})
+    EXPECT_FALSE(same(with(off), whole)) << off;
+}
+
+TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
+  Scene scene = furnishedRoom();
+  scene.lights = {lamp(0)};
+  Settings s = small();
+  Pipeline pipeline(context(), scene, s);
+  pipeline.prepare();
+  const auto h = downloadAs<uint32_t>(context(), pipeline.lighting().indirect);
+  s.effects.relight = EffectMode::off;
+  pipeline.set(s);
+  pipeline.setLights({lamp(0.3)});
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  EXPECT_EQ(downloadAs<uint32_t>(context(), pipeline.lighting().indirect), h);
+  s.effects.relight = EffectMode::automatic;
+  pipeline.set(s);
+  EXPECT_FALSE(pipeline.asleep());
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.asleep());
+  EXPECT_NE(downloadAs<uint32_t>(context(), pipeline.lighting().indirect), h);
+  s.effects.relight = EffectMode::on;
+  pipeline.set(s);
+  EXPECT_FALSE(pipeline.asleep());
+  recorded();
+  pipeline.prepare();
+  EXPECT_TRUE(any(recorded(), "GI Gather"));
+}
+
+// ---- Random scenes and settings: with everything forced on the same bits --------------------------------------------
+
+class Dice {
+ public:
+  explicit Dice(uint32_t seed) : random_(seed) {}
+  uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
+  bool one(uint32_t in) { return below(in) == 0; }
+  float unit() { return static_cast<float>(random_() % 65536) / 65536.0f; }
+  float between(float a, float b) { return a + (b - a) * unit(); }
+  glm::vec3 vec(float a, float b) { return {between(a, b), between(a, b), between(a, b)}; }
+
+ private:
+  std::mt19937 random_;
+};
+
+Scene randomScene(Dice& dice) {
+  SceneBuilder b;
+  const bool black = dice.one(5), emits = dice.one(2);
+  std::vector<uint32_t> walls;
+  for (int i = 0; i < 6; ++i)
+    walls.push_back(b.material(black ? glm::vec3(0) : dice.vec(0, 0.9f),
+                               emits && i == 3 ? dice.vec(0, 4) : glm::vec3(0),
+                               /*doubleSided=*/dice.one(4)));
+  if (dice.one(6)) {
+    b.quad(walls[0], {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, 2);  // a floor alone: all faces one way
+  } else {
+    b.box(walls, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+    if (dice.one(2)) b.sphere(walls[1], dice.vec(-0.4f, 0.4f), dice.between(0.1f, 0.4f), /*inward=*/false, 8);
+  }
+  b.camera({0.9, 0.6, 0.9}, {-0.5, -0.3, -0.6});
+  Scene scene = b.finish("random");
+  for (Material& m : scene.materials) {
+    m.lambertian = !dice.one(3);
+    if (m.lambertian) continue;
+    m.metallic = dice.one(2) ? 1.0f : 0.0f;
+    m.roughness = dice.unit();
+  }
+  for (uint32_t i = dice.below(4); i > 0; --i) {
+    Light light;
+    light.type = static_cast<LightType>(dice.below(3));
+    light.position = scene.origin + glm::dvec3(dice.vec(-3, 3));
+    light.direction = glm::normalize(dice.vec(-1, 1) + glm::vec3(0, 1e-3f, 0));
+    light.color = dice.vec(0, 1);
+    light.intensity = dice.one(3) ? 0 : dice.between(0.1f, 5);
+    if (light.type != LightType::Sun && dice.one(2)) light.range = dice.between(0.2f, 4);
+    light.innerCos = 0.95f;
+    light.outerCos = dice.between(0.1f, 0.9f);
+    scene.lights.push_back(light);
+  }
+  return scene;
+}
+
+Settings randomSettings(Dice& dice) {
+  Settings s = defaultSettings(/*cpuDevice=*/true);
+  s.voxel.resolution = 8 + dice.below(7);
+  s.voxel.facets = 1 + dice.below(2);
+  s.matrix.gpu.rays = 16;
+  s.matrix.gpu.traversal = dice.below(2);
+  s.matrix.format = dice.one(3) ? MatrixFormat::padded : MatrixFormat::csr;
+  s.field.method = dice.one(4) ? FieldMethod::jfa : FieldMethod::chebyshev;
+  s.sample.gpu.filter_ = dice.below(3);
+  s.sample.gpu.gated = dice.one(4) ? 0 : 1;
+  s.specular.gpu.traversal = dice.below(2);
+  if (dice.one(4)) s.specular.mode = dice.one(2) ? SpecularMode::off : SpecularMode::fragment;
+  s.light.shadowResolution = 64;
+  s.effects.blurNoise = 0;  // the only threshold that effects.* leave within
+  return s;
+}
+
+TEST_F(Effects, RandomScenesHaveTheSameBitsWithEverythingForcedOn) {
+  uint32_t leftOut = 0;
+  for (uint32_t seed = 1; seed <= 30; ++seed) {
+    Dice dice(seed);
+    const Scene scene = randomScene(dice);
+    const Settings planned = randomSettings(dice);
+    Settings forced = planned;
+    forceEffects(forced, EffectMode::on);
+    forced.effects.relight = EffectMode::automatic;
+    Pipeline a(context(), scene, planned), b(context(), scene, forced);
+    a.prepare();
+    b.prepare();
+    std::string off;
+    for (const EffectRow& row : a.plan().rows)
+      if (row.state == EffectState::off && !b.plan().off(row.effect)) {
+        off += std::string(" ") + effectInfo(row.effect).name;
+        ++leftOut;
+      }
+    for (const View view : {View{VIEW_LIT}, View{VIEW_IRRADIANCE}})
+      EXPECT_TRUE(same(draw(a, view), draw(b, view))) << "seed " << seed << ", view " << view << ", left out:" << off;
+  }
+  EXPECT_GT(leftOut, 60u);
+}
+
+}  // namespace
+}  // namespace irad::test

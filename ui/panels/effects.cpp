@@ -1,0 +1,98 @@
+// The effect plan: what the scene calls for, what not, why, and what that saves; every effect may be forced on or off.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "ui/panel.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace irad {
+namespace {
+
+constexpr double kMinute = 60;  // s
+
+/// How much a counter has grown within the last minute.
+class PerMinute {
+ public:
+  uint64_t operator()(uint64_t count, double now) {
+    if (!last_ || count < *last_) steps_.clear(), last_ = count;  // another scene counts anew
+    if (count > *last_) steps_.push_back({now, count - *std::exchange(last_, count)});
+    while (!steps_.empty() && steps_.front().at < now - kMinute) steps_.pop_front();
+    uint64_t sum = 0;
+    for (const Step& step : steps_) sum += step.by;
+    return sum;
+  }
+
+ private:
+  struct Step {
+    double at;
+    uint64_t by;
+  };
+  std::deque<Step> steps_;
+  std::optional<uint64_t> last_;
+};
+
+class EffectsPanel : public Panel {
+ public:
+  const char* title() const override { return "Effects"; }
+  Region region() const override { return Region::Left; }
+
+  void draw(Session& session) override {
+    if (!session.built) {
+      ImGui::TextColored(theme::dim, "nothing built yet");
+      return;
+    }
+    // In the middle of a rebuild what the pipeline holds comes and goes.
+    if (!session.work && refresh_.due(session)) {
+      const Pipeline& pipeline = *session.pipeline;
+      plan_ = pipeline.plan(session.viewDirty);
+      rebuilds_ = rebuildsPerMinute_(pipeline.revision().build, ImGui::GetTime());
+      flips_ = flipsPerMinute_(pipeline.flips(), ImGui::GetTime());
+    }
+    valueRow("not allocated", mebibytes(plan_.bytesNotAllocated()));
+    helpTooltip("What the effects that are off would take, by the formulas (a csr matrix: at most)");
+    valueRow("last minute", fmt::format("{} rebuilds, {} effects switched", rebuilds_, flips_));
+    helpTooltip(
+        "Builds of voxels, field or matrix, and effects that went on or off: many of them say that something "
+        "wavers about its trigger");
+    for (const EffectRow& row : plan_.rows) drawRow(session, row);
+  }
+
+ private:
+  EffectPlan plan_;
+  Refresh refresh_;
+  PerMinute rebuildsPerMinute_, flipsPerMinute_;
+  uint64_t rebuilds_ = 0, flips_ = 0;
+
+  static void drawRow(Session& session, const EffectRow& row) {
+    const EffectInfo& info = effectInfo(row.effect);
+    const char* state = EnumNames<EffectState>::names.at(static_cast<size_t>(row.state));
+    if (*info.setting != 0)
+      settingRow(session.edited, session.defaults, info.setting);
+    else
+      ImGui::TextUnformatted(info.label);
+    ImGui::TextColored(row.state == EffectState::on ? theme::good : theme::dim, "%s", state);
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+    clippedText(row.reason, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    helpTooltip(fmt::format(
+        "{}: {}\n{}\n{}{}", info.label, state, row.reason,
+        row.skip == Skip::exact
+            ? "Exact: forced on it gives the same bits."
+            : fmt::format("Within {:.2g} of the largest H of what it gives forced on.", row.epsilon),
+        row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> makeEffectsPanel() {
+  return std::make_unique<EffectsPanel>();
+}
+
+}  // namespace irad
