@@ -1,7 +1,8 @@
+#include "renderer/pipeline_use.h"
+
 #include <spirv-tools/optimizer.hpp>
 
 #include "renderer/error.h"
-#include "renderer/pipeline_use.h"
 #include "renderer/shaders.h"
 
 namespace irad {
