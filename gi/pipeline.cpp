@@ -38,6 +38,7 @@ struct Pipeline::Impl {
   uint64_t frameIndex = 0;
   Revision revision;
   uint64_t solvedFrame = 0;  ///< of the last solve
+  uint64_t shaders = 0;      ///< ShaderLibrary::generation() of the last build
 
   /// The first stage that the next prepare() has to run. Later stages follow it.
   Redo dirty = Redo::Voxels;
@@ -116,6 +117,11 @@ struct Pipeline::Impl {
 
   void prepare(uint32_t maxSweeps, const Progress& progress) {
     if (dirty <= Redo::Voxels) {
+      // What the voxels have shown is of the shaders that made them, too.
+      if (std::exchange(shaders, context.shaders.generation()) != context.shaders.generation()) {
+        planned.traits.build.reset();
+        decide();
+      }
       // The new list's products replace the old ones together, once they are lit. Until then the old picture stays.
       Products fresh;
       build(fresh, Redo::Voxels, progress);

@@ -208,8 +208,7 @@ class Planner {
         fmt::format("error bound {:.2g} {} {:.2g} W/m^2", l.bound, l.bound <= l.tolerance ? "<=" : ">", l.tolerance);
     const std::string reason =
         due ? fmt::format("{} is due", EnumNames<Redo>::names[static_cast<size_t>(std::max(l.due, Redo::Gather))])
-        : l.settled ? "asleep: " + bound
-                    : bound;
+            : bound;
     // Light at rest is kept, where nobody stops it for good.
     const bool stopped = s_.effects.relight == EffectMode::off;
     decide(Effect::relight, stopped || due || !l.settled, reason);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 
@@ -332,6 +333,23 @@ TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
   recorded();
   pipeline.prepare();
   EXPECT_TRUE(any(recorded(), "GI Gather"));
+}
+
+TEST(IradPlan, PrintsTheTableAndProvesIt) {
+  const std::vector<std::string> small{"--size", "48x36", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"};
+  std::vector<std::string> json{"plan", "box", "--json"}, proof{"plan", "check:lights-off", "--prove", "--frames", "1"};
+  json.insert(json.end(), small.begin(), small.end());
+  proof.insert(proof.end(), small.begin(), small.end());
+  const RunResult table = runIrad(json);
+  ASSERT_EQ(table.status, 0) << table.err;
+  const auto parsed = nlohmann::json::parse(table.out);
+  ASSERT_EQ(parsed["effects"].size(), kEffects);
+  EXPECT_EQ(parsed["effects"][0]["effect"], "emission");
+  EXPECT_EQ(parsed["effects"][0]["state"], "on");
+  const RunResult proved = runIrad(proof);
+  ASSERT_EQ(proved.status, 0) << proved.err;
+  EXPECT_TRUE(contains(proved.out, "matrix")) << proved.out;
+  EXPECT_TRUE(contains(proved.out, "same bits")) << proved.out;
 }
 
 // ---- Random scenes and settings: with everything forced on the same bits --------------------------------------------

@@ -209,7 +209,7 @@ TEST(Plan, FieldIsCalledForByRaysThatReadIt) {
 TEST(Plan, RelightAndRebuildSleepUntilTheyAreDue) {
   SceneTraits t = lit();
   EXPECT_EQ(stateOf(Effect::relight, t), kAsleep);
-  EXPECT_EQ(plan(t, usual()).row(Effect::relight).reason, "asleep: error bound 0.0001 <= 0.0002 W/m^2");
+  EXPECT_EQ(plan(t, usual()).row(Effect::relight).reason, "error bound 0.0001 <= 0.0002 W/m^2");
   EXPECT_EQ(stateOf(Effect::rebuild, t), kAsleep);
   t.light.settled = false;
   t.light.bound = 1;

@@ -74,7 +74,7 @@ class EffectsPanel : public Panel {
     if (*info.setting != 0)
       settingRow(session.edited, session.defaults, info.setting);
     else
-      ImGui::TextUnformatted(info.label);
+      ImGui::TextUnformatted(info.name);
     ImGui::TextColored(row.state == EffectState::on ? theme::good : theme::dim, "%s", state);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
