@@ -106,10 +106,9 @@ bool reachesBounds(const GpuLight& light, const Scene& scene, double margin) {
 }  // namespace
 
 LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution) {
-  const glm::vec3& i = light.intensity;
   LightTraits t;
   t.type = static_cast<LightType>(light.type);
-  t.shines = !(i.x <= 0 && i.y <= 0 && i.z <= 0);  // what is no number is not put out: the numerical watch finds it
+  t.shines = light.intensity != glm::vec3(0);  // what is no number, or negative, is left to the numerical watch
   t.reaches = reachesBounds(light, scene, 2.0 * largest(scene.boundsMax - scene.boundsMin) / resolution);
   t.cube = lightUsesCube(light.type, light.outerCos);
   return t;
