@@ -100,6 +100,7 @@ struct ViewSettings {
   float isovalue = 2.0f;  ///< voxels
   uint32_t jfaPass = 11;  ///< 0: the seeds alone; past the last: the last
   uint32_t light = 0;     ///< index
+  uint32_t facet = 0;     ///< index in the facet list; past the last: none
   RangeMode range = RangeMode::standard;
   float low = 0.0f, high = 1.0f;
   float percentile = 99.0f;
@@ -262,6 +263,7 @@ void visit(Settings& s, F&& f) {
   f(s.view.isovalue, Meta{"view.isovalue", 0, 64, "voxels", "Distance at which fields are shown as cubes or isosurface.", Nothing});
   f(s.view.jfaPass, Meta{"view.jfa_pass", 0, 11, "", "Jump-flood pass after which its seeds are shown; 0: before the first, more than there are: the last.", Nothing});
   f(s.view.light, Meta{"view.light", 0, 4096, "", "Light of the shadow views, by index.", Nothing});
+  f(s.view.facet, Meta{"view.facet", 0, 2147483647, "", "Facet whose row the view matrix-row shows, by index; in the window the one that the inspector has.", Nothing});
   f(s.view.range, Meta{"view.range", 0, 0, "", "Values that the colour map's ends stand for. standard: the view's own, auto where it has none; auto: the picture's smallest and largest.", Nothing});
   f(s.view.low, Meta{"view.low", -1e6, 1e6, "", "Lower end of the manual range.", Nothing});
   f(s.view.high, Meta{"view.high", -1e6, 1e6, "", "Upper end of the manual range; signed views take the larger magnitude to both sides.", Nothing});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/error.h"
+#include "shaders/shared/solve.h"
 #include "shaders/shared/view.h"
 
 namespace irad {
@@ -69,6 +71,21 @@ const Buffer& ViewFields::exact(Frame& frame, const FacetList& facets, uint32_t 
     if (push.axis < 2) std::swap(distance, other);
   }
   return distance;
+}
+
+const Buffer& ViewFields::row(Frame& frame, const FormFactors& matrix, uint32_t row) {
+  IRAD_CHECK_OP(row, <, matrix.rows);
+  const uint64_t bytes = 16ull * matrix.rows;
+  if (row_.bytes != bytes) row_ = Buffer(frame.context().device, "view: matrix row", Subsystem::Matrix, bytes);
+  Pass pass = frame.pass(kStage);
+  pass.shader("view/matrix_row.comp")
+      .constant(0, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
+      .read(matrix.record, matrix.rowStart, matrix.rowInfo)
+      .write(row_)
+      .push(MatrixRowPush{matrix.record.address, row_.address, row, 0});
+  for (const Buffer& segment : matrix.segments) pass.read(segment);
+  pass.dispatch(matrix.rows);
+  return row_;
 }
 
 }  // namespace irad

@@ -11,6 +11,7 @@ namespace {
 /// The per-facet values of a view of light; null where it has none.
 const Buffer* facetValues(View view, const ViewInputs& inputs) {
   if (view == VIEW_REFERENCE) return inputs.reference;
+  if (view == VIEW_MATRIX_ROW) return nullptr;
   if (inputs.lighting == nullptr) return nullptr;
   if (view == VIEW_RADIOSITY) return &inputs.lighting->radiosity;
   if (view == VIEW_VOXEL_DIRECT) return &inputs.lighting->direct;
@@ -71,6 +72,8 @@ void drawVoxels(Frame& frame, View view, const ViewInputs& inputs, const Buffer&
     push.exact = use(inputs.fields->exact(frame, facets, METRIC_EUCLIDEAN));
   if (view == VIEW_CHEBYSHEV_ERROR) push.exact = use(inputs.fields->exact(frame, facets, METRIC_CHEBYSHEV));
   if (const Buffer* values = facetValues(view, inputs)) push.values = use(*values);
+  if (view == VIEW_MATRIX_ROW && inputs.matrix != nullptr && inputs.fields != nullptr && chosen.facet < facets.count)
+    push.values = use(inputs.fields->row(frame, *inputs.matrix, chosen.facet));
   if (inputs.matrix != nullptr) {
     push.matrix = use(inputs.matrix->record);
     use(inputs.matrix->rowStart);

@@ -17,7 +17,7 @@ bool showsFieldError(View view) {
 }
 bool showsFacets(View view) {
   return (view >= VIEW_VOXEL_ALBEDO && view <= VIEW_INVALID_RAYS && view != VIEW_DISTANCE) || view == VIEW_REFERENCE ||
-         view == VIEW_VOXEL_DIRECT;
+         view == VIEW_VOXEL_DIRECT || view == VIEW_MATRIX_ROW;
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& 
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
               Targets& targets) {
   const ViewInfo* info = viewInfo(view);
-  if (inputs.fields != nullptr && !showsField(view)) *inputs.fields = {};  // no memory for what is not shown
+  if (inputs.fields != nullptr && !showsField(view) && view != VIEW_MATRIX_ROW) *inputs.fields = {};  // no memory for what is not shown
 
   if (resolveShape(view, settings.view.shape)) {
     drawVoxels(frame, view, inputs, camera, settings, targets);

@@ -156,6 +156,7 @@ bool Inspection::serve(Session& session) {
     const bool asked = wanted();
     const bool updated = update(session);
     if (asked) serveRequests(session);
+    if (facet() != nullptr) session.edited.view.facet = facet()->facet;
     if (asked || updated) ++serial;
     return asked || updated;
   } catch (const Error& error) {

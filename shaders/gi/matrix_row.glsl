@@ -37,4 +37,28 @@ RowEntry rowEntry(Row r, uint columnBits, uint i) {
   return RowEntry(place.x, uintBitsToFloat(place.y));
 }
 
+/// How many of the row's rays met a column.
+uint hitsOn(Row row, uint columnBits, uint column) {
+  uint hits = 0u;
+  if (FORMAT == SOLVE_CSR) {
+    // Columns ascend: the first that is not below the wanted one.
+    uint low = 0u;
+    uint high = row.count;
+    while (low < high) {
+      uint middle = (low + high) >> 1;
+      if (rowEntry(row, columnBits, middle).column < column)
+        low = middle + 1u;
+      else
+        high = middle;
+    }
+    if (low < row.count) {
+      RowEntry entry = rowEntry(row, columnBits, low);
+      if (entry.column == column) hits = uint(entry.weight);
+    }
+  } else {
+    for (uint i = 0u; i < row.count; ++i) hits += uint(rowEntry(row, columnBits, i).column == column);
+  }
+  return hits;
+}
+
 #endif

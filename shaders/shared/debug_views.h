@@ -60,7 +60,8 @@ IRAD_FN bool viewHasSign(uint kind) {
   X(SHADOW_MAP,          31, "shadow-map",          "Shadow map of a light",               "m",           "Lights",    SCALAR,        0.0f,   0.0f) \
   X(SHADOW,              32, "shadow",              "Share of a light that arrives",       "",            "Lights",    SCALAR,        0.0f,   1.0f) \
   X(REFERENCE_PICTURE,   33, "reference-picture",   "Reference picture",                   "W/(m^2 sr)",  "Reference", LIGHT,         0.0f,   1.0f) \
-  X(ERROR,               34, "error",               "Relative error of lit, signed",       "",            "Reference", SIGNED,       -0.5f,   0.5f)
+  X(ERROR,               34, "error",               "Relative error of lit, signed",       "",            "Reference", SIGNED,       -0.5f,   0.5f) \
+  X(MATRIX_ROW,          35, "matrix-row",          "Matrix row: F to each facet",         "",            "Matrix",    SCALAR,        0.0f,   0.0f)
 // clang-format on
 
 #define IRAD_VIEW_CONSTANT(constant, number, name, label, unit, group, kind, low, high) \

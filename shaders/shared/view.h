@@ -30,7 +30,7 @@ struct VoxelViewPush {
   Grid grid;
   FacetRecord facets;
   MatrixRecord matrix;  ///< 0: there is none
-  Vec4Array values;     ///< per facet: H, B or D, as the view has it; 0: there are none
+  Vec4Array values;     ///< per facet: H, B, D or F, as the view has it; 0: there are none
   UintArray bytes;      ///< a distance field, 4 voxels per uint
   UintArray seeds;      ///< packVoxel of a solid voxel, or NO_SEED
   UintArray exact;      ///< exact distance (view/exact_distance.comp)
@@ -99,6 +99,14 @@ struct FinishPush {
   uint toneCurve;
   uvec3 dims;  ///< of the grid that sites are of
   uint surroundings;  ///< 1: where nothing is drawn the lit scene shows, dimmed
+};
+
+/// view/matrix_row.comp: a row of the matrix, spread out over the facets.
+struct MatrixRowPush {
+  MatrixRecord matrix;
+  Vec4Array factors;  ///< per facet: F to it from facet `row`
+  uint row;
+  uint pad;
 };
 
 /// view/pin_holes.comp

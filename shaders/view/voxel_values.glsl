@@ -38,6 +38,7 @@ vec3 facetValue(FacetArrays facets, uint facet, uint count) {
     case VIEW_VOXEL_DIRECT:
     case VIEW_VOXEL_IRRADIANCE:
     case VIEW_REFERENCE:
+    case VIEW_MATRIX_ROW:
     case VIEW_RADIOSITY: return uvec2(push.values) != uvec2(0u) ? push.values.at[facet].xyz : vec3(0.0);
     case VIEW_FACET_COUNT: return vec3(float(count));
   }

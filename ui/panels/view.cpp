@@ -139,12 +139,14 @@ class ViewPanel : public Panel {
     if (!session.pipeline) return;
     const Pipeline& pipeline = *session.pipeline;
     if (std::string_view(info.group) == "Reference" && !pipeline.hasReference())
-      note("There is no picture to compare with: start with --reference FILE.exr.");
+      note("There is no picture to compare with: drop an .exr, or start with --reference FILE.exr.");
     else if (info.view == VIEW_ERROR)
       note(
           fmt::format("(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of lit and reference, from the reference's "
                       "camera; its mean square is relMSE.",
                       VIEW_ERROR_EPSILON));
+    else if (info.view == VIEW_MATRIX_ROW)
+      note(fmt::format("F from facet {} to each facet: click the picture to take another's row.", session.edited.view.facet));
     else if (info.view == VIEW_REFERENCE && !pipeline.scene().expectedIrradiance)
       note("Only check scenes know the exact answer.");
   }
