@@ -1,5 +1,6 @@
 // What views draw from that the method itself does not make: the field that is not in use, the seeds after any pass of
-// jump flooding, exact distances, a row of the matrix. Made on the device when a view first asks, out of one facet list.
+// jump flooding, exact distances, a row of the matrix. Made on the device when a view first asks, out of one facet
+// list.
 #pragma once
 
 #include <array>

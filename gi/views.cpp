@@ -107,7 +107,8 @@ void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& 
 void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
               Targets& targets) {
   const ViewInfo* info = viewInfo(view);
-  if (inputs.fields != nullptr && !showsField(view) && view != VIEW_MATRIX_ROW) *inputs.fields = {};  // no memory for what is not shown
+  if (inputs.fields != nullptr && !showsField(view) && view != VIEW_MATRIX_ROW)
+    *inputs.fields = {};  // no memory for what is not shown
 
   if (resolveShape(view, settings.view.shape)) {
     drawVoxels(frame, view, inputs, camera, settings, targets);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "gi/host_matrix.h"
 #include "shaders/shared/view.h"
 #include "tests/lit_stage.h"
 
@@ -176,6 +177,40 @@ TEST_F(Views, MirrorShowsTheWall) {
     const double y = glm::dot(d, up) / glm::dot(d, forward) / std::tan(0.3);
     const auto row = static_cast<uint32_t>((0.5 - 0.5 * y) * 65);
     EXPECT_NEAR(p.at(32, row).x, 1, 0.02) << static_cast<int>(mode);
+  }
+}
+
+TEST_F(Views, MatrixRowIsThatOfItsFacet) {
+  for (const MatrixFormat format : {MatrixFormat::csr, MatrixFormat::padded}) {
+    Settings settings = smallSettings();
+    settings.matrix.format = format;
+    Lit lit(context(), cornerScene(), settings);
+    const uint32_t facet = lit.facets.count / 2;
+    std::vector<float> wanted(lit.facets.count);
+    const HostRow row = readRow(context(), lit.matrix, facet);
+    for (size_t i = 0; i < row.columns.size(); ++i)
+      wanted[row.columns[i]] += static_cast<float>(row.hits[i]) * row.weight;
+    ASSERT_GT(*std::max_element(wanted.begin(), wanted.end()), 0);
+    Frame frame = context().begin();
+    const Buffer& factors = lit.fields.row(frame, lit.matrix, facet);
+    frame.submitAndWait();
+    const auto found = downloadAs<glm::vec4>(context(), factors);
+    for (uint32_t i = 0; i < lit.facets.count; ++i) ASSERT_NEAR(found[i].x, wanted[i], 1e-6f) << i;
+
+    // The picture shows those and no other values; of a facet that is not there, none.
+    const auto shown = [&](uint32_t of) {
+      lit.stage.settings.view.facet = of;
+      std::set<float> values;
+      for (const glm::vec4& c : lit.draw(VIEW_MATRIX_ROW).linear)
+        if (c.w != 0) values.insert(c.x);
+      return values;
+    };
+    std::set<float> stored;
+    for (uint32_t i = 0; i < lit.facets.count; ++i) stored.insert(found[i].x);
+    const std::set<float> values = shown(facet);
+    EXPECT_GT(values.size(), 1u);
+    for (const float value : values) EXPECT_TRUE(stored.contains(value)) << value;
+    EXPECT_EQ(shown(lit.facets.count), std::set<float>{0});
   }
 }
 

@@ -6,7 +6,9 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
-layout(push_constant, scalar) uniform Push { MatrixRowPush p; };
+layout(push_constant, scalar) uniform Push {
+  MatrixRowPush p;
+};
 
 #include "gi/matrix_row.glsl"
 
@@ -14,6 +16,9 @@ void main() {
   uint column = irad_index();
   MatrixArrays m = p.matrix.at[0];
   if (column >= m.rows) return;
-  float f = float(hitsOn(openRow(m, p.row), m.columnBits, column)) * uintBitsToFloat(m.rowInfo.at[p.row].y);
+  Row row = openRow(m, p.row);
+  float weight = row.weight;  // of a hit; the same for all of the row
+  if (FORMAT == SOLVE_PADDED && row.count > 0u) weight = rowEntry(row, m.columnBits, 0u).weight;
+  float f = float(hitsOn(row, m.columnBits, column)) * weight;
   p.factors.at[column] = vec4(vec3(f), 0.0);
 }

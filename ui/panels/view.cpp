@@ -146,7 +146,8 @@ class ViewPanel : public Panel {
                       "camera; its mean square is relMSE.",
                       VIEW_ERROR_EPSILON));
     else if (info.view == VIEW_MATRIX_ROW)
-      note(fmt::format("F from facet {} to each facet: click the picture to take another's row.", session.edited.view.facet));
+      note(fmt::format("F from facet {} to each facet: click the picture to take another's row.",
+                       session.edited.view.facet));
     else if (info.view == VIEW_REFERENCE && !pipeline.scene().expectedIrradiance)
       note("Only check scenes know the exact answer.");
   }
