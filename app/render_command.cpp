@@ -12,6 +12,7 @@
 #include "app/reference.h"
 #include "app/session.h"
 #include "app/views.h"
+#include "gi/inspect.h"
 #include "gi/memory_report.h"
 #include "gi/picture.h"
 #include "gi/pipeline.h"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
-  std::optional<std::string> scene, out;
+  std::optional<std::string> scene, out, inspect;
   SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;
@@ -103,6 +104,8 @@ void run(const Arguments& arguments) {
   const std::vector<ViewInfo> chosen = findViews(wanted);
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const uint32_t frames = arguments.picture.resolveFrames(early, 1);
+  std::optional<glm::uvec3> inspected;
+  if (arguments.inspect) inspected = parseVoxel("--inspect", *arguments.inspect);
   const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
 
   Session session(arguments.settings, arguments.device);
@@ -115,6 +118,13 @@ void run(const Arguments& arguments) {
   const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
   if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
   session.prepare(pipeline);
+  if (inspected) {
+    const Inspector inspector(*session.context, pipeline);
+    inspector.requireFacets(*inspected);
+    session.settings.view.facet = inspector.facetsOf(*inspected).front();
+    pipeline.set(session.settings);
+    session.prepare(pipeline);
+  }
   Targets targets(*session.context, size);
 
   // The manifest comes last and vouches for the rest: that of an earlier run goes first.
@@ -171,6 +181,8 @@ Command renderCommand() {
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
+            options.value("--inspect", "X,Y,Z", arguments->inspect,
+                          "Voxel whose first facet's row the view matrix-row shows (sets view.facet)");
             arguments->picture.declare(options);
             arguments->reference.declare(options);
             arguments->sceneOptions.declare(options);

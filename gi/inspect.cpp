@@ -13,6 +13,7 @@
 #include "gi/oracle/voxels.h"
 #include "gi/ray_kernel.h"
 #include "renderer/error.h"
+#include "shaders/shared/slice.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -100,17 +101,36 @@ std::optional<uint32_t> Inspector::facetAt(const glm::dvec3& point, const glm::d
   return best;
 }
 
+/// Of the facets in a voxel the one that faces the eye more; voxel units.
+std::optional<uint32_t> Inspector::facing(const glm::uvec3& voxel, const glm::dvec3& eye) const {
+  const std::vector<uint32_t> facets = facetsOf(voxel);
+  if (facets.empty()) return std::nullopt;
+  const glm::dvec3 towards = eye - (glm::dvec3(voxel) + 0.5);
+  return *std::max_element(facets.begin(), facets.end(), [&](uint32_t a, uint32_t b) {
+    return glm::dot(facets_.normal[a], towards) < glm::dot(facets_.normal[b], towards);
+  });
+}
+
+std::optional<Inspector::SliceCell> Inspector::inSlice(const glm::dvec3& start, const glm::dvec3& direction,
+                                                       const glm::dvec3& forward, const ViewSettings& view) const {
+  const glm::dvec3 origin = toVoxels(start);
+  const auto axis = static_cast<int>(sliceAxis(static_cast<uint32_t>(view.axis), glm::vec3(forward)));
+  const double layer = sliceLayer(static_cast<float>(facets_.grid.dims[axis]), view.slice);
+  const double t = (layer + 0.5 - origin[axis]) / direction[axis];
+  if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+  glm::dvec3 cell = glm::floor(origin + t * direction);
+  cell[axis] = layer;
+  if (!contains(glm::ivec3(cell))) return std::nullopt;
+  return SliceCell{glm::uvec3(cell), facing(glm::uvec3(cell), origin)};
+}
+
 std::optional<uint32_t> Inspector::facetAlong(const glm::dvec3& start, const glm::dvec3& direction) const {
   oracle::Ray ray;
   ray.origin = toVoxels(start);
   ray.direction = direction;
   const std::optional<glm::uvec3> voxel = oracle::firstSolid(list_, ray);
   if (!voxel) return std::nullopt;
-  const std::vector<uint32_t> facets = facetsOf(*voxel);
-  return *std::max_element(facets.begin(), facets.end(), [&](uint32_t a, uint32_t b) {
-    const glm::dvec3 towards = ray.origin - (glm::dvec3(*voxel) + 0.5);
-    return glm::dot(facets_.normal[a], towards) < glm::dot(facets_.normal[b], towards);
-  });
+  return facing(*voxel, ray.origin);
 }
 
 InspectedVoxel Inspector::voxel(const glm::uvec3& voxel) const {

@@ -128,11 +128,20 @@ class Inspector {
   /// The facet that a ray meets where voxels are drawn as cubes: of the first voxel that holds any, the one that faces
   /// the ray's start more. World point, unit direction.
   std::optional<uint32_t> facetAlong(const glm::dvec3& start, const glm::dvec3& direction) const;
+  /// The cell of a slice (settings.view) that a ray meets in front of its start, and the facet of it that faces the
+  /// start more, if it holds any. `forward`: where the camera looks.
+  struct SliceCell {
+    glm::uvec3 voxel;
+    std::optional<uint32_t> facet;
+  };
+  std::optional<SliceCell> inSlice(const glm::dvec3& start, const glm::dvec3& direction, const glm::dvec3& forward,
+                                   const ViewSettings& view) const;
   glm::uvec3 voxelOf(uint32_t facet) const { return facets_.voxel.at(facet); }
   /// Ray k of a facet, step by step; k below the rays per facet.
   InspectedRay ray(uint32_t facet, uint32_t k) const;
 
  private:
+  std::optional<uint32_t> facing(const glm::uvec3& voxel, const glm::dvec3& eye) const;
   glm::dvec3 toVoxels(const glm::dvec3& world) const;
   std::vector<uint32_t> traceOnDevice(uint32_t facet) const;
   std::optional<MeshNormal> meshNormal(uint32_t facet) const;

@@ -56,8 +56,8 @@ void Inspection::open(Session& session, const glm::uvec3& at) {
   ++serial;
 }
 
-/// Of the picture as it is shown: by the surface in the pixel, or by the cubes that it shows.
-std::optional<uint32_t> Inspection::facetUnder(Session& session, const glm::uvec2& pixel) {
+/// Of the picture as it is shown: by the cell in a slice, the first cube on the way, or the surface in the pixel.
+std::optional<Inspector::SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
   const Targets& targets = session.targets;
   const GpuCamera camera = makeGpuCamera(session.pipeline->scene(), session.shown, targets.size);
   const glm::dmat4 inverse = glm::inverse(glm::dmat4(camera.viewProjection));
@@ -66,16 +66,21 @@ std::optional<uint32_t> Inspection::facetUnder(Session& session, const glm::uvec
     const glm::dvec4 p = inverse * glm::dvec4(share.x * 2 - 1, 1 - share.y * 2, depth, 1);
     return glm::dvec3(p) / p.w + session.pipeline->scene().origin;
   };
-  if (resolveShape(session.view, session.edited.view.shape) == SHAPE_CUBES) {
-    const glm::dvec3 start = at(0);
-    return inspector_->facetAlong(start, glm::normalize(at(1) - start));
+  const auto cell = [&](std::optional<uint32_t> facet) {
+    return facet ? std::optional(Inspector::SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
+  };
+  const glm::dvec3 start = at(0), direction = glm::normalize(at(1) - start);
+  if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
+    if (*shape != SHAPE_SLICE) return cell(inspector_->facetAlong(start, direction));
+    const glm::dvec3 forward(session.shown.orientation * glm::vec3(0, 0, -1));
+    return inspector_->inSlice(start, direction, forward, session.edited.view);
   }
   float depth = 1;
   std::memcpy(&depth, downloadTexel(session.context, targets.depth, pixel).data(), sizeof(depth));
   if (depth >= 1) return std::nullopt;
   uint64_t packed = 0;
   std::memcpy(&packed, downloadTexel(session.context, targets.geometric, pixel).data(), sizeof(packed));
-  return inspector_->facetAt(at(depth), glm::dvec3(glm::unpackHalf4x16(packed)));
+  return cell(inspector_->facetAt(at(depth), glm::dvec3(glm::unpackHalf4x16(packed))));
 }
 
 void Inspection::compareWith(uint32_t facet) {
@@ -91,12 +96,16 @@ void Inspection::serveRequests(Session& session) {
     trail.clear();
   }
   if (const auto wanted = std::exchange(pick, std::nullopt)) {
-    const std::optional<uint32_t> found = facetUnder(session, wanted->pixel);
-    if (found && wanted->compare && facet()) {
-      compareWith(*found);
+    const std::optional<Inspector::SliceCell> found = under(session, wanted->pixel);
+    if (found && found->facet && wanted->compare && facet()) {
+      compareWith(*found->facet);
     } else if (!wanted->compare) {
       trail.clear();
-      found ? pickFacet(*found) : reset();
+      reset();
+      if (found && found->facet)
+        pickFacet(*found->facet);
+      else if (found)
+        voxel = in.voxel(found->voxel);
     }
   }
   if (const auto wanted = std::exchange(follow, std::nullopt)) {
@@ -120,19 +129,20 @@ void Inspection::serveRequests(Session& session) {
 
 /// After a rebuild the voxels are other ones: the facet at the same place, or none; none in another scene.
 bool Inspection::update(Session& session) {
-  if (!facet() || (of_ == session.pipeline.get() && revision_ == session.pipeline->revision())) return false;
+  if (!voxel || (of_ == session.pipeline.get() && revision_ == session.pipeline->revision())) return false;
   const bool rebuilt = of_ != session.pipeline.get() || revision_.build != session.pipeline->revision().build;
   const bool sameScene = scene_ == session.pipeline->scene().path;
-  const InspectedFacet before = *facet();
+  const std::optional<InspectedFacet> before = facet() ? std::optional(*facet()) : std::nullopt;
   Inspector& in = inspector(session);
   if (rebuilt) {
     const std::optional<uint32_t> same =
-        sameScene ? in.facetAt(before.position, before.normal) : std::optional<uint32_t>();
+        sameScene && before ? in.facetAt(before->position, before->normal) : std::optional<uint32_t>();
     reset();
     trail.clear();
     if (same) pickFacet(*same);
     return true;
   }
+  if (!before) return false;  // light does not reach into an empty voxel
   voxel = in.voxel(voxel->voxel);
   sweeps_ += session.built->solve.sweeps;
   live.push_back({sweeps_, glm::vec3(facet()->irradiance)});

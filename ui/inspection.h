@@ -18,7 +18,7 @@ struct Session;
 class Inspection {
  public:
   // ---- What is shown ----
-  std::optional<InspectedVoxel> voxel;  ///< none: nothing is picked
+  std::optional<InspectedVoxel> voxel;  ///< none: nothing is picked; it may hold no facet, in slices
   size_t chosen = 0;                    ///< of the voxel's facets
   const InspectedFacet* facet() const {
     return voxel && chosen < voxel->facets.size() ? &voxel->facets[chosen] : nullptr;
@@ -62,7 +62,7 @@ class Inspection {
   void serveRequests(Session& session);
   bool update(Session& session);
   Inspector& inspector(Session& session);
-  std::optional<uint32_t> facetUnder(Session& session, const glm::uvec2& pixel);
+  std::optional<Inspector::SliceCell> under(Session& session, const glm::uvec2& pixel);
   void pickFacet(uint32_t facet);
   void compareWith(uint32_t facet);
   void reset();

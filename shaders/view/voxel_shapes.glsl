@@ -2,6 +2,7 @@
 // nothing is met, else the share of the display colour that remains under lines and shading.
 #ifndef IRAD_VIEW_VOXEL_SHAPES_GLSL
 #define IRAD_VIEW_VOXEL_SHAPES_GLSL
+#include "shared/slice.h"
 #include "view/voxel_values.glsl"
 
 struct ViewRay {
@@ -75,14 +76,8 @@ vec4 drawCubes(FacetArrays facets, ViewRay ray) {
 /// The plane through the centres of one layer of cells; what lies before it is cut away. `forward`: where the camera
 /// looks.
 vec4 drawSlice(FacetArrays facets, ViewRay ray, vec3 forward) {
-  uint axis = push.axis;
-  if (axis == AXIS_OF_CAMERA) {
-    vec3 a = abs(forward);
-    axis = a.x > a.y && a.x > a.z ? 0u : (a.y > a.z ? 1u : 2u);
-  }
-  vec3 across = vec3(equal(uvec3(axis), uvec3(0u, 1u, 2u)));
-  float layers = dot(vec3(push.grid.dims), across);
-  float layer = min(floor(push.slice * layers), layers - 1.0);
+  vec3 across = vec3(equal(uvec3(sliceAxis(push.axis, forward)), uvec3(0u, 1u, 2u)));
+  float layer = sliceLayer(dot(vec3(push.grid.dims), across), push.slice);
   float t = (layer + 0.5 - dot(ray.origin, across)) / dot(ray.direction, across);
   vec3 cell = floor(ray.origin + ray.direction * t);
   cell = mix(cell, vec3(layer), across);

@@ -21,17 +21,19 @@ class RowOverlay : public Overlay {
   bool draw(Session& session, const Picture& picture, const PictureMouse& mouse) override {
     Inspection& in = session.inspection;
     if (mouse.clicked && mouse.hovered) in.pick = Inspection::Pick{picture.pixel(mouse.position), mouse.shift};
-    if (!in.facet()) return false;
+    if (!in.voxel) return false;
     const glm::vec2 low = picture.rect().position, high = low + picture.rect().size;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({low.x, low.y}, {high.x, high.y}, true);
     const Drawing d{list, picture, in, static_cast<uint32_t>(session.edited.view.colorMap)};
-    if (in.shown == Inspection::Show::Comparison && in.comparison)
-      d.drawComparison();
-    else
-      d.drawLinks(in.shown == Inspection::Show::Row);
     d.box(in.voxel->world, theme::accent, 2);
-    d.normal();
+    if (in.facet()) {
+      if (in.shown == Inspection::Show::Comparison && in.comparison)
+        d.drawComparison();
+      else
+        d.drawLinks(in.shown == Inspection::Show::Row);
+      d.normal();
+    }
     if (in.ray) d.drawRay(*in.ray);
     list.PopClipRect();
     return false;

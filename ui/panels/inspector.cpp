@@ -32,6 +32,7 @@ class InspectorPanel : public Panel {
     Inspection& in = session.inspection;
     in.highlighted.reset();
     const InspectedFacet* facet = in.facet();
+    if (!facet && in.voxel) return drawEmpty(in);
     if (!facet) {
       ImGui::PushTextWrapPos(0);
       ImGui::TextColored(theme::dim,
@@ -65,7 +66,14 @@ class InspectorPanel : public Panel {
     if (ImGui::Button("Clear")) in.clear = true;
   }
 
-  static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
+  /// A voxel of a slice that holds no facet.
+  static void drawEmpty(Inspection& in) {
+    if (ImGui::Button("Clear")) in.clear = true;
+    drawVoxel(in);
+    ImGui::TextColored(theme::dim, "empty: it has no row");
+  }
+
+  static void drawVoxel(const Inspection& in) {
     valueRow("voxel", three(in.voxel->voxel));
     const glm::dvec3& world = in.voxel->world;
     valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g} m", world.x, world.y, world.z));
@@ -73,6 +81,10 @@ class InspectorPanel : public Panel {
     valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
     helpTooltip("To the nearest solid voxel by the distance field in use, in voxels");
     if (in.voxel->seed) valueRow("JFA seed", three(*in.voxel->seed));
+  }
+
+  static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
+    drawVoxel(in);
     valueRow("area", shortNumber(facet.area) + " m\u00B2");
     helpTooltip("Of the facet's plane inside the voxel");
     valueRow("albedo \u03C1", three(facet.albedo));
