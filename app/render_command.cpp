@@ -31,6 +31,7 @@ struct Arguments {
   PictureArguments picture;
   ReferenceArgument reference;
   std::vector<std::string> views;
+  bool legend = false;
 };
 
 /// A camera's name as part of a file name, unlike those before it.
@@ -49,7 +50,7 @@ std::string fileName(const Camera& camera, size_t index, std::set<std::string>& 
 
 /// Renders `frames` frames and writes the last, also where it holds what is no number: the picture shows it (NaN red).
 PictureFiles renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, const ViewInfo& view,
-                           uint32_t frames, Targets& targets, const fs::path& stem) {
+                           uint32_t frames, bool withLegend, Targets& targets, const fs::path& stem) {
   for (uint32_t i = 0; i < frames; ++i) {
     const auto start = std::chrono::steady_clock::now();
     Frame frame = session.context->begin(i);
@@ -58,7 +59,9 @@ PictureFiles renderPicture(Session& session, Pipeline& pipeline, const Camera& c
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     session.timings.endFrame(i, /*setup=*/false, elapsed.count());
   }
-  return writePicture(*session.context, targets, view, stem);
+  if (!withLegend || !view.hasRange()) return writePicture(*session.context, targets, view, stem);
+  const Legend legend = legendOf(*session.context, targets, view, session.settings);
+  return writePicture(*session.context, targets, view, stem, &legend);
 }
 
 double meanSetup(const Timings& timings, std::string_view stage) {
@@ -97,6 +100,7 @@ void run(const Arguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   arguments.picture.check();
+  if (arguments.legend && !canDrawText()) throw UsageError("--legend: this build draws no text (IRAD_OIIO)");
   const Config early = arguments.settings.readConfig();
   const std::vector<std::string> wanted = !arguments.views.empty() ? splitList("--view", arguments.views)
                                           : !early.views.empty()   ? early.views
@@ -137,8 +141,8 @@ void run(const Arguments& arguments) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
     for (const ViewInfo& view : chosen) {
       session.progress(view.name, 0);
-      const PictureFiles files =
-          renderPicture(session, pipeline, cameras[c], view, frames, targets, out / (prefix + view.name));
+      const PictureFiles files = renderPicture(session, pipeline, cameras[c], view, frames, arguments.legend, targets,
+                                               out / (prefix + view.name));
       written.insert(written.end(), files.paths.begin(), files.paths.end());
       if (!files.bad.empty())
         badPictures.push_back(fmt::format("numerical watch: picture {}{}: {}", prefix, view.name, files.bad));
@@ -155,6 +159,7 @@ void run(const Arguments& arguments) {
                                                        pipeline.field(), pipeline.matrix(), pipeline.lighting())));
   written.push_back(out / "memory.csv");
 
+  if (arguments.legend) manifest.arguments.emplace_back("--legend");
   manifest.size = size;
   manifest.frames = frames;
   manifest.cameras = cameras;
@@ -181,6 +186,7 @@ Command renderCommand() {
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
+            options.flag("--legend", arguments->legend, "Draw the legend into the PNGs of views with a range");
             options.value("--inspect", "X,Y,Z", arguments->inspect,
                           "Voxel whose first facet's row the view matrix-row shows (sets view.facet)");
             arguments->picture.declare(options);

@@ -30,8 +30,10 @@ struct Arguments {
 
   void declare(Options& options) {
     options.argument("SCENE", scene, "glTF scene, or the name of a built-in one (default: box)");
-    options.value("--view", "NAME", view, "View to begin with (default: lit; 'irad views' lists them)");
-    options.value("--camera", "NAME", camera, "Camera of the scene to begin with (default: its first)");
+    options.value("--view", "NAME", view,
+                  "View to begin with (default: the manifest's first, or lit; 'irad views' lists them)");
+    options.value("--camera", "NAME", camera,
+                  "Camera of the scene to begin with (default: the manifest's first, or the scene's)");
     options.value("--inspect", "X,Y,Z", inspect, "Voxel to begin with in the inspector");
     options.value("--size", "WxH", size, "Size of the window (default: 1280x720)");
     options.value("--scale", "FACTOR", scale, "Size of text and panels, times the monitor's own (default: 1)");
@@ -75,7 +77,11 @@ void run(const Arguments& arguments) {
   options.program = {versionNumber(), versionCommit()};
   options.scene = findScene(arguments.scene, config, "box");
   options.builtIn = builtInFolders();
-  if (arguments.view) options.view = findViews({*arguments.view}).front().view;
+  if (arguments.view)
+    options.view = findViews({*arguments.view}).front().view;
+  else if (!config.views.empty())
+    options.view = findViews(config.views).front().view;
+  if (!config.cameras.empty()) options.start = config.cameras.front();
   if (arguments.inspect) options.inspect = parseVoxel("--inspect", *arguments.inspect);
   if (arguments.size) options.size = parseSize(*arguments.size);
   if (arguments.scale) options.scale = parseScale(*arguments.scale);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gi/legend.h"
 #include "gi/views.h"
 #include "renderer/image_io.h"
 
@@ -15,8 +16,11 @@ struct PictureFiles {
   std::string bad;  ///< what findBadPixels says of it; the files are written all the same, they show where
 };
 /// What is in `targets` after Pipeline::render() of `view`: stem.png as shown, stem.exr linear (renderer/image_io.h).
+/// `legend`: drawn into the PNG.
 PictureFiles writePicture(Context& context, const Targets& targets, const ViewInfo& view,
-                          const std::filesystem::path& stem);
+                          const std::filesystem::path& stem, const Legend* legend = nullptr);
+/// What the display picture of a view with a range was drawn with.
+Legend legendOf(Context& context, const Targets& targets, const ViewInfo& view, const Settings& settings);
 
 /// With what range and colours the display picture of a view with a range was drawn, for manifests (JSON): member
 /// "picture" is `name`.

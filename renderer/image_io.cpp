@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
@@ -12,6 +13,7 @@
 
 #ifdef IRAD_OIIO
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #endif
 
@@ -107,6 +109,37 @@ LinearPicture readLinear(const std::filesystem::path& path) {
   return picture;
 #else
   return readPfm(path);
+#endif
+}
+
+bool canDrawText() {
+#ifdef IRAD_OIIO
+  return true;
+#else
+  return false;
+#endif
+}
+
+void drawText([[maybe_unused]] glm::uvec2 size, [[maybe_unused]] std::span<glm::u8vec4> pixels,
+              [[maybe_unused]] glm::ivec2 at, [[maybe_unused]] TextAlign align, [[maybe_unused]] int height,
+              [[maybe_unused]] const std::string& text, [[maybe_unused]] glm::u8vec4 color) {
+#ifdef IRAD_OIIO
+  if (text.empty()) return;
+  IRAD_CHECK_OP(pixels.size(), ==, static_cast<size_t>(size.x) * size.y);
+  const auto font =
+      std::find_if(kTextFonts.begin(), kTextFonts.end(), [](const char* f) { return std::filesystem::exists(f); });
+  if (font == kTextFonts.end())
+    throw WorkError(fmt::format("text cannot be drawn: there is neither {} nor {}", kTextFonts[0], kTextFonts[1]));
+  using Align = OIIO::ImageBufAlgo::TextAlignX;
+  const Align x = align == TextAlign::Left ? Align::Left : align == TextAlign::Middle ? Align::Center : Align::Right;
+  OIIO::ImageBuf picture(OIIO::ImageSpec(static_cast<int>(size.x), static_cast<int>(size.y), 4, OIIO::TypeDesc::UINT8),
+                         pixels.data());
+  const glm::vec4 ink = glm::vec4(color) / 255.0f;
+  if (!OIIO::ImageBufAlgo::render_text(picture, at.x, at.y, text, height, *font, {ink.x, ink.y, ink.z, ink.w}, x,
+                                       OIIO::ImageBufAlgo::TextAlignY::Top, /*shadow=*/0, {}, /*nthreads=*/1))
+    throw WorkError(fmt::format("text cannot be drawn: {}", picture.geterror()));
+#else
+  throw WorkError("text cannot be drawn: this build has no OpenImageIO");
 #endif
 }
 

@@ -3,9 +3,11 @@
 // bytes.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace irad {
@@ -17,6 +19,17 @@ std::filesystem::path writeLinear(const std::filesystem::path& stem, glm::uvec2 
 /// What the screen shows: sRGB-encoded bytes, alpha left out. Writes stem.png, or stem.npy of shape (height, width, 3).
 std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2 size,
                                    std::span<const glm::u8vec4> pixels);
+
+/// The typeface of panels and legends where Debian's packages put it, and the one that stands in.
+inline constexpr std::array kTextFonts{"/usr/share/fonts/opentype/inter/Inter-Regular.otf",
+                                       "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"};
+/// Whether this build draws text.
+bool canDrawText();
+enum class TextAlign { Left, Middle, Right };
+/// Text, UTF-8, over a display picture, top row first: `at` its upper left, middle or right point, `height` in pixels.
+/// WorkError without OpenImageIO, or where there is none of kTextFonts.
+void drawText(glm::uvec2 size, std::span<glm::u8vec4> pixels, glm::ivec2 at, TextAlign align, int height,
+              const std::string& text, glm::u8vec4 color);
 
 /// Portable float map: "PF", little-endian, bottom row first. In every build.
 void writePfm(const std::filesystem::path& path, glm::uvec2 size, std::span<const glm::vec4> pixels);

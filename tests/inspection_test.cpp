@@ -70,6 +70,44 @@ TEST_F(InspectionTest, PicksTheFacetInThePixel) {
   EXPECT_FALSE(inspection().facet());
 }
 
+TEST_F(InspectionTest, PicksTheCellThatASliceShows) {
+  Settings& settings = session_->edited = at(16, 32);
+  settings.view.shape = ViewShape::slice;
+  settings.view.jfaPass = 0;  // the seeds alone: what is solid shows its own coordinates
+  size_t solid = 0, empty = 0;
+  for (const auto& [axis, share] :
+       {std::pair{Axis::x, 0.2f}, {Axis::y, 0.4f}, {Axis::z, 0.9f}, {Axis::automatic, 0.7f}}) {
+    settings.view.axis = axis;
+    settings.view.slice = share;
+    session_->pipeline->set(settings);
+    build();
+    for (const glm::dvec3& towards : {glm::dvec3(-1, 0.4, -0.6), glm::dvec3(0.5, -0.7, 1)}) {
+      const auto values = [&](View view) {
+        draw(glm::normalize(towards), view);
+        const std::vector<std::byte> bytes = download(context(), session_->targets.linear);
+        const auto* first = reinterpret_cast<const glm::vec4*>(bytes.data());
+        return std::vector<glm::vec4>(first, first + bytes.size() / sizeof(glm::vec4));
+      };
+      const std::vector<glm::vec4> distances = values(VIEW_DISTANCE_CHEBYSHEV), seeds = values(VIEW_JFA_SEEDS);
+      for (uint32_t y = 0; y < 48; y += 7)
+        for (uint32_t x = 0; x < 64; x += 9) {
+          const glm::vec4 distance = distances[y * 64 + x], seed = seeds[y * 64 + x];
+          pick({x, y});
+          ASSERT_EQ(inspection().voxel.has_value(), distance.w > 0);
+          if (distance.w == 0) continue;
+          EXPECT_EQ(inspection().voxel->distance, distance.x);
+          ASSERT_EQ(inspection().facet() != nullptr, seed.w > 0);
+          ++(seed.w > 0 ? solid : empty);
+          if (seed.w == 0) continue;
+          EXPECT_EQ(glm::vec3(inspection().voxel->voxel), glm::vec3(seed));
+          EXPECT_EQ(session_->edited.view.row, inspection().facet()->facet) << "matrix-row shows another one";
+        }
+    }
+  }
+  EXPECT_GT(solid, 20u);
+  EXPECT_GT(empty, 20u);
+}
+
 TEST_F(InspectionTest, FollowsLinksAndGoesBack) {
   draw({0, 0, -1}, VIEW_LIT);
   pick({32, 24});

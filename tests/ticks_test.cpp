@@ -1,11 +1,9 @@
 // The round numbers of axes and legends.
 #include <gtest/gtest.h>
 
-#if IRAD_UI
-
 #include <cmath>
 
-#include "ui/ticks.h"
+#include "gi/ticks.h"
 
 namespace irad {
 namespace {
@@ -33,11 +31,3 @@ TEST(Ticks, NoneWhereThereIsNoRange) {
 
 }  // namespace
 }  // namespace irad
-
-#else
-
-TEST(Ticks, NotBuilt) {
-  GTEST_SKIP() << "built without IRAD_UI";
-}
-
-#endif

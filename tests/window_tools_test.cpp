@@ -57,6 +57,26 @@ TEST_F(WindowToolsTest, CapturesReplayToTheSameBits) {
   EXPECT_EQ(window_->wait(20), 0) << window_->log();
 }
 
+TEST_F(WindowToolsTest, AManifestOpensWithItsViewAndCamera) {
+  start({"--view", "direct"});
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart begun = part();
+  xdotool("keydown w sleep 0.3 keyup w");
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(begun) > 0.02; }, 30));
+  const ScreenPart flown = part();
+  key("F12");
+  ASSERT_TRUE(says("Saved Direct light to out/captures/box.001"));
+  key("Escape");
+  ASSERT_EQ(window_->wait(20), 0);
+
+  start({"--config", (folder_.path / "out/captures/box.001/manifest.json").string()});
+  xdotool("mousemove 360 510");
+  EXPECT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == flown; }, 30));
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowToolsTest, CapturesThatCannotBeWrittenSayWhy) {
   std::ofstream(folder_.path / "taken") << "a file";
   start({"--out", (folder_.path / "taken").string()});
@@ -86,6 +106,31 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
+  // Saved are both, each with what draws it again.
+  key("F12");
+  ASSERT_TRUE(says("Saved Lit of both sides to out/captures/box.001"));
+  std::map<std::string, std::string> saved[2];
+  for (const int side : {0, 1}) {
+    const std::filesystem::path folder = folder_.path / "out/captures/box.001" / (side ? "b" : "a"),
+                                again = folder_.path / (side ? "again.b" : "again.a");
+    saved[side] = contents(folder);
+    const RunResult replay =
+        runIrad({"render", "--config", (folder / "manifest.json").string(), "--out", again.string()});
+    ASSERT_EQ(replay.status, 0) << replay.err;
+    for (const char* file : {"lit.png", "lit.exr"}) EXPECT_EQ(saved[side][file], contents(again)[file]) << folder;
+  }
+  EXPECT_NE(saved[0]["lit.exr"], saved[1]["lit.exr"]);
+  // A click takes the side that it is on: "edit A", then B, in the panel.
+  const auto edits = [this](int x) {
+    return settles([this, x] { return screen_->grab(x - 2, 277, 4, 4); },
+                   [](const ScreenPart& p) { return p.meanLuminance() > 0.4; }, 30);
+  };
+  EXPECT_TRUE(edits(1088));
+  xdotool("mousemove 500 440 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  EXPECT_TRUE(edits(1047)) << "a click on A";
+  xdotool("mousemove 800 400 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  EXPECT_TRUE(edits(1088)) << "a click on B";
+  xdotool("mousemove 960 300 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");  // beside the scene: lets go
   // The split follows the mouse; X shows one side, then the other.
   xdotool("mousemove 666 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 950 300 sleep 0.5 mouseup 1 sleep 0.5");
   xdotool("mousemove 360 510");

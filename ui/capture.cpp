@@ -10,14 +10,12 @@
 namespace irad {
 namespace {
 
-/// Returns the folder; throws what went wrong.
-std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen, const std::filesystem::path& parent,
-                           const Program& program, const Progress& progress) {
+/// One side's pictures and manifest, into a folder that exists.
+void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>& chosen,
+              const std::filesystem::path& folder, const Program& program, const Progress& progress) {
   Context& context = session.context;
-  Pipeline& pipeline = *session.pipeline;
   if (!pipeline.current())
     throw WorkError("Not saved: the picture is not of these settings, what they call for has not been rebuilt.");
-  OutputFolder folder(parent / pipeline.scene().path.stem());
   Manifest manifest{.program = program,
                     .subcommand = "render",
                     .device = &context.device.info,
@@ -38,15 +36,28 @@ std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen
       Frame frame = context.beginUntimed();
       pipeline.render(frame, manifest.cameras.front(), view.view, targets);
       frame.submitAndWait();
-      for (const std::filesystem::path& path :
-           writePicture(context, targets, view, folder.temporary() / view.name).paths)
+      for (const std::filesystem::path& path : writePicture(context, targets, view, folder / view.name).paths)
         manifest.files.push_back(path.filename().string());
       manifest.views.emplace_back(view.name);
       if (view.hasRange())
         manifest.viewRanges.push_back(rangeJson(context, targets, view, pipeline.settings(), view.name));
     }
   });
-  writeFile(folder.temporary() / "manifest.json", manifest.toJson());
+  writeFile(folder / "manifest.json", manifest.toJson());
+}
+
+/// Returns the folder; throws what went wrong. Of two sides that are compared each has a folder in it.
+std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen, const std::filesystem::path& parent,
+                           const Program& program, const Progress& progress) {
+  OutputFolder folder(parent / session.pipeline->scene().path.stem());
+  if (session.comparison) {
+    for (const auto& [side, name] : {std::pair{&session.sideA(), "a"}, {&session.sideB(), "b"}}) {
+      makeFolder(folder.temporary() / name);
+      saveSide(session, *side->pipeline, chosen, folder.temporary() / name, program, progress);
+    }
+  } else {
+    saveSide(session, *session.pipeline, chosen, folder.temporary(), program, progress);
+  }
   return folder.commit();
 }
 
@@ -60,8 +71,8 @@ void saveCapture(Session& session, bool allViews, const std::filesystem::path& p
     if (allViews || view.view == session.view) chosen.push_back(view);
   try {
     const std::filesystem::path folder = save(session, chosen, parent, program, progress);
-    session.note(fmt::format("Saved {} to {}", allViews ? fmt::format("{} views", chosen.size()) : chosen[0].label,
-                             folder.string()));
+    session.note(fmt::format("Saved {}{} to {}", allViews ? fmt::format("{} views", chosen.size()) : chosen[0].label,
+                             session.comparison ? " of both sides" : "", folder.string()));
   } catch (const Error& error) {
     if (session.work->cancel)
       session.note("Saving was cancelled; no folder was made.");

@@ -164,6 +164,12 @@ bool Inspection::serve(Session& session) {
   }
   try {
     const bool asked = wanted();
+    if (pick && pick->other && pick->compare) {
+      pick.reset();
+      session.note("Rows are compared within one side: Shift-click the side that is edited");
+    } else if (pick && pick->other) {
+      session.swapSides();
+    }
     const bool updated = update(session);
     if (asked) serveRequests(session);
     if (facet() != nullptr) session.edited.view.facet = facet()->facet;

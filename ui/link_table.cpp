@@ -1,11 +1,12 @@
 #include "ui/link_table.h"
 
 #include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 
-#include "shaders/shared/emitters.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -15,34 +16,28 @@ namespace {
 struct Column {
   const char *name, *help;
   const char* widest;  ///< text that has room at first
-  double (*value)(const Link&);
+  LinkQuantity quantity;
   bool hidden;  ///< at first
 };
 
-double voxelOrder(const Link& l) {
-  return l.voxel.x + 1024.0 * (l.voxel.y + 1024.0 * l.voxel.z);
-}
-
 const std::array kColumns{
-    Column{"voxel", "x y z of the far end", "000 000 000", voxelOrder, false},
-    Column{"hits", "Rays of the receiver that met the sender", "000000", [](const Link& l) -> double { return l.hits; },
-           false},
-    Column{"m", "Distance between the two facets", "00.00", [](const Link& l) { return l.distance; }, false},
-    Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2", "0.00e-00",
-           [](const Link& l) -> double { return luminance(glm::vec3(l.contribution)); }, false},
-    Column{"F", "Form factor: share of the receiver's rays", "0.00e-00", [](const Link& l) { return l.formFactor; },
-           true},
-    Column{"B", "Radiosity of the sender, luminance, W/m\u00B2", "0.00e-00",
-           [](const Link& l) -> double { return luminance(glm::vec3(l.radiosity)); }, true},
+    Column{"voxel", "x y z of the far end", "000 000 000", LinkQuantity::voxel, false},
+    Column{"hits", "Rays of the receiver that met the sender", "000000", LinkQuantity::hits, false},
+    Column{"m", "Distance between the two facets", "00.00", LinkQuantity::dist, false},
+    Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2", "0.00e-00", LinkQuantity::FB, false},
+    Column{"F", "Form factor: share of the receiver's rays", "0.00e-00", LinkQuantity::F, true},
+    Column{"B", "Radiosity of the sender, luminance, W/m\u00B2", "0.00e-00", LinkQuantity::B, true},
     Column{"back", "Reciprocity: A F the other way round over A F, 1 but for the noise of few rays", "00.00",
-           [](const Link& l) { return l.opposite / l.exchange; }, true},
-    Column{"facet", "Index of the far end", "0000000", [](const Link& l) -> double { return l.facet; }, true},
+           LinkQuantity::back, true},
+    Column{"facet", "Index of the far end", "0000000", LinkQuantity::facet, true},
 };
 
 std::string text(const Link& l, size_t column) {
-  if (column == 0) return fmt::format("{} {} {}", l.voxel.x, l.voxel.y, l.voxel.z);
-  const double value = kColumns[column].value(l);
-  return column == 1 || column == 7 ? fmt::format("{:.0f}", value) : shortNumber(value);
+  const LinkQuantity quantity = kColumns[column].quantity;
+  if (quantity == LinkQuantity::voxel) return voxelText(l);
+  const double value = quantityOf(l, quantity);
+  return quantity == LinkQuantity::hits || quantity == LinkQuantity::facet ? fmt::format("{:.0f}", value)
+                                                                           : shortNumber(value);
 }
 
 }  // namespace
@@ -50,12 +45,12 @@ std::string text(const Link& l, size_t column) {
 void LinkTable::order(const Links& links, const ImGuiTableSortSpecs& specs) {
   rows_.clear();
   for (uint32_t i = 0; i < links.links.size(); ++i)
-    if (filter_.PassFilter(text(links.links[i], 0).c_str())) rows_.push_back(i);
+    if (filter_.passes(links.links[i])) rows_.push_back(i);
   if (specs.SpecsCount == 0) return;
-  const auto value = kColumns.at(static_cast<size_t>(specs.Specs[0].ColumnIndex)).value;
+  const LinkQuantity by = kColumns.at(static_cast<size_t>(specs.Specs[0].ColumnIndex)).quantity;
   const bool up = specs.Specs[0].SortDirection == ImGuiSortDirection_Ascending;
   std::stable_sort(rows_.begin(), rows_.end(), [&](uint32_t a, uint32_t b) {
-    const double x = value(links.links[a]), y = value(links.links[b]);
+    const double x = quantityOf(links.links[a], by), y = quantityOf(links.links[b], by);
     return up ? x < y : x > y;
   });
 }
@@ -63,10 +58,16 @@ void LinkTable::order(const Links& links, const ImGuiTableSortSpecs& specs) {
 LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
   Result result;
   ImGui::SetNextItemWidth(-1);
-  filtered_ |= ImGui::InputTextWithHint("##filter", "filter: 12 3, -40 \u2026", filter_.InputBuf,
-                                        IM_ARRAYSIZE(filter_.InputBuf));
-  helpTooltip("Shows the voxels whose \"x y z\" contains one of these, and none that begins with -");
-  if (filtered_) filter_.Build();
+  if (ImGui::InputTextWithHint("##filter", "filter: 12 3, -40, hits>=3 \u2026", &typed_)) {
+    filter_ = LinkFilter(typed_);
+    filtered_ = true;
+  }
+  helpTooltip(LinkFilter::help());
+  for (const std::string& error : filter_.errors()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextColored(theme::error, "%s", error.c_str());
+    ImGui::PopTextWrapPos();
+  }
 
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable | ImGuiTableFlags_Hideable |
                                      ImGuiTableFlags_Resizable | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY;

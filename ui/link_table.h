@@ -1,12 +1,14 @@
 // The links of a row or a column of the matrix as a table: sorted, filtered, thousands of rows.
 #pragma once
 
-#include <imgui.h>
-
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gi/inspect.h"
+#include "ui/link_filter.h"
+
+struct ImGuiTableSortSpecs;
 
 namespace irad {
 
@@ -20,7 +22,8 @@ class LinkTable {
 
  private:
   void order(const Links& links, const ImGuiTableSortSpecs& specs);
-  ImGuiTextFilter filter_;      ///< on "x y z" of the voxel, as the table shows it
+  std::string typed_;
+  LinkFilter filter_;           ///< as typed
   std::vector<uint32_t> rows_;  ///< of links.links: those shown, in order
   uint64_t serial_ = ~uint64_t{0};
   bool filtered_ = false;

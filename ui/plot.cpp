@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gi/ticks.h"
 #include "ui/theme.h"
-#include "ui/ticks.h"
 
 namespace irad {
 namespace {
@@ -85,12 +85,19 @@ void drawMark(ImDrawList& list, const Scale& scale, float value) {
 }
 
 void read(size_t at, std::span<const PlotLine> lines, const PlotAxes& axes) {
+  std::vector<std::pair<ImU32, std::string>> text{{ImGui::GetColorU32(theme::dim), axes.xText(axes.x[at])}};
+  for (const PlotLine& line : lines)
+    if (!std::isnan(line.y[at]))
+      text.emplace_back(line.color, fmt::format("{}  {}", axes.yText(line.y[at]), line.name));
+  // Sized by hand: by itself it has the size that the text before needed, and would cut a longer one.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImVec2 size{0, static_cast<float>(text.size()) * ImGui::GetTextLineHeightWithSpacing() - style.ItemSpacing.y};
+  for (const auto& [color, row] : text) size.x = std::max(size.x, ImGui::CalcTextSize(row.c_str()).x);
+  ImGui::SetNextWindowSize({size.x + 2 * style.WindowPadding.x, size.y + 2 * style.WindowPadding.y});
   ImGui::BeginTooltip();
-  ImGui::TextColored(theme::dim, "%s", axes.xText(axes.x[at]).c_str());
-  for (const PlotLine& line : lines) {
-    if (std::isnan(line.y[at])) continue;
-    ImGui::PushStyleColor(ImGuiCol_Text, line.color);
-    ImGui::TextUnformatted(fmt::format("{}  {}", axes.yText(line.y[at]), line.name).c_str());
+  for (const auto& [color, row] : text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(row.c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndTooltip();

@@ -58,13 +58,17 @@ std::string cameraName(const Camera& camera, int index) {
   return camera.name.empty() ? fmt::format("camera {}", index + 1) : camera.name;
 }
 
+void Session::startAt(const Camera& from) {
+  const Scene& scene = pipeline->scene();
+  camera.start(from, glm::distance(scene.boundsMin, scene.boundsMax));
+  viewDirty = true;
+}
+
 void Session::useSceneCamera(int index) {
   const std::vector<Camera> all = cameras();
   if (all.empty()) return;
-  const Scene& scene = pipeline->scene();
   sceneCamera = std::clamp(index, 0, static_cast<int>(all.size()) - 1);
-  camera.start(all[static_cast<size_t>(sceneCamera)], glm::distance(scene.boundsMin, scene.boundsMax));
-  viewDirty = true;
+  startAt(all[static_cast<size_t>(sceneCamera)]);
 }
 
 void Session::open(const std::filesystem::path& path) {

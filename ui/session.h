@@ -82,6 +82,12 @@ struct Comparison {
     Metrics picture;      ///< of B's linear picture against A's
     VoxelMetrics voxels;  ///< of B's H against A's
   };
+  /// Whether at this share of the viewport's width the side shows that is not edited.
+  bool showsOther(float share) const {
+    if (show == Show::Difference) return false;
+    const bool a = show == Show::A || (show == Show::Split && share < split);
+    return a == editsB;
+  }
   std::optional<Result> result;  ///< of the pictures as shown, once both sides are asleep
 };
 
@@ -139,6 +145,7 @@ struct Session : Side {
   /// Of a scene that was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
   std::vector<Camera> cameras() const;           ///< the scene's, then the bookmarks
+  void startAt(const Camera& from);              ///< the window's camera
   void useSceneCamera(int index);                ///< of cameras()
   void open(const std::filesystem::path& path);  ///< a scene, or a reference picture, by its extension
   void saveEdits();                              ///< says what became of it

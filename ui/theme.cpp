@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "renderer/image_io.h"
+
 namespace irad {
 namespace theme {
 const ImVec4 text{0.86f, 0.87f, 0.89f, 1}, dim{0.58f, 0.61f, 0.65f, 1}, accent{0.93f, 0.66f, 0.26f, 1},
@@ -27,9 +29,7 @@ constexpr ImWchar kGlyphs[] = {0x0020, 0x00FF,  // Latin-1: superscripts, degree
                                0x2260, 0x2265,  // comparisons
                                0};
 
-/// Where Debian's packages put them.
-constexpr std::array kBodyFiles{"/usr/share/fonts/opentype/inter/Inter-Regular.otf",
-                                "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"};
+/// As kTextFonts, for headings.
 constexpr std::array kHeadingFiles{"/usr/share/fonts/opentype/inter/Inter-SemiBold.otf",
                                    "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
 
@@ -51,7 +51,7 @@ bool hasGlyph(ImWchar code) {
 }  // namespace
 
 void addFonts(ImFontAtlas& fonts, float scale) {
-  addFont(fonts, kBodyFiles, std::round(kBodyPixels * scale));
+  addFont(fonts, kTextFonts, std::round(kBodyPixels * scale));
   addFont(fonts, kHeadingFiles, std::round(kHeadingPixels * scale));
 }
 

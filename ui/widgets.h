@@ -1,25 +1,18 @@
-// Small pieces that panels share: setting rows generated from visit(), value tables, help tooltips.
+// Small pieces that panels share: rows of a label and a value, tables, help tooltips.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "gi/settings.h"
+#include "gi/number_text.h"
 
 namespace irad {
 
 struct Session;
 
-/// One row per setting whose name `wanted` accepts (a prefix such as "camera."; empty: all, under group headers):
-/// label, widget by the member's type, unit, help as tooltip, and a reset button where it differs from `defaults`. True
-/// when something was edited.
-bool settingRows(Settings& settings, const Settings& defaults, std::string_view prefix = {});
-/// The one setting of that name.
-bool settingRow(Settings& settings, const Settings& defaults, std::string_view name);
-
-/// A button that asks for a name (kept in `name`) and saves these settings as a preset under it.
-void savePresetButton(const char* label, float width, std::string& name, Session& session, const Settings& settings);
+/// Share of a row that its label takes.
+constexpr float kLabelShare = 0.42f;
 
 /// A label in the dim colour and a value at the column where values begin; a value too long is cut with an ellipsis and
 /// shown whole as a tooltip.
@@ -46,13 +39,5 @@ class Refresh {
  private:
   double last_ = -1;
 };
-
-/// A unit as registries spell it, for the eye: "W/m^2" becomes "W/m²".
-std::string prettyUnit(std::string_view unit);
-std::string milliseconds(double value);  ///< "0.12", "12.3", "1234"
-std::string mebibytes(uint64_t bytes);
-/// 3 significant digits, exponent where needed: "0.0123", "1.2e-06".
-std::string shortNumber(double value);
-std::string withThousands(uint64_t value);
 
 }  // namespace irad

@@ -138,6 +138,7 @@ void Window::savePreferences() {
 void Window::run() {
   builder_.load(options_.scene);
   sceneOpened();
+  if (options_.camera.empty() && options_.start && session_.pipeline) session_.startAt(*options_.start);
   if (!options_.camera.empty() && session_.pipeline) {
     const std::vector<Camera> cameras = session_.cameras();
     const auto named =

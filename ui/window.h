@@ -23,7 +23,8 @@ struct WindowOptions {
   View view = 0;
   std::optional<ReferencePicture> reference;  ///< for the views that compare with one
   std::optional<glm::uvec3> inspect;          ///< voxel to begin with in the inspector
-  std::string camera;                         ///< of the scene, by name; empty: its first
+  std::string camera;                         ///< of the scene, by name; empty: `start`
+  std::optional<Camera> start;                ///< to begin with; none: the scene's first
   glm::uvec2 size{1280, 720};
   float scale = 1;  ///< times the monitor's content scale
   std::filesystem::path captures = "out/captures";

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "gi/legend.h"
 #include "shaders/shared/color_map.h"
 #include "ui/color_bar.h"
 #include "ui/theme.h"
-#include "ui/ticks.h"
 #include "ui/viewport.h"
 #include "ui/widgets.h"
 
@@ -25,14 +25,13 @@ class LegendOverlay : public Overlay {
     const Settings& settings = session.pipeline->settings();
     const Quantity quantity = difference ? differenceQuantity(*info, settings) : shownQuantity(*info, settings);
     const uint32_t map = difference ? uint32_t{COLOR_MAP_BLUE_RED} : colorMapOf(*info, settings);
-    const ViewRange& range = *session.range;
 
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing(), margin = em;
     const Rect& where = picture.rect();
     const float width = std::min(20 * em, where.size.x - 4 * margin);
     if (width < 8 * em) return false;  // no room for anything legible
-    const std::string notes = marks(range);
-    const float height = 2 * line + 1.4f * em + (notes.empty() ? 0 : line);
+    const Legend legend = makeLegend(quantity, map, *session.range);
+    const float height = 2 * line + 1.4f * em + (legend.marks.empty() ? 0 : line);
     const glm::vec2 corner = where.position + where.size - glm::vec2(width, height) - 2 * margin;
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -41,44 +40,28 @@ class LegendOverlay : public Overlay {
     list.AddRectFilled(low, high, IM_COL32(20, 20, 22, 215), 0.3f * em);
     const glm::vec2 inside = corner + 0.5f * margin;
     const float text = inside.y + line;
-    const std::string unit = quantity.unit.empty() ? "" : " (" + prettyUnit(quantity.unit) + ")";
     list.PushClipRect(low, high, true);
-    list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), (quantity.name + unit).c_str());
+    list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), legend.title.c_str());
     drawColorBar(list, {inside.x, text}, {width, em}, map);
     const float bar = text + em;
-    drawTicks(list, {inside.x, bar}, width, range);
-    if (!notes.empty())
-      list.AddText({inside.x, bar + line + 0.3f * em}, ImGui::GetColorU32(theme::warning), notes.c_str());
+    drawTicks(list, {inside.x, bar}, width, legend);
+    if (!legend.marks.empty())
+      list.AddText({inside.x, bar + line + 0.3f * em}, ImGui::GetColorU32(theme::warning), legend.marks.c_str());
     list.PopClipRect();
     return false;
   }
 
  private:
-  static void drawTicks(ImDrawList& list, glm::vec2 at, float width, const ViewRange& range) {
+  static void drawTicks(ImDrawList& list, glm::vec2 at, float width, const Legend& legend) {
     const ImU32 color = ImGui::GetColorU32(theme::text);
     const float em = ImGui::GetFontSize();
-    std::vector<double> values = ticks(range.low, range.high, 5);
-    if (range.low == range.high) values = {range.low};
-    for (const double value : values) {
-      const float x = at.x + width * colorMapPosition(static_cast<float>(value), range.low, range.high);
+    for (const Legend::Tick& tick : legend.ticks) {
+      const float x = at.x + width * tick.at;
       list.AddLine({x, at.y}, {x, at.y + 0.3f * em}, color);
-      const std::string label = shortNumber(value);
-      const float half = 0.5f * ImGui::CalcTextSize(label.c_str()).x;
+      const float half = 0.5f * ImGui::CalcTextSize(tick.label.c_str()).x;
       const float centre = std::clamp(x, at.x + half, at.x + width - half);
-      list.AddText({centre - half, at.y + 0.3f * em}, color, label.c_str());
+      list.AddText({centre - half, at.y + 0.3f * em}, color, tick.label.c_str());
     }
-  }
-
-  /// How many pixels have no place in the map.
-  static std::string marks(const ViewRange& range) {
-    std::string text;
-    const auto add = [&](uint32_t count, const char* what) {
-      if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", withThousands(count), what);
-    };
-    add(range.nan, "NaN (red)");
-    add(range.infinite, "infinite (green)");
-    add(range.negative, "negative (blue)");
-    return text;
   }
 };
 

@@ -20,7 +20,11 @@ class RowOverlay : public Overlay {
  public:
   bool draw(Session& session, const Picture& picture, const PictureMouse& mouse) override {
     Inspection& in = session.inspection;
-    if (mouse.clicked && mouse.hovered) in.pick = Inspection::Pick{picture.pixel(mouse.position), mouse.shift};
+    if (mouse.clicked && mouse.hovered) {
+      const float share = (mouse.position.x - picture.rect().position.x) / picture.rect().size.x;
+      in.pick = Inspection::Pick{picture.pixel(mouse.position), mouse.shift,
+                                 session.comparison && session.comparison->showsOther(share)};
+    }
     if (!in.voxel) return false;
     const glm::vec2 low = picture.rect().position, high = low + picture.rect().size;
     ImDrawList& list = *ImGui::GetWindowDrawList();

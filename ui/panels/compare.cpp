@@ -6,6 +6,7 @@
 
 #include "ui/comparison.h"
 #include "ui/panel.h"
+#include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -49,6 +50,7 @@ class ComparePanel : public Panel {
     };
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "edit");
+    helpTooltip("A click in the picture takes the side that it is on");
     if (choice("A##edit", !comparison.editsB) && comparison.editsB) session.swapSides();
     if (choice("B##edit", session.comparison->editsB) && !session.comparison->editsB) session.swapSides();
     ImGui::AlignTextToFramePadding();

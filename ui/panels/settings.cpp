@@ -3,6 +3,7 @@
 
 #include "renderer/error.h"
 #include "ui/panel.h"
+#include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

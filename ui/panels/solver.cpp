@@ -8,6 +8,7 @@
 #include "gi/convergence.h"
 #include "ui/panel.h"
 #include "ui/plot.h"
+#include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

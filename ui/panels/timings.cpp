@@ -124,8 +124,8 @@ class TimingsPanel : public Panel {
     const size_t count = history_.size() - first;
     const size_t columns = std::clamp<size_t>(static_cast<size_t>(size.x / 2), 1, count);
     std::vector<float> x(columns);
-    for (size_t i = 0; i < columns; ++i)  // frames before the newest
-      x[i] = -static_cast<float>(count - 1 - std::min(count - 1, i * count / columns));
+    for (size_t i = 0; i < columns; ++i)  // the last frame of each, before the newest
+      x[i] = -static_cast<float>(count - (i + 1) * count / columns);
     std::vector<std::vector<float>> values;
     std::vector<PlotLine> lines;
     values.reserve(history_.stages().size());
@@ -138,7 +138,9 @@ class TimingsPanel : public Panel {
     PlotAxes axes;
     axes.logarithmic = logarithmic_;
     axes.x = x;
-    axes.xText = [](float v) { return v >= 0 ? std::string("newest") : fmt::format("{} frames ago", -v); };
+    axes.xText = [](float v) {
+      return v >= 0 ? std::string("newest") : fmt::format("{} frame{} ago", -v, v == -1 ? "" : "s");
+    };
     axes.yText = [](float v) { return withUnit(v); };
     axes.bridge = 3;  // pictures and relights take turns
     const std::optional<size_t> column = plot({size.x, size.y}, lines, axes);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/panel.h"
+#include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -157,8 +158,8 @@ class ViewPanel : public Panel {
     const RangeMode mode = session.edited.view.range;
     if (mode == RangeMode::percentile) row(session, "view.percentile");
     if (mode == RangeMode::manual) {
-      numberRow("low", session.edited.view.low);
-      numberRow("high", session.edited.view.high);
+      row(session, "view.low");
+      row(session, "view.high");
     }
     if (session.range && session.rangeView == info.view) {
       valueRow("shown", fmt::format("{:.4g} to {:.4g}", session.range->low, session.range->high));
@@ -172,17 +173,6 @@ class ViewPanel : public Panel {
       valueRow("color map", colorMapName(COLOR_MAP_BLUE_RED));
     else
       row(session, "view.color_map");
-  }
-
-  /// view.low and view.high span too much for a slider.
-  static void numberRow(const char* label, float& value) {
-    valueRow(label, "");
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.42f);
-    ImGui::SetNextItemWidth(-1);
-    ImGui::PushID(label);
-    if (ImGui::InputFloat("##value", &value, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue))
-      value = std::clamp(value, -1e6f, 1e6f);
-    ImGui::PopID();
   }
 
   static void note(const std::string& text) {

@@ -1,4 +1,4 @@
-#include "ui/ticks.h"
+#include "gi/ticks.h"
 
 #include <cmath>
 #include <utility>

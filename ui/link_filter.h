@@ -1,0 +1,38 @@
+// Which links of a row or a column a table shows: parts of "x y z", and comparisons of their quantities.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gi/inspect.h"
+
+namespace irad {
+
+/// What a link has that tables show, sort and filter by. F B and B are luminances, W/m^2; dist in m; back is the
+/// exchange the other way round over its own.
+enum class LinkQuantity { voxel, x, y, z, hits, dist, FB, F, B, back, facet };
+/// Of `voxel` a number that grows with z, then y, then x.
+double quantityOf(const Link& link, LinkQuantity quantity);
+std::string voxelText(const Link& link);  ///< "12 3 40"
+
+/// Terms between commas. NAME OP NUMBER ("hits>=3", "dist < 10", "B>.1"; names of LinkQuantity, OP one of < <= > >= =
+/// !=) must hold, all of them. Of the others a link's "x y z" contains one at least, and none of those that begin with
+/// "-".
+class LinkFilter {
+ public:
+  LinkFilter() = default;  ///< passes everything
+  explicit LinkFilter(std::string_view text);
+  bool passes(const Link& link) const;
+  /// What could not be read, in words; those terms pass everything.
+  const std::vector<std::string>& errors() const { return errors_; }
+  static std::string help();
+
+ private:
+  void addComparison(std::string_view term, size_t operatorAt);
+  std::vector<std::function<bool(const Link&)>> comparisons_;
+  std::vector<std::string> wanted_, unwanted_, errors_;
+};
+
+}  // namespace irad
