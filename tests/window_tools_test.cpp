@@ -120,6 +120,7 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
     for (const char* file : {"lit.png", "lit.exr"}) EXPECT_EQ(saved[side][file], contents(again)[file]) << folder;
   }
   EXPECT_NE(saved[0]["lit.exr"], saved[1]["lit.exr"]);
+  xdotool("mousemove 830 497 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");  // the message, which is in the way
   // A click takes the side that it is on: "edit A", then B, in the panel.
   const auto edits = [this](int x) {
     return settles([this, x] { return screen_->grab(x - 2, 277, 4, 4); },

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ui/panel.h"
+#include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
