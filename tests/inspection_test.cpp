@@ -100,7 +100,7 @@ TEST_F(InspectionTest, PicksTheCellThatASliceShows) {
           ++(seed.w > 0 ? solid : empty);
           if (seed.w == 0) continue;
           EXPECT_EQ(glm::vec3(inspection().voxel->voxel), glm::vec3(seed));
-          EXPECT_EQ(session_->edited.view.row, inspection().facet()->facet) << "matrix-row shows another one";
+          EXPECT_EQ(session_->edited.view.facet, inspection().facet()->facet) << "matrix-row shows another one";
         }
     }
   }

@@ -93,7 +93,7 @@ TEST(Legend, RenderDrawsItIntoPicturesWithARangeOnly) {
 
   // The row that --inspect asks for: in the manifest, and in the picture, F being hits of 32 rays.
   const auto manifest = nlohmann::json::parse(with["manifest.json"]);
-  EXPECT_GT(manifest["settings"]["view.row"], 0);
+  EXPECT_GT(manifest["settings"]["view.facet"], 0);
   const Picture row = readExr(folder.path / "with/matrix-row.exr");
   float largest = 0;
   for (const glm::vec3& p : row.pixels) largest = std::max(largest, p.x);

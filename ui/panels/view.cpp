@@ -140,7 +140,7 @@ class ViewPanel : public Panel {
     if (!session.pipeline) return;
     const Pipeline& pipeline = *session.pipeline;
     if (std::string_view(info.group) == "Reference" && !pipeline.hasReference())
-      note("There is no picture to compare with: drop an .exr, or start with --reference FILE.exr.");
+      note("There is no picture to compare with: drop an .exr, or drop an .exr or .hdr on the window.");
     else if (info.view == VIEW_ERROR)
       note(
           fmt::format("(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of lit and reference, from the reference's "
