@@ -118,7 +118,7 @@ void printJson(const EffectPlan& plan, const Scene& scene, const DeviceInfo& dev
   if (costs)
     for (auto& row : out["effects"])
       for (const auto& [effect, cost] : *costs)
-        if (row["effect"] == effectInfo(effect).name)
+        if (row["effect"].get<std::string>() == effectInfo(effect).name)
           row["ms_not_spent"] = {{"rebuild", cost.rebuild}, {"relight", cost.relight}, {"frame", cost.frame}};
   fmt::print("{}\n", out.dump(2));
 }
