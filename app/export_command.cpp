@@ -143,6 +143,7 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   if (inspected) written.push_back(exportRecord(session, pipeline, *inspector, *inspected, out));
 
   Manifest manifest = session.manifest("export", pipeline);
+  manifest.details.emplace_back("effects", planJson(pipeline.plan()));
   for (const Volume volume : volumes) {
     manifest.arguments.emplace_back("--volume");
     manifest.arguments.emplace_back(EnumNames<Volume>::names.at(static_cast<size_t>(volume)));

@@ -159,6 +159,7 @@ void run(const Arguments& arguments) {
                                                        pipeline.field(), pipeline.matrix(), pipeline.lighting())));
   written.push_back(out / "memory.csv");
 
+  manifest.details.emplace_back("effects", planJson(pipeline.plan()));  // of these pictures
   if (arguments.legend) manifest.arguments.emplace_back("--legend");
   manifest.size = size;
   manifest.frames = frames;

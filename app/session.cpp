@@ -59,8 +59,7 @@ Manifest Session::manifest(std::string subcommand, const Pipeline& pipeline) con
           .device = &device->info,
           .scene = &pipeline.scene(),
           .settings = &settings,
-          .cpuDevice = device->isCpu,
-          .details = {{"effects", planJson(pipeline.plan())}}};
+          .cpuDevice = device->isCpu};
 }
 
 void Session::checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors) {

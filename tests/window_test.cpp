@@ -80,18 +80,19 @@ TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
   const auto left = [this] { return screen_->grab(286, 60, 40, 400); };  // of the left column; then of the viewport
   const auto background = [this] { return screen_->grab(10, 500, 250, 200).deviation() < 0.01; };
   ASSERT_FALSE(background());
-  // The edge of the left column, and the header of the settings.
+  // The edge of the left column, and the headers of the settings and, below it then, of the effects.
   xdotool("mousemove 332 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 280 300 sleep 0.5 mouseup 1");
   const auto black = [](const ScreenPart& p) { return p.count(0x000000) > 0.9 * 40 * 400; };
   ASSERT_TRUE(settles(left, black)) << "the edge cannot be dragged";
-  xdotool("mousemove 60 284 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
-  ASSERT_TRUE(settles(left, [&](const ScreenPart&) { return background(); })) << "the settings do not fold";
+  xdotool(
+      "mousemove 60 284 sleep 0.5 click 1 sleep 0.5 mousemove 60 311 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  ASSERT_TRUE(settles(left, [&](const ScreenPart&) { return background(); })) << "the settings and effects do not fold";
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
 
   start();
   ASSERT_TRUE(settles(left, black)) << "the column's width is forgotten";
-  EXPECT_TRUE(background()) << "the settings are unfolded again";
+  EXPECT_TRUE(background()) << "they are unfolded again";
   // View, Reset the layout.
   xdotool("mousemove 60 15 sleep 0.5 click 1 sleep 0.5 mousemove 80 95 sleep 0.5 click 1 sleep 0.5 mousemove 600 510");
   ASSERT_TRUE(settles(left, [&](const ScreenPart& p) { return !black(p) && !background(); })) << "not reset";

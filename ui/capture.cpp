@@ -29,7 +29,6 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
                     .shaders = context.shaders.modified()};
   Targets targets(context, session.targets.size);
   pipeline.solvedAfresh(progress, [&] {
-    manifest.details.emplace_back("effects", planJson(pipeline.plan()));
     for (const ViewInfo& view : chosen) {
       const float done = static_cast<float>(manifest.views.size()) / static_cast<float>(chosen.size());
       if (!progress(view.label, done)) throw WorkError("cancelled");
@@ -42,6 +41,7 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
       if (view.hasRange())
         manifest.viewRanges.push_back(rangeJson(context, targets, view, pipeline.settings(), view.name));
     }
+    manifest.details.emplace_back("effects", planJson(pipeline.plan()));
   });
   writeFile(folder / "manifest.json", manifest.toJson());
 }
