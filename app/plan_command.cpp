@@ -1,7 +1,6 @@
 // `irad plan`: which effects a scene calls for, which not, why, and what that saves.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -97,10 +96,8 @@ void printTable(const EffectPlan& plan, const std::map<Effect, Cost>* costs) {
                     skipText(row), mebibytes(row.bytesNotAllocated)});
     if (costs) {
       const auto cost = costs->find(row.effect);
-      for (const double ms :
-           {cost != costs->end() ? cost->second.rebuild : NAN, cost != costs->end() ? cost->second.relight : NAN,
-            cost != costs->end() ? cost->second.frame : NAN})
-        rows.back().push_back(std::isnan(ms) ? "-" : fmt::format("{:.2f}", ms));
+      for (const double Cost::*ms : {&Cost::rebuild, &Cost::relight, &Cost::frame})
+        rows.back().push_back(cost == costs->end() ? "-" : fmt::format("{:.2f}", cost->second.*ms));
     }
     rows.back().push_back(row.reason);
   }

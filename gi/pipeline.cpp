@@ -164,9 +164,9 @@ struct Pipeline::Impl {
 
     // 3. Distance to the nearest solid voxel, for every voxel.
     std::optional<Field> field;
-    if (first <= Redo::Field || planned.on(Effect::field) != static_cast<bool>(*p.field)) {
+    if (first <= Redo::Field || !fieldFits(p)) {
       report("GI SDF", 0);
-      field = planned.on(Effect::field) ? buildField(context, *p.facets, obeyed) : Field{obeyed.field.method};
+      field = plannedField(p);
     }
 
     // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
@@ -182,13 +182,18 @@ struct Pipeline::Impl {
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
+  /// Whether there is a field where the plan has it on, and none where it has it off.
+  bool fieldFits(const Products& p) const { return planned.on(Effect::field) == static_cast<bool>(*p.field); }
+  Field plannedField(const Products& p) {
+    const Settings& obeyed = planned.settings();
+    return planned.on(Effect::field) ? buildField(context, *p.facets, obeyed) : Field{obeyed.field.method};
+  }
   /// Rays may come to need the field, or need it no longer, of the same voxels.
   void fitField(Products& p) {
-    if (planned.on(Effect::field) == static_cast<bool>(*p.field)) return;
+    if (fieldFits(p)) return;
     const auto start = std::chrono::steady_clock::now();
     ++revision.build;
-    const Settings& obeyed = planned.settings();
-    p.field = planned.on(Effect::field) ? buildField(context, *p.facets, obeyed) : Field{obeyed.field.method};
+    p.field = plannedField(p);
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
@@ -393,8 +398,7 @@ bool Pipeline::asleep() const {
 
 bool Pipeline::current() const {
   const Impl& p = *impl_;
-  return p.dirty >= (p.relights() ? Redo::Shade : Redo::Gather) && !p.shadowsDirty && p.now.light &&
-         p.planned.on(Effect::field) == static_cast<bool>(*p.now.field);
+  return p.dirty >= (p.relights() ? Redo::Shade : Redo::Gather) && !p.shadowsDirty && p.now.light && p.fieldFits(p.now);
 }
 
 void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()>& draw) {
