@@ -24,13 +24,14 @@ inline void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// A program in a folder and an environment of its own, what it prints in a file there.
+/// A program in a folder and an environment of its own, what it prints in a file there. It ends with the test, also one
+/// that is killed: the thread that starts it must be the one that lasts.
 class Program {
  public:
   Program(const std::vector<std::string>& command, const std::filesystem::path& folder,
           const std::map<std::string, std::string>& environment)
       : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")),
-        process_("/usr/bin/env", throughEnv(command, folder, environment), log_, log_) {}
+        process_("/usr/bin/setpriv", throughEnv(command, folder, environment), log_, log_) {}
   /// Asked first, so that a server removes its lock and socket.
   ~Program() {
     if (!running()) return;
@@ -60,11 +61,11 @@ class Program {
   std::string log() const { return slurp(log_); }
 
  private:
-  /// env(1) becomes the program: the process is the same.
+  /// setpriv(1) becomes env(1), and that the program: the process is the same.
   static std::vector<std::string> throughEnv(const std::vector<std::string>& command,
                                              const std::filesystem::path& folder,
                                              const std::map<std::string, std::string>& environment) {
-    std::vector<std::string> words{"-C", folder.string()};
+    std::vector<std::string> words{"--pdeathsig", "TERM", "/usr/bin/env", "-C", folder.string()};
     for (const auto& [name, value] : environment) words.push_back(name + "=" + value);
     words.insert(words.end(), command.begin(), command.end());
     return words;

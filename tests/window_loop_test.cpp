@@ -1,11 +1,15 @@
-// The window's loop in this process, under a display that says what Xvfb never does: that a window has no area.
+// The window's loop in this process: what it asks of the device and of the processor while nothing happens and while
+// little does, and under a display that says what Xvfb never does: that a window has no area.
 #include <gtest/gtest.h>
 
 #if IRAD_UI
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
+#include <fstream>
+#include <set>
 
 #include "tests/virtual_screen.h"
 #include "ui/window.h"
@@ -24,12 +28,144 @@ double processSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-TEST(WindowLoop, SleepsWhileItHasNoArea) {
-  for (const char* program : {"Xvfb", "xdotool"})
-    if (!installed(program)) GTEST_SKIP() << program << " is not installed: the window is not tested";
-  const VirtualScreen screen(1280, 720);
-  setenv("DISPLAY", screen.display().c_str(), 1);
-  const auto device = Device::create({.validate = true, .presentable = true});
+/// Of the picture where neither panels nor messages are (window_fixture.h).
+ScreenPart viewport(const VirtualScreen& screen) {
+  return screen.grab(400, 100, 500, 380);
+}
+
+bool until(const std::function<bool()>& holds) {
+  for (int i = 0; i < 1200; ++i) {
+    if (holds()) return true;
+    pause(0.05);
+  }
+  return false;
+}
+
+/// The Box, small, in a window of 1280 x 720 with every panel unfolded, its loop on the test's own thread; the user is
+/// another one. What the user asks of the context must be of the kind that threads may ask.
+class WindowLoop : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* program : {"Xvfb", "xdotool"})
+      if (!installed(program)) GTEST_SKIP() << program << " is not installed: the window is not tested";
+    screen_.emplace(1280, 720);
+    setenv("DISPLAY", screen_->display().c_str(), 1);
+    device_ = Device::create({.validate = true, .presentable = true});
+    context_.emplace(*device_, shaders_, timings_);
+    options_.scene = assets() / "box.glb";
+    options_.settings = options_.defaults = defaultSettings(/*cpuDevice=*/true);
+    options_.settings.voxel.resolution = 24;
+    options_.settings.matrix.gpu.rays = 16;
+    options_.preferences = folder_.path / "window.json";
+    std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
+  }
+  void TearDown() override {
+    unsetenv("DISPLAY");
+    if (!device_) return;
+    for (const std::string& message : device_->validationMessages()) ADD_FAILURE() << message;
+  }
+
+  /// The window from its start until `user` has ended and pressed Esc.
+  void run(const std::function<void()>& user) {
+    std::thread thread([&] {
+      screen_->xdotool("mousemove 360 510");  // out of the part looked at: the server draws its pointer
+      EXPECT_TRUE(until([&] { return rests() && viewport(*screen_).deviation() > 0.02; })) << "no picture";
+      user();
+      screen_->key("Escape");
+    });
+    EXPECT_NO_THROW(runWindow(*context_, options_));
+    thread.join();
+  }
+  /// Nothing was asked of the device for a second.
+  bool rests() const {
+    const Counters before = context_->counters();
+    pause(1);
+    return context_->counters() == before;
+  }
+  /// Once the loop has ended: the stages of frames that began between these times of Timings::now().
+  std::set<std::string> stagesBetween(double from, double to) const {
+    std::set<std::string> stages;
+    for (const FrameSample& frame : timings_.frames())
+      if (frame.began >= from && frame.began <= to)
+        for (const auto& [stage, ms] : frame.stages) stages.insert(stage);
+    return stages;
+  }
+
+  TemporaryFolder folder_;
+  std::optional<VirtualScreen> screen_;
+  std::unique_ptr<Device> device_;
+  ShaderLibrary shaders_;
+  Timings timings_;
+  std::optional<Context> context_;
+  WindowOptions options_;
+};
+
+TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
+  run([&] {
+    // Wherever the mouse lies: over the picture, over a setting with its tooltip, over a plot's.
+    for (const char* place : {"360 510", "200 380", "800 620"}) {
+      screen_->xdotool(fmt::format("mousemove {}", place));
+      ASSERT_TRUE(until([&] { return rests(); })) << "mouse at " << place;
+      const Counters before = context_->counters();
+      const double used = processSeconds();
+      constexpr double kSeconds = 5;
+      pause(kSeconds);
+      const Counters asked = context_->counters().since(before);
+      EXPECT_EQ(asked, Counters()) << "mouse at " << place << ": " << asked.dispatches << " dispatches, " << asked.draws
+                                   << " draws, " << asked.submissions << " submissions";
+      EXPECT_LT(processSeconds() - used, 0.02 * kSeconds) << "seconds of processor time in 5 s, mouse at " << place;
+    }
+  });
+}
+
+TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
+  double from = 0, to = 0;
+  Counters before, after;
+  run([&] {
+    before = context_->counters();
+    from = timings_.now();
+    screen_->xdotool("keydown w sleep 0.5 keyup w");
+    screen_->xdotool("mousemove 500 300 mousedown 3 sleep 0.2 mousemove 540 310 sleep 0.2 mouseup 3 mousemove 360 510");
+    EXPECT_TRUE(until([&] { return rests(); }));
+    to = timings_.now();
+    after = context_->counters();
+  });
+  const std::set<std::string> stages = stagesBetween(from, to);
+  EXPECT_TRUE(stages.contains("RE Forward")) << "the camera has not moved";
+  for (const std::string& stage : stages)
+    EXPECT_FALSE(stage.starts_with("GI ") || stage == "RE Shadow") << stage << " for a camera";
+  const Counters asked = after.since(before);
+  EXPECT_GT(asked.draws, 0u);
+  EXPECT_EQ(asked.images, 0u);
+  EXPECT_EQ(asked.allocations, 0u) << "device memory for a camera";
+}
+
+TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
+  double from = 0, to = 0;
+  ScreenPart first, moved;
+  run([&] {
+    first = viewport(*screen_);
+    from = timings_.now();
+    // The handle of the Box's spot light, in the upper right of the picture.
+    screen_->xdotool(
+        "mousemove 829 72 sleep 0.4 mousedown 1 sleep 0.4 mousemove 760 90 sleep 0.4 mousemove 700 120 sleep 0.4 "
+        "mouseup 1 mousemove 360 510");
+    EXPECT_TRUE(until([&] { return rests(); }));
+    moved = viewport(*screen_);
+    to = timings_.now();
+  });
+  EXPECT_GT(moved.difference(first), 0.1) << "the light is not dragged";
+  const std::set<std::string> stages = stagesBetween(from, to);
+  for (const char* stage : {"RE Shadow", "GI Gather", "GI Solve", "GI Scatter"})
+    EXPECT_TRUE(stages.contains(stage)) << stage;
+  for (const std::string& stage : stages) {
+    const bool ofLight =
+        stage.starts_with("GI Gather") || stage.starts_with("GI Solve") || stage.starts_with("GI Scatter");
+    EXPECT_TRUE(ofLight || !stage.starts_with("GI ")) << stage << " for a light";
+  }
+}
+
+TEST_F(WindowLoop, SleepsWhileItHasNoArea) {
   driversAcquire = std::exchange(vkAcquireNextImageKHR, [](VkDevice handle, VkSwapchainKHR swapchain, uint64_t timeout,
                                                            VkSemaphore semaphore, VkFence fence, uint32_t* image) {
     return iconified ? VK_ERROR_OUT_OF_DATE_KHR : driversAcquire(handle, swapchain, timeout, semaphore, fence, image);
@@ -41,58 +177,25 @@ TEST(WindowLoop, SleepsWhileItHasNoArea) {
                       if (iconified) capabilities->currentExtent = {0, 0};
                       return result;
                     });
-
-  // The user, on a thread of its own: the window's loop belongs to this one.
-  std::thread user([&screen] {
-    const auto viewport = [&] { return screen.grab(400, 100, 500, 380); };
-    const auto until = [](const std::function<bool()>& holds) {
-      for (int i = 0; i < 1200; ++i) {
-        if (holds()) return true;
-        pause(0.05);
-      }
-      return false;
-    };
-    const auto still = [&] {
-      const ScreenPart before = viewport();
-      const double used = processSeconds();
-      pause(1);
-      return processSeconds() - used <= 0.05 && before.deviation() > 0.02 && viewport() == before;
-    };
-    screen.xdotool("mousemove 360 510");  // out of this part: the server draws its pointer into the framebuffer
-    EXPECT_TRUE(until(still)) << "no picture";
-    const ScreenPart first = viewport();
+  run([&] {
+    const ScreenPart first = viewport(*screen_);
 
     // Another view is wanted while nothing can be drawn: no frame, and no spinning either.
     iconified = true;
-    screen.key("2");
+    screen_->key("2");
     pause(1);
     const double used = processSeconds();
     pause(2);
     EXPECT_LE(processSeconds() - used, 0.1) << "seconds of processor time in 2 s without area";
-    EXPECT_EQ(viewport(), first);
+    EXPECT_EQ(viewport(*screen_), first);
 
     // It comes with the area, without any further event.
     iconified = false;
-    EXPECT_TRUE(until([&] { return viewport().difference(first) > 0.05; })) << "nothing is drawn once there is area";
-    screen.key("Escape");
+    EXPECT_TRUE(until([&] { return viewport(*screen_).difference(first) > 0.05; }))
+        << "nothing is drawn once there is area";
   });
-  {
-    ShaderLibrary shaders;
-    Timings timings;
-    Context context(*device, shaders, timings);
-    WindowOptions options;
-    options.scene = assets() / "box.glb";
-    options.settings = options.defaults = defaultSettings(/*cpuDevice=*/true);
-    options.settings.voxel.resolution = 24;
-    options.settings.matrix.gpu.rays = 16;
-    options.settings.specular.mode = SpecularMode::off;
-    EXPECT_NO_THROW(runWindow(context, options));
-  }
-  user.join();
   vkAcquireNextImageKHR = driversAcquire;
   vkGetPhysicalDeviceSurfaceCapabilitiesKHR = driversCapabilities;
-  for (const std::string& message : device->validationMessages()) ADD_FAILURE() << message;
-  unsetenv("DISPLAY");
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 // A walk through the whole window: every view of the combo against the headless program's picture, every panel and a
 // control in each, the window as a whole against pictures that a person has looked at.
+#include <gtest/gtest.h>
+
+#if IRAD_OIIO
+
 #include <algorithm>
 
 #include "gi/views.h"
@@ -413,3 +417,11 @@ TEST(WholeWindow, AMovedWordIsSeen) {
 
 }  // namespace
 }  // namespace irad::test
+
+#else
+
+TEST(WindowWalk, NotBuilt) {
+  GTEST_SKIP() << "built without IRAD_OIIO";
+}
+
+#endif
