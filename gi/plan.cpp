@@ -57,9 +57,20 @@ class Planner {
     if (r.state == EffectState::off) r.bytesNotAllocated = bytes;
   }
 
+  /// Hysteresis of a trigger that an edit may cross back and forth: what `trigger` has put on stays on while the wider
+  /// `keeps` holds.
+  bool held(Effect effect, bool trigger, bool keeps) const {
+    return trigger || (keeps && before_ != nullptr && before_->on(effect));
+  }
+
   size_t used() const {
     return static_cast<size_t>(
         std::count_if(t_.materials.begin(), t_.materials.end(), [](const auto& m) { return m.triangles > 0; }));
+  }
+  /// "none of 25 materials", "2 of 3 materials".
+  std::string ofMaterials(size_t n) const {
+    const std::string all = counted(used(), "material", "materials");
+    return used() == 0 ? all : fmt::format("{} of {}", n == 0 ? "none" : std::to_string(n), all);
   }
   template <class Has>
   size_t with(Has&& has) const {
@@ -76,18 +87,15 @@ class Planner {
 
   void emission() {
     const size_t emitting = with([](const MaterialTraits& m) { return m.emission > 0; });
-    const std::string of = fmt::format("{} of {}", emitting, counted(used(), "material", "materials"));
+    std::string reason = ofMaterials(emitting) + (emitting > 1 ? " emit" : " emits");
+    if (emitting > 0) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", most(&MaterialTraits::emission));
     // M in the list, F M, and that as shading samples it.
-    decide(Effect::emission, emitting > 0,
-           emitting > 0 ? fmt::format("{} emit{}, {:.3g} W/(m^2 sr) at most", of, emitting == 1 ? "s" : "",
-                                      most(&MaterialTraits::emission))
-                        : of + " emits",
-           facets() * (12 + 16 + 16));
+    decide(Effect::emission, emitting > 0, std::move(reason), facets() * (12 + 16 + 16));
     shines_ |= emitting > 0 && plan_.on(Effect::emission);
   }
 
   void light(Effect effect, LightType type, const char* one, const char* many) {
-    size_t all = 0, shining = 0, lighting = 0;
+    size_t all = 0, shining = 0, lighting = 0, near = 0;
     uint64_t maps = 0;
     const uint64_t flat = 4ull * s_.light.shadowResolution * s_.light.shadowResolution;
     for (const LightTraits& l : t_.lights) {
@@ -95,22 +103,29 @@ class Planner {
       ++all;
       shining += l.shines;
       lighting += l.lights();
+      near += l.mayLight();
       maps += l.cube ? flat / 4 * 6 : flat;
     }
     std::string reason = counted(all, one, many);
+    const bool calledFor = held(effect, lighting > 0, near > 0);
     if (lighting > 0)
       reason = fmt::format("{} of {} {} the scene", lighting, reason, lighting == 1 ? "lights" : "light");
+    else if (calledFor)
+      reason += fmt::format(": {} just out of the scene's reach", near);
     else if (shining > 0)
       reason += fmt::format(": {} with an intensity, none reaches the scene", shining);
     else if (all > 0)
       reason += ", none with an intensity";
-    decide(effect, lighting > 0, std::move(reason), maps);
-    shines_ |= lighting > 0 && plan_.on(effect);
+    decide(effect, calledFor, std::move(reason), maps);
+    shines_ |= calledFor && plan_.on(effect);
   }
 
   void specular() {
     const size_t lobes = with([](const MaterialTraits& m) { return m.f0 > 0; });
-    const size_t traced = with([&](const MaterialTraits& m) { return m.f0 > 0 && tracesRays(m); });
+    const auto smootherThan = [&](float limit) {
+      return with([&](const MaterialTraits& m) { return m.f0 > 0 && m.leastRoughness < limit; });
+    };
+    const size_t traced = smootherThan(s_.specular.gpu.maxRoughness);
     const bool off = s_.specular.mode == SpecularMode::off;
     std::string reason = "specular.mode = off";
     if (!off && lobes == 0)
@@ -121,23 +136,24 @@ class Planner {
       reason = fmt::format("{} of {}, all rougher than {:.3g}: no rays, H alone is reflected", lobes,
                            counted(used(), "material reflects", "materials reflect"), s_.specular.gpu.maxRoughness);
     else if (!off)
-      reason = fmt::format("{} of {} smoother than {:.3g}: rays where F0 H is above {:.3g} of the largest H", traced,
-                           counted(used(), "material", "materials"), s_.specular.gpu.maxRoughness,
-                           s_.specular.gpu.threshold);
+      reason = fmt::format("{} smoother than {:.3g}: rays where F0 H is above {:.3g} of the largest H",
+                           ofMaterials(traced), s_.specular.gpu.maxRoughness, s_.specular.gpu.threshold);
     // Reflected radiance, the list of pixels that trace.
     const uint64_t bytes = t_.pixels * (16 + 4);
     decide(Effect::specular, off ? EffectMode::off : s_.effects.specular, !off && lobes > 0 && shines_,
            std::move(reason), bytes);
+    constexpr float kMargin = 0.05f;
     tracesSpecular_ = plan_.on(Effect::specular) && (traced > 0 || s_.effects.specular == EffectMode::on);
+    nearlyTraces_ = plan_.on(Effect::specular) && smootherThan(s_.specular.gpu.maxRoughness + kMargin) > 0;
   }
-  bool tracesRays(const MaterialTraits& m) const { return m.leastRoughness < s_.specular.gpu.maxRoughness; }
 
   void matrix() {
     const float albedo = most(&MaterialTraits::albedo);
     const bool reads = albedo > 0 || plan_.on(Effect::specular);
-    const std::string reason = !shines_ ? "no light at all: H is 0 everywhere"
-                               : !reads ? "light, but every albedo is 0: nothing shows H"
-                                        : fmt::format("light, and albedos of up to {:.3g}", albedo);
+    std::string reason = !shines_ ? "no light at all: H is 0 everywhere"
+                         : !reads ? "light, but every albedo is 0: no surface shows H, and its views are black"
+                                  : fmt::format("light, and albedos of up to {:.3g}", albedo);
+    if (t_.build && t_.build->matrix) reason += fmt::format("; {:.3g} % of the rays escape", 100 * t_.build->escaped);
     // csr keeps 4 B per distinct column, of which there are at most as many as rays.
     const uint64_t rowBytes =
         s_.matrix.format == MatrixFormat::csr ? 4ull * s_.matrix.gpu.rays + 12 : 8ull * s_.matrix.gpu.rays + 8;
@@ -170,7 +186,10 @@ class Planner {
     if (!t_.build) return said(true, "known once the emissive facets are counted");
     const std::string share = fmt::format("{} of {} facets emit", emitters, t_.build->facets);
     if (!emittersAreFew(emitters, t_.build->facets)) return said(false, share + ", a tenth or more: rays find them");
-    if (t_.light.due <= Redo::Solve && !t_.build->sampled) return said(true, share + ", less than a tenth");
+    // What light moves is not F M: once tried it stands until the matrix is another one.
+    const bool tried = t_.build->sampled || t_.build->sampledShare > 0 ||
+                       (mode == EffectMode::automatic && t_.light.due > Redo::Solve);
+    if (!tried) return said(true, share + ", less than a tenth");
     said(t_.build->sampled,
          fmt::format("{}; their samples bring {:.4g} of what the rays do", share, t_.build->sampledShare));
   }
@@ -189,13 +208,16 @@ class Planner {
 
   void field() {
     const bool byMatrix = !plan_.off(Effect::matrix) && s_.matrix.gpu.traversal == TRAVERSAL_SDF;
-    const bool bySpecular = tracesSpecular_ && s_.specular.gpu.traversal == TRAVERSAL_SDF;
+    const bool skips = s_.specular.gpu.traversal == TRAVERSAL_SDF;
+    const bool bySpecular = tracesSpecular_ && skips;
+    const bool calledFor = held(Effect::field, byMatrix || bySpecular, nearlyTraces_ && skips);
     const uint64_t voxels = t_.build ? t_.build->voxels : 0;
     std::string reason = byMatrix && bySpecular ? "rays of the matrix and specular rays skip by it"
                          : byMatrix             ? "rays of the matrix skip by it"
                          : bySpecular           ? "specular rays skip by it"
+                         : calledFor            ? "kept: materials are barely too rough for specular rays"
                                                 : "no ray reads it; views make their own";
-    decide(Effect::field, byMatrix || bySpecular, std::move(reason),
+    decide(Effect::field, calledFor, std::move(reason),
            s_.field.method == FieldMethod::chebyshev ? voxels : 5 * voxels);
   }
 
@@ -227,9 +249,7 @@ class Planner {
 
   void materialFeature(Effect effect, bool MaterialTraits::*has, const char* one, const char* many) {
     const size_t n = with([&](const MaterialTraits& m) { return m.*has; });
-    decide(effect, n > 0,
-           fmt::format("{} of {} {}", n == 0 ? "none" : std::to_string(n), counted(used(), "material", "materials"),
-                       n == 1 || n == 0 ? one : many));
+    decide(effect, n > 0, fmt::format("{} {}", ofMaterials(n), n > 1 ? many : one));
   }
 
   void blur() {
@@ -242,11 +262,12 @@ class Planner {
     r.epsilon = s_.effects.blurNoise;
     const uint64_t copies = facets() * (plan_.on(Effect::emission) ? 32 : 16);
     if (!t_.light.noise) return decide(Effect::blur, true, "what it changes is known after a relight", copies);
-    const float limit = before_ != nullptr && before_->on(Effect::blur) ? 0.5f * r.epsilon : r.epsilon;
-    const bool noisy = !(*t_.light.noise <= limit);
+    const float noise = *t_.light.noise;
+    const bool noisy = held(Effect::blur, !(noise <= r.epsilon), !(noise <= 0.5f * r.epsilon));
     decide(Effect::blur, noisy,
-           fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}", *t_.light.noise,
-                       noisy ? ">" : "<=", limit),
+           fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}{}", noise,
+                       noise <= r.epsilon ? "<=" : ">", r.epsilon,
+                       noisy && noise <= r.epsilon ? "; once on it stays so above half of that" : ""),
            copies);
   }
 
@@ -264,6 +285,7 @@ class Planner {
   EffectPlan plan_;
   bool shines_ = false;          ///< light enters the scene
   bool tracesSpecular_ = false;  ///< some pixels may
+  bool nearlyTraces_ = false;    ///< if specular.max_roughness were a little higher
 };
 
 }  // namespace

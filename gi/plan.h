@@ -74,8 +74,9 @@ struct EffectPlan {
   uint64_t bytesNotAllocated() const;
 };
 
-/// `before`: the plan until now, for what must not flicker at its trigger: an effect within a threshold that is on goes
-/// off below half of what turned it on.
+/// `before`: the plan until now, for what must not flicker at its trigger: an effect that is on goes off only where a
+/// wider one lets go of it too. blur: half of effects.blur_noise; lights: LightTraits::nears; field for specular rays:
+/// materials up to 0.05 rougher than specular.max_roughness.
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before = nullptr);
 
 /// The settings that stages get: `settings` with every effects.* decided (on or off), and off where it has a setting of

@@ -28,7 +28,7 @@ Redo Planned::decide(const Settings& wanted) {
 bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const {
   const Effect kind = light.type == LIGHT_SUN ? Effect::sun : light.type == LIGHT_POINT ? Effect::point : Effect::spot;
   if (!on(kind)) return false;
-  return forcedMode(wanted, kind) == EffectMode::on || measureLight(light, scene, wanted.voxel.resolution).lights();
+  return forcedMode(wanted, kind) == EffectMode::on || measureLight(light, scene, wanted.voxel.resolution).mayLight();
 }
 
 std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all) const {

@@ -23,8 +23,8 @@ class Planned {
 
   /// Decides anew. Returns the first stage whose result this changes.
   Redo decide(const Settings& wanted);
-  /// Whether a light is to be drawn and summed up: where its kind is on those that light the scene, with the kind
-  /// forced on all of it.
+  /// Whether a light is to be drawn and summed up: where its kind is on those that light the scene or nearly do, with
+  /// the kind forced on all of it.
   bool shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const;
   /// The scene's materials, less what the plan has off.
   std::vector<GpuMaterial> materials(const std::vector<GpuMaterial>& all) const;

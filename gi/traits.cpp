@@ -109,7 +109,9 @@ LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t res
   LightTraits t;
   t.type = static_cast<LightType>(light.type);
   t.shines = light.intensity != glm::vec3(0);  // what is no number, or negative, is left to the numerical watch
-  t.reaches = reachesBounds(light, scene, 2.0 * largest(scene.boundsMax - scene.boundsMin) / resolution);
+  const double voxel = largest(scene.boundsMax - scene.boundsMin) / resolution;
+  t.reaches = reachesBounds(light, scene, 2 * voxel);
+  t.nears = t.reaches || reachesBounds(light, scene, 4 * voxel);
   t.cube = lightUsesCube(light.type, light.outerCos);
   return t;
 }

@@ -27,8 +27,10 @@ struct LightTraits {
   LightType type = LightType::Sun;
   bool shines = false;   ///< intensity > 0
   bool reaches = false;  ///< a point of the scene's bounds; conservative
+  bool nears = false;    ///< of bounds widened by as much again: what has gone on stays until it is out of these
   bool cube = false;     ///< six shadow maps instead of one (lightUsesCube)
   bool lights() const { return shines && reaches; }
+  bool mayLight() const { return shines && nears; }
 };
 
 /// Of the voxels and their matrix, once they are built.
@@ -69,7 +71,7 @@ struct SceneTraits {
 SceneTraits measure(const Scene& scene, uint32_t resolution);
 
 /// `light` is in the scene's local space. A facet's points may lie a voxel outside of the scene's bounds: two are
-/// allowed for.
+/// allowed for, and four for `nears`.
 LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution);
 
 }  // namespace irad

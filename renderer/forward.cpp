@@ -150,9 +150,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   // Untextured materials have a pass of their own: a device that runs both sides of a branch would otherwise fetch five
   // textures that are not there.
   for (const bool textured : {false, true}) {
-    const auto drawnHere = [&](const Draw& draw) {
-      return (effects.textures && hasFlag(scene, draw, kAnyTexture)) == textured;
-    };
+    const auto drawnHere = [&](const Draw& draw) { return hasFlag(scene, draw, kAnyTexture) == textured; };
     if (std::none_of(draws.begin(), draws.end(), drawnHere)) continue;
     const Image none;
     Pass pass = frame.pass("RE Forward");

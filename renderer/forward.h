@@ -18,7 +18,6 @@ struct ForwardEffects {
   LightKinds lights;
   bool emission = true;   ///< of materials
   bool alphaTest = true;  ///< masked materials; false: opaque
-  bool textures = true;   ///< of materials; false: their factors alone
   bool normalMap = true;
   bool highlights = true;  ///< the lights' specular lobe
   bool indirect = true;    ///< H

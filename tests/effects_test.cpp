@@ -1,69 +1,13 @@
 // The pipeline obeys the plan: what is not called for is neither recorded nor allocated, appears with what calls for it
 // and goes with it; and leaving it out changes no bit of the picture.
-#include <fmt/format.h>
-
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <random>
-#include <set>
 
-#include "gi/pipeline.h"
-#include "tests/gi_fixture.h"
+#include "tests/effects_fixture.h"
 
 namespace irad::test {
 namespace {
 
-using Stages = std::set<std::string>;
-
-class Effects : public GiTest {
- protected:
-  static Settings small() {
-    Settings s = at(16, 32);
-    s.light.shadowResolution = 128;
-    return s;
-  }
-  Timings& timings() { return context().timings; }
-  /// Stages recorded since the last call.
-  Stages recorded() {
-    Stages out;
-    for (const Timings::Row& row : timings().rows()) out.insert(row.stage);
-    timings().reset();
-    return out;
-  }
-  static bool any(const Stages& stages, const std::string& prefix) {
-    return std::any_of(stages.begin(), stages.end(), [&](const std::string& s) { return s.starts_with(prefix); });
-  }
-  uint64_t bytes(std::initializer_list<Subsystem> subsystems) {
-    context().finish();
-    uint64_t sum = 0;
-    for (const MemoryRow& row : context().device.memory().rows())
-      for (const Subsystem s : subsystems) sum += row.subsystem == s ? row.bytes : 0;
-    return sum;
-  }
-  bool holds(const std::string& name) {
-    context().finish();
-    for (const MemoryRow& row : context().device.memory().rows())
-      if (row.name == name) return true;
-    return false;
-  }
-  std::vector<glm::vec4> draw(Pipeline& pipeline, View view = VIEW_LIT, glm::uvec2 size = {32, 24}) {
-    Targets targets(context(), size);
-    Frame frame = context().begin();
-    pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
-    frame.submitAndWait();
-    timings().endFrame(0, /*setup=*/false, 0);
-    const std::vector<std::byte> raw = download(context(), targets.linear);
-    std::vector<glm::vec4> out(size_t{size.x} * size.y);
-    std::memcpy(out.data(), raw.data(), raw.size());
-    return out;
-  }
-  static Light lamp(double x, float candela = 3) {
-    return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
-  }
-  static bool same(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
-  }
-};
+class Effects : public EffectsTest {};
 
 TEST_F(Effects, NoLightNoMatrixNoFieldNoLightBuffersAndBlack) {
   const uint64_t before = bytes({Subsystem::Matrix, Subsystem::Solver, Subsystem::Field, Subsystem::Shadow});
@@ -350,99 +294,6 @@ TEST(IradPlan, PrintsTheTableAndProvesIt) {
   ASSERT_EQ(proved.status, 0) << proved.err;
   EXPECT_TRUE(contains(proved.out, "matrix")) << proved.out;
   EXPECT_TRUE(contains(proved.out, "same bits")) << proved.out;
-}
-
-// ---- Random scenes and settings: with everything forced on the same bits --------------------------------------------
-
-class Dice {
- public:
-  explicit Dice(uint32_t seed) : random_(seed) {}
-  uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
-  bool one(uint32_t in) { return below(in) == 0; }
-  float unit() { return static_cast<float>(random_() % 65536) / 65536.0f; }
-  float between(float a, float b) { return a + (b - a) * unit(); }
-  glm::vec3 vec(float a, float b) { return {between(a, b), between(a, b), between(a, b)}; }
-
- private:
-  std::mt19937 random_;
-};
-
-Scene randomScene(Dice& dice) {
-  SceneBuilder b;
-  const bool black = dice.one(5), emits = dice.one(2);
-  std::vector<uint32_t> walls;
-  for (int i = 0; i < 6; ++i)
-    walls.push_back(b.material(black ? glm::vec3(0) : dice.vec(0, 0.9f),
-                               emits && i == 3 ? dice.vec(0, 4) : glm::vec3(0),
-                               /*doubleSided=*/dice.one(4)));
-  if (dice.one(6)) {
-    b.quad(walls[0], {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, 2);  // a floor alone: all faces one way
-  } else {
-    b.box(walls, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-    if (dice.one(2)) b.sphere(walls[1], dice.vec(-0.4f, 0.4f), dice.between(0.1f, 0.4f), /*inward=*/false, 8);
-  }
-  b.camera({0.9, 0.6, 0.9}, {-0.5, -0.3, -0.6});
-  Scene scene = b.finish("random");
-  for (Material& m : scene.materials) {
-    m.lambertian = !dice.one(3);
-    if (m.lambertian) continue;
-    m.metallic = dice.one(2) ? 1.0f : 0.0f;
-    m.roughness = dice.unit();
-  }
-  for (uint32_t i = dice.below(4); i > 0; --i) {
-    Light light;
-    light.type = static_cast<LightType>(dice.below(3));
-    light.position = scene.origin + glm::dvec3(dice.vec(-3, 3));
-    light.direction = glm::normalize(dice.vec(-1, 1) + glm::vec3(0, 1e-3f, 0));
-    light.color = dice.vec(0, 1);
-    light.intensity = dice.one(3) ? 0 : dice.between(0.1f, 5);
-    if (light.type != LightType::Sun && dice.one(2)) light.range = dice.between(0.2f, 4);
-    light.innerCos = 0.95f;
-    light.outerCos = dice.between(0.1f, 0.9f);
-    scene.lights.push_back(light);
-  }
-  return scene;
-}
-
-Settings randomSettings(Dice& dice) {
-  Settings s = defaultSettings(/*cpuDevice=*/true);
-  s.voxel.resolution = 8 + dice.below(7);
-  s.voxel.facets = 1 + dice.below(2);
-  s.matrix.gpu.rays = 16;
-  s.matrix.gpu.traversal = dice.below(2);
-  s.matrix.format = dice.one(3) ? MatrixFormat::padded : MatrixFormat::csr;
-  s.field.method = dice.one(4) ? FieldMethod::jfa : FieldMethod::chebyshev;
-  s.sample.gpu.filter_ = dice.below(3);
-  s.sample.gpu.gated = dice.one(4) ? 0 : 1;
-  s.specular.gpu.traversal = dice.below(2);
-  if (dice.one(4)) s.specular.mode = dice.one(2) ? SpecularMode::off : SpecularMode::fragment;
-  s.light.shadowResolution = 64;
-  s.effects.blurNoise = 0;  // the only threshold that effects.* leave within
-  return s;
-}
-
-TEST_F(Effects, RandomScenesHaveTheSameBitsWithEverythingForcedOn) {
-  uint32_t leftOut = 0;
-  for (uint32_t seed = 1; seed <= 30; ++seed) {
-    Dice dice(seed);
-    const Scene scene = randomScene(dice);
-    const Settings planned = randomSettings(dice);
-    Settings forced = planned;
-    forceEffects(forced, EffectMode::on);
-    forced.effects.relight = EffectMode::automatic;
-    Pipeline a(context(), scene, planned), b(context(), scene, forced);
-    a.prepare();
-    b.prepare();
-    std::string off;
-    for (const EffectRow& row : a.plan().rows)
-      if (row.state == EffectState::off && !b.plan().off(row.effect)) {
-        off += std::string(" ") + effectInfo(row.effect).name;
-        ++leftOut;
-      }
-    for (const View view : {View{VIEW_LIT}, View{VIEW_IRRADIANCE}})
-      EXPECT_TRUE(same(draw(a, view), draw(b, view))) << "seed " << seed << ", view " << view << ", left out:" << off;
-  }
-  EXPECT_GT(leftOut, 60u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -30,7 +31,7 @@ SceneTraits lit() {
 }
 
 LightTraits light(LightType type, bool shines = true, bool reaches = true) {
-  return {.type = type, .shines = shines, .reaches = reaches};
+  return {.type = type, .shines = shines, .reaches = reaches, .nears = reaches};
 }
 
 Settings usual() {
@@ -112,10 +113,19 @@ TEST(Plan, MatrixIsCalledForByLightAndAlbedo) {
   t.build.reset();
   EXPECT_EQ(stateOf(Effect::matrix, t), kOff);
   EXPECT_TRUE(contains(plan(t, usual()).row(Effect::matrix).reason, "no light at all"));
+  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::emission).reason, "none of 2 materials emits"));
   for (const Effect dark : {Effect::specular, Effect::emitterSampling, Effect::field, Effect::relight, Effect::blur})
     EXPECT_EQ(stateOf(dark, t), kOff) << effectInfo(dark).name;
   t.lights = {light(LightType::Point)};
   EXPECT_EQ(stateOf(Effect::matrix, t), kOn);
+}
+
+TEST(Plan, MatrixSaysHowManyRaysEscape) {
+  SceneTraits t = lit();
+  t.build->escaped = 0.125;
+  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::matrix).reason, "12.5 % of the rays escape"));
+  t.build->matrix = false;
+  EXPECT_FALSE(contains(plan(t, usual()).row(Effect::matrix).reason, "escape"));
 }
 
 TEST(Plan, MatrixIsKeptForLightsThatAreThere) {
@@ -167,7 +177,11 @@ TEST(Plan, EmittersAreSampledWhereTheyAreFew) {
   t.build->emitters = 49;
   t.light.due = Redo::Gather;  // not tried yet
   EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOn);
-  t.light.due = Redo::Nothing;  // tried, and the sums did not agree
+  t.light.due = Redo::Nothing;  // tried: no ray met one
+  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
+  t.build->sampledShare = 0.8f;  // tried, and the sums did not agree
+  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
+  t.light.due = Redo::Gather;  // a light has moved: F M is what it was
   EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
   t.materials[1].emission = 0;
   t.lights = {light(LightType::Sun)};
@@ -260,6 +274,72 @@ TEST(Plan, BlurGoesOffBelowHalfItsTriggerAndOnAboveIt) {
   EXPECT_TRUE(plan(t, s, &off).on(Effect::blur));
   s.sample.gpu.filter_ = FILTER_LINEAR;
   EXPECT_TRUE(plan(t, s, &on).off(Effect::blur));
+}
+
+/// How often the effect goes on or off while `at(i)` makes the traits and settings of step i.
+int switches(Effect effect, EffectPlan before, const std::function<std::pair<SceneTraits, Settings>(int)>& at) {
+  int count = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto [traits, settings] = at(i);
+    const EffectPlan now = plan(traits, settings, &before);
+    count += now.on(effect) != before.on(effect);
+    before = now;
+  }
+  return count;
+}
+
+TEST(Plan, JitterAboutATriggerSwitchesAtMostOnce) {
+  SceneTraits t = lit();
+  Settings s = usual();
+  // Between the two bounds each state stays; where only the trigger's own side is touched, it settles there.
+  const std::pair<Effect, LightType> kinds[]{
+      {Effect::sun, LightType::Sun}, {Effect::point, LightType::Point}, {Effect::spot, LightType::Spot}};
+  for (const auto& [effect, type] : kinds) {
+    const auto jitter = [&, type = type](int i) {
+      t.lights = {light(type, true, /*reaches=*/i % 2 == 0)};
+      t.lights[0].nears = true;
+      return std::pair(t, s);
+    };
+    EXPECT_EQ(switches(effect, plan(lit(), s), jitter), 1) << effectInfo(effect).name;
+    // A light alone, that the matrix is there for.
+    SceneTraits dark = t;
+    dark.materials[1].emission = 0;
+    const auto alone = [&](int i) {
+      dark.lights = jitter(i).first.lights;
+      return std::pair(dark, s);
+    };
+    EXPECT_EQ(switches(Effect::matrix, plan(alone(0).first, s), alone), 0) << effectInfo(effect).name;
+    // Out of the wider bounds it goes.
+    t.lights[0].reaches = t.lights[0].nears = false;
+    const EffectPlan on = plan(jitter(0).first, s);
+    t.lights[0].reaches = t.lights[0].nears = false;
+    EXPECT_TRUE(plan(t, s, &on).off(effect));
+  }
+
+  t = lit();
+  s.effects.blurNoise = 0.01f;
+  const auto noise = [&](int i) {
+    t.light.noise = i % 2 == 0 ? 0.0099f : 0.0101f;
+    return std::pair(t, s);
+  };
+  EXPECT_EQ(switches(Effect::blur, plan(lit(), s), noise), 0);
+  t.light.noise = 0;
+  EXPECT_EQ(switches(Effect::blur, plan(t, s), noise), 1);
+
+  // The field that specular rays alone read, while their roughness limit is dragged.
+  t = lit();
+  t.materials[0].f0 = 0.04f;
+  t.materials[0].leastRoughness = 0.5f;
+  s.matrix.gpu.traversal = TRAVERSAL_DDA;
+  const auto limit = [&](int i) {
+    s.specular.gpu.maxRoughness = i % 2 == 0 ? 0.49f : 0.51f;
+    return std::pair(t, s);
+  };
+  s.specular.gpu.maxRoughness = 0.2f;
+  EXPECT_EQ(switches(Effect::field, plan(t, s), limit), 1);
+  const EffectPlan on = plan(t, s, nullptr);
+  s.specular.gpu.maxRoughness = 0.4f;
+  EXPECT_TRUE(plan(t, s, &on).off(Effect::field));
 }
 
 TEST(Plan, RedrawFollowsTheWindow) {
@@ -421,10 +501,14 @@ TEST(Traits, LightsReachWhatTheirRangeAndConeLeave) {
   l.type = LIGHT_POINT;
   l.position = {5, 0, 0};
   EXPECT_TRUE(traits().reaches);  // without a range
+  l.range = 3.85f;                // 4 to the box, voxels of 1/32
+  EXPECT_FALSE(traits().nears);
   l.range = 3.9f;
   EXPECT_FALSE(traits().reaches);
+  EXPECT_TRUE(traits().nears);
   l.range = 4.1f;
   EXPECT_TRUE(traits().reaches);
+  EXPECT_TRUE(traits().nears);
   l.type = LIGHT_SPOT;
   l.range = 0;
   l.direction = {-1, 0, 0};

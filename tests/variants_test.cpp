@@ -101,7 +101,6 @@ const Case kCases[] = {
      }},
     {"emission", {.texture = true}, {.emission = true}, [](auto& e) { e.emission = false; }},
     {"alpha test", {.texture = true}, {.mask = true}, [](auto& e) { e.alphaTest = false; }},
-    {"textures", {}, {.texture = true}, [](auto& e) { e.textures = false; }},
     {"normal map", {.texture = true}, {.texture = true, .normalMap = true}, [](auto& e) { e.normalMap = false; }},
     {"highlights", {.lobe = false}, {}, [](auto& e) { e.highlights = false; }},
     {"indirect", {.bounces = false}, {}, [](auto& e) { e.indirect = false; }},
@@ -147,7 +146,7 @@ class Effects : public GpuTest {
     std::erase_if(used, [](const PipelineUse& use) { return use.shaders.front() != "forward/forward.vert"; });
     return used;
   }
-  static constexpr ForwardEffects kNone{{false, false, false}, false, false, false, false, false, false, false};
+  static constexpr ForwardEffects kNone{{false, false, false}, false, false, false, false, false, false};
 };
 
 TEST_F(Effects, LeftOutOnesAreInThePipelinesKeyAndTheOthersAreNot) {
@@ -167,21 +166,36 @@ TEST_F(Effects, LeftOutOnesAreInThePipelinesKeyAndTheOthersAreNot) {
   }
 }
 
+TEST_F(Effects, TexturesAreLookedUpWhereAMaterialHasOne) {
+  const auto textured = [&](const Has& has) {
+    Lit lit(context(), scene(has), small());
+    context().pipelinesUsed();
+    lit.draw(VIEW_LIT);
+    std::multiset<bool> out;
+    for (const PipelineUse& use : forward(context())) out.insert(!use.constants.contains(FORWARD_TEXTURED));
+    return out;
+  };
+  EXPECT_EQ(textured({}), std::multiset<bool>{false});
+  EXPECT_EQ(textured({.mask = true}), (std::multiset<bool>{false, true}));
+  EXPECT_EQ(textured({.texture = true}), std::multiset<bool>{true});
+}
+
 TEST_F(Effects, TakeTheirCodeAlong) {
-  Lit lit(context(), scene({.texture = true}), small());
-  const auto instructions = [&](const ForwardEffects& effects) {
+  Lit textured(context(), scene({.texture = true}), small()), plain(context(), scene({}), small());
+  const auto instructions = [&](Lit& lit, const ForwardEffects& effects) {
     context().pipelinesUsed();
     lit.draw(VIEW_LIT, {16, 16}, effects);
     return specializedInstructions(*gpu().shaders, forward(context()));
   };
-  const uint64_t all = instructions({});
+  const uint64_t all = instructions(textured, {});
+  EXPECT_LT(instructions(plain, {}), all);
   for (const Case& c : kCases) {
     if (std::string(c.name) == "alpha test") continue;  // a pass of its own
     ForwardEffects effects;
     c.leaveOut(effects);
-    EXPECT_LT(instructions(effects), all) << c.name;
+    EXPECT_LT(instructions(textured, effects), all) << c.name;
   }
-  const uint64_t none = instructions(kNone);
+  const uint64_t none = instructions(plain, kNone);
   std::printf("RE Forward: %llu SPIR-V instructions, %llu without effects\n", static_cast<unsigned long long>(all),
               static_cast<unsigned long long>(none));
   EXPECT_LT(4 * none, all);
