@@ -45,12 +45,15 @@ class EffectsTest : public GiTest {
   }
   std::vector<glm::vec4> draw(Pipeline& pipeline, View view = VIEW_LIT, glm::uvec2 size = {32, 24}) {
     Targets targets(context(), size);
+    return draw(pipeline, targets, view);
+  }
+  std::vector<glm::vec4> draw(Pipeline& pipeline, Targets& targets, View view = VIEW_LIT) {
     Frame frame = context().begin();
     pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
     frame.submitAndWait();
     timings().endFrame(0, /*setup=*/false, 0);
     const std::vector<std::byte> raw = download(context(), targets.linear);
-    std::vector<glm::vec4> out(size_t{size.x} * size.y);
+    std::vector<glm::vec4> out(size_t{targets.size.x} * targets.size.y);
     std::memcpy(out.data(), raw.data(), raw.size());
     return out;
   }
