@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "renderer/error.h"
 #include "shaders/shared/bench.h"
@@ -69,26 +71,73 @@ void Bench::relight() {
 }
 
 void Bench::cameraFrame() {
+  draw();
+  collect(WorkKind::Camera);
+}
+
+void Bench::draw() {
   const auto start = std::chrono::steady_clock::now();
   Frame frame = context_.begin(frame_);
   pipeline_.render(frame, camera_, view_, targets_);
   frame.submitAndWait();
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
   context_.timings.endFrame(frame_++, /*setup=*/false, wall.count());
-  collect(WorkKind::Camera);
+}
+
+TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
+  const Camera camera = camera_;
+  const std::vector<Light> lights = pipeline_.scene().lights;
+  const Scene& scene = pipeline_.scene();
+  const double extent = glm::length(glm::dvec3(scene.boundsMax - scene.boundsMin));
+  pipeline_.prepare();
+  draw();
+  context_.finish();
+  context_.timings.reset();
+  const Counters before = context_.counters();
+  for (uint32_t i = 0; i < count; ++i) {
+    // Once around a small circle: another place in every tick.
+    const double angle = 2 * std::numbers::pi * (i + 1) / count;
+    const glm::dvec3 step = 0.005 * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+    if (moving == Moving::Camera) camera_.position = camera.position + glm::dquat(camera.orientation) * (extent * step);
+    if (moving == Moving::Lights) {
+      std::vector<Light> moved = lights;
+      for (Light& light : moved) {
+        light.position += extent * step;
+        light.direction = glm::normalize(light.direction + glm::vec3(step));
+      }
+      pipeline_.setLights(std::move(moved));
+    }
+    bool changed = redraws || moving != Moving::Nothing;
+    if (!pipeline_.asleep()) {
+      pipeline_.prepare({}, pipeline_.settings().solver.sweepsPerFrame);
+      changed = true;
+    }
+    if (changed) draw();
+  }
+  context_.finish();
+  const Counters work = context_.counters().since(before);
+  TickWork out{.dispatches = work.dispatches, .draws = work.draws};
+  for (const FrameSample& group : context_.timings.frames()) out.gpuMs += group.gpuMs();
+  context_.timings.reset();
+  camera_ = camera;
+  if (moving == Moving::Lights) pipeline_.setLights(lights);
+  return out;
 }
 
 std::vector<glm::vec4> Bench::picture() {
   std::vector<glm::vec4> pixels;
-  pipeline_.solvedAfresh({}, [&] {
-    Frame frame = context_.beginUntimed();
-    pipeline_.render(frame, camera_, view_, targets_);
-    frame.submitAndWait();
-    const std::vector<std::byte> bytes = download(context_, targets_.linear);
-    pixels.resize(bytes.size() / sizeof(glm::vec4));
-    std::memcpy(pixels.data(), bytes.data(), bytes.size());
-  });
+  pipeline_.solvedAfresh({}, [&] { pixels = pictureAsLit(); });
   context_.timings.reset();
+  return pixels;
+}
+
+std::vector<glm::vec4> Bench::pictureAsLit() {
+  Frame frame = context_.beginUntimed();
+  pipeline_.render(frame, camera_, view_, targets_);
+  frame.submitAndWait();
+  const std::vector<std::byte> bytes = download(context_, targets_.linear);
+  std::vector<glm::vec4> pixels(bytes.size() / sizeof(glm::vec4));
+  std::memcpy(pixels.data(), bytes.data(), bytes.size());
   return pixels;
 }
 

@@ -10,6 +10,15 @@
 
 namespace irad::app {
 
+/// What changes from one tick of a window to the next: of the camera its place, of lights place and direction.
+enum class Moving { Nothing, Camera, Lights };
+
+/// What some ticks made the device do.
+struct TickWork {
+  double gpuMs = 0;  ///< that the timers saw
+  uint64_t dispatches = 0, draws = 0;
+};
+
 /// One settings set under measurement. Each call runs its work once and keeps the samples.
 class Bench {
  public:
@@ -19,8 +28,13 @@ class Bench {
   void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
   void cameraFrame();  ///< one picture, nothing else dirty
   void forget();       ///< drops the samples so far: the warm-up
+  /// Runs `count` ticks as a window does that is at rest to begin with: moves, prepares what is not asleep, and draws
+  /// where anything has changed (`redraws`: in any case). Leaves camera and lights as they were.
+  TickWork ticks(Moving moving, uint32_t count, bool redraws);
   /// Radiance of the picture that a solve from the dark gives, bottom row last.
   std::vector<glm::vec4> picture();
+  /// The same of the light as it is.
+  std::vector<glm::vec4> pictureAsLit();
 
   /// Per kind and stage; the stage "wall" is all of a call, on the CPU's clock.
   std::vector<StageSamples> samples() const;
@@ -40,6 +54,7 @@ class Bench {
 
  private:
   void collect(WorkKind kind);
+  void draw();
   Context& context_;
   Pipeline pipeline_;
   Targets targets_;

@@ -31,9 +31,9 @@ std::string mebibytes(uint64_t bytes) {
   return bytes == 0 ? "-" : fmt::format("{:.2f}", static_cast<double>(bytes) / (1 << 20));
 }
 
-/// "exact", "0.002 of H".
+/// "exact", "0.002 of the largest H".
 std::string skipText(const EffectRow& row) {
-  return row.skip == Skip::exact ? "exact" : fmt::format("{:.2g} of H", row.epsilon);
+  return row.skip == Skip::exact ? "exact" : fmt::format("{:.2g} of {}", row.epsilon, row.of);
 }
 
 /// Milliseconds that an effect takes when it is forced on, beyond those without it.

@@ -4,28 +4,29 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <numbers>
 
-#include "app/bench.h"
-#include "app/table.h"
-#include "renderer/csv.h"
 #include "renderer/error.h"
 
 namespace irad::app {
 namespace {
 
 constexpr int kRebuilds = 3;
-constexpr double kRate = 60;  // pictures per second
 
 using Pixels = std::vector<glm::vec4>;
 
 PictureDifference compare(const Pixels& a, const Pixels& b, float allowed) {
   IRAD_CHECK_OP(a.size(), ==, b.size());
   PictureDifference out{.allowed = allowed};
+  const auto mean = [](const Pixels& pixels) {
+    double sum = 0;
+    for (const glm::vec4& p : pixels) sum += double{p.x} + p.y + p.z;
+    return sum / (3.0 * static_cast<double>(pixels.size()));
+  };
+  if (mean(a) > 0) out.mean = static_cast<float>(std::abs(mean(b) - mean(a)) / mean(a));
   for (size_t i = 0; i < a.size(); ++i) {
     if (std::memcmp(&a[i], &b[i], sizeof(glm::vec4)) == 0) continue;
     ++out.pixels;
@@ -34,9 +35,11 @@ PictureDifference compare(const Pixels& a, const Pixels& b, float allowed) {
   return out;
 }
 
-/// A share of the largest H, as radiance: surfaces send on H / pi times a reflectance <= 1.
-float allowedRadiance(const Pipeline& pipeline, float epsilon) {
-  return epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float>;
+/// What a row's skip leaves within, as radiance: a share of the largest H, of which surfaces send on H / pi times a
+/// reflectance <= 1.
+float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
+  if (row.skip == Skip::exact) return 0;
+  return row.epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float>;
 }
 
 double gpuMedian(const Bench& bench, WorkKind kind) {
@@ -74,110 +77,96 @@ Side open(Session& session, const Scene& scene, const Settings& settings, glm::u
   return side;
 }
 
-void finish(Side& side, bool sleeps) {
-  EffectsCost& c = side.cost;
-  c.rebuildMs = gpuMedian(*side.bench, WorkKind::Setup);
-  c.relightMs = gpuMedian(*side.bench, WorkKind::Relight);
-  c.frameMs = gpuMedian(*side.bench, WorkKind::Camera);
-  // Without sleep a window relights and draws whether or not anything has changed (T 5.7's per-frame set).
-  const double everything = kRate * (c.relightMs + c.frameMs);
-  c.idle = sleeps ? 0 : everything;
-  c.camera = sleeps ? kRate * c.frameMs : everything;
-  c.light = everything;
+void takeMedians(Side& side) {
+  side.cost.rebuildMs = gpuMedian(*side.bench, WorkKind::Setup);
+  side.cost.relightMs = gpuMedian(*side.bench, WorkKind::Relight);
+  side.cost.frameMs = gpuMedian(*side.bench, WorkKind::Camera);
 }
 
-/// Each effect that is off, forced on by itself.
-std::vector<EffectProof> proveEffects(Session& session, Bench& bench, const Pixels& planned) {
-  std::vector<EffectProof> out;
+/// `everything`: nothing sleeps, every tick relights and draws (T 5.7's per-frame set).
+void measureEnergy(Side& side, size_t moving, uint32_t ticks, bool everything) {
+  Bench& bench = *side.bench;
+  if (kMovings[moving] == Moving::Lights && bench.pipeline().scene().lights.empty()) return;
+  const Settings settings = bench.pipeline().settings();
+  if (everything) {
+    Settings restless = settings;
+    restless.effects.relight = EffectMode::on;
+    bench.pipeline().set(restless);
+  }
+  const TickWork work = bench.ticks(kMovings[moving], ticks, everything);
+  const double perSecond = kTickRate / ticks;
+  side.cost.energy[moving] = Energy{.gpuMs = perSecond * work.gpuMs,
+                                    .dispatches = perSecond * static_cast<double>(work.dispatches),
+                                    .draws = perSecond * static_cast<double>(work.draws)};
+  bench.pipeline().set(settings);
+  bench.pipeline().prepare();
+}
+
+/// Does what the plan has not on, where anything can put it on.
+EffectProof proveEffect(const Settings& settings, Bench& bench, const EffectRow& row, const Pixels& planned) {
+  EffectProof proof{.row = row, .difference = {}, .reason = {}};
   Pipeline& pipeline = bench.pipeline();
-  const EffectPlan plan = pipeline.plan();
-  for (const EffectRow& row : plan.rows) {
-    const std::string setting = effectInfo(row.effect).setting;
-    if (row.state != EffectState::off || !setting.starts_with("effects.")) continue;
-    Settings forced = session.settings;
-    applySetting(forced, setting + "=on");
-    pipeline.set(forced);
-    pipeline.prepare();
-    if (pipeline.plan().on(row.effect))
-      out.push_back({row.effect, row.skip, compare(planned, bench.picture(), allowedRadiance(pipeline, row.epsilon))});
+  if (row.effect == Effect::redraw) {
+    const Pixels drawn = bench.pictureAsLit();
+    proof.difference = compare(drawn, bench.pictureAsLit(), 0);
+    return proof;
   }
-  pipeline.set(session.settings);
+  if (row.effect == Effect::rebuild) {
+    bench.rebuild();
+    proof.difference = compare(planned, bench.picture(), 0);
+    return proof;
+  }
+  const std::string setting = effectInfo(row.effect).setting;
+  if (settingValue(settings, setting) == "off") {
+    proof.reason = fmt::format("{} = off", setting);
+    return proof;
+  }
+  // Relighting anew starts from the light as it is; all else is compared solved from the dark.
+  const bool relight = row.effect == Effect::relight;
+  const Pixels before = relight ? bench.pictureAsLit() : planned;
+  Settings forced = settings;
+  applySetting(forced, setting + "=on");
+  pipeline.set(forced);
   pipeline.prepare();
-  for (EffectProof& proof : out)
-    if (proof.skip == Skip::exact) proof.difference.allowed = 0;
-  return out;
-}
-
-std::string describe(const PictureDifference& d) {
-  if (d.pixels == 0) return "same bits";
-  return d.allowed > 0 ? fmt::format("{:.2g} <= {:.2g}", d.largest, d.allowed)
-                       : fmt::format("{} pixels, {:.2g}", d.pixels, d.largest);
-}
-
-std::string count(uint64_t value) {
-  return std::to_string(value);
-}
-std::string ms(double value) {
-  return fmt::format("{:.2f}", value);
-}
-
-const std::vector<std::string> kColumns{"scene",     "effects",     "difference", "rebuild ms", "relight ms",
-                                        "frame ms",  "MiB",         "dispatches", "draws",      "instructions",
-                                        "idle ms/s", "camera ms/s", "light ms/s"};
-
-std::vector<std::vector<std::string>> rowsOf(const std::vector<SceneProof>& proofs) {
-  std::vector<std::vector<std::string>> rows{kColumns};
-  for (const SceneProof& p : proofs) {
-    const auto add = [&](const char* effects, const std::string& difference, const EffectsCost& c) {
-      rows.push_back({p.scene, effects, difference, ms(c.rebuildMs), ms(c.relightMs), ms(c.frameMs),
-                      fmt::format("{:.1f}", static_cast<double>(c.bytes) / (1 << 20)), count(c.dispatches),
-                      count(c.draws), count(c.instructions), ms(c.idle), ms(c.camera), ms(c.light)});
-    };
-    add("all forced on", describe(p.all), p.forced);
-    add("as planned", "", p.planned);
+  const EffectRow now = pipeline.plan().row(row.effect);
+  if (now.state == EffectState::on) {
+    const bool ofMean = row.effect == Effect::emitterSampling && row.skip == Skip::threshold;
+    proof.difference = compare(before, relight ? bench.pictureAsLit() : bench.picture(),
+                               ofMean ? row.epsilon : allowedRadiance(pipeline, row));
+    proof.difference->ofMean = ofMean;
+  } else {
+    proof.reason = now.reason;
   }
-  return rows;
-}
-
-std::vector<std::vector<std::string>> effectRows(const std::vector<SceneProof>& proofs) {
-  std::vector<std::vector<std::string>> rows{{"scene", "left out", "skip", "difference when forced on"}};
-  for (const SceneProof& p : proofs)
-    for (const EffectProof& e : p.effects)
-      rows.push_back({p.scene, effectInfo(e.effect).name, EnumNames<Skip>::names.at(static_cast<size_t>(e.skip)),
-                      describe(e.difference)});
-  return rows;
-}
-
-std::string markdown(const std::vector<std::vector<std::string>>& rows) {
-  std::string out;
-  for (const std::vector<std::string>& row : rows) {
-    out += fmt::format("| {} |\n", fmt::join(row, " | "));
-    if (&row == &rows.front()) {
-      out += '|';
-      for (size_t c = 0; c < row.size(); ++c) out += "---|";
-      out += '\n';
-    }
-  }
-  return out;
+  pipeline.set(settings);
+  pipeline.prepare();
+  return proof;
 }
 
 }  // namespace
 
+std::string describe(const PictureDifference& d) {
+  if (d.pixels == 0) return "same bits";
+  if (d.ofMean) return fmt::format("{:.2g} {} {:.2g} of the mean", d.mean, d.holds() ? "<=" : ">", d.allowed);
+  return d.allowed > 0 ? fmt::format("{:.2g} {} {:.2g}", d.largest, d.holds() ? "<=" : ">", d.allowed)
+                       : fmt::format("{} pixels, {:.2g}", d.pixels, d.largest);
+}
+
 void SceneProof::require() const {
   std::vector<std::string> wrong;
   for (const EffectProof& e : effects)
-    if (!e.difference.holds())
-      wrong.push_back(fmt::format("{}: {} forced on: {}", scene, effectInfo(e.effect).name, describe(e.difference)));
+    if (e.difference && !e.difference->holds())
+      wrong.push_back(
+          fmt::format("{}: {} forced on: {}", scene, effectInfo(e.row.effect).name, describe(*e.difference)));
   if (!all.holds()) wrong.push_back(fmt::format("{}: everything forced on: {}", scene, describe(all)));
   if (!wrong.empty()) throw WorkError(fmt::format("{}", fmt::join(wrong, "\n")));
 }
 
 SceneProof prove(Session& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
                  uint32_t frames) {
-  SceneProof proof{.scene = name};
+  SceneProof proof{.scene = name, .effects = {}, .all = {}, .forced = {}, .planned = {}};
   Settings all = session.settings;
   forceEffects(all, EffectMode::on);
-  all.effects.relight = EffectMode::automatic;  // at rest for the comparison; the energy counts it as never asleep
+  all.effects.relight = EffectMode::automatic;  // at rest for the comparison; measureEnergy() has it on
   Side planned = open(session, scene, session.settings, size, camera);
   Side forced = open(session, scene, all, size, camera);
   const std::array sides{&forced, &planned};
@@ -189,41 +178,25 @@ SceneProof prove(Session& session, const std::string& name, const Scene& scene, 
       side->bench->relight();
       side->bench->cameraFrame();
     }
-  finish(forced, /*sleeps=*/false);
-  finish(planned, /*sleeps=*/true);
+  for (Side* side : sides) takeMedians(*side);
+  for (size_t moving = 0; moving < kMovings.size(); ++moving)
+    for (Side* side : sides) measureEnergy(*side, moving, frames, /*everything=*/side == &forced);
   proof.forced = forced.cost;
   proof.planned = planned.cost;
 
-  // The pictures, each solved from the dark, of lights that were nudged alike.
+  // The pictures, each solved from the dark.
+  const EffectPlan plan = planned.bench->pipeline().plan(/*redraw=*/false);
   const Pixels picture = planned.bench->picture();
-  float epsilon = 0;
-  for (const EffectRow& row : planned.bench->pipeline().plan().rows)
-    if (row.state == EffectState::off && row.skip == Skip::threshold &&
-        std::string(effectInfo(row.effect).setting).starts_with("effects."))
-      epsilon = std::max(epsilon, row.epsilon);
-  proof.all = compare(picture, forced.bench->picture(), allowedRadiance(forced.bench->pipeline(), epsilon));
+  float allowed = 0;
+  for (const EffectRow& row : plan.rows)
+    if (row.state == EffectState::off && forcedMode(all, row.effect) == EffectMode::on)
+      allowed += allowedRadiance(planned.bench->pipeline(), row);
+  proof.all = compare(picture, forced.bench->picture(), allowed);
   forced.bench.reset();
-  proof.effects = proveEffects(session, *planned.bench, picture);
+  for (const EffectRow& row : plan.rows)
+    if (row.state != EffectState::on)
+      proof.effects.push_back(proveEffect(session.settings, *planned.bench, row, picture));
   return proof;
-}
-
-std::string proofTable(const std::vector<SceneProof>& proofs) {
-  std::vector<bool> numeric(kColumns.size(), true);
-  numeric[0] = numeric[1] = numeric[2] = false;
-  return formatTable(rowsOf(proofs), numeric) + "\n" + formatTable(effectRows(proofs));
-}
-
-std::string proofCsv(const std::vector<SceneProof>& proofs) {
-  std::string out;
-  for (std::vector<std::string> row : rowsOf(proofs)) {
-    for (std::string& cell : row) cell = csvField(cell);
-    out += fmt::format("{}\n", fmt::join(row, ","));
-  }
-  return out;
-}
-
-std::string proofMarkdown(const std::vector<SceneProof>& proofs) {
-  return markdown(rowsOf(proofs)) + "\n" + markdown(effectRows(proofs));
 }
 
 }  // namespace irad::app

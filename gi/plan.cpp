@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "gi/emitter_rule.h"
 
@@ -183,6 +184,7 @@ class Planner {
                     emits ? "no matrix, no first gather" : "nothing emits", facets() * 16);
     r.skip = Skip::threshold;
     r.epsilon = kEmitterAgreement;
+    r.of = "the sum of F M";
     if (!t_.build) return said(true, "known once the emissive facets are counted");
     const std::string share = fmt::format("{} of {} facets emit", emitters, t_.build->facets);
     if (!emittersAreFew(emitters, t_.build->facets)) return said(false, share + ", a tenth or more: rays find them");
@@ -190,6 +192,7 @@ class Planner {
     const bool tried = t_.build->sampled || t_.build->sampledShare > 0 ||
                        (mode == EffectMode::automatic && t_.light.due > Redo::Solve);
     if (!tried) return said(true, share + ", less than a tenth");
+    r.epsilon = std::max(r.epsilon, std::abs(1 - t_.build->sampledShare));
     said(t_.build->sampled,
          fmt::format("{}; their samples bring {:.4g} of what the rays do", share, t_.build->sampledShare));
   }

@@ -50,7 +50,7 @@ struct EnumNames<EffectState> {
   static constexpr std::array names{"off", "asleep", "on"};
 };
 /// How the picture may differ from that with the effect forced on. exact: not in one bit, what is left out is provably
-/// 0; threshold: by no more than `epsilon`.
+/// 0; threshold: by no more than `epsilon` of `of`.
 enum class Skip : uint32_t { exact, threshold };
 template <>
 struct EnumNames<Skip> {
@@ -62,7 +62,9 @@ struct EffectRow {
   EffectState state = EffectState::on;
   std::string reason;  ///< with the figures: "2 of 14 materials emit, 12 W/(m^2 sr) at most"
   Skip skip = Skip::exact;
-  float epsilon = 0;               ///< of a threshold skip, a share of the largest H
+  float epsilon = 0;  ///< of a threshold skip, a share of `of`
+  /// emitterSampling: that of the sum over all facets; rays and samples of single ones differ by their noise.
+  const char* of = "the largest H";
   uint64_t bytesNotAllocated = 0;  ///< while it is off, by the formulas of METHOD section 10; 0: unknown before a build
 };
 

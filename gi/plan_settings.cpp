@@ -70,7 +70,10 @@ std::string planJson(const EffectPlan& plan, int indent) {
                                {"state", EnumNames<EffectState>::names.at(static_cast<size_t>(r.state))},
                                {"reason", r.reason},
                                {"skip", EnumNames<Skip>::names.at(static_cast<size_t>(r.skip))}};
-    if (r.skip == Skip::threshold) row["epsilon"] = nlohmann::ordered_json::parse(fmt::format("{}", r.epsilon));
+    if (r.skip == Skip::threshold) {
+      row["epsilon"] = nlohmann::ordered_json::parse(fmt::format("{}", r.epsilon));
+      row["epsilon_of"] = r.of;
+    }
     row["bytes_not_allocated"] = r.bytesNotAllocated;
     out.push_back(std::move(row));
   }

@@ -1,7 +1,10 @@
 // The pipeline obeys the plan: what is not called for is neither recorded nor allocated, appears with what calls for it
 // and goes with it; and leaving it out changes no bit of the picture.
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "renderer/csv.h"
 #include "tests/effects_fixture.h"
 
 namespace irad::test {
@@ -279,21 +282,70 @@ TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
   EXPECT_TRUE(any(recorded(), "GI Gather"));
 }
 
-TEST(IradPlan, PrintsTheTableAndProvesIt) {
-  const std::vector<std::string> small{"--size", "48x36", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"};
-  std::vector<std::string> json{"plan", "box", "--json"}, proof{"plan", "check:lights-off", "--prove", "--frames", "1"};
-  json.insert(json.end(), small.begin(), small.end());
-  proof.insert(proof.end(), small.begin(), small.end());
-  const RunResult table = runIrad(json);
+TEST(IradPlan, PrintsTheTable) {
+  const RunResult table =
+      runIrad({"plan", "box", "--json", "--size", "48x36", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
   ASSERT_EQ(table.status, 0) << table.err;
   const auto parsed = nlohmann::json::parse(table.out);
   ASSERT_EQ(parsed["effects"].size(), kEffects);
   EXPECT_EQ(parsed["effects"][0]["effect"], "emission");
   EXPECT_EQ(parsed["effects"][0]["state"], "on");
-  const RunResult proved = runIrad(proof);
-  ASSERT_EQ(proved.status, 0) << proved.err;
-  EXPECT_TRUE(contains(proved.out, "matrix")) << proved.out;
-  EXPECT_TRUE(contains(proved.out, "same bits")) << proved.out;
+}
+
+/// The CSV of --prove: column -> value per row.
+std::vector<std::map<std::string, std::string>> provenRows(const std::vector<std::string>& scenes) {
+  const std::string file = testing::TempDir() + "/proof.csv";
+  std::vector<std::string> arguments{"plan"};
+  arguments.insert(arguments.end(), scenes.begin(), scenes.end());
+  for (const char* more : {"--prove", "--frames", "2", "--size", "48x36", "--set", "voxel.resolution=16", "--set",
+                           "matrix.rays=16", "--csv"})
+    arguments.push_back(more);
+  arguments.push_back(file);
+  const RunResult run = runIrad(arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  std::vector<std::map<std::string, std::string>> rows;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> columns = csvFields(line);
+  while (std::getline(in, line)) {
+    const std::vector<std::string> fields = csvFields(line);
+    EXPECT_EQ(fields.size(), columns.size()) << line;
+    for (size_t i = 0; i < std::min(fields.size(), columns.size()); ++i)
+      (i == 0 ? rows.emplace_back() : rows.back())[columns[i]] = fields[i];
+  }
+  return rows;
+}
+
+TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
+  const auto rows = provenRows({"check:lights-off", "check:plates"});
+  std::map<std::string, std::map<std::string, std::map<std::string, std::string>>> of;  // scene, effect
+  for (const auto& row : rows) of[row.at("scene")][row.at("effect")] = row;
+  ASSERT_EQ(of.size(), 2u);
+  for (auto& [scene, effects] : of) {
+    // Idle, as planned, is measured, and is nothing; all forced on it is not.
+    EXPECT_EQ(effects["as planned"]["idle_ms_per_s"], "0.000");
+    EXPECT_EQ(effects["as planned"]["idle_dispatches_per_s"], "0.0");
+    EXPECT_EQ(effects["as planned"]["idle_draws_per_s"], "0.0");
+    EXPECT_GT(std::stod(effects["as planned"]["camera_ms_per_s"]), 0);
+    EXPECT_GT(std::stod(effects["all forced on"]["idle_ms_per_s"]), 0);
+    EXPECT_EQ(effects["all forced on"]["pixels_different"], "0");
+    EXPECT_EQ(effects["all forced on"]["light_ms_per_s"], "");  // there are none to move
+    for (auto& [name, row] : effects) {
+      if (row["state"].empty()) continue;
+      EXPECT_NE(row["pixels_different"].empty(), row["not_proven"].empty()) << scene << ": " << name;
+      EXPECT_FALSE(row["reason"].empty()) << scene << ": " << name;
+    }
+    for (const char* always : {"sun", "point", "spot", "rebuild", "redraw"})
+      EXPECT_EQ(effects[always]["pixels_different"], "0") << scene << ": " << always;
+  }
+  EXPECT_EQ(of["check:lights-off"]["matrix"]["pixels_different"], "0");
+  EXPECT_GT(std::stod(of["check:lights-off"]["matrix"]["mib_not_allocated"]), 0);
+  EXPECT_EQ(of["check:lights-off"]["blur"]["not_proven"], "no indirect light");
+  EXPECT_EQ(of["check:plates"]["relight"]["skip"], "threshold");
+  EXPECT_LE(std::stod(of["check:plates"]["relight"]["largest_difference"]),
+            std::stod(of["check:plates"]["relight"]["allowed_difference"]));
+  EXPECT_LE(std::stod(of["check:plates"]["emitter-sampling"]["mean_difference"]), 0.05);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ class EffectsPanel : public Panel {
         "{}: {}\n{}\n{}{}", info.label, state, row.reason,
         row.skip == Skip::exact
             ? "Exact: forced on it gives the same bits."
-            : fmt::format("Within {:.2g} of the largest H of what it gives forced on.", row.epsilon),
+            : fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of),
         row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
   }
 };
