@@ -214,11 +214,9 @@ struct Pipeline::Impl {
     // A new list has no light yet: given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (!lit()) return darken(p);
-    if (first <= Redo::Solve) {
+    if (!p.light || !*p.light) {
       planned.traits.light.noise.reset();
       decide();
-    }
-    if (!p.light || !*p.light) {
       p.light = makeLighting(context, *p.facets, planned.settings());
       first = Redo::Gather;
     }
@@ -232,22 +230,28 @@ struct Pipeline::Impl {
       solvedFrame = frameIndex;
     }
     scatterInto(p);
-    // Of light at rest it is known how much the blur changes; where that is nothing that shows, H is shown without.
     learn(p);
-    const SolveReport& report = p.light->report;
-    if (report.settled() && report.blurChange && !planned.traits.light.noise) {
-      planned.traits.light.noise = report.largestH > 0 ? *report.blurChange / report.largestH : 0;
-      const bool blurred = planned.on(Effect::blur);
-      decide();
-      if (blurred && !planned.on(Effect::blur)) scatterInto(p);
-    }
+    if (flipsBlur(p.light->report)) scatterInto(p);
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
   }
 
   void scatterInto(Products& p) {
     Frame frame = context.begin(frameIndex);
-    scatter(frame, *p.facets, *p.light, planned.settings());
+    const bool mayBlur = settings.effects.blur == EffectMode::automatic && settings.sample.gpu.filter_ == FILTER_BLUR;
+    scatter(frame, *p.facets, *p.light, planned.settings(), /*watchBlur=*/mayBlur);
     frame.submitAndWait();
+  }
+
+  /// Decides on what the blur changes of the light as it is: where that is nothing that shows, H is shown without.
+  /// Returns whether that puts the blur on or off.
+  bool flipsBlur(const SolveReport& report) {
+    if (!report.blurChange) return false;
+    std::optional<float>& noise = planned.traits.light.noise;
+    // In the dark it changes nothing, whatever it may do to the next light.
+    if (report.largestH > 0 || !noise) noise = report.largestH > 0 ? *report.blurChange / report.largestH : 0;
+    const bool was = planned.on(Effect::blur);
+    decide();
+    return planned.on(Effect::blur) != was;
   }
 
   /// No light, or nothing that shows it: H is 0 without being stored.

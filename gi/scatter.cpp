@@ -40,20 +40,14 @@ namespace {
 
 constexpr const char* kStage = "GI Scatter";
 
-/// Fits the blurred copies to what is wanted of them.
-void fitBlurred(const Device& device, const FacetList& facets, Lighting& light, bool wanted) {
-  if (!wanted) {
-    for (Buffer* b : {&light.blurred, &light.blurredEmitted, &light.blurChange}) *b = Buffer();
-    return;
-  }
-  const uint64_t bytes = 16ull * facets.count;
-  if (!light.blurred) light.blurred = Buffer(device, "blurred H", Subsystem::Solver, bytes);
-  if (!light.blurChange) light.blurChange = Buffer(device, "change by the blur", Subsystem::Solver, sizeof(uint32_t));
-  if (light.emitted && !light.blurredEmitted)
-    light.blurredEmitted = Buffer(device, "blurred F M", Subsystem::Solver, bytes);
+/// Makes a buffer that is wanted, frees one that is not.
+void fit(const Device& device, const char* name, uint64_t bytes, bool wanted, Buffer& buffer) {
+  if (wanted != static_cast<bool>(buffer)) buffer = wanted ? Buffer(device, name, Subsystem::Solver, bytes) : Buffer();
 }
 
+/// Into the blurred copies, where there are any.
 void blur(Frame& frame, const FacetList& facets, Lighting& light) {
+  const bool stores = static_cast<bool>(light.blurred), emitted = stores && light.emitted;
   ScatterFacetsPush push{};
   push.facets = facets.record.address;
   push.indirect = light.indirect.address;
@@ -66,11 +60,13 @@ void blur(Frame& frame, const FacetList& facets, Lighting& light) {
   Pass pass = frame.pass(kStage);
   pass.shader("gi/scatter_facets.comp")
       .constant(0, static_cast<uint32_t>(facets.encoding))
-      .constant(1, static_cast<bool>(light.emitted))
+      .constant(1, emitted)
+      .constant(2, stores)
       .read(facets.record, facets.voxel, facets.shape, facets.reverse, facets.around, light.indirect)
-      .write(light.blurred, light.blurChange)
+      .write(light.blurChange)
       .push(push);
-  if (light.emitted) pass.read(light.emitted).write(light.blurredEmitted);
+  if (stores) pass.write(light.blurred);
+  if (emitted) pass.read(light.emitted).write(light.blurredEmitted);
   pass.dispatch(facets.count);
   frame.readback(light.blurChange, 0, sizeof(float), [&change = light.report.blurChange](std::span<const uint8_t> b) {
     std::memcpy(&change.emplace(), b.data(), sizeof(float));
@@ -103,11 +99,16 @@ void scatterVolume(Frame& frame, const FacetList& facets, Lighting& light, const
 
 }  // namespace
 
-void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
+void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings, bool watchBlur) {
   const SampleParams& sample = settings.sample.gpu;
-  const bool blurs = sample.gated != 0 && sample.filter_ == FILTER_BLUR && facets.count > 0;
-  fitBlurred(frame.context().device, facets, light, blurs);
-  if (blurs) blur(frame, facets, light);
+  const bool may = sample.gated != 0 && facets.count > 0;
+  const bool blurs = may && sample.filter_ == FILTER_BLUR, watches = may && (blurs || watchBlur);
+  const Device& device = frame.context().device;
+  const uint64_t bytes = 16ull * facets.count;
+  fit(device, "blurred H", bytes, blurs, light.blurred);
+  fit(device, "blurred F M", bytes, blurs && light.emitted, light.blurredEmitted);
+  fit(device, "change by the blur", sizeof(uint32_t), watches, light.blurChange);
+  if (watches) blur(frame, facets, light);
   if (light.volume) scatterVolume(frame, facets, light, settings);
 }
 

@@ -150,8 +150,8 @@ struct SolveReport {
   float growth = 0;     ///< of the residual in the last sweep, as a factor, where it may grow (largestGain >= 1)
   std::optional<Defect> defect;         ///< with nonFinite or negative
   std::optional<EnergyBalance> energy;  ///< of a converged solve with solver.lambda 1
-  std::optional<float> blurChange;      ///< by scatter(), where it blurs: the most that this changes H by, W/m^2
-  uint32_t clampedVoxels = 0;           ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
+  std::optional<float> blurChange;  ///< by scatter(), where it watches the blur: the most that it changes H by, W/m^2
+  uint32_t clampedVoxels = 0;       ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
   /// No sweep more would change anything for the better.
   bool settled() const { return converged || diverging || nonFinite > 0; }
 };
@@ -184,7 +184,7 @@ struct Lighting {
   Buffer radiosity, radiosityNext;  ///< B, double buffer
   Buffer blurred;         ///< H averaged over neighbours that face the same way; none where shading samples H itself
   Buffer blurredEmitted;  ///< `emitted` likewise
-  Buffer blurChange;      ///< largest |blurred - H|, float bits; with `blurred`
+  Buffer blurChange;      ///< largest |blurred - H|, float bits; where scatter() watches it
   Image volume;           ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
   Buffer residual;        ///< solver's reductions, see shared/solve.h
   Buffer rowSum;          ///< sum_j F_ij, one float each
@@ -220,7 +220,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
 /// `blurred` and `blurredEmitted`, with report.blurChange; and the volume where it exists: H, or B with ungated
 /// sampling (T 5.9), or B - lambda (M + rho D) with edge removal (T eq. 23), W/m^2 in all cases, the first facet of a
 /// voxel, alpha 1. `light` must stay where it is until the frame has finished: light.report.clampedVoxels and
-/// blurChange are read back.
-void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
+/// blurChange are read back. `watchBlur`: blurChange also where the settings have no blur, without the copies.
+void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings, bool watchBlur = false);
 
 }  // namespace irad

@@ -50,7 +50,7 @@ struct LightState {
   bool settled = false;     ///< the solver has nothing left to do
   float bound = 0;          ///< error bound on B, W/m^2
   float tolerance = 0;      ///< bound at which the solver sleeps, W/m^2
-  /// Largest change that the blur makes to H, as a share of the largest H; none before it was taken of this light.
+  /// Largest change that the blur makes to H, as a share of the largest H; none before there was light.
   std::optional<float> noise;
 };
 

@@ -265,9 +265,7 @@ TEST_F(Rows, APlainRoomHasNoPartOfWhatItDoesNotCallFor) {
 
 /// A lamp that is dragged about where its range ends at the room's wall.
 TEST_F(Rows, ALightThatWaversAtItsReachSwitchesOnce) {
-  Settings sharp = settings();
-  sharp.sample.gpu.filter_ = FILTER_LINEAR;
-  Pipeline pipeline(context(), room(/*emits=*/false), sharp);
+  Pipeline pipeline(context(), room(/*emits=*/false), settings());
   Targets targets(context(), {32, 24});
   // 16 voxels of 1/8: two of them wide is the trigger, four where it lets go.
   const auto at = [&](double gap) {
@@ -292,6 +290,43 @@ TEST_F(Rows, ALightThatWaversAtItsReachSwitchesOnce) {
   at(2);
   EXPECT_TRUE(pipeline.plan().off(Effect::point));
   EXPECT_FALSE(holds("shadow cubes"));
+}
+
+/// The blur is watched, not tried, while lights move: where it shows nothing it stays off.
+TEST_F(Rows, TheBlurStaysAsItIsWhileLightsMove) {
+  for (const bool even : {true, false}) {
+    Settings s = settings();
+    s.effects.blurNoise = even ? 0.9f : 1e-4f;
+    Pipeline pipeline(context(), even ? evenRoom() : litRoom(), s);
+    pipeline.setLights({lampAt(0.2)});
+    pipeline.prepare();
+    EXPECT_EQ(pipeline.plan().on(Effect::blur), !even) << pipeline.plan().row(Effect::blur).reason;
+    const uint64_t flips = pipeline.flips();
+    for (const double x : {0.1, -0.2, 0.3, 0.1}) {
+      pipeline.setLights({lampAt(x)});
+      pipeline.prepare();
+      EXPECT_EQ(holds("blurred H"), !even);
+    }
+    EXPECT_EQ(pipeline.flips(), flips);
+  }
+}
+
+/// What it would change is the same number, measured with its copies or without.
+TEST_F(Rows, TheBlurIsMeasuredAlike) {
+  const auto noise = [&](float epsilon) {
+    Settings s = settings();
+    s.effects.blurNoise = epsilon;
+    Pipeline pipeline(context(), litRoom(), s);
+    pipeline.prepare();
+    pipeline.setLights({lampAt(-0.1)});
+    pipeline.darken();
+    pipeline.prepare();
+    EXPECT_EQ(pipeline.plan().on(Effect::blur), epsilon < 0.5f);
+    return pipeline.traits().light.noise.value_or(-1);
+  };
+  const float with = noise(1e-4f), without = noise(0.99f);
+  EXPECT_GT(with, 0);
+  EXPECT_EQ(with, without);
 }
 
 /// Lights do not change F M, nor what was found of its samples.

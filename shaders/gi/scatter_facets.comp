@@ -9,6 +9,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
 layout(constant_id = 1) const bool EMITTED = true;  ///< F M too
+layout(constant_id = 2) const bool STORES = true;   ///< false: what it would change is measured alone
 layout(push_constant, scalar) uniform Push { ScatterFacetsPush p; };
 
 const float FACING = 0.5f;  // least cosine between the normals
@@ -61,8 +62,8 @@ void main() {
     h = sumH / total;
     e = sumE / total;
   }
-  p.blurred.at[facet] = vec4(h, 0.0f);
-  if (EMITTED) p.blurredEmitted.at[facet] = vec4(e, 0.0f);
+  if (STORES) p.blurred.at[facet] = vec4(h, 0.0f);
+  if (STORES && EMITTED) p.blurredEmitted.at[facet] = vec4(e, 0.0f);
   vec3 change = abs(h - unblurred);
   uint bits = floatBitsToUint(max(change.r, max(change.g, change.b)));
   if (bits > p.change.at[0]) atomicMax(p.change.at[0], bits);
