@@ -245,7 +245,7 @@ class Planner {
   void rebuild() {
     const bool due = t_.light.due <= Redo::Matrix;
     row(Effect::rebuild).reason =
-        due ? fmt::format("{} are due", EnumNames<Redo>::names[static_cast<size_t>(t_.light.due)])
+        due ? fmt::format("due from {} on", EnumNames<Redo>::names[static_cast<size_t>(t_.light.due)])
             : "geometry and build settings are as they were built";
     row(Effect::rebuild).state = due ? EffectState::on : EffectState::asleep;
   }
