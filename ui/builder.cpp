@@ -8,6 +8,7 @@
 
 #include "gi/check/check.h"
 #include "renderer/error.h"
+#include "ui/no_light.h"
 
 namespace irad {
 namespace {
@@ -200,7 +201,8 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .clampedAlbedo = facets.clampedAlbedo,
                      .edge = facets.grid.edge,
                      .solve = report,
-                     .findings = pipeline.findings()};
+                     .findings = pipeline.findings(),
+                     .noLight = noLight(pipeline.plan())};
   side.solves.push_back({report.sweeps, report.residual, report.bound});
   if (side.solves.size() > 400) side.solves.pop_front();
   side.sweepsSinceWake += report.sweeps;

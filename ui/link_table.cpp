@@ -62,7 +62,7 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
     filter_ = LinkFilter(typed_);
     filtered_ = true;
   }
-  helpTooltip(LinkFilter::help());
+  if (!ImGui::IsItemActive()) helpTooltip(LinkFilter::help());  // who types looks at the table
   for (const std::string& error : filter_.errors()) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextColored(theme::error, "%s", error.c_str());

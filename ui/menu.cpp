@@ -32,8 +32,7 @@ State stateOf(const Session& session) {
 void actionItem(Session& session, const char* label, Action action, bool checked = false, bool enabled = true) {
   const auto all = bindings();
   const auto binding = std::find_if(all.begin(), all.end(), [&](const Binding& b) { return b.action == action; });
-  if (ImGui::MenuItem(label, binding != all.end() ? binding->keys : nullptr, checked, enabled))
-    session.actions.push_back(action);
+  if (ImGui::MenuItem(label, binding != all.end() ? binding->keys : nullptr, checked, enabled)) session.act(action);
 }
 
 void drawFile(Session& session) {
@@ -54,7 +53,7 @@ void drawFile(Session& session) {
   actionItem(session, "Quit", Action::Quit);
 }
 
-void drawView(Session& session, const std::vector<std::unique_ptr<Panel>>& panels) {
+void drawView(Session& session, const Panels& panels) {
   if (session.pipeline && ImGui::BeginMenu("Camera")) {
     const std::vector<Camera> cameras = session.cameras();
     for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
@@ -90,7 +89,7 @@ void drawSolver(Session& session) {
 
 }  // namespace
 
-void drawMenuBar(Session& session, const std::vector<std::unique_ptr<Panel>>& panels, const Rect& where) {
+void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
   const ImGuiStyle& style = ImGui::GetStyle();
   // As high as the bar. Menus that open have their own padding.
   const ImVec2 high{style.FramePadding.x, std::max((where.size.y - ImGui::GetFontSize()) * 0.5f, 0.0f)};

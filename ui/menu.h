@@ -7,6 +7,6 @@
 
 namespace irad {
 
-void drawMenuBar(Session& session, const std::vector<std::unique_ptr<Panel>>& panels, const Rect& where);
+void drawMenuBar(Session& session, const Panels& panels, const Rect& where);
 
 }  // namespace irad

@@ -1,13 +1,59 @@
 #include "ui/panel.h"
 
+#include <imgui.h>
+
+#include "ui/menu.h"
+#include "ui/overlay.h"
+#include "ui/theme.h"
+
 namespace irad {
 
-std::vector<std::unique_ptr<Panel>> makePanels() {
-  std::vector<std::unique_ptr<Panel>> panels;
+Panels makePanels() {
+  Panels panels;
 #define IRAD_MAKE_PANEL(name) panels.push_back(make##name##Panel());
   IRAD_PANELS(IRAD_MAKE_PANEL)
 #undef IRAD_MAKE_PANEL
   return panels;
+}
+
+namespace {
+
+/// True while the panel is unfolded.
+bool drawHeader(const char* title, std::set<std::string>& folded) {
+  pushHeadingFont();
+  ImGui::SetNextItemOpen(!folded.contains(title));
+  const bool open = ImGui::CollapsingHeader(title);
+  ImGui::PopFont();
+  if (open)
+    folded.erase(title);
+  else
+    folded.insert(title);
+  return open;
+}
+
+}  // namespace
+
+void drawPanels(Session& session, const Panels& panels, const Layout& layout) {
+  drawMenuBar(session, panels, layout.bar);
+  struct Tile {
+    Region region;
+    const char* name;
+    Rect where;
+  };
+  const Tile tiles[] = {{Region::Left, "##left", layout.left},
+                        {Region::Right, "##right", layout.right},
+                        {Region::Bottom, "##bottom", layout.bottom}};
+  for (const Tile& tile : tiles) {
+    beginTile(tile.name, tile.where);
+    for (const auto& panel : panels) {
+      if (panel->region() != tile.region) continue;
+      ImGui::PushID(panel->title());
+      // The strip is low: its table begins at once.
+      if (tile.region == Region::Bottom || drawHeader(panel->title(), session.preferences.folded)) panel->draw(session);
+      ImGui::PopID();
+    }
+    endTile();
+  }
 }
 
 }  // namespace irad

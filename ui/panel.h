@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "ui/layout.h"
 #include "ui/session.h"
 
 namespace irad {
@@ -37,6 +38,10 @@ class Panel {
 IRAD_PANELS(IRAD_DECLARE_PANEL)
 #undef IRAD_DECLARE_PANEL
 
-std::vector<std::unique_ptr<Panel>> makePanels();
+using Panels = std::vector<std::unique_ptr<Panel>>;
+Panels makePanels();
+
+/// The menu bar, the columns and the strip, each panel in its region under a header that folds it.
+void drawPanels(Session& session, const Panels& panels, const Layout& layout);
 
 }  // namespace irad

@@ -9,6 +9,7 @@
 #include "renderer/error.h"
 #include "renderer/json_reader.h"
 #include "renderer/output_file.h"
+#include "ui/setting_rows.h"
 
 namespace irad {
 namespace {
@@ -44,6 +45,12 @@ std::vector<std::string> strings(const std::filesystem::path& file, const Json& 
 }
 
 }  // namespace
+
+std::set<std::string> Preferences::foldedAtFirst() {
+  std::set<std::string> titles{"Cameras", "Lights"};
+  for (const std::string& group : settingGroups()) titles.insert("Settings/" + group);
+  return titles;
+}
 
 void Preferences::resetLayout() {
   sizes = {};

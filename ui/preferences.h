@@ -12,13 +12,17 @@ namespace irad {
 
 struct Preferences {
   PanelSizes sizes;
-  /// Titles of panels. At first those are folded that would push the settings out of a window of 720 lines.
-  std::set<std::string> folded = {"Cameras", "Lights"};
+  /// Titles of panels, and "Settings/GROUP". At first those are folded that would push the settings and the effects
+  /// out of a window of 720 lines.
+  std::set<std::string> folded = foldedAtFirst();
   std::vector<std::filesystem::path> recent;  ///< scenes, absolute, the last one first
 
   bool operator==(const Preferences&) const = default;
   void resetLayout();  ///< as on the first start; the scenes stay
   void opened(const std::filesystem::path& scene);
+
+ private:
+  static std::set<std::string> foldedAtFirst();
 };
 
 /// irad/window.json in $XDG_CONFIG_HOME, or in ~/.config (XDG Base Directory Specification 0.8); empty where the

@@ -77,6 +77,48 @@ void Session::open(const std::filesystem::path& path) {
   (picture ? openReference : openScene) = path;
 }
 
+void Session::act(Action action) {
+  switch (action) {
+    case Action::None:
+      break;
+    case Action::Help:
+      showHelp = !showHelp;
+      break;
+    case Action::HideUi:
+      hideUi = !hideUi;
+      break;
+    case Action::ReloadShaders:
+      reloadShaders = true;
+      break;
+    case Action::Capture:
+      capture = true;
+      break;
+    case Action::CaptureAll:
+      captureAll = true;
+      break;
+    case Action::Pause:
+      paused = !paused;
+      break;
+    case Action::NextCamera:
+      if (pipeline) useSceneCamera((sceneCamera + 1) % static_cast<int>(cameras().size()));
+      break;
+    case Action::Flicker:
+      if (comparison) {
+        using Show = Comparison::Show;
+        if (showsDifference()) viewDirty = true;  // for the range of its own
+        comparison->show = comparison->show == Show::A ? Show::B : Show::A;
+      }
+      break;
+    case Action::Open:
+      showOpen = true;
+      break;
+    case Action::Quit:
+      quit = true;
+      if (work) work->cancel = true;
+      break;
+  }
+}
+
 void Side::woke() {
   solves.clear();
   sweepsSinceWake = 0;

@@ -46,7 +46,8 @@ struct Built {
   uint32_t facets = 0, solidVoxels = 0, clampedAlbedo = 0;
   double edge = 0;  ///< of a voxel
   SolveReport solve;
-  std::vector<Finding> findings;  ///< of the numerical watch, errors first
+  std::vector<Finding> findings;     ///< of the numerical watch, errors first
+  std::vector<std::string> noLight;  ///< why there is none (ui/no_light.h); none: there is
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 
@@ -133,7 +134,6 @@ struct Session : Side {
   Inspection inspection;
 
   // Requests.
-  std::vector<Action> actions;  ///< as if their keys had been pressed
   std::optional<std::filesystem::path> openScene, openReference;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;        ///< begin or end a comparison
@@ -142,6 +142,7 @@ struct Session : Side {
   // Shown until dismissed, and printed on standard error.
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
+  void act(Action action);  ///< what its key does
   /// Of a scene that was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
   std::vector<Camera> cameras() const;           ///< the scene's, then the bookmarks

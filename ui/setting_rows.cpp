@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "renderer/error.h"
 #include "ui/session.h"
@@ -28,65 +29,82 @@ std::string format(const Meta& meta, const char* number) {
 }
 
 /// The few values that a narrow range allows, as a list.
-bool chooseNumber(uint32_t& value, const Meta& meta, uint32_t low, uint32_t high, uint32_t step) {
+void chooseNumber(uint32_t& value, const Meta& meta, uint32_t low, uint32_t high, uint32_t step) {
   const auto shown = [&](uint32_t v) { return fmt::format("{} {}", v, meta.unit); };
-  bool changed = false;
-  if (!ImGui::BeginCombo("##value", shown(value).c_str())) return false;
+  if (!ImGui::BeginCombo("##value", shown(value).c_str())) return;
   for (uint32_t v = low; v <= high; v += step)
-    if (ImGui::Selectable(shown(v).c_str(), v == value)) {
-      changed = v != value;
-      value = v;
-    }
+    if (ImGui::Selectable(shown(v).c_str(), v == value)) value = v;
   ImGui::EndCombo();
-  return changed;
 }
 
-bool edit(uint32_t& value, const Meta& meta) {
+void edit(uint32_t& value, const Meta& meta) {
   const auto low = static_cast<uint32_t>(meta.min);
   const auto high = static_cast<uint32_t>(meta.max);
   const auto step = std::max(static_cast<uint32_t>(meta.step), 1u);
   if ((high - low) / step < 5) return chooseNumber(value, meta, low, high, step);
   // ImGui's sliders take half the range of their type at most.
-  if (high > 0x7FFFFFFFu) return ImGui::InputScalar("##value", ImGuiDataType_U32, &value);
+  if (high > 0x7FFFFFFFu) {
+    ImGui::InputScalar("##value", ImGuiDataType_U32, &value);
+    return;
+  }
   // A wide range is walked by factors, a narrow one by steps.
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (meta.max >= 256 && meta.min > 0 ? ImGuiSliderFlags_Logarithmic : 0);
-  if (!ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &low, &high, format(meta, "%u").c_str(), flags))
-    return false;
-  value = low + (value - low) / step * step;
-  return true;
+  if (ImGui::SliderScalar("##value", ImGuiDataType_U32, &value, &low, &high, format(meta, "%u").c_str(), flags))
+    value = low + (value - low) / step * step;
 }
 
 /// Too far apart for a slider: a field that is dragged by shares of its value, or typed into.
 constexpr double kDragged = 1e5;
 
-bool edit(float& value, const Meta& meta) {
+void edit(float& value, const Meta& meta) {
   const float low = static_cast<float>(meta.min), high = static_cast<float>(meta.max);
   const bool logarithmic = meta.logarithmic;
   if (!logarithmic && meta.max - meta.min > kDragged)
-    return ImGui::DragFloat("##value", &value, std::max(std::abs(value) * 0.01f, 0.001f), low, high,
-                            format(meta, "%.5g").c_str(), ImGuiSliderFlags_AlwaysClamp);
-  return ImGui::SliderFloat("##value", &value, low, high, format(meta, logarithmic ? "%.2g" : "%.2f").c_str(),
-                            ImGuiSliderFlags_AlwaysClamp |
-                                (logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0));
+    ImGui::DragFloat("##value", &value, std::max(std::abs(value) * 0.01f, 0.001f), low, high,
+                     format(meta, "%.5g").c_str(), ImGuiSliderFlags_AlwaysClamp);
+  else
+    ImGui::SliderFloat("##value", &value, low, high, format(meta, logarithmic ? "%.2g" : "%.2f").c_str(),
+                       ImGuiSliderFlags_AlwaysClamp |
+                           (logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0));
 }
 
-bool edit(bool& value, const Meta&) {
-  return ImGui::Checkbox("##value", &value);
+void edit(bool& value, const Meta&) {
+  ImGui::Checkbox("##value", &value);
 }
 
 template <class E>
-bool choose(uint32_t& value) {
+void choose(uint32_t& value, ImGuiComboFlags flags = 0) {
   const auto& names = EnumNames<E>::names;
-  bool changed = false;
-  if (!ImGui::BeginCombo("##value", names.at(value))) return false;
+  if (!ImGui::BeginCombo("##value", names.at(value), flags)) return;
   for (uint32_t i = 0; i < names.size(); ++i)
-    if (ImGui::Selectable(names[i], i == value)) {
-      changed = i != value;
-      value = i;
-    }
+    if (ImGui::Selectable(names[i], i == value)) value = i;
   ImGui::EndCombo();
-  return changed;
+}
+
+template <class E>
+void chooseEnum(E& value, ImGuiComboFlags flags = 0) {
+  auto index = static_cast<uint32_t>(value);
+  choose<E>(index, flags);
+  value = static_cast<E>(index);
+}
+
+std::string_view groupOf(const Meta& meta) {
+  const std::string_view name = meta.name;
+  return name.substr(0, name.find('.'));
+}
+
+/// True while the group is unfolded.
+bool groupHeader(const std::string& group, std::set<std::string>& folded) {
+  const std::string title = "Settings/" + group;
+  ImGui::SetNextItemOpen(!folded.contains(title));
+  const bool open =
+      ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+  if (open)
+    folded.erase(title);
+  else
+    folded.insert(title);
+  return open;
 }
 
 std::string label(std::string_view name) {
@@ -96,9 +114,9 @@ std::string label(std::string_view name) {
   return text;
 }
 
-/// Label, widget, reset. `resettable`: the value differs from its default.
+/// Label, widget, reset. `resettable`: the value differs from its default. True when it is to be reset.
 template <class Edit>
-bool row(const Meta& meta, bool resettable, bool& reset, Edit&& editValue) {
+bool row(const Meta& meta, bool resettable, Edit&& editValue) {
   ImGui::PushID(meta.name);
   const float start = ImGui::GetCursorPosX();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -111,25 +129,23 @@ bool row(const Meta& meta, bool resettable, bool& reset, Edit&& editValue) {
   helpTooltip(fmt::format("{}\n{}", meta.name, meta.help));
   ImGui::SameLine(start + width * kLabelShare);
   ImGui::SetNextItemWidth(width * (1 - kLabelShare) - button - gap);
-  const bool changed = editValue();
+  editValue();
   helpTooltip(meta.redo == Redo::Nothing ? fmt::format("{}\n{}", meta.name, meta.help)
                                          : fmt::format("{}\n{}\nA change redoes: {}", meta.name, meta.help,
                                                        EnumNames<Redo>::names[static_cast<size_t>(meta.redo)]));
+  bool reset = false;
   if (resettable) {
     ImGui::SameLine(start + width - button);
     reset = ImGui::Button(resetGlyph(), {button, button});
     helpTooltip("Back to the default");
   }
   ImGui::PopID();
-  return changed || reset;
+  return reset;
 }
 
 template <class T>
-bool rowOf(T& value, const T& standard, const Meta& meta, auto&& editValue) {
-  bool reset = false;
-  const bool changed = row(meta, value != standard, reset, editValue);
-  if (reset) value = standard;
-  return changed;
+void rowOf(T& value, const T& standard, const Meta& meta, auto&& editValue) {
+  if (row(meta, value != standard, editValue)) value = standard;
 }
 
 /// One overload per kind of member that visit() hands out.
@@ -137,66 +153,66 @@ struct RowDrawer {
   Settings& settings;
   Settings& defaults;
 
-  bool operator()(bool& v, const Meta& m) const { return plain(v, m); }
-  bool operator()(uint32_t& v, const Meta& m) const { return plain(v, m); }
-  bool operator()(float& v, const Meta& m) const { return plain(v, m); }
-  bool operator()(BoolRef ref, const Meta& m) const {
-    return rowOf(ref.value, twin(settings, defaults, ref.value), m, [&] {
+  void operator()(BoolRef ref, const Meta& m) const {
+    rowOf(ref.value, twin(settings, defaults, ref.value), m, [&] {
       bool on = ref.value != 0;
-      const bool changed = edit(on, m);
+      edit(on, m);
       ref.value = on;
-      return changed;
     });
   }
   template <class E>
-  bool operator()(EnumRef<E> ref, const Meta& m) const {
-    return rowOf(ref.value, twin(settings, defaults, ref.value), m, [&] { return choose<E>(ref.value); });
-  }
-  template <class E>
-  requires std::is_enum_v<E>
-  bool operator()(E& value, const Meta& m) const {
-    return rowOf(value, twin(settings, defaults, value), m, [&] {
-      auto index = static_cast<uint32_t>(value);
-      const bool changed = choose<E>(index);
-      value = static_cast<E>(index);
-      return changed;
-    });
+  void operator()(EnumRef<E> ref, const Meta& m) const {
+    rowOf(ref.value, twin(settings, defaults, ref.value), m, [&] { choose<E>(ref.value); });
   }
   template <class T>
-  bool plain(T& value, const Meta& m) const {
-    return rowOf(value, twin(settings, defaults, value), m, [&] { return edit(value, m); });
+  void operator()(T& value, const Meta& m) const {
+    rowOf(value, twin(settings, defaults, value), m, [&] {
+      if constexpr (std::is_enum_v<T>)
+        chooseEnum(value);
+      else
+        edit(value, m);
+    });
   }
 };
 
 }  // namespace
 
-bool settingRows(Settings& settings, const Settings& defaults, std::string_view prefix) {
-  Settings standard = defaults;
-  const RowDrawer draw{settings, standard};
-  bool changed = false, open = true;
-  std::string_view group;
-  visit(settings, [&](auto&& member, const Meta& meta) {
-    const std::string_view name = meta.name;
-    if (!name.starts_with(prefix)) return;
-    const std::string_view own = name.substr(0, name.find('.'));
-    if (prefix.empty() && own != group) {
-      group = own;
-      open = ImGui::TreeNodeEx(std::string(own).c_str(), ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_Framed |
-                                                             ImGuiTreeNodeFlags_NoTreePushOnOpen);
-    }
-    if (open) changed |= draw(member, meta);
+std::vector<std::string> settingGroups() {
+  std::vector<std::string> groups;
+  Settings settings;
+  visit(settings, [&](auto&&, const Meta& meta) {
+    if (groups.empty() || groups.back() != groupOf(meta)) groups.emplace_back(groupOf(meta));
   });
-  return changed;
+  return groups;
 }
 
-bool settingRow(Settings& settings, const Settings& defaults, std::string_view name) {
+void settingRows(Settings& settings, const Settings& defaults, std::set<std::string>& folded) {
   Settings standard = defaults;
   const RowDrawer draw{settings, standard};
-  bool changed = false;
+  std::string_view group;
+  bool open = true;
   visit(settings, [&](auto&& member, const Meta& meta) {
-    if (name == meta.name) changed |= draw(member, meta);
+    if (groupOf(meta) != group) {
+      group = groupOf(meta);
+      open = groupHeader(std::string(group), folded);
+    }
+    if (open) draw(member, meta);
   });
-  return changed;
+}
+
+void settingRow(Settings& settings, const Settings& defaults, std::string_view name) {
+  Settings standard = defaults;
+  const RowDrawer draw{settings, standard};
+  visit(settings, [&](auto&& member, const Meta& meta) {
+    if (name == meta.name) draw(member, meta);
+  });
+}
+
+void settingArrow(Settings& settings, std::string_view name) {
+  visit(settings, [&](auto&& member, const Meta& meta) {
+    if (name != meta.name) return;
+    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(member)>>) chooseEnum(member, ImGuiComboFlags_NoPreview);
+  });
 }
 
 void savePresetButton(const char* label, float width, std::string& name, Session& session, const Settings& settings) {

@@ -59,7 +59,8 @@ class Overlay {
 #define IRAD_OVERLAYS(X) \
   X(Lights)              \
   X(Row)                 \
-  X(Legend)
+  X(Legend)              \
+  X(NoLight)
 
 #define IRAD_DECLARE_OVERLAY(name) std::unique_ptr<Overlay> make##name##Overlay();
 IRAD_OVERLAYS(IRAD_DECLARE_OVERLAY)

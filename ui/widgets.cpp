@@ -37,19 +37,21 @@ void helpTooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
-void clippedText(const std::string& text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) {
-    ImGui::TextUnformatted(text.c_str());
-    return;
-  }
+std::string clipped(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   std::string cut = text;
   while (!cut.empty() && ImGui::CalcTextSize((cut + "\u2026").c_str()).x > width) {
     // Drop one code point: its continuation bytes, then its first.
     while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80) cut.pop_back();
     if (!cut.empty()) cut.pop_back();
   }
-  ImGui::TextUnformatted((cut + "\u2026").c_str());
-  helpTooltip(text);
+  return cut + "\u2026";
+}
+
+void clippedText(const std::string& text, float width) {
+  const std::string shown = clipped(text, width);
+  ImGui::TextUnformatted(shown.c_str());
+  if (shown != text) helpTooltip(text);
 }
 
 void rightText(const std::string& text) {

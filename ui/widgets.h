@@ -23,6 +23,8 @@ void fieldLabel(const char* label, const std::string& help = {});
 
 void helpTooltip(const std::string& text);
 /// Text that ends in an ellipsis where the width does not suffice.
+std::string clipped(const std::string& text, float width);
+/// The same, and whole as a tooltip.
 void clippedText(const std::string& text, float width);
 /// Right-aligned in the current table cell or region.
 void rightText(const std::string& text);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <utility>
 
 #include "renderer/error.h"
@@ -20,10 +19,10 @@
 #include "ui/comparison.h"
 #include "ui/imgui_layer.h"
 #include "ui/input.h"
-#include "ui/menu.h"
 #include "ui/open_dialog.h"
 #include "ui/overlay.h"
 #include "ui/panel.h"
+#include "ui/pictures.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 
@@ -52,7 +51,6 @@ class Window {
   void sceneOpened();
   void breathe();
   void takeKeys();
-  void act(Action action);
   void takeRequests();
   void capture();
   void frame();
@@ -61,9 +59,6 @@ class Window {
   void savePreferences();
   void fly();
   void drawFrame();
-  void readRange(Frame& frame);
-  void drawDifference(Frame& frame);
-  void drawPanels(const Layout& layout);
   bool working() const;
   bool settled() const;
   bool measured();
@@ -78,7 +73,7 @@ class Window {
   Builder builder_;
   Viewport viewport_;
   OpenDialog openDialog_;
-  std::vector<std::unique_ptr<Panel>> panels_ = makePanels();
+  Panels panels_ = makePanels();
   std::optional<RenderDoc> renderDoc_ = RenderDoc::find();
   Image image_;          ///< the whole window
   bool visible_ = true;  ///< the last frame had something to be drawn on
@@ -216,7 +211,7 @@ void Window::takeKeys() {
     const std::span<const Binding> all = bindings();
     const auto binding = std::find_if(
         all.begin(), all.end(), [&](const Binding& b) { return b.key == press.key && (press.shift || !b.shift); });
-    if (binding != all.end()) act(binding->action);
+    if (binding != all.end()) session_.act(binding->action);
     const auto number = static_cast<size_t>(press.key - GLFW_KEY_1);
     if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_9 && number < views().size()) {
       session_.view = views()[number].view;
@@ -225,51 +220,7 @@ void Window::takeKeys() {
   }
 }
 
-void Window::act(Action action) {
-  switch (action) {
-    case Action::None:
-      break;
-    case Action::Help:
-      session_.showHelp = !session_.showHelp;
-      break;
-    case Action::HideUi:
-      session_.hideUi = !session_.hideUi;
-      break;
-    case Action::ReloadShaders:
-      session_.reloadShaders = true;
-      break;
-    case Action::Capture:
-      session_.capture = true;
-      break;
-    case Action::CaptureAll:
-      session_.captureAll = true;
-      break;
-    case Action::Pause:
-      session_.paused = !session_.paused;
-      break;
-    case Action::NextCamera:
-      if (session_.pipeline)
-        session_.useSceneCamera((session_.sceneCamera + 1) % static_cast<int>(session_.cameras().size()));
-      break;
-    case Action::Flicker:
-      if (session_.comparison) {
-        using Show = Comparison::Show;
-        if (session_.showsDifference()) session_.viewDirty = true;  // for the range of its own
-        session_.comparison->show = session_.comparison->show == Show::A ? Show::B : Show::A;
-      }
-      break;
-    case Action::Open:
-      session_.showOpen = true;
-      break;
-    case Action::Quit:
-      session_.quit = true;
-      if (session_.work) session_.work->cancel = true;
-      break;
-  }
-}
-
 void Window::takeRequests() {
-  for (const Action action : std::exchange(session_.actions, {})) act(action);
   savePreferences();
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
   serveRecorder(session_, options_.captures);
@@ -408,7 +359,7 @@ void Window::drawFrame() {
   // First: of windows that focus does not raise, ImGui keeps those on top that were there before.
   if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
   viewport_.draw(session_, layer_, where.viewport);
-  if (!session_.hideUi) drawPanels(where);
+  if (!session_.hideUi) drawPanels(session_, panels_, where);
   drawBanner(session_, where.viewport);
   drawMessages(session_, where.viewport);
   drawProgress(session_, where.viewport);
@@ -421,17 +372,7 @@ void Window::drawFrame() {
   Frame frame = busy ? context_.beginUntimed() : context_.begin(frameIndex_);
   if (!busy) frame.sampled(frameIndex_++, lastDraw_);
   if (!busy && session_.built && session_.viewDirty) {
-    session_.shown = session_.camera.camera();
-    // Both sides of a comparison by one range: the same colour is the same value.
-    const Buffer* range = nullptr;
-    for (Side* side : session_.sides()) {
-      side->pipeline->render(frame, session_.shown, session_.view, side->targets, range);
-      range = &session_.targets.viewRange;
-    }
-    if (session_.comparison) session_.comparison->result.reset();
-    drawDifference(frame);
-    readRange(frame);
-    session_.viewDirty = false;
+    drawPictures(session_, frame);
     framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
   }
   uiBegan = threadMilliseconds();
@@ -440,57 +381,6 @@ void Window::drawFrame() {
   if (measuring_) options_.uiMilliseconds->push_back(uiMs);
   presenter_.present(frame, image_);
   --framesLeft_;
-}
-
-void Window::drawDifference(Frame& frame) {
-  const ViewInfo* info = viewInfo(session_.view);
-  if (!session_.showsDifference() || info == nullptr) return;
-  const Targets &a = session_.sideA().targets, &b = session_.sideB().targets;
-  Targets& difference = session_.comparison->difference;
-  if (difference.size != a.size) difference = Targets(context_, a.size);
-  irad::drawDifference(frame, *info, session_.edited, b, a, difference);
-}
-
-/// What the legend needs comes back with the frame.
-void Window::readRange(Frame& frame) {
-  const View view = session_.view;
-  const bool difference = session_.showsDifference();
-  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(info->hasRange() || difference)) return;
-  const Targets& targets = difference ? session_.comparison->difference : session_.targets;
-  frame.readback(targets.viewRange, 0, sizeof(ViewRange), [this, view, difference](std::span<const uint8_t> bytes) {
-    session_.range.emplace();
-    std::memcpy(&*session_.range, bytes.data(), sizeof(ViewRange));
-    session_.rangeView = view;
-    session_.rangeOfDifference = difference;
-  });
-}
-
-void Window::drawPanels(const Layout& layout) {
-  drawMenuBar(session_, panels_, layout.bar);
-  const std::pair<Region, Rect> tiles[] = {
-      {Region::Left, layout.left}, {Region::Right, layout.right}, {Region::Bottom, layout.bottom}};
-  for (const auto& [region, rect] : tiles) {
-    beginTile(region == Region::Left ? "##left" : region == Region::Right ? "##right" : "##bottom", rect);
-    for (const auto& panel : panels_) {
-      if (panel->region() != region) continue;
-      ImGui::PushID(panel->title());
-      bool open = true;
-      if (region != Region::Bottom) {  // the strip is low: its table begins at once
-        pushHeadingFont();
-        std::set<std::string>& folded = session_.preferences.folded;
-        ImGui::SetNextItemOpen(!folded.contains(panel->title()));
-        open = ImGui::CollapsingHeader(panel->title());
-        if (open)
-          folded.erase(panel->title());
-        else
-          folded.insert(panel->title());
-        ImGui::PopFont();
-      }
-      if (open) panel->draw(session_);
-      ImGui::PopID();
-    }
-    endTile();
-  }
 }
 
 }  // namespace

@@ -60,7 +60,9 @@ class EffectsPanel : public Panel {
     helpTooltip(
         "Builds of voxels, field or matrix, and effects that went on or off: many of them say that something "
         "wavers about its trigger");
-    for (const EffectRow& row : plan_.rows) drawRow(session, row);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
+    for (const EffectRow& row : plan_.rows) drawRow(session.edited, row);
+    ImGui::PopStyleVar();
   }
 
  private:
@@ -69,24 +71,36 @@ class EffectsPanel : public Panel {
   PerMinute rebuildsPerMinute_, flipsPerMinute_;
   uint64_t rebuilds_ = 0, flips_ = 0;
 
-  static void drawRow(Session& session, const EffectRow& row) {
+  /// One line: name, state and reason, and where the effect can be forced, the list of modes behind an arrow.
+  static void drawRow(Settings& settings, const EffectRow& row) {
     const EffectInfo& info = effectInfo(row.effect);
-    const char* state = EnumNames<EffectState>::names.at(static_cast<size_t>(row.state));
-    if (*info.setting != 0)
-      settingRow(session.edited, session.defaults, info.setting);
-    else
-      ImGui::TextUnformatted(info.name);
-    ImGui::TextColored(row.state == EffectState::on ? theme::good : theme::dim, "%s", state);
-    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-    clippedText(row.reason, ImGui::GetContentRegionAvail().x);
-    ImGui::PopStyleColor();
+    const bool forced = forcedMode(settings, row.effect) != EffectMode::automatic;
+    const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
+    const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float words = start + width * kLabelShare, end = start + width - arrow;
+    const std::string state = EnumNames<EffectState>::names.at(static_cast<size_t>(row.state));
+    ImGui::PushID(info.name);
+    ImGui::BeginGroup();
+    ImGui::AlignTextToFramePadding();
+    const ImVec4& nameColor = forced ? theme::accent : theme::text;
+    ImGui::TextColored(nameColor, "%s", clipped(info.label, words - start - gap).c_str());
+    ImGui::SameLine(words);
+    ImGui::TextColored(row.state == EffectState::on ? theme::good : theme::dim, "%s", state.c_str());
+    ImGui::SameLine(0, gap);
+    ImGui::TextColored(theme::dim, "%s", clipped(row.reason, end - gap - ImGui::GetCursorPosX()).c_str());
+    ImGui::EndGroup();
     helpTooltip(fmt::format(
         "{}: {}\n{}\n{}{}", info.label, state, row.reason,
         row.skip == Skip::exact
             ? "Exact: forced on it gives the same bits."
             : fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of),
         row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
+    if (*info.setting != 0) {
+      ImGui::SameLine(end);
+      settingArrow(settings, info.setting);
+      helpTooltip(fmt::format("{}: auto, on or off", info.setting));
+    }
+    ImGui::PopID();
   }
 };
 

@@ -18,7 +18,7 @@ class SettingsPanel : public Panel {
   void draw(Session& session) override {
     drawPresets(session);
     drawNext(session);
-    settingRows(session.edited, session.defaults);
+    settingRows(session.edited, session.defaults, session.preferences.folded);
   }
 
  private:

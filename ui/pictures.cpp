@@ -1,0 +1,47 @@
+#include "ui/pictures.h"
+
+#include <cstring>
+
+namespace irad {
+namespace {
+
+void drawDifference(Session& session, Frame& frame) {
+  const ViewInfo* info = viewInfo(session.view);
+  if (!session.showsDifference() || info == nullptr) return;
+  const Targets &a = session.sideA().targets, &b = session.sideB().targets;
+  Targets& difference = session.comparison->difference;
+  if (difference.size != a.size) difference = Targets(session.context, a.size);
+  irad::drawDifference(frame, *info, session.edited, b, a, difference);
+}
+
+/// What the legend needs comes back with the frame.
+void readRange(Session& session, Frame& frame) {
+  const View view = session.view;
+  const bool difference = session.showsDifference();
+  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(info->hasRange() || difference)) return;
+  const Targets& targets = difference ? session.comparison->difference : session.targets;
+  frame.readback(targets.viewRange, 0, sizeof(ViewRange), [&session, view, difference](std::span<const uint8_t> bytes) {
+    session.range.emplace();
+    std::memcpy(&*session.range, bytes.data(), sizeof(ViewRange));
+    session.rangeView = view;
+    session.rangeOfDifference = difference;
+  });
+}
+
+}  // namespace
+
+void drawPictures(Session& session, Frame& frame) {
+  session.shown = session.camera.camera();
+  // Both sides of a comparison by one range: the same colour is the same value.
+  const Buffer* range = nullptr;
+  for (Side* side : session.sides()) {
+    side->pipeline->render(frame, session.shown, session.view, side->targets, range);
+    range = &session.targets.viewRange;
+  }
+  if (session.comparison) session.comparison->result.reset();
+  drawDifference(session, frame);
+  readRange(session, frame);
+  session.viewDirty = false;
+}
+
+}  // namespace irad

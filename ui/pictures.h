@@ -1,0 +1,12 @@
+// The pictures that the viewport shows, drawn into their targets.
+#pragma once
+
+#include "ui/session.h"
+
+namespace irad {
+
+/// Of the session's view from its camera: every side's, and the difference where that is shown. Afterwards nothing
+/// about the view is dirty; the range that it was drawn with comes back with the frame.
+void drawPictures(Session& session, Frame& frame);
+
+}  // namespace irad
