@@ -29,7 +29,9 @@ class WindowTest : public ::testing::Test {
                                      "1280x720",  "--validate",     "--set",        "voxel.resolution=32",
                                      "--set",     "matrix.rays=32", "--set",        "specular.mode=off"};
     command.insert(command.end(), more.begin(), more.end());
-    window_ = std::make_unique<Program>(command, folder_.path, screen_->environment());
+    std::map<std::string, std::string> environment = screen_->environment();
+    environment.insert(environment_.begin(), environment_.end());
+    window_ = std::make_unique<Program>(command, folder_.path, environment);
   }
   /// Remembered from an earlier run, as a JSON array of titles: the other panels are where a test looks for them.
   void fold(const char* panels) {
@@ -98,6 +100,7 @@ class WindowTest : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::unique_ptr<VirtualScreen> screen_;
+  std::map<std::string, std::string> environment_;  ///< of windows that start(), beside the screen's
   std::unique_ptr<Program> window_;
 };
 

@@ -73,6 +73,53 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowTest, SaysWhyAPictureIsBlack) {
+  start({}, "check:lights-off");
+  xdotool("mousemove 360 510");
+  const auto middle = [this] { return screen_->grab(530, 205, 270, 150); };
+  const auto around = [this] { return screen_->grab(340, 60, 180, 440); };
+  const auto text = [](const ScreenPart& p) { return p.deviation() > 0.05; };
+  ASSERT_TRUE(settles(middle, text)) << "no word in the middle of the picture";
+  EXPECT_EQ(around().meanLuminance(), 0.0) << "a scene without light is not black";
+  const ScreenPart words = middle();
+  const auto background =
+      uint32_t{words.at(10, 10, 0)} << 16 | uint32_t{words.at(10, 10, 1)} << 8 | words.at(10, 10, 2);
+  EXPECT_GT(words.count(background), 270 * 150 / 2);
+
+  // Not over a picture that is not of light; not once there is a light.
+  key("6");
+  ASSERT_TRUE(settles(around, [](const ScreenPart& p) { return p.meanLuminance() > 0.1; })) << "no albedo";
+  EXPECT_LT(middle().count(background), 270 * 150 / 10) << "albedo is no light";
+  key("1");
+  ASSERT_TRUE(settles(middle, text)) << "the words do not come back";
+  xdotool(
+      "mousemove 60 233 sleep 0.5 click 1 sleep 0.5 mousemove 104 259 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  ASSERT_TRUE(settles(around, [](const ScreenPart& p) { return p.meanLuminance() > 0.05; })) << "no light is added";
+  EXPECT_LT(middle().count(background), 270 * 150 / 10) << "the words stay";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
+TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = viewport();
+  // In the list behind the arrow of the first row, emissive facets: "off", and "auto" again.
+  const auto choose = [this](int y) {
+    xdotool(
+        fmt::format("mousemove 301 684 sleep 0.5 click 1 sleep 0.8 mousemove 305 {} sleep 0.5 click 1 sleep 0.5", y));
+    xdotool("mousemove 360 510");
+  };
+  choose(660);
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.1; }))
+      << "the lamp still shines";
+  choose(632);
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; })) << "not auto again";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
   start();
   ASSERT_TRUE(viewportSettles(lit));

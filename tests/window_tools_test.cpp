@@ -102,7 +102,7 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart&) { return right() == alsoA; }))
       << "the same settings, two pictures";
   xdotool(
-      "mousemove 205 621 sleep 0.5 click 1 sleep 0.8 mousemove 160 642 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+      "mousemove 205 615 sleep 0.5 click 1 sleep 0.8 mousemove 160 636 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
@@ -254,6 +254,20 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   EXPECT_TRUE(says("lights of a.glb.irad.json"));
   key("Escape");
   EXPECT_EQ(window_->wait(60), 0);
+}
+
+TEST_F(WindowToolsTest, TheMenuCapturesAFrameWithRenderDoc) {
+  environment_["LD_PRELOAD"] = RENDERDOC_STAND_IN;
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  // File, Capture a frame with RenderDoc.
+  xdotool("mousemove 22 15 sleep 0.5 click 1 sleep 0.5 mousemove 80 157 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  EXPECT_TRUE(says("RenderDoc saved out/captures/box_capture.rdc")) << window_->log();
+  EXPECT_EQ(slurp(folder_.path / "out/captures/box_capture.rdc"), "RDOC");
+  ASSERT_TRUE(viewportSettles(lit)) << "no picture after the capture";
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
 }
 
 TEST_F(WindowToolsTest, RecordsFramesWhileItIsAskedTo) {

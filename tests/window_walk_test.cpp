@@ -246,6 +246,19 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   EXPECT_TRUE(shows(render("direct", {"--lights", lightsToJson(lights)}), *viewInfo(VIEW_DIRECT)));
   click(84, top + 13 * kFramed + kLine + 5 + 10);  // Revert
   EXPECT_TRUE(becomes([&](const ScreenPart& p) { return p == direct; })) << "not reverted";
+  // And dragged: the intensity to the right by half of the field, a hundredth of itself a pixel; the position.
+  const auto drag = [&](int y, int pixels) {
+    xdotool(fmt::format("mousemove 200 {0} sleep 0.3 mousedown 1 sleep 0.3 mousemove {1} {0} sleep 0.3 mouseup 1", y,
+                        200 + pixels));
+    rest();
+  };
+  drag(top + 5 * kFramed + kLine + 5 + 10, 70);
+  EXPECT_GT(picture().meanLuminance(), 1.05 * direct.meanLuminance()) << "the intensity is not dragged";
+  drag(top + 9 * kFramed + kLine + 5 + 10, -60);
+  const ScreenPart brighter = picture();
+  EXPECT_GT(brighter.difference(direct), 0.1);
+  click(84, top + 13 * kFramed + kLine + 5 + 10);  // Revert
+  EXPECT_TRUE(becomes([&](const ScreenPart& p) { return p == direct; })) << "dragged values are not reverted";
   unfold("Lights");
 
   // Cameras: a bookmark of where one has flown to, beside the scene's two.
@@ -265,9 +278,10 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   // Settings: voxel.resolution, typed.
   key("1");
   top = unfold("Settings");
-  typeInto(220, top + 2 * kFramed + kLine + 10, "24");
+  const int resolution = top + kFramed + 2 * kLine + 10;
+  typeInto(220, resolution, "24");
   EXPECT_TRUE(shows(render("lit", {"--set", "voxel.resolution=24"}), *viewInfo(VIEW_LIT)));
-  typeInto(220, top + 2 * kFramed + kLine + 10, "16");
+  typeInto(220, resolution, "16");
   unfold("Settings");
   EXPECT_TRUE(comesBack()) << "16 voxels again";
 
@@ -331,7 +345,19 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   EXPECT_TRUE(says("Saved "));
   unfold("Memory");
 
-  // Timings: every tab, and a record of a second.
+  // Timings: values of two frames under the mouse; every tab, and a record of a second.
+  const auto window = [this] { return screen_->grab(0, 0, 1280, 720); };
+  rest();
+  const ScreenPart unread = window();
+  std::vector<ScreenPart> readings;
+  for (const int x : {700, 950}) {
+    xdotool(fmt::format("mousemove {} 600", x));
+    rests();
+    readings.push_back(window());
+    EXPECT_GT(readings.back().difference(unread), 0.005) << "nothing is read at " << x;
+  }
+  EXPECT_GT(readings[0].difference(readings[1]), 0.005);
+  rest();
   const auto strip = [this] { return screen_->grab(340, 570, 650, 140); };
   ScreenPart before = strip();
   for (const int tab : {407, 469, 541, 359}) {
