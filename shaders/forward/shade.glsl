@@ -45,8 +45,7 @@ layout(location = 7) out vec4 outLookup;
 
 /// The triangle's own normal, towards the viewer. One without area takes the vertices'.
 vec3 orientedFace(vec3 view) {
-  float l2 = dot(faceNormal, faceNormal);
-  vec3 n = l2 > 0.0 ? faceNormal * inversesqrt(l2) : normalize(normal);
+  precise vec3 n = dot(faceNormal, faceNormal) > 0.0 ? preciseNormalize(faceNormal) : normalize(normal);
   return dot(n, view) < 0.0 ? -n : n;
 }
 
@@ -102,13 +101,13 @@ void main() {
   // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (METHOD section 1: D).
   float nv = max(dot(n, view), 1e-3);
   float alpha = max(roughness * roughness, GGX_LEAST_ALPHA);
-  vec3 direct = vec3(0.0);
-  vec3 highlight = vec3(0.0);
+  precise vec3 direct = vec3(0.0);
+  precise vec3 highlight = vec3(0.0);
   for (uint i = 0u; anyLight() && i < push.lightCount; ++i) {
     GpuLight light = lights[MANY_LIGHTS ? 0u : i];
     if (MANY_LIGHTS) light = push.lights.at[i];
     vec3 l = lightDirection(light, local);
-    float nl = dot(n, l);
+    float nl = preciseDot(n, l);
     vec3 e = nl > 0.0 ? lightIntensity(light, local) * nl : vec3(0.0);
     if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
     // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The facet

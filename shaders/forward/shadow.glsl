@@ -3,6 +3,8 @@
 // leave out the lights that a scene does not have, from the number IRAD_LIGHT_CONSTANTS on.
 #ifndef IRAD_FORWARD_SHADOW_GLSL
 #define IRAD_FORWARD_SHADOW_GLSL
+#include "forward/precise.glsl"
+#include "forward/project.glsl"
 #include "shared/scene_gpu.h"
 
 #ifndef IRAD_SHADOW_SET
@@ -34,7 +36,7 @@ bool hasCubeMap(GpuLight light) {
 
 /// Unit vector from `position` towards the light.
 vec3 lightDirection(GpuLight light, vec3 position) {
-  return isSun(light) ? -light.direction : normalize(light.position - position);
+  return isSun(light) ? -light.direction : preciseNormalize(light.position - position);
 }
 
 /// Light that reaches `position` on a surface facing it, W/m^2: lux for a sun, I / d^2 times KHR_lights_punctual's range
@@ -42,15 +44,15 @@ vec3 lightDirection(GpuLight light, vec3 position) {
 vec3 lightIntensity(GpuLight light, vec3 position) {
   if (isSun(light)) return light.intensity;
   vec3 toLight = light.position - position;
-  float d2 = dot(toLight, toLight);
+  float d2 = preciseDot(toLight, toLight);
   if (!(d2 > 0.0)) return vec3(0.0);
-  float attenuation = 1.0 / d2;
+  precise float attenuation = 1.0 / d2;
   if (light.range > 0.0) {
     float r2 = d2 / (light.range * light.range);
     attenuation *= clamp(1.0 - r2 * r2, 0.0, 1.0);
   }
   if (isSpot(light)) {
-    float c = dot(light.direction, -toLight) * inversesqrt(d2);
+    float c = preciseDot(light.direction, -toLight) * inversesqrt(d2);
     float ramp = light.innerCos > light.outerCos
                      ? clamp((c - light.outerCos) / (light.innerCos - light.outerCos), 0.0, 1.0)
                      : (c >= light.outerCos ? 1.0 : 0.0);
@@ -71,16 +73,17 @@ vec3 lightIrradiance(GpuLight light, vec3 position, vec3 normal) {
 /// The flat maps. Every tap compares with the depth that the receiver's own plane has at the tap (the plane's depth is
 /// affine in the map for both projections), so that the normal offset need only cover one bilinear footprint.
 float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset, float texel, uint pcf) {
-  vec4 clip = light.shadowMatrix * vec4(p + n * offset, 1.0);
+  precise vec3 lifted = p + n * offset;
+  vec4 clip = project(light.shadowMatrix, lifted);
   if (!(clip.w > 0.0)) return 1.0;
   vec3 ndc = clip.xyz / clip.w;
   // Two directions in the plane, carried through the projection, give d depth / d (x, y).
   vec3 a = abs(n);
   vec3 axis = a.x < a.y ? (a.x < a.z ? vec3(1, 0, 0) : vec3(0, 0, 1)) : (a.y < a.z ? vec3(0, 1, 0) : vec3(0, 0, 1));
-  vec3 t = normalize(cross(n, axis)) * texel;
-  vec3 b = cross(n, t);
-  vec4 ct = light.shadowMatrix * vec4(t, 0.0);
-  vec4 cb = light.shadowMatrix * vec4(b, 0.0);
+  precise vec3 t = preciseNormalize(preciseCross(n, axis)) * texel;
+  vec3 b = preciseCross(n, t);
+  vec4 ct = projectDirection(light.shadowMatrix, t);
+  vec4 cb = projectDirection(light.shadowMatrix, b);
   vec3 dt = (ct.xyz - ndc * ct.w) / clip.w;
   vec3 db = (cb.xyz - ndc * cb.w) / clip.w;
   float det = dt.x * db.y - dt.y * db.x;
@@ -96,21 +99,23 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
   vec2 first = floor(at - 0.5 * float(pcf));
   vec2 f = at - 0.5 * float(pcf) - first;
   vec2 perTexel = slope * vec2(2.0, -2.0) / size;
-  float sum = 0.0;
+  precise float sum = 0.0;
   for (uint y = 0u; y <= pcf; y += 2u)
     for (uint x = 0u; x <= pcf; x += 2u) {
       vec2 middle = first + vec2(x, y) + 1.0;
-      float depth = clamp(ndc.z + dot(perTexel, middle - at), 1e-30, 1.0);
+      vec2 away = perTexel * (middle - at);
+      precise float depth = clamp(ndc.z + (away.x + away.y), 1e-30, 1.0);
       vec4 blocked = textureGather(shadowFlat, vec3(middle / size, float(light.shadowLayer)), depth);
       vec2 low = vec2(x == 0u ? 1.0 - f.x : 1.0, y == 0u ? 1.0 - f.y : 1.0);
       vec2 high = vec2(x + 1u == pcf ? f.x : 1.0, y + 1u == pcf ? f.y : 1.0);
-      sum += dot(blocked, vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y));
+      vec4 shares = blocked * vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y);
+      sum += (shares.x + shares.y) + (shares.z + shares.w);
     }
   return max(1.0 - sum / float(pcf * pcf), 0.0);  // rounding may take the share above 1
 }
 
 float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
-  vec3 d = p + n * offset - light.position;
+  precise vec3 d = p + n * offset - light.position;
   vec3 a = abs(d);
   float major = max(a.x, max(a.y, a.z));
   if (!(major > 0.0)) return 1.0;
@@ -118,16 +123,16 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
   vec3 u = major == a.x ? vec3(0, 1, 0) : vec3(1, 0, 0);
   vec3 v = major == a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
   float texel = light.shadowTexel * major;
-  float height = dot(n, d);
+  float height = preciseDot(n, d);
   float first = -0.5 * float(pcf - 1u);
-  float sum = 0.0;
+  precise float sum = 0.0;
   for (uint y = 0u; y < pcf; ++y)
     for (uint x = 0u; x < pcf; ++x) {
-      vec3 tap = d + (u * (float(x) + first) + v * (float(y) + first)) * texel;
-      float along = dot(n, tap);
+      precise vec3 tap = d + (u * (float(x) + first) + v * (float(y) + first)) * texel;
+      float along = preciseDot(n, tap);
       float ratio = height < 0.0 && along < 0.0 ? clamp(height / along, 0.8, 1.25) : 1.0;
       vec3 at = abs(tap) * ratio;
-      float depth = light.shadowNear / max(at.x, max(at.y, at.z));
+      precise float depth = light.shadowNear / max(at.x, max(at.y, at.z));
       sum += texture(shadowCubes, vec4(tap, float(light.shadowLayer)), clamp(depth, 1e-30, 1.0));
     }
   return max(1.0 - sum / float(pcf * pcf), 0.0);  // rounding may take the share above 1
@@ -144,14 +149,14 @@ float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float bi
     vec3 a = abs(localPosition - light.position);
     float major = max(a.x, max(a.y, a.z));
     float along = a.x == major ? normal.x : (a.y == major ? normal.y : normal.z);
-    float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * light.shadowTexel * major;
+    precise float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * light.shadowTexel * major;
     return cubeVisibility(light, localPosition, normal, lift, pcf);
   }
-  float cosine = dot(normal, lightDirection(light, localPosition));
-  float along = dot(normal, light.direction);
-  float texel = light.shadowTexel;
-  if (isSpot(light)) texel *= dot(localPosition - light.position, light.direction);
-  float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * texel;
+  float cosine = preciseDot(normal, lightDirection(light, localPosition));
+  float along = preciseDot(normal, light.direction);
+  precise float texel = light.shadowTexel;
+  if (isSpot(light)) texel *= preciseDot(localPosition - light.position, light.direction);
+  precise float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * texel;
   return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift, texel, pcf);
 }
 

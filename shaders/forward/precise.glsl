@@ -1,0 +1,21 @@
+// Products whose order and rounding are as written in every variant of a shader. Built-in ones are the driver's to fuse,
+// and it may choose anew once a branch beside them is specialized away: leaving out an effect that a scene has not must
+// change no bit of the others. What is fed to them has to be `precise` where it is computed: that does not pass through
+// a call.
+#ifndef IRAD_FORWARD_PRECISE_GLSL
+#define IRAD_FORWARD_PRECISE_GLSL
+
+float preciseDot(vec3 a, vec3 b) {
+  precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+  return sum;
+}
+vec3 preciseCross(vec3 a, vec3 b) {
+  precise vec3 product = a.yzx * b.zxy - a.zxy * b.yzx;
+  return product;
+}
+vec3 preciseNormalize(vec3 a) {
+  precise vec3 unit = a * inversesqrt(preciseDot(a, a));
+  return unit;
+}
+
+#endif
