@@ -94,12 +94,28 @@ std::string_view groupOf(const Meta& meta) {
   return name.substr(0, name.find('.'));
 }
 
-/// True while the group is unfolded.
-bool groupHeader(const std::string& group, std::set<std::string>& folded) {
+/// Those with a setting that is not its default.
+std::set<std::string_view> editedGroups(Settings& settings, Settings& defaults) {
+  std::set<std::string_view> groups;
+  visit(settings, [&](auto&& member, const Meta& meta) {
+    bool edited;
+    if constexpr (requires { member.value; })
+      edited = member.value != twin(settings, defaults, member.value);
+    else
+      edited = member != twin(settings, defaults, member);
+    if (edited) groups.insert(groupOf(meta));
+  });
+  return groups;
+}
+
+/// In the colour of edited settings where it holds one. True while the group is unfolded.
+bool groupHeader(const std::string& group, bool edited, std::set<std::string>& folded) {
   const std::string title = "Settings/" + group;
   ImGui::SetNextItemOpen(!folded.contains(title));
+  ImGui::PushStyleColor(ImGuiCol_Text, edited ? theme::accent : theme::text);
   const bool open =
       ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+  ImGui::PopStyleColor();
   if (open)
     folded.erase(title);
   else
@@ -189,12 +205,13 @@ std::vector<std::string> settingGroups() {
 void settingRows(Settings& settings, const Settings& defaults, std::set<std::string>& folded) {
   Settings standard = defaults;
   const RowDrawer draw{settings, standard};
+  const std::set<std::string_view> edited = editedGroups(settings, standard);
   std::string_view group;
   bool open = true;
   visit(settings, [&](auto&& member, const Meta& meta) {
     if (groupOf(meta) != group) {
       group = groupOf(meta);
-      open = groupHeader(std::string(group), folded);
+      open = groupHeader(std::string(group), edited.contains(group), folded);
     }
     if (open) draw(member, meta);
   });
