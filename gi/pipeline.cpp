@@ -8,6 +8,7 @@
 
 #include "gi/host_facets.h"
 #include "gi/planned.h"
+#include "gi/stage_keys.h"
 #include "renderer/error.h"
 
 namespace irad {
@@ -25,7 +26,8 @@ struct Pipeline::Impl {
   Impl(Context& c, Scene s, const Settings& wanted)
       : context(c), scene(std::move(s)), settings(wanted), planned(scene, wanted), onDevice(c, scene) {
     materials = onDevice.materialValues;
-    useMaterials();
+    content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
+    decide();
   }
 
   Context& context;
@@ -40,9 +42,10 @@ struct Pipeline::Impl {
   uint64_t solvedFrame = 0;  ///< of the last solve
   uint64_t shaders = 0;      ///< ShaderLibrary::generation() of the last build
 
-  /// The first stage that the next prepare() has to run. Later stages follow it.
-  Redo dirty = Redo::Voxels;
-  bool shadowsDirty = true;
+  // What there is to be made, and what was made, by content.
+  SceneContent content;
+  StageKeys made;
+  uint64_t shadowsMade = 0, shadowsWanted = 0;
 
   /// One member per stage's product; all of one facet list.
   struct Products {
@@ -61,13 +64,28 @@ struct Pipeline::Impl {
 
   // ---- What the plan says ----
 
-  /// Decides anew on what is known by now, and makes due what that changes.
+  /// The first stage that the next prepare() has to run. Later stages follow it.
+  Redo due() const { return firstDifference(made, stageKeys(content, planned.settings())); }
+  bool shadowsDue() const { return shadowsMade != shadowsWanted; }
+
+  /// Decides anew on what is known by now; what that changes becomes due.
   void decide() {
-    const Settings before = planned.settings();
-    dirty = std::min(dirty, planned.decide(settings));
-    const EffectSettings &was = before.effects, &is = planned.settings().effects;
-    shadowsDirty |= was.sun != is.sun || was.point != is.point || was.spot != is.spot || was.alphaTest != is.alphaTest;
-    if (was.emission != is.emission || was.alphaTest != is.alphaTest || was.normalMap != is.normalMap) useMaterials();
+    planned.decide(settings);
+    // Back at the settings of the voxels that there are, what those have shown holds again.
+    if (!planned.traits.build && now.facets && due() > Redo::Voxels) {
+      learn(now);
+      planned.decide(settings);
+    }
+    useMaterials();
+    shadowsWanted = shadowKey(onDevice.lightValues);
+  }
+
+  /// Of the maps that these lights take.
+  uint64_t shadowKey(std::span<const GpuLight> lights) const {
+    Digest digest;
+    digest.add(content.surfaces).add(planned.on(Effect::alphaTest)).add(settings.light.shadowResolution);
+    for (const GpuLight& light : lights) digest.add(planned.shines(light, scene, settings)).add(shadowContent(light));
+    return digest.value();
   }
 
   void useMaterials() {
@@ -81,12 +99,13 @@ struct Pipeline::Impl {
     planned.traits.lights.clear();
     for (const GpuLight& light : lights)
       planned.traits.lights.push_back(measureLight(light, scene, settings.voxel.resolution));
+    content.lights = lightContent(lights);
     decide();
   }
 
   /// What the products have shown.
   void learn(const Products& p) {
-    const MatrixStats& stats = p.matrix->stats;
+    const MatrixStats stats = p.matrix ? p.matrix->stats : MatrixStats{};
     planned.traits.build = BuildTraits{
         .voxels = p.facets->grid.voxels,
         .facets = p.facets->count,
@@ -94,14 +113,14 @@ struct Pipeline::Impl {
         .emitters = p.emitters->count,
         .sampledShare = p.light ? p.light->sampledShare : 0,
         .sampled = p.light && p.light->correction,
-        .matrix = static_cast<bool>(*p.matrix),
+        .matrix = p.matrix && *p.matrix,
         .escaped = stats.rays > 0 ? static_cast<double>(stats.escaped) / static_cast<double>(stats.rays) : 0};
   }
 
   /// The light's state, which changes from frame to frame.
   LightState lightState() const {
     LightState state = planned.traits.light;
-    state.due = shadowsDirty ? std::min(dirty, Redo::Gather) : dirty;
+    state.due = shadowsDue() ? std::min(due(), Redo::Gather) : due();
     if (!now.light) return state;
     const SolveReport& r = now.light->report;
     state.settled = r.settled();
@@ -116,7 +135,8 @@ struct Pipeline::Impl {
   // ---- What is due ----
 
   void prepare(uint32_t maxSweeps, const Progress& progress) {
-    if (dirty <= Redo::Voxels) {
+    Redo first = due();
+    if (first <= Redo::Voxels) {
       // What the voxels have shown is of the shaders that made them, too.
       if (std::exchange(shaders, context.shaders.generation()) != context.shaders.generation()) {
         planned.traits.build.reset();
@@ -125,20 +145,24 @@ struct Pipeline::Impl {
       // The new list's products replace the old ones together, once they are lit. Until then the old picture stays.
       Products fresh;
       build(fresh, Redo::Voxels, progress);
-      relight(fresh, Redo::Gather, maxSweeps, progress);
+      relight(fresh, Redo::Emission, maxSweeps, progress);
       now = std::move(fresh);
     } else {
-      if (dirty <= Redo::Matrix) {
-        build(now, dirty, progress);
-        dirty = Redo::Gather;
+      if (first <= Redo::Matrix) {
+        build(now, first, progress);
+        const StageKeys keys = stageKeys(content, planned.settings());
+        std::copy_n(keys.of.begin(), static_cast<size_t>(Redo::Emission), made.of.begin());
+        first = Redo::Emission;
       }
       fitField(now);
       if (!relights()) return;
-      if (settings.effects.relight == EffectMode::on) dirty = std::min(dirty, Redo::Gather);
-      if (dirty > Redo::Scatter && now.light->report.settled()) return;
-      relight(now, dirty <= Redo::Scatter ? dirty : Redo::Solve, maxSweeps, progress);
+      if (settings.effects.relight == EffectMode::on) first = std::min(first, Redo::Gather);
+      if (first > Redo::Scatter && now.light->report.settled()) return;
+      if (first > Redo::Scatter) first = Redo::Solve;
+      made.forget(first);
+      relight(now, first, maxSweeps, progress);
     }
-    dirty = Redo::Nothing;
+    made = stageKeys(content, planned.settings());
   }
 
   /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
@@ -172,12 +196,14 @@ struct Pipeline::Impl {
     // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
     report("GI BuildMatrix", 0);
     // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first.
-    if (first <= Redo::Voxels) now.matrix.reset();
+    if (first <= Redo::Voxels) {
+      made.forget(Redo::Matrix);
+      now.matrix.reset();
+    }
     p.matrix = lit() ? buildMatrix(context, *p.facets, field ? *field : *p.field, obeyed,
                                    [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); })
                      : FormFactors{};
     if (field) p.field = std::move(field);
-    if (p.light) p.light->emittedCurrent = false;  // F M of the old F
     learn(p);
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
@@ -214,6 +240,7 @@ struct Pipeline::Impl {
     // A new list has no light yet: given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (!lit()) return darken(p);
+    if (first <= Redo::Emission && p.light) p.light->emittedCurrent = false;
     if (!p.light || !*p.light) {
       planned.traits.light.noise.reset();
       decide();
@@ -330,14 +357,15 @@ uint64_t Pipeline::flips() const {
 
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
-  if (p.settings.light.shadowResolution != settings.light.shadowResolution) p.shadowsDirty = true;
-  // F M depends on how emitters are sampled, which no other stage does.
-  const MatrixSettings &before = p.settings.matrix, &after = settings.matrix;
-  if (p.now.light && (before.emitterSampling != after.emitterSampling || before.emitterSamples != after.emitterSamples))
-    p.now.light->emittedCurrent = false;
   p.settings = settings;
   p.lookAtLights(p.onDevice.lightValues);
-  return p.dirty;
+  return p.due();
+}
+
+Redo Pipeline::due(const Settings& settings) const {
+  const Impl& p = *impl_;
+  const EffectPlan plan = irad::plan(p.planned.traits, settings, &p.planned.plan());
+  return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
 
 void Pipeline::setLights(std::vector<Light> lights) {
@@ -347,49 +375,60 @@ void Pipeline::setLights(std::vector<Light> lights) {
   std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
   const auto start = std::chrono::steady_clock::now();
   const Planned planned = p.planned;
-  const Redo dirty = p.dirty;
-  const bool shadowsDirty = p.shadowsDirty;
+  const SceneContent content = p.content;
   try {
     p.lookAtLights(values);
-    ShadowMaps maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
+    const uint64_t key = p.shadowKey(values);
+    std::optional<ShadowMaps> maps;
+    if (p.shadows && p.shadowsMade == key)
+      keepShadows(values, p.onDevice.lightValues);
+    else
+      maps = drawShadows(p.context, p.onDevice, values, p.settings.light.shadowResolution, p.shadowNeeds());
     p.onDevice.setLights(p.context, std::move(values), p.shadowNeeds().shines);
-    p.shadows = std::move(maps);
+    if (maps) p.shadows = std::move(maps);
+    p.shadowsMade = p.shadowsWanted = key;
   } catch (...) {
     p.planned = planned;
-    p.dirty = dirty;
-    p.shadowsDirty = shadowsDirty;
+    p.content = content;
+    p.shadowsWanted = p.shadowKey(p.onDevice.lightValues);
     throw;
   }
   p.scene.lights = std::move(lights);
-  p.dirty = std::min(p.dirty, Redo::Gather);
-  p.shadowsDirty = false;
   p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
 }
 
+bool Pipeline::adopt(Scene& scene) {
+  Impl& p = *impl_;
+  if (surfaceContent(scene) != p.content.surfaces) return false;
+  setLights(scene.lights);
+  p.scene = std::move(scene);  // where p.onDevice looks for it
+  return true;
+}
+
 void Pipeline::lightsChanged() {
-  impl_->shadowsDirty = true;
-  impl_->dirty = std::min(impl_->dirty, Redo::Gather);
+  impl_->shadowsMade = 0;
+  impl_->made.forget(Redo::Gather);
 }
 
 void Pipeline::darken() {
   Impl& p = *impl_;
   if (!p.now.light) return;
   if (*p.now.light) p.now.light = makeLighting(p.context, *p.now.facets, p.planned.settings());
-  impl_->dirty = std::min(impl_->dirty, Redo::Gather);
+  p.made.forget(Redo::Gather);
 }
 
 void Pipeline::invalidate(Redo from) {
-  impl_->dirty = std::min(impl_->dirty, from);
+  impl_->made.forget(from);
 }
 
 void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
   const uint32_t sweeps = maxSweeps != 0 ? maxSweeps : p.settings.solver.maxSweeps;
-  if (p.shadowsDirty) {
+  if (p.shadowsDue()) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
     const auto start = std::chrono::steady_clock::now();
     p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution, p.shadowNeeds());
-    p.shadowsDirty = false;
+    p.shadowsMade = p.shadowsWanted;
     p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
   }
   p.prepare(sweeps, progress);
@@ -402,7 +441,8 @@ bool Pipeline::asleep() const {
 
 bool Pipeline::current() const {
   const Impl& p = *impl_;
-  return p.dirty >= (p.relights() ? Redo::Shade : Redo::Gather) && !p.shadowsDirty && p.now.light && p.fieldFits(p.now);
+  const Redo needed = p.relights() ? Redo::Scatter : Redo::Matrix;
+  return p.due() > needed && !p.shadowsDue() && p.now.light && p.fieldFits(p.now);
 }
 
 void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()>& draw) {
@@ -414,10 +454,8 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
     std::optional<Lighting> light = std::exchange(p.now.light, std::nullopt);
     uint64_t solvedFrame = p.solvedFrame;
     Planned planned = p.planned;
-    Redo dirty = p.dirty;
     ~Before() {
       p.planned = std::move(planned);
-      p.dirty = dirty;
       p.now.light = std::move(light);
       p.solvedFrame = solvedFrame;
     }

@@ -40,12 +40,19 @@ class Pipeline {
   const SceneTraits& traits() const;
   /// How often an effect has gone on or off.
   uint64_t flips() const;
-  /// Takes new settings; returns the first stage that the next prepare() will redo.
+  /// Takes new settings; returns the first stage that the next prepare() will redo: Redo::Nothing where the settings,
+  /// or what has come of them, are those that the products were made with.
   Redo set(const Settings& settings);
+  /// What set() would return, without taking them.
+  Redo due(const Settings& settings) const;
   /// Takes other lights, of any number, and draws their shadow maps; gather, solve and scatter follow at the next
   /// prepare(). UsageError names what is wrong with a light, DeviceError what the device lacks for its shadow map: then
   /// the old lights stay.
   void setLights(std::vector<Light> lights);
+  /// Takes another reading of the scene, such as its file after an edit, with other lights, cameras and bookmarks.
+  /// False, and `scene` and this stay as they are, where its surfaces differ by their content: that takes another
+  /// pipeline. Throws what setLights() throws.
+  bool adopt(Scene& scene);
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
 

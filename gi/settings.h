@@ -33,8 +33,9 @@ enum class ColorMap : uint32_t { violetYellow, heat, grey };
 /// though it is.
 enum class EffectMode : uint32_t { automatic, on, off };
 
-/// The first stage that has to run again when a setting changes; later ones follow. Ordered.
-enum class Redo : uint32_t { Voxels, Field, Matrix, Gather, Solve, Scatter, Shade, Nothing };
+/// The first stage that has to run again when a setting changes; later ones follow. Ordered. (Emission: the first gather
+/// from emissive facets, F M of METHOD 6.)
+enum class Redo : uint32_t { Voxels, Field, Matrix, Emission, Gather, Solve, Scatter, Shade, Nothing };
 
 /// The names of an enumeration's values, in order. Specialized below visit().
 template <class E>
@@ -172,7 +173,7 @@ struct EnumNames<ToneCurve> {
 };
 template <>
 struct EnumNames<Redo> {
-  static constexpr std::array names{"voxels", "field", "matrix", "gather", "solve", "scatter", "shade", "nothing"};
+  static constexpr std::array names{"voxels", "field", "matrix", "emission", "gather", "solve", "scatter", "shade", "nothing"};
 };
 template <>
 struct EnumNames<EmitterSampling> {
@@ -228,8 +229,8 @@ void visit(Settings& s, F&& f) {
   f(EnumRef<HitRule>{s.matrix.gpu.hitRule}, Meta{"matrix.hit_rule", 0, 0, "", "Which faces a ray starts from and stops at.", Voxels});
   f(EnumRef<Traversal>{s.matrix.gpu.traversal}, Meta{"matrix.traversal", 0, 0, "", "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix});
   f(BoolRef{s.matrix.gpu.jitter}, Meta{"matrix.jitter", 0, 1, "", "Shift the direction set per voxel (Cranley-Patterson).", Matrix});
-  f(s.matrix.emitterSampling, Meta{"matrix.emitter_sampling", 0, 0, "", "First gather from emissive facets by samples of them instead of the row's rays; auto: where they are less than a tenth of all and the sum agrees with the rays'.", Solve});
-  f(s.matrix.emitterSamples, Meta{"matrix.emitter_samples", 1, 256, "rays", "Rays per facet to the emitters.", Solve});
+  f(s.matrix.emitterSampling, Meta{"matrix.emitter_sampling", 0, 0, "", "First gather from emissive facets by samples of them instead of the row's rays; auto: where they are less than a tenth of all and the sum agrees with the rays'.", Emission});
+  f(s.matrix.emitterSamples, Meta{"matrix.emitter_samples", 1, 256, "rays", "Rays per facet to the emitters.", Emission});
   f(s.matrix.gpu.seed, Meta{"matrix.seed", 0, 4294967295.0, "", "Seed of the ray directions (--seed).", Matrix});
   f(s.gather.samples, Meta{"gather.samples", 1, 16, "samples", "Shadow lookups per facet and light.", Gather});
   f(s.solver.gpu.lambda, Meta{"solver.lambda", 0, 2, "", "Artistic gain of T 4.3; 1 leaves the physics alone.", Solve});

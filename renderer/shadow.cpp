@@ -200,6 +200,17 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
   return maps;
 }
 
+void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn) {
+  IRAD_CHECK_OP(lights.size(), ==, drawn.size());
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const glm::vec3 intensity = lights[i].intensity;
+    const float innerCos = lights[i].innerCos;
+    lights[i] = drawn[i];
+    lights[i].intensity = intensity;
+    lights[i].innerCos = innerCos;
+  }
+}
+
 LightKinds kindsOf(std::span<const GpuLight> shining) {
   LightKinds kinds{false, false, false};
   for (const GpuLight& light : shining) {

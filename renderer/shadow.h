@@ -24,6 +24,8 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
                        const ShadowNeeds& needs = {});
 /// Of the scene's own lights, which are uploaded again. They and their maps stay when it throws.
 ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution, const ShadowNeeds& needs = {});
+/// Fills in what drawShadows has filled in for the same lights, of which only colours and intensities have changed.
+void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn);
 
 /// Types of light that shine.
 struct LightKinds {

@@ -45,6 +45,12 @@ void Builder::load(const std::filesystem::path& path) {
       if (!progress(step, fraction)) throw WorkError(kCancelled);
     };
     Scene scene = openScene(path, load);
+    if (again && adopt(scene)) {
+      session_.beginEdits(unsaved);
+      session_.work.reset();
+      return session_.note(
+          fmt::format("{}: its surfaces are as they were, and so is what was made of them", path.filename().string()));
+    }
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
     giveReference(*pipeline);
     prepare(session_, *pipeline);
@@ -69,6 +75,19 @@ void Builder::load(const std::filesystem::path& path) {
     session_.note(fmt::format("{}: loading was cancelled", path.filename().string()));
   }
   session_.work.reset();
+}
+
+/// Another reading of the scene that is shown: of the same surfaces voxels and matrix are kept.
+bool Builder::adopt(const Scene& scene) {
+  for (Side* side : session_.sides()) {
+    Scene reading = scene;
+    if (!side->pipeline->adopt(reading)) return false;
+    side->woke();
+  }
+  session_.load.lights.reset();
+  session_.halted = false;
+  session_.viewDirty = true;
+  return true;
 }
 
 bool Builder::stale() const {
@@ -115,7 +134,7 @@ void Builder::apply(bool held) {
   Pipeline& pipeline = *session_.pipeline;
   if (values(session_.edited) != session_.applied) {
     const bool reload = session_.edited.lambertian != loadedLambertian_;
-    const Redo redo = reload ? Redo::Voxels : difference(pipeline.settings(), session_.edited);
+    const Redo redo = reload ? Redo::Voxels : pipeline.due(session_.edited);
     session_.next = redo;
     if (redo < Redo::Shade && (shownNext_ != redo || held)) return;
     session_.next = Redo::Nothing;

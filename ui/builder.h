@@ -17,7 +17,7 @@ class Builder {
   Builder(Context& context, Session& session, std::function<void()> breathe);
 
   /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded; throws what went
-  /// wrong.
+  /// wrong. Of the scene that is shown, read again, it takes lights and cameras alone where the surfaces are the same.
   void load(const std::filesystem::path& path);
   /// Takes another reference picture, for every side; what is wrong with the file is said, and the old one stays.
   void openReference(const std::filesystem::path& path);
@@ -37,6 +37,7 @@ class Builder {
   bool stale() const;
 
  private:
+  bool adopt(const Scene& scene);
   void applyLights();
   void giveReference(Pipeline& pipeline);
   void rebuild(Side& side, std::string what);

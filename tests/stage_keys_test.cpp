@@ -1,0 +1,258 @@
+// A stage is due where what it reads has changed by content, and only there.
+#include "gi/stage_keys.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "gi/pipeline.h"
+#include "renderer/error.h"
+#include "tests/gi_fixture.h"
+
+namespace irad::test {
+namespace {
+
+/// Another value of a setting, within its range.
+template <class Member>
+void change(Member&& member, const Meta& meta) {
+  const auto other = [&](auto value) {
+    return static_cast<double>(value) == meta.max ? static_cast<decltype(value)>(meta.min)
+                                                  : static_cast<decltype(value)>(meta.max);
+  };
+  if constexpr (requires { member.value; })
+    member.value = member.value == 0 ? 1 : 0;
+  else if constexpr (std::is_enum_v<std::remove_reference_t<Member>>)
+    member = static_cast<std::remove_reference_t<Member>>(member == std::remove_reference_t<Member>{} ? 1 : 0);
+  else if constexpr (std::is_same_v<std::remove_reference_t<Member>, bool>)
+    member = !member;
+  else
+    member = other(member);
+}
+
+TEST(StageKeys, EverySettingMakesItsStageDueAndNoEarlierOne) {
+  const SceneContent content{1, 2};
+  const Settings before = defaultSettings(/*cpuDevice=*/true);
+  size_t settings = 0;
+  Settings walk = before;
+  visit(walk, [&](auto&&, const Meta& which) {
+    ++settings;
+    Settings after = before;
+    visit(after, [&](auto&& member, const Meta& meta) {
+      if (std::string_view(meta.name) == which.name) change(member, meta);
+    });
+    ASSERT_NE(settingValue(before, which.name), settingValue(after, which.name)) << which.name;
+    const Redo expected = which.redo < Redo::Shade ? which.redo : Redo::Nothing;
+    EXPECT_EQ(firstDifference(stageKeys(content, before), stageKeys(content, after)), expected) << which.name;
+  });
+  EXPECT_GT(settings, 50u);
+}
+
+TEST(StageKeys, SurfacesAreWhatVoxelsAreMadeOfLightsWhatIsGathered) {
+  const Settings s = defaultSettings(true);
+  const StageKeys keys = stageKeys({1, 2}, s);
+  EXPECT_EQ(firstDifference(keys, stageKeys({1, 2}, s)), Redo::Nothing);
+  EXPECT_EQ(firstDifference(keys, stageKeys({3, 2}, s)), Redo::Voxels);
+  EXPECT_EQ(firstDifference(keys, stageKeys({1, 3}, s)), Redo::Gather);
+  EXPECT_EQ(firstDifference({}, keys), Redo::Voxels) << "nothing was made";
+  StageKeys forgotten = keys;
+  forgotten.forget(Redo::Solve);
+  EXPECT_EQ(firstDifference(forgotten, keys), Redo::Solve);
+}
+
+TEST(SurfaceContent, IsOfEveryVertexMaterialAndTexel) {
+  Scene scene = furnishedRoom();
+  scene.images.push_back({"checks", 2, 2, true, std::vector<uint8_t>(16, 255)});
+  scene.materials[0].baseColorTexture.image = 0;
+  const uint64_t before = surfaceContent(scene);
+  EXPECT_EQ(surfaceContent(Scene(scene)), before);
+  const std::pair<const char*, std::function<void(Scene&)>> edits[]{
+      {"a vertex moves", [](Scene& s) { s.positions[3].x += 1e-6f; }},
+      {"a normal turns", [](Scene& s) { s.normals[3] = -s.normals[3]; }},
+      {"two indices swap", [](Scene& s) { std::swap(s.indices[0], s.indices[1]); }},
+      {"a triangle takes another material", [](Scene& s) { s.draws[0].material ^= 1; }},
+      {"a colour", [](Scene& s) { s.materials[0].baseColor.y *= 0.5f; }},
+      {"an emission", [](Scene& s) { s.materials[0].emission.z += 1; }},
+      {"a wrap", [](Scene& s) { s.materials[0].baseColorTexture.sampler.v = Wrap::Clamp; }},
+      {"a texel", [](Scene& s) { s.images[0].rgba[7] = 254; }},
+      {"the file's place in the world", [](Scene& s) { s.origin.x += 1; }}};
+  std::set<uint64_t> seen{before};
+  for (const auto& [what, edit] : edits) {
+    Scene other = scene;
+    edit(other);
+    EXPECT_TRUE(seen.insert(surfaceContent(other)).second) << what;
+  }
+  Scene other = scene;
+  other.lights.clear();
+  other.cameras.clear();
+  other.path = "another.glb";
+  EXPECT_EQ(surfaceContent(other), before) << "lights, cameras and names are no surfaces";
+}
+
+class Dirty : public GiTest {
+ protected:
+  Dirty() {
+    settings_ = at(16, 32);
+    settings_.light.shadowResolution = 128;
+  }
+  static Light lamp(double x, float candela = 3) {
+    return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
+  }
+  static Scene room() {
+    Scene scene = furnishedRoom();
+    scene.lights = {lamp(0)};
+    return scene;
+  }
+  std::unique_ptr<Pipeline> prepared() {
+    auto pipeline = std::make_unique<Pipeline>(context(), room(), settings_);
+    pipeline->prepare();
+    recorded();
+    return pipeline;
+  }
+  /// Whether a stage of this name was recorded since the last call of recorded().
+  bool ran(const char* stage) {
+    for (const Timings::Row& row : context().timings.rows())
+      if (row.stage.starts_with(stage)) return true;
+    return false;
+  }
+  void recorded() { context().timings.reset(); }
+  Settings settings_;
+};
+
+TEST_F(Dirty, WhatIsChangedAndChangedBackCostsNothing) {
+  const auto pipeline = prepared();
+  const Revision before = pipeline->revision();
+  const EffectPlan plan = pipeline->plan();
+  Settings other = settings_;
+  other.voxel.resolution = 24;
+  EXPECT_EQ(pipeline->due(other), Redo::Voxels);
+  EXPECT_EQ(pipeline->due(settings_), Redo::Nothing) << "due() takes nothing";
+  EXPECT_EQ(pipeline->set(other), Redo::Voxels);
+  EXPECT_FALSE(pipeline->current());
+  EXPECT_EQ(pipeline->set(settings_), Redo::Nothing);
+  EXPECT_TRUE(pipeline->asleep());
+  pipeline->setLights({lamp(0.1)});
+  EXPECT_FALSE(pipeline->asleep());
+  pipeline->setLights({lamp(0)});
+  EXPECT_TRUE(pipeline->asleep());
+  const Counters work = context().counters();
+  pipeline->prepare();
+  EXPECT_EQ(context().counters().since(work).dispatches, 0u);
+  EXPECT_EQ(pipeline->revision(), before);
+  for (const EffectRow& row : pipeline->plan().rows) EXPECT_EQ(row.reason, plan.row(row.effect).reason);
+}
+
+TEST_F(Dirty, LambdaRebuildsNothingAndGathersNothing) {
+  const auto pipeline = prepared();
+  const uint64_t built = pipeline->revision().build;
+  settings_.solver.gpu.lambda = 0.5f;
+  EXPECT_EQ(pipeline->set(settings_), Redo::Solve);
+  pipeline->prepare();
+  EXPECT_EQ(pipeline->revision().build, built);
+  EXPECT_TRUE(ran("GI Solve"));
+  for (const char* stage : {"GI Voxelization", "GI CompactList", "GI SDF", "GI BuildMatrix", "GI Gather", "RE Shadow"})
+    EXPECT_FALSE(ran(stage)) << stage;
+}
+
+TEST_F(Dirty, EmitterSamplesAreTakenAnewOfTheSameMatrix) {
+  Scene scene = room();
+  scene.materials.at(0).emission = glm::vec3(1);
+  settings_.matrix.emitterSampling = EmitterSampling::on;
+  Pipeline pipeline(context(), std::move(scene), settings_);
+  pipeline.prepare();
+  const uint64_t built = pipeline.revision().build;
+  recorded();
+  settings_.matrix.emitterSamples = 64;
+  EXPECT_EQ(pipeline.set(settings_), Redo::Emission);
+  pipeline.prepare();
+  EXPECT_TRUE(ran("GI Solve Emitters"));
+  EXPECT_EQ(pipeline.revision().build, built);
+  EXPECT_TRUE(pipeline.asleep());
+}
+
+TEST_F(Dirty, ALightsColourRedrawsNoShadowMapItsPlaceDoes) {
+  const auto pipeline = prepared();
+  pipeline->setLights({lamp(0, 5)});
+  pipeline->prepare();
+  EXPECT_FALSE(ran("RE Shadow"));
+  EXPECT_TRUE(ran("GI Gather"));
+  recorded();
+  pipeline->setLights({lamp(0.1, 5)});
+  pipeline->prepare();
+  EXPECT_TRUE(ran("RE Shadow"));
+  EXPECT_FALSE(ran("GI BuildMatrix"));
+}
+
+// The light of maps that were kept is that of maps that were drawn for it.
+TEST_F(Dirty, KeptShadowMapsGiveTheSameBits) {
+  const auto picture = [&](Pipeline& pipeline) {
+    std::vector<std::byte> bytes;
+    pipeline.solvedAfresh({}, [&] {
+      Targets targets(context(), {32, 24});
+      Frame frame = context().begin();
+      pipeline.render(frame, pipeline.scene().cameras.at(0), VIEW_LIT, targets);
+      frame.submitAndWait();
+      bytes = download(context(), targets.linear);
+    });
+    return bytes;
+  };
+  const auto pipeline = prepared();
+  const std::vector<std::byte> before = picture(*pipeline);
+  pipeline->setLights({lamp(0, 5)});
+  pipeline->prepare();
+  const std::vector<std::byte> kept = picture(*pipeline);
+  pipeline->lightsChanged();  // maps and all
+  pipeline->prepare();
+  EXPECT_EQ(picture(*pipeline), kept);
+  EXPECT_NE(kept, before);
+}
+
+TEST_F(Dirty, ASceneReadAgainKeepsWhatItsSurfacesHaveMade) {
+  const auto pipeline = prepared();
+  const uint64_t built = pipeline->revision().build;
+  Scene again = room();
+  ASSERT_TRUE(pipeline->adopt(again));
+  EXPECT_TRUE(pipeline->asleep()) << "nothing has changed";
+  Scene brighter = room();
+  brighter.lights.push_back(lamp(0.2, 1));
+  brighter.cameras.push_back(brighter.cameras.at(0));
+  ASSERT_TRUE(pipeline->adopt(brighter));
+  EXPECT_EQ(pipeline->scene().lights.size(), 2u);
+  EXPECT_EQ(pipeline->scene().cameras.size(), room().cameras.size() + 1);
+  EXPECT_FALSE(pipeline->asleep());
+  pipeline->prepare();
+  EXPECT_EQ(pipeline->revision().build, built);
+  // A moved vertex takes a pipeline of its own; this one stays, and so does what was read.
+  Scene moved = room();
+  moved.positions[0].y += 0.1f;
+  EXPECT_FALSE(pipeline->adopt(moved));
+  EXPECT_FALSE(moved.positions.empty());
+  EXPECT_TRUE(pipeline->asleep());
+  // So do wrong lights.
+  Scene wrong = room();
+  wrong.lights[0].intensity = -1;
+  EXPECT_THROW(pipeline->adopt(wrong), UsageError);
+  EXPECT_EQ(pipeline->scene().lights.size(), 2u);
+  EXPECT_TRUE(pipeline->asleep());
+}
+
+TEST_F(Dirty, ARebuildThatWasCancelledOwesTheMatrixItGaveUp) {
+  const auto pipeline = prepared();
+  Settings other = settings_;
+  other.voxel.resolution = 24;
+  pipeline->set(other);
+  int rows = 0;  // reports of the matrix: the first comes before the old one is given up
+  EXPECT_THROW(pipeline->prepare([&](const char* stage, float) {
+    rows += std::string_view(stage) == "GI BuildMatrix" ? 1 : 0;
+    return rows < 2;
+  }),
+               WorkError);
+  EXPECT_EQ(pipeline->set(settings_), Redo::Matrix) << "the voxels are still there";
+  recorded();
+  pipeline->prepare();
+  EXPECT_FALSE(ran("GI Voxelization"));
+  EXPECT_TRUE(ran("GI BuildMatrix"));
+  EXPECT_TRUE(pipeline->asleep());
+}
+
+}  // namespace
+}  // namespace irad::test
