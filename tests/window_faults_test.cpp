@@ -36,6 +36,50 @@ TEST_F(WindowFaultsTest, TakesDroppedScenesAndRefusesOthersInWords) {
   EXPECT_EQ(window_->wait(20), 0);
 }
 
+TEST_F(WindowFaultsTest, AFileReadAgainRebuildsOnlyWhatHasChanged) {
+  // A triangle before a lamp, x wide.
+  const auto write = [&](float x, float candela) {
+    GltfFile file;
+    file.attributes()["POSITION"] = file.vec3({0, 0, 0, x, 0, 0, 0, 1, 0});
+    file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", candela}}};
+    file.json["nodes"].push_back({{"translation", {0.3, 0.3, 0.8}}});
+    file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    return file.write(folder_.path, "lamp.gltf");
+  };
+  const auto kept = [this] {
+    size_t n = 0;
+    for (size_t at = 0; (at = window_->log().find("its surfaces are as they were", at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  const auto shows = [&](const std::function<bool(const ScreenPart&)>& wanted) {
+    return settles([this] { return part(); }, wanted);
+  };
+  start();
+  xdotool("mousemove 360 510");
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart box = part();
+  ASSERT_TRUE(drop({write(1, 1)}));
+  ASSERT_TRUE(shows([&](const ScreenPart& p) { return p.difference(box) > 0.2; }));
+  const ScreenPart dim = part();
+  EXPECT_EQ(kept(), 0u);
+
+  // A brighter lamp: voxels and matrix are kept.
+  ASSERT_TRUE(drop({write(1, 8)}));
+  EXPECT_TRUE(says("its surfaces are as they were"));
+  ASSERT_TRUE(shows([&](const ScreenPart& p) { return p.meanLuminance() > dim.meanLuminance() + 0.02; }));
+  const ScreenPart bright = part();
+  EXPECT_EQ(kept(), 1u);
+
+  // A wider triangle: everything anew.
+  ASSERT_TRUE(drop({write(2, 8)}));
+  ASSERT_TRUE(shows([&](const ScreenPart& p) { return p.difference(bright) > 0.02; }));
+  EXPECT_EQ(kept(), 1u);
+  key("Escape");
+  EXPECT_EQ(window_->wait(20), 0);
+}
+
 TEST_F(WindowFaultsTest, ADroppedPictureIsTheReference) {
   start({"--view", "reference-picture"});
   xdotool("mousemove 360 510");
