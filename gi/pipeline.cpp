@@ -65,7 +65,8 @@ struct Pipeline::Impl {
   // ---- What the plan says ----
 
   /// The first stage that the next prepare() has to run. Later stages follow it.
-  Redo due() const { return firstDifference(made, stageKeys(content, planned.settings())); }
+  Redo due() const { return firstDifference(made, wanted()); }
+  StageKeys wanted() const { return stageKeys(content, planned.settings()); }
   bool shadowsDue() const { return shadowsMade != shadowsWanted; }
 
   /// Decides anew on what is known by now; what that changes becomes due.
@@ -120,7 +121,7 @@ struct Pipeline::Impl {
   /// The light's state, which changes from frame to frame.
   LightState lightState() const {
     LightState state = planned.traits.light;
-    state.due = shadowsDue() ? std::min(due(), Redo::Gather) : due();
+    state.due = std::min(due(), shadowsDue() ? Redo::Gather : Redo::Nothing);
     if (!now.light) return state;
     const SolveReport& r = now.light->report;
     state.settled = r.settled();
@@ -150,8 +151,7 @@ struct Pipeline::Impl {
     } else {
       if (first <= Redo::Matrix) {
         build(now, first, progress);
-        const StageKeys keys = stageKeys(content, planned.settings());
-        std::copy_n(keys.of.begin(), static_cast<size_t>(Redo::Emission), made.of.begin());
+        std::copy_n(wanted().of.begin(), static_cast<size_t>(Redo::Emission), made.of.begin());
         first = Redo::Emission;
       }
       fitField(now);
@@ -162,7 +162,7 @@ struct Pipeline::Impl {
       made.forget(first);
       relight(now, first, maxSweeps, progress);
     }
-    made = stageKeys(content, planned.settings());
+    made = wanted();
   }
 
   /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.

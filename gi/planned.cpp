@@ -9,7 +9,7 @@ Planned::Planned(const Scene& scene, const Settings& settings)
       plan_(irad::plan(traits, settings)),
       settings_(obeyed(settings, plan_)) {}
 
-Redo Planned::decide(const Settings& wanted) {
+void Planned::decide(const Settings& wanted) {
   const EffectPlan before = std::exchange(plan_, irad::plan(traits, wanted, &plan_));
   const Settings next = obeyed(wanted, plan_);
   const Redo first = difference(settings_, next);
@@ -22,7 +22,6 @@ Redo Planned::decide(const Settings& wanted) {
     traits.build.reset();
     decide(wanted);
   }
-  return first;
 }
 
 bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const {

@@ -21,8 +21,8 @@ class Planned {
   /// How often an effect went on or off since the scene was loaded.
   uint64_t flips() const { return flips_; }
 
-  /// Decides anew. Returns the first stage whose result this changes.
-  Redo decide(const Settings& wanted);
+  /// Decides anew.
+  void decide(const Settings& wanted);
   /// Whether a light is to be drawn and summed up: where its kind is on those that light the scene or nearly do, with
   /// the kind forced on all of it.
   bool shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const;

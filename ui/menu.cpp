@@ -69,11 +69,7 @@ void drawView(Session& session, const Panels& panels) {
     for (const auto& panel : panels) {
       if (panel->region() == Region::Bottom) continue;
       const bool open = !folded.contains(panel->title());
-      if (!ImGui::MenuItem(panel->title(), nullptr, open)) continue;
-      if (open)
-        folded.insert(panel->title());
-      else
-        folded.erase(panel->title());
+      if (ImGui::MenuItem(panel->title(), nullptr, open)) keepFolded(folded, panel->title(), !open);
     }
     ImGui::EndMenu();
   }

@@ -8,7 +8,7 @@
 
 namespace irad {
 
-/// A line per kind of light, by the plan: "no sun", "2 point lights, none with an intensity", "0 of 3 materials emits".
+/// A line per kind of light, by the plan: "no sun", "2 point lights, none with an intensity", "none of 3 materials emits".
 /// None where any kind lights the scene.
 std::vector<std::string> noLight(const EffectPlan& plan);
 

@@ -5,6 +5,7 @@
 #include "ui/menu.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 
 namespace irad {
 
@@ -24,10 +25,7 @@ bool drawHeader(const char* title, std::set<std::string>& folded) {
   ImGui::SetNextItemOpen(!folded.contains(title));
   const bool open = ImGui::CollapsingHeader(title);
   ImGui::PopFont();
-  if (open)
-    folded.erase(title);
-  else
-    folded.insert(title);
+  keepFolded(folded, title, open);
   return open;
 }
 

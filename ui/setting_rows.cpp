@@ -116,10 +116,7 @@ bool groupHeader(const std::string& group, bool edited, std::set<std::string>& f
   const bool open =
       ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
   ImGui::PopStyleColor();
-  if (open)
-    folded.erase(title);
-  else
-    folded.insert(title);
+  keepFolded(folded, title, open);
   return open;
 }
 

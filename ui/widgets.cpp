@@ -37,6 +37,13 @@ void helpTooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
+void keepFolded(std::set<std::string>& folded, const std::string& title, bool open) {
+  if (open)
+    folded.erase(title);
+  else
+    folded.insert(title);
+}
+
 std::string clipped(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   std::string cut = text;

@@ -1,6 +1,7 @@
 // Small pieces that panels share: rows of a label and a value, tables, help tooltips.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ void valueRow(const char* label, const std::string& value);
 
 /// The label of a row, in the same place; the next widget takes the rest of it.
 void fieldLabel(const char* label, const std::string& help = {});
+
+/// Keeps in `folded` the titles of what is not open.
+void keepFolded(std::set<std::string>& folded, const std::string& title, bool open);
 
 void helpTooltip(const std::string& text);
 /// Text that ends in an ellipsis where the width does not suffice.
