@@ -25,6 +25,8 @@ enum class SpecularMode : uint32_t { off, fragment, compute };
 enum class ToneCurve : uint32_t { linear, neutral };
 enum class EmitterSampling : uint32_t { off, automatic, on };
 enum class SolverKernel : uint32_t { automatic, tree, subgroup, row };
+/// Who turns triangles into pixels: the graphics pipeline, or compute kernels (shaders/raster).
+enum class Rasterizer : uint32_t { automatic, hardware, kernels };
 enum class ViewShape : uint32_t { cubes, slice, projection, isosurface, automatic };
 enum class Axis : uint32_t { x, y, z, automatic };
 enum class RangeMode : uint32_t { standard, automatic, percentile, manual };
@@ -132,6 +134,7 @@ struct Settings {
   ViewSettings view;
   ThesisSettings thesis;
   EffectSettings effects;
+  Rasterizer rasterizer = Rasterizer::automatic;  ///< device.rasterizer
   bool lambertian = false;  ///< scene.lambertian: all materials Lambertian (LoadOptions::lambertian)
 };
 
@@ -187,6 +190,10 @@ struct EnumNames<SolverKernel> {
 template <>
 struct EnumNames<EffectMode> {
   static constexpr std::array names{"auto", "on", "off"};
+};
+template <>
+struct EnumNames<Rasterizer> {
+  static constexpr std::array names{"auto", "hardware", "kernels"};
 };
 template <>
 struct EnumNames<ViewShape> {
@@ -284,11 +291,12 @@ void visit(Settings& s, F&& f) {
   f(s.effects.normalMap, Meta{"effects.normal_map", 0, 0, "", "Normal maps; auto: where a material has one.", Shade});
   f(s.effects.blur, Meta{"effects.blur", 0, 0, "", "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than effects.blur_noise.", Scatter});
   f(s.effects.blurNoise, Meta{"effects.blur_noise", 0, 1, "", "Largest change of H, as a share of the largest, that is left to noise: below, there is no blur.", Scatter});
+  f(s.rasterizer, Meta{"device.rasterizer", 0, 0, "", "Who rasterizes voxels (voxel.method=raster), shadow maps and pictures: the graphics pipeline or compute kernels; auto: kernels where few of the GPU's processors serve the graphics pipeline.", Voxels});
   f(s.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
 }
 
-/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view and
-/// scene.lambertian, which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
+/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view,
+/// device.rasterizer and scene.lambertian, which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
 /// rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);

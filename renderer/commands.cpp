@@ -48,6 +48,14 @@ void Commands::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
   ++frame_->context().device.counters.dispatches;
 }
 
+void Commands::dispatchIndirect(const Buffer& arguments, uint64_t offset) {
+  checkPushed();
+  IRAD_CHECK(offset + 12 <= arguments.bytes, "{}: arguments at {} of {} bytes", pipeline_->name, offset,
+             arguments.bytes);
+  vkCmdDispatchIndirect(raw(), arguments.handle, offset);
+  ++frame_->context().device.counters.dispatches;
+}
+
 void Commands::draw(uint32_t vertexCount, uint32_t firstVertex, uint32_t instances) {
   checkPushed();
   if (vertexCount == 0 || instances == 0) return;

@@ -94,6 +94,8 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
   // Create.
   FeatureChain features;
   chooseFeatures(device->physical, features);
+  device->int64Atomics = features.v12.shaderBufferInt64Atomics;
+  device->narrowGraphics = hasNarrowGraphics(device->info.name);
   device->anisotropy = features.core.features.samplerAnisotropy;
   std::vector<const char*> extensions;
   if (options.presentable) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

@@ -169,6 +169,13 @@ DeviceInfo describe(VkPhysicalDevice device, uint32_t index, bool presentable) {
   return info;
 }
 
+bool hasNarrowGraphics(std::string_view name) {
+  constexpr std::string_view kNarrow[] = {"H100", "H200", "H800", "H20"};  // the GH100 chip, alone or as a GH200
+  return name.starts_with("NVIDIA") && std::any_of(std::begin(kNarrow), std::end(kNarrow), [&](std::string_view chip) {
+           return name.find(chip) != std::string_view::npos;
+         });
+}
+
 std::string toText(const std::vector<DeviceInfo>& devices) {
   if (devices.empty()) return "  (no Vulkan device)\n";
   std::string text;

@@ -22,6 +22,7 @@ struct ForwardEffects {
   bool highlights = true;  ///< the lights' specular lobe
   bool indirect = true;    ///< H
   bool specular = true;    ///< what reflections are traced from: Targets::f0
+  bool kernels = false;    ///< no effect: who rasterizes (renderer/raster.h)
 };
 
 /// Where shading finds indirect light. Null pointers: there is none, and no Targets::indirect.

@@ -94,6 +94,7 @@ class Commands {
   }
   void dispatch(uint64_t threads);  ///< as Pass::dispatch
   void dispatchGroups(uint32_t x, uint32_t y = 1, uint32_t z = 1);
+  void dispatchIndirect(const Buffer& arguments, uint64_t offset = 0);  ///< three uints: group counts; Pass::indirect
   void draw(uint32_t vertexCount, uint32_t firstVertex = 0, uint32_t instances = 1);
   /// Three 32-bit indices per triangle; the pass declares `indices` by Pass::indices. gl_VertexIndex is the vertex.
   void drawIndexed(uint32_t indexCount, uint32_t firstIndex);
@@ -153,6 +154,7 @@ class Pass {
   Pass& depth(const Image& image, bool write, std::optional<float> clear = {}, int layer = 0);
   Pass& depthBias(float constant, float slope);
   Pass& depthCompare(VkCompareOp op);
+  Pass& indirect(const Buffer& arguments);  ///< of Commands::dispatchIndirect
   Pass& indices(const Buffer& buffer);  ///< of drawIndexed: 32 bits each
   Pass& extent(uint32_t width, uint32_t height);
   Pass& additive();  ///< blend ONE, ONE

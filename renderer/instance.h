@@ -43,6 +43,8 @@ struct FeatureChain {
 std::vector<std::string> missingNeeds(VkPhysicalDevice device, bool presentable);
 /// The needs plus what is available of the wishes.
 void chooseFeatures(VkPhysicalDevice device, FeatureChain& chosen);
+/// Device::narrowGraphics of a device of this name.
+bool hasNarrowGraphics(std::string_view name);
 bool hasExtension(VkPhysicalDevice device, const char* name);
 /// A queue family for graphics, compute and transfer; UINT32_MAX if there is none.
 uint32_t graphicsComputeFamily(VkPhysicalDevice device);

@@ -315,13 +315,11 @@ void Pass::dispatch(uint64_t threads) {
 void Pass::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
   run([&](Commands& commands) { commands.dispatchGroups(x, y, z); });
 }
+Pass& Pass::indirect(const Buffer& arguments) {
+  return declare(arguments, kIndirect);
+}
 void Pass::dispatchIndirect(const Buffer& arguments, uint64_t offset) {
-  IRAD_CHECK(offset + 12 <= arguments.bytes, "{}: arguments at {} of {} bytes", stage_, offset, arguments.bytes);
-  declare(arguments, kIndirect);
-  run([&](Commands& commands) {
-    vkCmdDispatchIndirect(commands.raw(), arguments.handle, offset);
-    ++frame_->context().device.counters.dispatches;
-  });
+  indirect(arguments).run([&](Commands& commands) { commands.dispatchIndirect(arguments, offset); });
 }
 void Pass::draw(uint32_t vertexCount, uint32_t instances) {
   run([&](Commands& commands) { commands.draw(vertexCount, 0, instances); });

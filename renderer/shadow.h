@@ -16,6 +16,7 @@ struct ShadowMaps {
 struct ShadowNeeds {
   LightFilter shines = hasIntensity;  ///< lights that get a map
   bool alphaTest = true;              ///< DepthPass::alphaTest
+  bool kernels = false;               ///< who rasterizes (renderer/raster.h)
 };
 /// Draws the map of every light that shines ("RE Shadow") and fills in its layer and matrix; the others' layer is -1.
 /// `resolution`: texels per side of a flat map, twice those of a cube's; less where there are too many. DeviceError

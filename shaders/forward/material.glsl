@@ -18,11 +18,24 @@ vec2 textureUv(GpuMaterial m, uint i, vec4 uv) {
   return vec2(dot(m.uvRow[2u * i], p), dot(m.uvRow[2u * i + 1u], p));
 }
 
+#ifdef IRAD_UV_GRADIENTS
+/// Of `uv` to the pixels on the right and below, for stages without derivatives.
+vec4 uvDx, uvDy;
+vec2 uvDifference(GpuMaterial m, uint i, vec4 d) {
+  vec2 set = (m.uvSets & (1u << i)) != 0u ? d.zw : d.xy;
+  return vec2(dot(m.uvRow[2u * i].xy, set), dot(m.uvRow[2u * i + 1u].xy, set));
+}
+#define IRAD_TEXEL(map, m, i, uv) \
+  textureGrad(map, textureUv(m, i, uv), uvDifference(m, i, uvDx), uvDifference(m, i, uvDy))
+#else
+#define IRAD_TEXEL(map, m, i, uv) texture(map, textureUv(m, i, uv))
+#endif
+
 /// Base colour (linear) and alpha; `tint` is the vertex colour.
 vec4 materialBaseColor(GpuMaterial m, vec4 uv, vec4 tint) {
   vec4 c = m.baseColor * tint;
   if (IRAD_TEXTURED && (m.flags & MATERIAL_BASE_COLOR_TEXTURE) != 0u)
-    c *= texture(baseColorTexture, textureUv(m, TEXTURE_BASE_COLOR, uv));
+    c *= IRAD_TEXEL(baseColorTexture, m, TEXTURE_BASE_COLOR, uv);
   return c;
 }
 

@@ -55,7 +55,7 @@ vec3 mappedNormal(GpuMaterial m, vec3 n) {
   float l2 = dot(t, t);
   if (!(l2 > 0.0)) return n;
   t *= inversesqrt(l2);
-  vec3 s = texture(normalTexture, textureUv(m, TEXTURE_NORMAL, uv)).xyz * 2.0 - 1.0;
+  vec3 s = IRAD_TEXEL(normalTexture, m, TEXTURE_NORMAL, uv).xyz * 2.0 - 1.0;
   s.xy *= m.normalScale;
   return normalize(t * s.x + cross(n, t) * (tangent.w * s.y) + n * s.z);
 }
@@ -82,7 +82,7 @@ void main() {
   float metallic = m.metallic;
   float roughness = m.roughness;
   if (TEXTURED && (m.flags & MATERIAL_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
-    vec4 mr = texture(metallicRoughnessTexture, textureUv(m, TEXTURE_METALLIC_ROUGHNESS, uv));
+    vec4 mr = IRAD_TEXEL(metallicRoughnessTexture, m, TEXTURE_METALLIC_ROUGHNESS, uv);
     metallic *= mr.b;
     roughness *= mr.g;
   }
@@ -93,10 +93,10 @@ void main() {
   vec3 f0 = lambertian ? vec3(0.0) : mix(vec3(0.04), base.rgb, metallic);
   float occlusion = 1.0;
   if (TEXTURED && (m.flags & MATERIAL_OCCLUSION_TEXTURE) != 0u)
-    occlusion += m.occlusionStrength * (texture(occlusionTexture, textureUv(m, TEXTURE_OCCLUSION, uv)).r - 1.0);
+    occlusion += m.occlusionStrength * (IRAD_TEXEL(occlusionTexture, m, TEXTURE_OCCLUSION, uv).r - 1.0);
   vec3 emission = EMISSION ? m.emission : vec3(0.0);
   if (EMISSION && TEXTURED && (m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
-    emission *= texture(emissiveTexture, textureUv(m, TEXTURE_EMISSIVE, uv)).rgb;
+    emission *= IRAD_TEXEL(emissiveTexture, m, TEXTURE_EMISSIVE, uv).rgb;
 
   // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (METHOD section 1: D).
   float nv = max(dot(n, view), 1e-3);

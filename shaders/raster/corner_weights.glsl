@@ -1,0 +1,29 @@
+// Weights of a triangle's corners at a point of the picture.
+#ifndef IRAD_RASTER_CORNER_WEIGHTS_GLSL
+#define IRAD_RASTER_CORNER_WEIGHTS_GLSL
+
+/// Perspective-correct, sum 1: clip-space corners relative to the point are as areas (Olano and Greer 1997, "Triangle
+/// Scan Conversion Using 2D Homogeneous Coordinates"), so that nothing is divided by a w that may be 0 or below.
+vec3 cornerWeights(vec4 c[3], vec2 ndc) {
+  vec2 p[3];
+  for (int i = 0; i < 3; ++i) p[i] = c[i].xy - ndc * c[i].w;
+  vec3 w = vec3(p[1].x * p[2].y - p[1].y * p[2].x, p[2].x * p[0].y - p[2].y * p[0].x, p[0].x * p[1].y - p[0].y * p[1].x);
+  return w / (w.x + w.y + w.z);
+}
+
+struct PixelWeights {
+  vec3 here, right, below;  ///< at the pixel's centre and at its neighbours', for what the graphics pipeline's derivatives tell
+};
+PixelWeights pixelWeights(vec4 c[3], ivec2 pixel, uvec2 size) {
+  vec2 step = vec2(2.0, -2.0) / vec2(size);
+  vec2 ndc = (vec2(pixel) + 0.5) * step + vec2(-1.0, 1.0);
+  return PixelWeights(cornerWeights(c, ndc), cornerWeights(c, ndc + vec2(step.x, 0.0)),
+                      cornerWeights(c, ndc + vec2(0.0, step.y)));
+}
+
+vec4 weighted(vec4 a, vec4 b, vec4 c, vec3 weights) {
+  // By differences: exact where the three are equal.
+  return a + (b - a) * weights.y + (c - a) * weights.z;
+}
+
+#endif

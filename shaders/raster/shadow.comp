@@ -1,0 +1,13 @@
+// "RE Shadow" by kernels: per pixel the bits of the largest depth (reversed: the nearest), 0 where there is nothing.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define IRAD_UV_GRADIENTS
+#include "raster/scene_triangle.glsl"
+
+void rasterPixel(uint triangle, ivec2 pixel, float depth) {
+  uint place = uint(pixel.y) * push.size.x + uint(pixel.x);
+  uint bits = floatBitsToUint(depth);
+  // A look spares most of the atomics: depths only grow.
+  if (push.target.at[place] >= bits || cutOut(triangle, pixel)) return;
+  atomicMax(push.target.at[place], bits);
+}

@@ -1,0 +1,18 @@
+// "RE Depth" by kernels: the depth target from raster/visible.comp's words.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/raster.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform PushBlock {
+  VisibleArray visible;
+};
+layout(set = 0, binding = 0, r32f) uniform writeonly image2D depthTarget;
+
+void main() {
+  ivec2 size = imageSize(depthTarget);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, size))) return;
+  uvec2 seen = unpack32(visible.at[pixel.y * size.x + pixel.x]);
+  imageStore(depthTarget, pixel, vec4(seen.y != 0xFFFFFFFFu ? uintBitsToFloat(seen.y) : 1.0));
+}

@@ -1,0 +1,41 @@
+// Rasterization by compute kernels (shaders/raster/raster.glsl, renderer/raster.h).
+#ifndef IRAD_SHARED_RASTER_H
+#define IRAD_SHARED_RASTER_H
+#include "shared/passes.h"
+IRAD_BEGIN
+
+/// Specialization constants of every rasterizing kernel.
+IRAD_CONST uint RASTER_TILES = 0u;   ///< second pass: tiles of the triangles that the first has set aside
+IRAD_CONST uint RASTER_MASKED = 1u;  ///< the alpha of the bound material decides
+
+/// Pixels of a triangle's bounds up to which one invocation draws it by itself.
+IRAD_CONST int RASTER_SMALL = 64;
+/// The others are cut into tiles of (64 << level)^2 pixels, a workgroup each; level the least for which this many
+/// suffice, so that MAX_TRIANGLES of them fit a uint.
+IRAD_CONST int RASTER_TILE_BITS = 6;
+IRAD_CONST uint RASTER_TILES_PER_TRIANGLE = 256u;
+/// Workgroups of the second pass; they take tiles in turn.
+IRAD_CONST uint RASTER_GROUPS = 8192u;
+
+/// Triangles set aside. Element 0: their tiles (x) and their number (y); from 1 on a triangle (x) and the number of its
+/// first tile (y), ascending.
+IRAD_ARRAY(RasterQueue, uvec2, 8)
+#ifndef __cplusplus
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RasterCounter { uint64_t at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer VisibleArray { uint64_t at[]; };
+#endif
+
+/// raster/shadow.comp and raster/visible.comp.
+struct RasterPush {
+  SceneArray scene;
+  ProjectionArray projection;  ///< local position -> clip
+  RasterQueue queue;
+  UintArray target;  ///< a word, or two, per pixel
+  uvec2 size;        ///< pixels
+  uint first, end;   ///< triangles
+  uint cull;         ///< 1: not the backs of single-sided materials
+  uint skipMasked;   ///< 1: not those of masked materials
+};
+
+IRAD_END
+#endif
