@@ -21,11 +21,8 @@ void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows,
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.constant(0, static_cast<uint32_t>(facets.encoding))
       .read(scene.record, scene.shiningLights, facets.record, facets.voxel, facets.shape)
-      .write(light.direct)
-      .sampleDepth(shadows.flat, shadows.sampler, /*cube*/ false)
-      .sampleDepth(shadows.cubes, shadows.sampler, /*cube*/ true)
-      .push(push)
-      .dispatch(facets.count);
+      .write(light.direct);
+  sampleShadows(pass, shadows).push(push).dispatch(facets.count);
 }
 
 }  // namespace irad

@@ -292,7 +292,8 @@ struct Pipeline::Impl {
 
   ShadowNeeds shadowNeeds() const {
     return {.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); },
-            .alphaTest = planned.on(Effect::alphaTest)};
+            .alphaTest = planned.on(Effect::alphaTest),
+            .kernels = rasterizesByKernels(context.device, settings)};
   }
 
   ForwardEffects forwardEffects() const {
@@ -302,6 +303,7 @@ struct Pipeline::Impl {
     e.alphaTest = planned.on(Effect::alphaTest);
     e.normalMap = planned.on(Effect::normalMap);
     e.specular = planned.on(Effect::specular);
+    e.kernels = rasterizesByKernels(context.device, settings);
     const auto& materials = planned.traits.materials;
     e.highlights = std::ranges::any_of(materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });
     return e;

@@ -28,6 +28,10 @@ Grid makeLiteralGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resoluti
 /// Exclusive scan of `count` uints in place; the total is written to `total` (one uint at element 0). Deterministic.
 void exclusiveScan(Frame& frame, const char* stage, const Buffer& values, uint32_t count, const Buffer& total);
 
+// ---- Rasterization --------------------------------------------------------------------------------------------------
+/// Who rasterizes (renderer/raster.h). UsageError where kernels are asked for that the device cannot run.
+bool rasterizesByKernels(const Device& device, const Settings& settings);
+
 // ---- 2. Voxelization ------------------------------------------------------------------------------------------------
 /// Per voxel and facet slot: which triangle won (ordered atomic key), and its attributes.
 struct Voxels {

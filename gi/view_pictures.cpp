@@ -28,10 +28,7 @@ void drawShadowView(Frame& frame, View view, const ViewInputs& inputs, const Buf
   Pass pass = frame.pass("View");
   pass.shader(view == VIEW_SHADOW ? "view/shadow.comp" : "view/shadow_map.comp").read(camera, inputs.scene->lights);
   if (view == VIEW_SHADOW)
-    pass.sampleDepth(inputs.shadows->flat, inputs.shadows->sampler, /*cube*/ false)
-        .sampleDepth(inputs.shadows->cubes, inputs.shadows->sampler, /*cube*/ true)
-        .sample(targets.depth, point)
-        .read(targets.geometric);
+    sampleShadows(pass, *inputs.shadows).sample(targets.depth, point).read(targets.geometric);
   else
     pass.sampleDepth(inputs.shadows->flat, point, /*cube*/ false)
         .sampleDepth(inputs.shadows->cubes, point, /*cube*/ true);

@@ -3,6 +3,7 @@
 
 #include "gi/stages.h"
 #include "renderer/error.h"
+#include "renderer/raster.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -65,6 +66,13 @@ Buffer countTiles(Context& context, const SceneOnDevice& scene, const VoxelizePu
 
 }  // namespace
 
+bool rasterizesByKernels(const Device& device, const Settings& settings) {
+  if (settings.rasterizer == Rasterizer::kernels && !device.int64Atomics)
+    throw UsageError(fmt::format("device.rasterizer=kernels: {} has no 64-bit atomics", device.info.name));
+  if (settings.rasterizer == Rasterizer::automatic) return device.narrowGraphics && device.int64Atomics;
+  return settings.rasterizer == Rasterizer::kernels;
+}
+
 Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings) {
   const uint32_t triangles = scene.scene.triangleCount();
   if (triangles > MAX_TRIANGLES)
@@ -89,23 +97,26 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   if (!raster && !ranges.empty()) tileStarts = countTiles(context, scene, push, voxels, ranges);
   push.tileStart = tileStarts.address;
 
+  const bool kernels = raster && rasterizesByKernels(context.device, settings);
+  const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
+  Buffer queue;
+  if (kernels) {
+    queue = makeRasterQueue(context.device, Subsystem::Voxels, triangles);
+    push.tileStart = queue.address;
+  }
+
   Frame frame = context.begin();
   frame.pass(kStage).fill(voxels.keys, 0);
   for (push.slot = 0; push.slot < voxels.slots; ++push.slot)
     for (const bool masked : {false, true}) {
       if (std::none_of(ranges.begin(), ranges.end(), [=](const Range& r) { return r.masked == masked; })) continue;
-      Pass pass = frame.pass(kStage);
-      pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-                scene.uv1, scene.colors, voxels.gridRecord);
-      if (!raster) pass.read(tileStarts);
-      pass.write(voxels.keys).constant(kSamplesTextures, masked);
-      if (raster) {
-        const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
-        pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.frag"}).extent(size, size);
-      } else {
-        pass.shader("gi/voxelize.comp");
-      }
-      pass.run([&](Commands& commands) {
+      const auto declare = [&](Pass& pass) {
+        pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+                  scene.uv1, scene.colors, voxels.gridRecord)
+            .write(voxels.keys)
+            .constant(kSamplesTextures, masked);
+      };
+      const auto eachRange = [&](Commands& commands, const auto& go) {
         for (const Range& range : ranges) {
           if (range.masked != masked) continue;
           commands.bindMaterial(scene.materialSets.at(range.material));
@@ -114,11 +125,28 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
           push.firstTile = range.firstTile;
           push.tileCount = range.tiles;
           commands.push(push);
+          go(range);
+        }
+      };
+      if (kernels) {
+        rasterize(frame, kStage, "gi/voxel_raster.comp", queue, declare, [&](Commands& commands, bool tiles) {
+          eachRange(commands, [&](const Range& r) { rasterDispatch(commands, tiles, r.end - r.first); });
+        });
+        continue;
+      }
+      Pass pass = frame.pass(kStage);
+      declare(pass);
+      if (raster)
+        pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.frag"}).extent(size, size);
+      else
+        pass.shader("gi/voxelize.comp").read(tileStarts);
+      pass.run([&](Commands& commands) {
+        eachRange(commands, [&](const Range& range) {
           if (raster)
             commands.draw(3 * (range.end - range.first), 3 * range.first);
           else if (range.tiles > 0)
             commands.dispatch(range.tiles);
-        }
+        });
       });
     }
   frame.submitAndWait();

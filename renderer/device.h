@@ -61,8 +61,8 @@ class Device {
   bool memoryBudget = false;   ///< VK_EXT_memory_budget
   bool isCpu = false;          ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
   bool int64Atomics = false;   ///< on buffers
-  /// Few of its processors serve the graphics pipeline: of an H100's 66 TPCs two run vertex and fragment shaders (NVIDIA,
-  /// "H100 Tensor Core GPU Architecture", 2022). No query tells; known by name.
+  /// Few of its processors serve the graphics pipeline: of an H100's 66 TPCs two run vertex and fragment shaders
+  /// (NVIDIA, "H100 Tensor Core GPU Architecture", 2022). No query tells; known by name.
   bool narrowGraphics = false;
   mutable LiveCounters counters;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/depth_pass.h"
+#include "renderer/raster.h"
 #include "shaders/shared/passes.h"
 
 namespace irad {
@@ -117,13 +118,17 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   targets.fit(context, &Targets::emitted, emitted);
 
   // Depth prepass: masked materials look at their textures here, so that shading writes each pixel once.
-  drawDepth(frame, scene,
-            {.stage = "RE Depth",
-             .target = targets.depth,
-             .projections = camera,
-             .clear = 1,
-             .cull = true,
-             .alphaTest = effects.alphaTest});
+  targets.fitRaster(context, effects.kernels, scene.scene.triangleCount());
+  if (effects.kernels)
+    rasterVisible(frame, scene, camera, effects.alphaTest, targets);
+  else
+    drawDepth(frame, scene,
+              {.stage = "RE Depth",
+               .target = targets.depth,
+               .projections = camera,
+               .clear = 1,
+               .cull = true,
+               .alphaTest = effects.alphaTest});
 
   // Background: zero in every target.
   SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp};
@@ -166,8 +171,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
         .constant(FORWARD_MANY_LIGHTS, push.lightCount > UNIFORM_LIGHTS);
     pass.read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
               scene.indices, scene.materials, scene.shiningLights, camera);
-    pass.sampleDepth(shadows.flat, shadows.sampler, /*cube*/ false)
-        .sampleDepth(shadows.cubes, shadows.sampler, /*cube*/ true);
+    sampleShadows(pass, shadows);
     if (fromVolume) {
       push.grid = indirect.grid->address;
       pass.read(*indirect.grid);

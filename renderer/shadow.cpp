@@ -6,10 +6,13 @@
 
 #include "renderer/depth_pass.h"
 #include "renderer/error.h"
-#include "shaders/shared/passes.h"
+#include "renderer/raster.h"
+#include "shaders/shared/raster.h"
 
 namespace irad {
 namespace {
+
+constexpr const char* kStage = "RE Shadow";
 
 /// Depth maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
 constexpr uint64_t kMostTexels = uint64_t{1} << 28;  // 1 GiB of D32
@@ -111,18 +114,71 @@ void fitSpot(const Scene& scene, GpuLight& light, uint32_t resolution) {
   light.shadowMatrix = perspective(basisAbout(light.direction), light.position, tangent, light.shadowNear);
 }
 
-Image depthArray(const Device& device, const char* name, uint32_t size, uint32_t layers, bool cube) {
+Image depthArray(const Device& device, const char* name, VkFormat format, uint32_t size, uint32_t layers, bool cube,
+                 VkImageUsageFlags usage) {
   ImageDesc desc;
   desc.name = name;
   desc.subsystem = Subsystem::Shadow;
-  desc.format = VK_FORMAT_D32_SFLOAT;
+  desc.format = format;
   desc.width = desc.height = size;
   desc.layers = layers;
   desc.cube = cube;
   desc.array = !cube;
-  desc.usage =
-      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  desc.usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   return Image(device, desc);
+}
+
+void drawByHardware(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& maps, const std::vector<Face>& faces,
+                    const Buffer& projections, bool alphaTest) {
+  for (size_t i = 0; i < faces.size(); ++i)
+    drawDepth(frame, scene,
+              {.stage = kStage,
+               .target = faces[i].cube ? maps.cubes : maps.flat,
+               .layer = faces[i].layer,
+               .projections = projections,
+               .offset = i * sizeof(Projection),
+               .clear = 0,
+               .compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
+               .alphaTest = alphaTest});
+}
+
+/// Flat maps are stored by a kernel, layer by layer. Cubes, which their sampler compares and which no kernel may
+/// therefore write, are copied, all at once.
+void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& maps, const std::vector<Face>& faces,
+                   const Buffer& projections, bool alphaTest) {
+  const Device& device = frame.context().device;
+  const auto texels = [](const Image& map) { return uint64_t{map.desc.width} * map.desc.height; };
+  const Buffer queue = makeRasterQueue(device, Subsystem::Shadow, scene.scene.triangleCount());
+  Buffer flat, cubes;
+  if (maps.flat) flat = Buffer(device, "depths of a shadow map", Subsystem::Shadow, 4 * texels(maps.flat));
+  if (maps.cubes) {
+    cubes =
+        Buffer(device, "depths of shadow cubes", Subsystem::Shadow, 4 * texels(maps.cubes) * maps.cubes.desc.layers);
+    frame.pass(kStage).fill(cubes, 0);
+  }
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const Face& face = faces[i];
+    const Image& map = face.cube ? maps.cubes : maps.flat;
+    if (!face.cube) frame.pass(kStage).fill(flat, 0);
+    rasterScene(frame, scene,
+                {.stage = kStage,
+                 .shader = "raster/shadow.comp",
+                 .projections = projections,
+                 .offset = i * sizeof(Projection),
+                 .target = face.cube ? cubes : flat,
+                 .targetOffset = face.cube ? 4 * texels(map) * face.layer : 0,
+                 .size = {map.desc.width, map.desc.height},
+                 .queue = queue,
+                 .alphaTest = alphaTest});
+    if (face.cube) continue;
+    frame.pass(kStage)
+        .shader("raster/store_shadow.comp")
+        .read(flat)
+        .write(map)
+        .push(StoreShadowPush{flat.address, face.layer, 0})
+        .dispatchGroups((map.desc.width + 7) / 8, (map.desc.height + 7) / 8);
+  }
+  if (maps.cubes) frame.pass(kStage).copy(cubes, maps.cubes);
 }
 
 }  // namespace
@@ -144,12 +200,19 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   const uint32_t cubeSize = size / 2;
 
   ShadowMaps maps;
-  if (flats > 0) maps.flat = depthArray(context.device, "shadow maps", size, flats, /*cube*/ false);
-  if (cubes > 0) maps.cubes = depthArray(context.device, "shadow cubes", cubeSize, 6 * cubes, /*cube*/ true);
+  if (flats > 0)
+    maps.flat = depthArray(context.device, "shadow maps", needs.kernels ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_D32_SFLOAT,
+                           size, flats, /*cube*/ false, needs.kernels ? VK_IMAGE_USAGE_STORAGE_BIT : 0);
+  if (cubes > 0)
+    maps.cubes = depthArray(context.device, "shadow cubes", VK_FORMAT_D32_SFLOAT, cubeSize, 6 * cubes, /*cube*/ true,
+                            needs.kernels ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
+  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
+  nearest.linearMips = false;
+  maps.flatSampler = sampler(context.device, nearest);
   SamplerDesc compare{Wrap::Clamp, Wrap::Clamp};
   compare.mips = compare.linearMips = false;
   compare.compare = true;
-  maps.sampler = sampler(context.device, compare);
+  maps.cubeSampler = sampler(context.device, compare);
   if (flats + cubes == 0) return maps;
 
   // Fit each light's projections to the scene.
@@ -179,16 +242,7 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   const Buffer projections =
       makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
   Frame frame = context.begin();
-  for (size_t i = 0; i < faces.size(); ++i)
-    drawDepth(frame, scene,
-              {.stage = "RE Shadow",
-               .target = faces[i].cube ? maps.cubes : maps.flat,
-               .layer = faces[i].layer,
-               .projections = projections,
-               .offset = i * sizeof(Projection),
-               .clear = 0,
-               .compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
-               .alphaTest = needs.alphaTest});
+  (needs.kernels ? drawByKernels : drawByHardware)(frame, scene, maps, faces, projections, needs.alphaTest);
   frame.submitAndWait();
   return maps;
 }
@@ -198,6 +252,11 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
   ShadowMaps maps = drawShadows(context, scene, lights, resolution, needs);
   scene.setLights(context, std::move(lights), needs.shines);
   return maps;
+}
+
+Pass& sampleShadows(Pass& pass, const ShadowMaps& maps) {
+  return pass.sampleDepth(maps.flat, maps.flatSampler, /*cube*/ false)
+      .sampleDepth(maps.cubes, maps.cubeSampler, /*cube*/ true);
 }
 
 void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn) {

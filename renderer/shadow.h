@@ -8,10 +8,13 @@
 namespace irad {
 
 struct ShadowMaps {
-  Image flat;   ///< D32, reversed (1 near, 0 far), layers: sun and spot lights; empty where none shines
+  Image flat;   ///< D32 or R32F, reversed (1 near, 0 far), layers: sun and spot lights; empty where none shines
   Image cubes;  ///< D32, cube array: point lights and wide spots; empty where none shines
-  VkSampler sampler = VK_NULL_HANDLE;  ///< compare, linear
+  VkSampler flatSampler = VK_NULL_HANDLE;  ///< nearest
+  VkSampler cubeSampler = VK_NULL_HANDLE;  ///< compare, linear
 };
+/// The next two bindings of the pass: shadowFlat and shadowCubes of shaders/forward/shadow.glsl.
+Pass& sampleShadows(Pass& pass, const ShadowMaps& maps);
 
 struct ShadowNeeds {
   LightFilter shines = hasIntensity;  ///< lights that get a map

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/error.h"
+#include "renderer/raster.h"
 #include "shaders/shared/passes.h"
 #include "shaders/shared/view.h"
 
@@ -50,7 +51,7 @@ Image target(const Device& device, const char* name, VkFormat format, glm::uvec2
 Targets::Targets(Context& context, glm::uvec2 extent) : size(extent) {
   IRAD_CHECK(size.x > 0 && size.y > 0, "{} x {}", size.x, size.y);
   const Device& device = context.device;
-  depth = target(device, "depth", VK_FORMAT_D32_SFLOAT, size, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+  fitRaster(context, /*kernels*/ false, 0);
   normal = target(device, "normal, roughness", kHalf, size, kColor);
   geometric = target(device, "geometric normal, metallic", kHalf, size, kColor);
   albedo = target(device, "albedo, occlusion", kHalf, size, kColor);
@@ -59,6 +60,20 @@ Targets::Targets(Context& context, glm::uvec2 extent) : size(extent) {
   viewBins = Buffer(device, "histogram of the view", Subsystem::Targets, 4ull * RANGE_BINS);
   linear = target(device, "linear picture", kFull, size, kColor);
   display = target(device, "display picture", VK_FORMAT_R8G8B8A8_UNORM, size, kColor);
+}
+
+void Targets::fitRaster(Context& context, bool kernels, uint32_t triangles) {
+  const Device& device = context.device;
+  const VkFormat format = kernels ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_D32_SFLOAT;
+  if (depth.desc.format != format)
+    depth = target(device, "depth", format, size,
+                   kernels ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+  if (kernels != static_cast<bool>(visible))
+    visible = kernels ? Buffer(device, "visible triangles", Subsystem::Targets, 8ull * size.x * size.y) : Buffer();
+  if (!kernels)
+    rasterQueue = Buffer();
+  else if (!rasterQueue || rasterQueue.bytes < rasterQueueBytes(triangles))
+    rasterQueue = makeRasterQueue(device, Subsystem::Targets, triangles);
 }
 
 void Targets::fit(Context& context, Image Targets::*image, bool wanted) {

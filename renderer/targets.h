@@ -11,7 +11,7 @@ struct Targets {
   Targets() = default;
   Targets(Context& context, glm::uvec2 size);
   glm::uvec2 size{0};
-  Image depth;       ///< D32, 1 = nothing
+  Image depth;       ///< D32, or R32F where kernels rasterize; 1 = nothing
   Image normal;      ///< RGBA16F: shading normal xyz, roughness
   Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic
   Image albedo;      ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
@@ -29,8 +29,11 @@ struct Targets {
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   Buffer visible;  ///< uint64 per pixel, row by row: bits of the depth << 32 | triangle of what is seen, all bits set where
                    ///< nothing is; where kernels rasterize
+  Buffer rasterQueue;  ///< with `visible` (renderer/raster.h)
   Buffer glossy;  ///< pixels that trace specular rays (shaders/shared/passes.h); with `specular`, where that is listed
 
+  /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
+  void fitRaster(Context& context, bool kernels, uint32_t triangles);
   /// Makes one of the latter images, or gives it back once the device has finished with it.
   void fit(Context& context, Image Targets::*image, bool wanted);
   /// TARGET_* of shaders/shared/passes.h: those of them that exist.

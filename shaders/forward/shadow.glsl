@@ -24,7 +24,7 @@ layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_POINT) const bool POINTS = tru
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_SPOT) const bool SPOTS = true;
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_FLAT_MAPS) const bool FLAT_MAPS = true;
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_CUBE_MAPS) const bool CUBE_MAPS = true;
-layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArrayShadow shadowFlat;
+layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArray shadowFlat;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
 
 bool anyLight() { return SUNS || POINTS || SPOTS; }
@@ -67,8 +67,9 @@ vec3 lightIrradiance(GpuLight light, vec3 position, vec3 normal) {
   return cosine > 0.0 ? lightIntensity(light, position) * cosine : vec3(0.0);
 }
 
-/// Depths are reversed (1 near, 0 far; near / distance in perspective), so that fp32 is precise everywhere; the samplers
-/// compare `reference <= stored`, which therefore gives the share that is blocked.
+/// Depths are reversed (1 near, 0 far; near / distance in perspective), so that fp32 is precise everywhere: `reference <=
+/// stored` is blocked. The cubes' sampler compares; the flat maps are compared here, because kernels write them as colour
+/// (renderer/raster.h).
 
 /// The flat maps. Every tap compares with the depth that the receiver's own plane has at the tap (the plane's depth is
 /// affine in the map for both projections), so that the normal offset need only cover one bilinear footprint.
@@ -105,7 +106,8 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
       vec2 middle = first + vec2(x, y) + 1.0;
       vec2 away = perTexel * (middle - at);
       precise float depth = clamp(ndc.z + (away.x + away.y), 1e-30, 1.0);
-      vec4 blocked = textureGather(shadowFlat, vec3(middle / size, float(light.shadowLayer)), depth);
+      vec4 stored = textureGather(shadowFlat, vec3(middle / size, float(light.shadowLayer)));
+      vec4 blocked = vec4(lessThanEqual(vec4(depth), stored));
       vec2 low = vec2(x == 0u ? 1.0 - f.x : 1.0, y == 0u ? 1.0 - f.y : 1.0);
       vec2 high = vec2(x + 1u == pcf ? f.x : 1.0, y + 1u == pcf ? f.y : 1.0);
       vec4 shares = blocked * vec4(low.x * high.y, high.x * high.y, high.x * low.y, low.x * low.y);

@@ -11,14 +11,21 @@ vec3 cornerWeights(vec4 c[3], vec2 ndc) {
   return w / (w.x + w.y + w.z);
 }
 
+/// Of the whole picture, y up.
+vec2 pixelCentre(ivec2 pixel, uvec2 size) {
+  return (vec2(pixel) + 0.5) / vec2(size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+}
+
+/// At the pixel's centre, and at three of the four pixels whose differences the graphics pipeline takes for derivatives.
 struct PixelWeights {
-  vec3 here, right, below;  ///< at the pixel's centre and at its neighbours', for what the graphics pipeline's derivatives tell
+  vec3 here;
+  vec3 first, right, below;  ///< of the 2 x 2 pixels
 };
 PixelWeights pixelWeights(vec4 c[3], ivec2 pixel, uvec2 size) {
-  vec2 step = vec2(2.0, -2.0) / vec2(size);
-  vec2 ndc = (vec2(pixel) + 0.5) * step + vec2(-1.0, 1.0);
-  return PixelWeights(cornerWeights(c, ndc), cornerWeights(c, ndc + vec2(step.x, 0.0)),
-                      cornerWeights(c, ndc + vec2(0.0, step.y)));
+  ivec2 quad = pixel & ~1;
+  return PixelWeights(cornerWeights(c, pixelCentre(pixel, size)), cornerWeights(c, pixelCentre(quad, size)),
+                      cornerWeights(c, pixelCentre(quad + ivec2(1, 0), size)),
+                      cornerWeights(c, pixelCentre(quad + ivec2(0, 1), size)));
 }
 
 vec4 weighted(vec4 a, vec4 b, vec4 c, vec3 weights) {

@@ -70,7 +70,8 @@ int64_t leastInside(ivec2 p, ivec2 q) {
   return q.y < p.y || (q.y == p.y && q.x > p.x) ? int64_t(0) : int64_t(1);
 }
 
-/// The pixels of a (piece of a) triangle within `box`: every one, or those of this invocation of the workgroup.
+/// The pixels of a triangle, or of a piece of a clipped one, within `box`: every one, or those of this invocation of the
+/// workgroup.
 void scanPiece(uint triangle, vec4 ca, vec4 cb, vec4 cc, bool cull, ivec4 box, uvec2 size) {
   ivec2 a = snapped(ca, size), b = snapped(cb, size), c = snapped(cc, size);
   precise float da = ca.z / ca.w;
@@ -208,6 +209,6 @@ void main() {
       else end = middle;
     }
     uvec2 item = job.queue.at[1u + found];
-    rasterize(job, item.x, tile - item.y);
+    if (item.x >= job.first && item.x < job.end) rasterize(job, item.x, tile - item.y);
   }
 }

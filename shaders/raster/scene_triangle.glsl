@@ -37,8 +37,9 @@ bool cutOut(uint triangle, ivec2 pixel) {
   }
   PixelWeights w = pixelWeights(corner, pixel, push.size);
   vec4 here = weighted(uv[0], uv[1], uv[2], w.here);
-  uvDx = weighted(uv[0], uv[1], uv[2], w.right) - here;
-  uvDy = weighted(uv[0], uv[1], uv[2], w.below) - here;
+  vec4 first = weighted(uv[0], uv[1], uv[2], w.first);
+  uvDx = weighted(uv[0], uv[1], uv[2], w.right) - first;
+  uvDy = weighted(uv[0], uv[1], uv[2], w.below) - first;
   float tint = alpha[0] + (alpha[1] - alpha[0]) * w.here.y + (alpha[2] - alpha[0]) * w.here.z;
   return materialCutOut(m, materialBaseColor(m, here, vec4(1.0, 1.0, 1.0, tint)).a);
 }

@@ -5,8 +5,8 @@
 IRAD_BEGIN
 
 /// Specialization constants of every rasterizing kernel.
-IRAD_CONST uint RASTER_TILES = 0u;   ///< second pass: tiles of the triangles that the first has set aside
-IRAD_CONST uint RASTER_MASKED = 1u;  ///< the alpha of the bound material decides
+IRAD_CONST uint RASTER_TILES = 8u;   ///< second pass: tiles of the triangles that the first has set aside
+IRAD_CONST uint RASTER_MASKED = 9u;  ///< the alpha of the bound material decides
 
 /// Pixels of a triangle's bounds up to which one invocation draws it by itself.
 IRAD_CONST int RASTER_SMALL = 64;
@@ -35,6 +35,13 @@ struct RasterPush {
   uint first, end;   ///< triangles
   uint cull;         ///< 1: not the backs of single-sided materials
   uint skipMasked;   ///< 1: not those of masked materials
+};
+
+/// raster/store_shadow.comp.
+struct StoreShadowPush {
+  UintArray words;
+  int layer;
+  uint padding;
 };
 
 IRAD_END

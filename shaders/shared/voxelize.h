@@ -46,7 +46,7 @@ struct VoxelizePush {
   SceneArray scene;
   GridArray grid;
   UintArray keys;       ///< slots x voxels
-  UintArray tileStart;  ///< per triangle: tiles, then their exclusive prefix sum
+  UintArray tileStart;  ///< per triangle: tiles, then their exclusive prefix sum; by kernels the RasterQueue
   uint firstTriangle;
   uint endTriangle;
   uint firstTile;

@@ -1,0 +1,41 @@
+// Rasterization by compute kernels (shaders/raster/raster.glsl), for devices whose graphics pipeline is narrow
+// (Device::narrowGraphics). What it draws is what the graphics pipeline draws, up to the rounding of depths and of the
+// corners' place in the picture.
+#pragma once
+
+#include "renderer/frame.h"
+#include "renderer/gpu_scene.h"
+
+namespace irad {
+
+/// Where the first pass of a rasterization sets triangles aside for the second; one rasterization after the other.
+uint64_t rasterQueueBytes(uint32_t triangles);
+Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles);
+
+/// Both passes of `shader`. `declare`: what they read and write, and constants; `body`: their dispatches, each over
+/// `Commands::dispatch(triangles)` in the first pass and dispatchGroups(RASTER_GROUPS) in the second: rasterDispatch.
+void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue,
+               const std::function<void(Pass&)>& declare, const std::function<void(Commands&, bool tiles)>& body);
+void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles);
+
+/// The scene through a projection.
+struct RasterPass {
+  const char* stage;
+  std::string_view shader;  ///< raster/shadow.comp or raster/visible.comp
+  const Buffer& projections;
+  uint64_t offset = 0;  ///< of the Projection in `projections`, bytes
+  const Buffer& target;
+  uint64_t targetOffset = 0;  ///< bytes
+  glm::uvec2 size;            ///< pixels
+  const Buffer& queue;        ///< makeRasterQueue of all triangles
+  bool cull = false;          ///< backs of single-sided materials
+  bool alphaTest = true;      ///< false: masked materials are opaque
+};
+/// Opaque triangles, then masked ones.
+void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& pass);
+
+/// "RE Depth": what a camera sees, into Targets::visible and Targets::depth.
+struct Targets;
+void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camera, bool alphaTest, Targets& targets);
+
+}  // namespace irad

@@ -1,0 +1,25 @@
+// Raster voxelization by kernels (shaders/raster/raster.glsl).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/voxel_triangle.glsl"
+
+#include "gi/voxel_raster.glsl"
+#include "raster/raster.glsl"
+
+FlatTriangle current;
+
+RasterJob rasterJob() {
+  uvec3 dims = push.grid.at[0].dims;
+  return RasterJob(RasterQueue(push.tileStart), uvec2(max(dims.x, max(dims.y, dims.z))), push.firstTriangle,
+                   push.endTriangle);
+}
+
+bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
+  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  current = flatTriangle(t, triangle);
+  for (uint i = 0u; i < 3u; ++i) corners[i] = flatCorner(t, i, push.grid.at[0].dims);
+  cull = false;
+  return !degenerate(t);
+}
+
+void rasterPixel(uint triangle, ivec2 pixel, float depth) { voxelFragment(current, vec2(pixel) + 0.5); }

@@ -1,0 +1,60 @@
+// Raster voxelization (T 5.1.2): a fragment is the voxel that the triangle's plane passes through at the pixel's centre
+// (T eq. 14), which leaves pin-holes. The thesis lets the last writer win; here the same ordered key as in
+// gi/voxelize.comp decides: all fragments lie on the middle line of their voxel.
+#include "gi/voxel_material.glsl"
+layout(push_constant, scalar) uniform Push { VoxelizePush push; };
+
+/// A triangle projected along its dominant axis.
+struct FlatTriangle {
+  uint triangle;
+  uint axis;    ///< | RASTER_FACES_UP
+  vec3 plane;   ///< depth = plane.z + plane.xy . (pixel - corner)
+  vec2 corner;  ///< the first
+};
+
+FlatTriangle flatTriangle(VoxelTriangle t, uint triangle) {
+  vec3 n = dominantLast(t.normal, t.axis);
+  vec3 first = dominantLast(t.v[0], t.axis);
+  return FlatTriangle(triangle, t.axis | (n.z >= 0.0 ? RASTER_FACES_UP : 0u), vec3(-n.xy / n.z, first.z), first.xy);
+}
+
+/// Corner `i` in clip space. The viewport's y points up: negated here, so that the pixel's row is the voxel's.
+vec4 flatCorner(VoxelTriangle t, uint i, uvec3 dims) {
+  float scale = 2.0 / float(max(dims.x, max(dims.y, dims.z)));
+  vec2 at = dominantLast(t.v[i], t.axis).xy * scale - 1.0;
+  return vec4(at.x, -at.y, 0.0, 1.0);
+}
+
+void voxelFragment(FlatTriangle f, vec2 pixel) {
+  uvec3 dims = push.grid.at[0].dims;
+  uint triangle = f.triangle;
+  uint d = f.axis & 3u;
+  vec3 point = originalAxes(vec3(pixel, f.plane.z + dot(f.plane.xy, pixel - f.corner)), d);
+  ivec3 cell = ivec3(floor(point));
+  if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(dims)))) return;
+  uint voxel = voxelIndex(uvec3(cell), dims);
+  // The point's distance in front of the voxel's centre along the triangle's facing.
+  vec3 offset = dominantLast(point - vec3(cell) - 0.5, d);
+  float depth = offset.z - dot(f.plane.xy, offset.xy);
+  float columnArea = sqrt(1.0 + dot(f.plane.xy, f.plane.xy));
+  float front = ((f.axis & RASTER_FACES_UP) != 0u ? depth : -depth) / columnArea;
+  uint place = push.slot * push.grid.at[0].voxels + voxel;
+  bool back = false;
+  float cosine = -1.0;
+  // One facet of an opaque material needs nothing of the triangle itself.
+  if (push.slots == 2u || SAMPLES_TEXTURES != 0u) {
+    uint flags = triangleFlags(push.scene, triangle);
+    VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+    if (push.slot == 1u) {
+      uint winner = push.keys.at[voxel];
+      if (winner == 0u) return;
+      cosine = secondCosine(t.normal, flags, winnerFacing(push.scene, push.grid, winner), back);
+      if (cosine >= ELSEWHERE_COSINE) return;
+    }
+    if (masked(push.scene, t, triangle, flags, point)) return;
+    if (push.slot == 0u && push.slots == 2u && (flags & MATERIAL_DOUBLE_SIDED) != 0u)
+      atomicMax(push.keys.at[place], middleKey(-front, true, triangle));
+  }
+  uint key = middleKey(back ? -front : front, back, triangle);
+  atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
+}
