@@ -60,25 +60,35 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   push.jfaMax = field.jfaMax;
   push.leastReflected = leastReflected(settings.specular.gpu.threshold, lighting.litH);
   const uint32_t method = traceMethod(settings, field);
-  const auto traced = [&](Pass& pass, bool fragment) -> Pass& {
+  // T 5.11: every pixel by itself, unfiltered.
+  const bool alone = settings.specular.mode == SpecularMode::fragment;
+  const bool kernels = static_cast<bool>(targets.visible);
+  const auto traced = [&](Pass& pass) -> Pass& {
     pass.constant(0, method)
         .constant(1, settings.matrix.gpu.hitRule)
         .constant(2, static_cast<uint32_t>(facets.encoding))
         .read(camera, facets.record, facets.shape, facets.reverse, facets.around, lighting.radiosity)
         .sample(targets.depth, point)
         .read(targets.normal, targets.geometric, targets.f0);
-    if (fragment) pass.read(targets.indirect);
+    if (alone) pass.read(targets.indirect);
+    if (alone && kernels) pass.write(targets.specular);
     if (field.chebyshev) pass.read(field.chebyshev);
-    if (!fragment) pass.read(targets.glossy).write(targets.linear);
+    if (!alone) pass.read(targets.glossy).write(targets.linear);
     if (method == TRACE_JFA) pass.sample(field.jfaDistance, point);
     return pass.push(push);
   };
 
-  // T 5.11: in the fragment shader, over the whole picture, unfiltered.
-  if (settings.specular.mode == SpecularMode::fragment) {
+  if (alone) {
     Pass pass = frame.pass("RE Specular");
-    pass.shaders({"specular/screen.vert", method == TRACE_JFA ? "specular/trace_jfa.frag" : "specular/trace.frag"});
-    traced(pass, /*fragment*/ true).color(targets.specular, ClearColor{}).draw(3);
+    const bool volume = method == TRACE_JFA;
+    if (kernels) {
+      pass.shader(volume ? "specular/trace_picture_jfa.comp" : "specular/trace_picture.comp");
+      traced(pass).run(
+          [&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
+    } else {
+      pass.shaders({"specular/screen.vert", volume ? "specular/trace_jfa.frag" : "specular/trace.frag"});
+      traced(pass).color(targets.specular, ClearColor{}).draw(3);
+    }
     return;
   }
 
@@ -103,7 +113,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
     trace.read(inputs.emitters->record, inputs.emitters->entries, facets.voxel, facets.emission);
   }
   trace.constant(3, emitters);
-  traced(trace, /*fragment*/ false).dispatchIndirect(targets.glossy);
+  traced(trace).dispatchIndirect(targets.glossy);
 
   // Filter; linear and specular take turns, so that the last of the three steps ends in `specular`.
   const Image* from = &targets.linear;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "renderer/depth_pass.h"
 #include "renderer/raster.h"
+#include "renderer/resolve.h"
 #include "shaders/shared/passes.h"
 
 namespace irad {
@@ -141,16 +143,32 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
              targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.bound(&Targets::emitted))
       .dispatch(uint64_t{targets.size.x} * targets.size.y);
 
-  // Shading, material by material.
+  // Shading, material by material: of the triangles drawn, or of the pixels listed.
+  if (effects.kernels) listPixels(frame, scene, targets);
   ForwardPush push{};
   push.scene = scene.record.address;
   push.camera = camera.address;
   push.materials = scene.materials.address;
-  push.lights = scene.shiningLights.address;
   push.lightCount = static_cast<uint32_t>(scene.shining.size());
   push.sampling = indirect.sample;
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
+  if (effects.kernels) {
+    push.visible = targets.visible.address;
+    push.lists = targets.pixelLists.address;
+    push.listed = targets.listedPixels.address;
+  }
+  const auto use = [&](Commands& commands, uint32_t index) {
+    const GpuMaterial& material = scene.materialValues.at(index);
+    push.material = index;
+    push.baseColor = material.baseColor;
+    push.emission = material.emission;
+    push.metallic = material.metallic;
+    push.roughness = material.roughness;
+    push.flags = material.flags;
+    commands.bindMaterial(scene.materialSets.at(index));
+    commands.push(push);
+  };
 
   // Untextured materials have a pass of their own: a device that runs both sides of a branch would otherwise fetch five
   // textures that are not there.
@@ -159,7 +177,10 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     if (std::none_of(draws.begin(), draws.end(), drawnHere)) continue;
     const Image none;
     Pass pass = frame.pass("RE Forward");
-    pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
+    if (effects.kernels)
+      pass.shader(fromVolume ? "forward/resolve_volume.comp" : "forward/resolve.comp");
+    else
+      pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
     specialize(pass, FORWARD_LIGHTS, effects.lights, scene.shining);
     pass.effect(FORWARD_TEXTURED, textured)
         .effect(FORWARD_NORMAL_MAP, effects.normalMap)
@@ -180,6 +201,24 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       pass.sample(*indirect.volume, sampler(context.device, linear));
     }
     pass.uniform(scene.shiningLights);
+    if (effects.kernels) {
+      pass.constant(FORWARD_TARGETS, targets.present() & (TARGET_F0 | TARGET_HIGHLIGHT | TARGET_INDIRECT))
+          .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
+                 targets.bound(&Targets::highlight), targets.bound(&Targets::indirect));
+      if (!fromVolume) pass.write(targets.linear);  // the lookup's normal
+      pass.read(targets.visible, targets.pixelLists, targets.listedPixels)
+          .indirect(targets.pixelLists)
+          .run([&](Commands& commands) {
+            std::set<uint32_t> materials;
+            for (const Draw& draw : draws)
+              if (drawnHere(draw)) materials.insert(draw.material);
+            for (const uint32_t material : materials) {
+              use(commands, material);
+              commands.dispatchIndirect(targets.pixelLists, sizeof(PixelList) * material);
+            }
+          });
+      continue;
+    }
     pass.color(targets.normal)
         .color(targets.geometric)
         .color(targets.albedo)
@@ -191,16 +230,8 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
         if (!drawnHere(draw)) continue;
-        const GpuMaterial& material = scene.materialValues.at(draw.material);
-        push.material = draw.material;
-        push.baseColor = material.baseColor;
-        push.emission = material.emission;
-        push.metallic = material.metallic;
-        push.roughness = material.roughness;
-        push.flags = material.flags;
         commands.cull(culling(scene, draw));
-        commands.bindMaterial(scene.materialSets.at(draw.material));
-        commands.push(push);
+        use(commands, draw.material);
         commands.draw(draw.indexCount, draw.firstIndex);
       }
     });

@@ -71,7 +71,7 @@ void Targets::fitRaster(Context& context, bool kernels, uint32_t triangles) {
   if (kernels != static_cast<bool>(visible))
     visible = kernels ? Buffer(device, "visible triangles", Subsystem::Targets, 8ull * size.x * size.y) : Buffer();
   if (!kernels)
-    rasterQueue = Buffer();
+    for (Buffer* buffer : {&rasterQueue, &pixelLists, &listedPixels}) *buffer = Buffer();
   else if (!rasterQueue || rasterQueue.bytes < rasterQueueBytes(triangles))
     rasterQueue = makeRasterQueue(device, Subsystem::Targets, triangles);
 }

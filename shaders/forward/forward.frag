@@ -2,4 +2,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define IRAD_LIGHTS_BINDING 2
-#include "forward/shade.glsl"
+#include "forward/fragment.glsl"

@@ -4,4 +4,4 @@
 #define IRAD_VOLUME
 layout(set = 0, binding = 2) uniform sampler3D indirectVolume;
 #define IRAD_LIGHTS_BINDING 3
-#include "forward/shade.glsl"
+#include "forward/fragment.glsl"

@@ -28,9 +28,8 @@ PixelWeights pixelWeights(vec4 c[3], ivec2 pixel, uvec2 size) {
                       cornerWeights(c, pixelCentre(quad + ivec2(0, 1), size)));
 }
 
-vec4 weighted(vec4 a, vec4 b, vec4 c, vec3 weights) {
-  // By differences: exact where the three are equal.
-  return a + (b - a) * weights.y + (c - a) * weights.z;
-}
+// By differences: exact where the three are equal.
+vec4 weighted(vec4 a, vec4 b, vec4 c, vec3 weights) { return a + (b - a) * weights.y + (c - a) * weights.z; }
+vec3 weighted(vec3 a, vec3 b, vec3 c, vec3 weights) { return a + (b - a) * weights.y + (c - a) * weights.z; }
 
 #endif

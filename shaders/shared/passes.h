@@ -22,7 +22,7 @@ struct DepthPush {
   uint padding;
 };
 
-/// Specialization constants of "RE Forward" (forward/shade.glsl). The effects leave out what they are false for.
+/// Specialization constants of "RE Forward" (forward/shade.glsl, forward/resolve.glsl). The effects leave out what they are false for.
 IRAD_CONST uint FORWARD_LIGHTS = 0u;  ///< LIGHT_SUN and so on follow
 IRAD_CONST uint FORWARD_TEXTURED = 5u;    ///< effect: a material of the pass has a texture
 IRAD_CONST uint FORWARD_NORMAL_MAP = 6u;  ///< effect: ... a normal map
@@ -32,6 +32,7 @@ IRAD_CONST uint FORWARD_F0 = 9u;          ///< effect: reflections are traced
 IRAD_CONST uint FORWARD_INDIRECT = 10u;   ///< effect
 IRAD_CONST uint FORWARD_PCF = 11u;
 IRAD_CONST uint FORWARD_MANY_LIGHTS = 12u;  ///< more than UNIFORM_LIGHTS
+IRAD_CONST uint FORWARD_TARGETS = 13u;      ///< kernels: those of TARGETS_ALL that are there
 
 /// Targets that are there only where a picture is composed from them: bits of a specialization constant of the shaders
 /// that read or write them. An absent term is 0.
@@ -45,14 +46,36 @@ IRAD_CONST uint TARGETS_ALL = 31u;
 /// Lights that "RE Forward" reads through a uniform block; with more of them all are read by address.
 IRAD_CONST uint UNIFORM_LIGHTS = 64u;
 
-/// "RE Forward", drawing. What untextured fragments need of the material travels along: as constants it is read once,
+/// Kernels: the visible pixels of one material, which forward/resolve.comp shades.
+struct PixelList {
+  uvec3 groups;  ///< dispatch arguments
+  uint count;
+  uint end;  ///< of the list in the array of listed pixels (x | y << 16), which keep no particular order
+};
+IRAD_ARRAY(PixelListArray, PixelList, 4)
+IRAD_CONST uint RESOLVE_GROUP = 64u;  ///< pixels per workgroup
+IRAD_CONST uint RESOLVE_ROW = 32768u; ///< workgroups in x at most
+
+/// forward/list_pixels.comp and forward/place_lists.comp.
+struct PixelListPush {
+  SceneArray scene;
+  Uvec2Array visible;
+  PixelListArray lists;  ///< per material, and after them one whose `end` is that of all
+  UintArray listed;
+  uvec2 size;
+  uint materials;
+};
+
+/// "RE Forward", shading. What untextured pixels need of the material travels along: as constants it is read once,
 /// not per lane.
 struct ForwardPush {
-  SceneArray scene;    ///< vertices
-  CameraArray camera;  ///< vertices
+  SceneArray scene;
+  CameraArray camera;
   MaterialArray materials;
-  LightArray lights;
-  GridArray grid;  ///< of the volume; 0: there is none
+  GridArray grid;         ///< of the volume; 0: there is none
+  Uvec2Array visible;     ///< kernels: Targets::visible
+  PixelListArray lists;   ///< kernels: per material
+  UintArray listed;       ///< kernels: pixels, list after list
   vec4 baseColor;
   vec3 emission;
   float metallic, roughness;

@@ -1,5 +1,6 @@
-// "RE Specular" in the fragment shader (T 5.11), one fragment per visible point: rays seeded by the point's position
-// and the ray's index, mean radiance times the lobe's reflectance; rough surfaces take the diffuse irradiance.
+// "RE Specular" at a pixel by itself (T 5.11), in the fragment shader or a kernel over the picture: rays seeded by the
+// point's position and the ray's index, mean radiance times the lobe's reflectance; rough surfaces take the diffuse
+// irradiance.
 #include "specular/trace.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
@@ -7,17 +8,14 @@ layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
-layout(location = 0) out vec4 outSpecular;
 
-void main() {
+vec4 specularOf(ivec2 pixel) {
   GpuCamera camera = push.camera.at[0];
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depthTarget, pixel, 0).r;
   vec4 normal = imageLoad(normalTarget, pixel);
   vec4 f0 = imageLoad(f0Target, pixel);
   vec3 irradiance = imageLoad(indirectTarget, pixel).rgb;
-  outSpecular = vec4(0.0, 0.0, 0.0, 1.0);
-  if (depth >= 1.0 || f0.w == 0.0) return;
+  if (depth >= 1.0 || f0.w == 0.0) return vec4(0.0, 0.0, 0.0, 1.0);
   Grid grid = push.grid;
   vec3 axis = viewAxis(camera);
   vec3 local = pixelPosition(camera, pixel, viewDepth(camera, depth), axis);
@@ -35,5 +33,5 @@ void main() {
     TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
     radiance = mix(radiance, traceJittered(world, s, seed), tracedShare(s.roughness));
   }
-  outSpecular.rgb = radiance * environmentBrdf(s.f0, s.roughness, max(dot(s.normal, s.view), 1e-3));
+  return vec4(radiance * environmentBrdf(s.f0, s.roughness, max(dot(s.normal, s.view), 1e-3)), 1.0);
 }

@@ -1,0 +1,15 @@
+// Who shades what: where kernels rasterize, the visible pixels are listed by material, because a kernel knows the
+// textures of one material at a time.
+#pragma once
+
+#include "renderer/frame.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/targets.h"
+
+namespace irad {
+
+/// "RE Forward": from targets.visible the lists in targets.pixelLists, element `material` of which starts with dispatch
+/// arguments for forward/resolve.comp. Makes both buffers.
+void listPixels(Frame& frame, const SceneOnDevice& scene, Targets& targets);
+
+}  // namespace irad
