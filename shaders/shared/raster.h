@@ -15,7 +15,7 @@ IRAD_CONST int RASTER_SMALL = 64;
 IRAD_CONST int RASTER_TILE_BITS = 6;
 IRAD_CONST uint RASTER_TILES_PER_TRIANGLE = 256u;
 /// Workgroups of the second pass; they take tiles in turn.
-IRAD_CONST uint RASTER_GROUPS = 8192u;
+IRAD_CONST uint RASTER_GROUPS = 2048u;
 
 /// Triangles set aside. Element 0: their tiles (x) and their number (y); from 1 on a triangle (x) and the number of its
 /// first tile (y), ascending.
