@@ -5,11 +5,14 @@
 
 namespace irad {
 
+static_assert(sizeof(RasterPiece) == RASTER_PIECE_BYTES);
+
 uint32_t rasterQueuePieces(uint32_t triangles) {
   return triangles + triangles / 2 + 1024;  // a clipped triangle may come to several
 }
 uint64_t rasterQueueBytes(uint32_t triangles) {
-  return sizeof(RasterPiece) * (1ull + rasterQueuePieces(triangles));
+  const uint64_t pieces = rasterQueuePieces(triangles);
+  return sizeof(RasterPiece) * (1 + pieces) + sizeof(RasterRest) * pieces;
 }
 Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles) {
   return Buffer(device, "large triangles", subsystem, rasterQueueBytes(triangles));
@@ -17,7 +20,7 @@ Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t trian
 
 void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue,
                const std::function<void(Pass&)>& declare, const std::function<void(Commands&, bool tiles)>& body) {
-  frame.pass(stage).update(queue, glm::uvec2(0));
+  frame.pass(stage).update(queue, glm::uvec3(0));
   for (const bool tiles : {false, true}) {
     Pass pass = frame.pass(stage);
     pass.shader(shader).constant(RASTER_TILES, tiles).write(queue);
@@ -92,7 +95,7 @@ void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camer
       .read(targets.visible)
       .write(targets.depth)
       .push(targets.visible.address)
-      .dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8);
+      .dispatchGroups((targets.size.x + 15) / 16, (targets.size.y + 15) / 16);
 }
 
 }  // namespace irad

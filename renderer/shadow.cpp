@@ -176,7 +176,7 @@ void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& m
         .read(flat)
         .write(map)
         .push(StoreShadowPush{flat.address, face.layer, 0})
-        .dispatchGroups((map.desc.width + 7) / 8, (map.desc.height + 7) / 8);
+        .dispatchGroups((map.desc.width + 15) / 16, (map.desc.height + 15) / 16);
   }
   if (maps.cubes) frame.pass(kStage).copy(cubes, maps.cubes);
 }

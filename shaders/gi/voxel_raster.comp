@@ -16,6 +16,7 @@ RasterJob rasterJob() {
 
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  current = flatTriangle(t, triangle);
   for (uint i = 0u; i < 3u; ++i) corners[i] = flatCorner(t, i, push.grid.at[0].dims);
   cull = false;
   return !degenerate(t);

@@ -3,6 +3,8 @@
 // depth affine in the picture, clip space with y up. A first pass gives each triangle an invocation, which draws small
 // ones and sets the others aside; in a second one invocations share those, tile by tile (as Laine and Karras 2011,
 // "High-Performance Software Rasterization on GPUs", and Nanite part small from large).
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "shared/raster.h"
 
 layout(local_size_x = RASTER_WORKGROUP) in;
@@ -18,8 +20,8 @@ struct RasterJob {
 // From the including shader.
 RasterJob rasterJob();
 /// Corners in clip space, and whether triangles that show their back (clockwise) are left out. False: nothing to draw.
+/// What it leaves for rasterPixel of the same triangle, rasterBegin leaves in the second pass.
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull);
-/// The pixels to come are this triangle's.
 void rasterBegin(uint triangle);
 void rasterPixel(uint triangle, ivec2 pixel, float depth);
 
@@ -70,7 +72,6 @@ int64_t leastInside(ivec2 p, ivec2 q) {
 /// False: nothing of it is seen.
 bool setUp(uint triangle, vec4 ca, vec4 cb, vec4 cc, bool cull, uvec2 size, out RasterPiece p) {
   p.triangle = triangle;
-  p.firstTile = 0u;
   p.a = snapped(ca, size);
   p.b = snapped(cb, size);
   p.c = snapped(cc, size);
@@ -136,6 +137,30 @@ uvec2 tilesOf(ivec4 box, out int bits) {
   return tiles;
 }
 
+RasterRests restsOf(RasterJob job) {
+  return RasterRests(uint64_t(job.queue) + RASTER_PIECE_BYTES * uint64_t(1u + job.pieces));
+}
+
+/// False: there is no place left. One atomic per counter and subgroup: they queue up at the counter.
+bool setAside(RasterJob job, RasterPiece p, uint tiles) {
+  uvec4 here = subgroupBallot(true);
+  uint place;
+  if (subgroupElect()) place = atomicAdd(RasterCounts(job.queue).pieces, subgroupBallotBitCount(here));
+  place = subgroupBroadcastFirst(place) + subgroupBallotExclusiveBitCount(here);
+  if (place >= job.pieces) return false;
+  job.queue.at[1u + place] = p;
+  if (tiles == 1u) return true;
+  uvec4 more = subgroupBallot(true);
+  uint before = subgroupExclusiveAdd(tiles - 1u), sum = subgroupAdd(tiles - 1u);
+  uvec2 start;
+  if (subgroupElect())
+    start = unpack32(atomicAdd(RasterCounts(job.queue).rests, pack64(uvec2(sum, subgroupBallotBitCount(more)))));
+  start = subgroupBroadcastFirst(start);
+  RasterRests rests = restsOf(job);
+  rests.at[start.y + subgroupBallotExclusiveBitCount(more)] = RasterRest(place, start.x + before);
+  return true;
+}
+
 /// First pass: a small piece is drawn, another set aside, or drawn all the same where there is no place left for it.
 void drawPiece(RasterJob job, RasterPiece p) {
   ivec4 box = bounds(p, job.size);
@@ -144,14 +169,8 @@ void drawPiece(RasterJob job, RasterPiece p) {
   if (max(extent.x, extent.y) > RASTER_SMALL || extent.x * extent.y > RASTER_SMALL) {
     int bits;
     uvec2 tiles = tilesOf(box, bits);
-    uvec2 before = unpack32(atomicAdd(RasterCounter(job.queue).at[0], pack64(uvec2(tiles.x * tiles.y, 1u))));
-    p.firstTile = before.x;
-    if (before.y < job.pieces) {
-      job.queue.at[1u + before.y] = p;
-      return;
-    }
+    if (setAside(job, p, tiles.x * tiles.y)) return;
   }
-  rasterBegin(p.triangle);
   scan(p, box, ivec2(1));
 }
 
@@ -186,26 +205,27 @@ void drawTriangle(RasterJob job, uint triangle) {
 }
 
 /// Second pass: a tile of a piece, by its lanes.
-void drawTile(RasterJob job, uvec2 total, uint tile, uint lane) {
-  // The last piece that starts at or before this tile.
-  uint found = 0u, end = min(total.y, job.pieces);
-  while (end - found > 1u) {
-    uint middle = (found + end) / 2u;
-    if (job.queue.at[1u + middle].firstTile <= tile) found = middle;
-    else end = middle;
-  }
-  RasterPiece p = job.queue.at[1u + found];
+void drawTile(RasterJob job, RasterPiece p, uint tile, uint lane) {
   if (p.triangle < job.first || p.triangle >= job.end) return;
   ivec4 box = bounds(p, job.size);
   int bits;
   uvec2 tiles = tilesOf(box, bits);
-  tile -= p.firstTile;
-  if (tile >= tiles.x * tiles.y) return;  // of a piece for which there was no place
   box.xy += ivec2(tile % tiles.x, tile / tiles.x) << bits;
   box.zw = min(box.zw, box.xy + (1 << bits) - 1);
   box.xy += ivec2(lane & 7u, lane >> 3);
   rasterBegin(p.triangle);
   scan(p, box, ivec2(8, RASTER_LANES / 8u));
+}
+
+/// The piece that tile `tile` of the row of all but first tiles belongs to: the last that starts at or before it.
+RasterRest restAt(RasterRests rests, uint count, uint tile) {
+  uint found = 0u;
+  while (count - found > 1u) {
+    uint middle = (found + count) / 2u;
+    if (rests.at[middle].firstTile <= tile) found = middle;
+    else count = middle;
+  }
+  return rests.at[found];
 }
 
 void main() {
@@ -215,8 +235,17 @@ void main() {
     if (index < job.end - job.first) drawTriangle(job, job.first + index);
     return;
   }
-  uvec2 total = unpack32(RasterCounter(job.queue).at[0]);
+  RasterCounts counts = RasterCounts(job.queue);
+  RasterRests rests = restsOf(job);
+  uvec2 rest = unpack32(counts.rests);
+  uint pieces = min(counts.pieces, job.pieces);
   uint together = RASTER_WORKGROUP / RASTER_LANES * gl_NumWorkGroups.x;
-  for (uint tile = index / RASTER_LANES; tile < total.x; tile += together)
-    drawTile(job, total, tile, index % RASTER_LANES);
+  for (uint i = index / RASTER_LANES; i < pieces + rest.x; i += together) {
+    if (i < pieces) {
+      drawTile(job, job.queue.at[1u + i], 0u, index % RASTER_LANES);
+    } else {
+      RasterRest r = restAt(rests, rest.y, i - pieces);
+      drawTile(job, job.queue.at[1u + r.piece], 1u + i - pieces - r.firstTile, index % RASTER_LANES);
+    }
+  }
 }

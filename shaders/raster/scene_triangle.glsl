@@ -24,6 +24,7 @@ bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   cull = push.cull != 0u && (flags & MATERIAL_DOUBLE_SIDED) == 0u;
   if (push.skipMasked != 0u && (flags & MATERIAL_ALPHA_MASK) != 0u) return false;
   projectCorners(triangle, corners);
+  if (MASKED) corner = corners;
   return true;
 }
 
@@ -33,7 +34,6 @@ void rasterBegin(uint triangle) {
 
 /// Whether the material's alpha cuts the pixel out.
 bool cutOut(uint triangle, ivec2 pixel) {
-  if (!MASKED) return false;
   GpuScene scene = push.scene.at[0];
   GpuMaterial m = scene.materials.at[scene.triangleMaterials.at[triangle]];
   vec4 uv[3];

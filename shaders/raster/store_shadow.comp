@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform PushBlock { StoreShadowPush push; };
 layout(set = 0, binding = 0, r32f) uniform writeonly image2DArray shadowFlat;
 

@@ -21,15 +21,25 @@ IRAD_CONST uint RASTER_GROUPS = 2048u;
 
 /// A triangle, or what clipping has left of it, ready to be scanned.
 struct RasterPiece {
-  ivec2 a, b, c;      ///< corners, 1/256 pixel, y down; clockwise to the eye
-  float da, db, dc;   ///< their depths
+  ivec2 a, b, c;     ///< corners, 1/256 pixel, y down; clockwise to the eye
+  float da, db, dc;  ///< their depths
   uint triangle;
-  uint firstTile;     ///< number of its first tile
 };
-/// Pieces set aside, by firstTile. In the place of the first: their tiles (a uint) and their number (another).
+IRAD_CONST uint RASTER_PIECE_BYTES = 40u;
+/// A piece of more than one tile: where the others begin, in the row of all such tiles.
+struct RasterRest {
+  uint piece;
+  uint firstTile;  ///< ascending
+};
+/// Pieces set aside. In the place of the first: the number of tiles but the pieces' first ones, of the pieces that have
+/// such, and of all pieces (a uint each). Behind them the RasterRests, as many at most.
 IRAD_ARRAY(RasterQueue, RasterPiece, 4)
+IRAD_ARRAY(RasterRests, RasterRest, 4)
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RasterCounter { uint64_t at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RasterCounts {
+  uint64_t rests;  ///< tiles, then pieces
+  uint pieces;
+};
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer VisibleArray { uint64_t at[]; };
 #endif
 
