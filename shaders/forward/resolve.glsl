@@ -18,7 +18,7 @@ layout(set = 0, binding = IRAD_LIGHTS_BINDING + 7, rgba32f) uniform writeonly im
 layout(set = 0, binding = IRAD_LIGHTS_BINDING + 8, rgba32f) uniform writeonly image2D lookupTarget;
 #endif
 
-/// As forward/forward.vert, and the differences of uv to the neighbours.
+/// As forward/forward.vert, and the differences of uv within the block of 2 x 2 pixels.
 Interpolants interpolate(uint triangle, ivec2 pixel) {
   GpuScene scene = push.scene.at[0];
   GpuCamera camera = push.camera.at[0];
