@@ -48,5 +48,5 @@ void main() {
   }
   if (!WRITE) return;
   barrier();
-  if (triangle != NONE) push.listed.at[placeAt[slot] + rank] = pixel.x | (pixel.y << 16);
+  if (triangle != NONE) push.listed.at[placeAt[slot] + rank] = uvec2(pixel.x | (pixel.y << 16), triangle);
 }
