@@ -141,7 +141,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       .sample(targets.depth, sampler(context.device, nearest))
       .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
              targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.bound(&Targets::emitted))
-      .dispatch(uint64_t{targets.size.x} * targets.size.y);
+      .dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8);
 
   // Shading, material by material: of the triangles drawn, or of the pixels listed.
   if (effects.kernels) listPixels(frame, scene, targets);
