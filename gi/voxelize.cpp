@@ -123,7 +123,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
           push.firstTriangle = range.first;
           push.endTriangle = range.end;
           push.firstTile = range.firstTile;
-          push.tileCount = range.tiles;
+          push.tileCount = kernels ? rasterQueuePieces(triangles) : range.tiles;
           commands.push(push);
           go(range);
         }

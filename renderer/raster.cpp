@@ -5,8 +5,11 @@
 
 namespace irad {
 
+uint32_t rasterQueuePieces(uint32_t triangles) {
+  return triangles + triangles / 2 + 1024;  // a clipped triangle may come to several
+}
 uint64_t rasterQueueBytes(uint32_t triangles) {
-  return sizeof(glm::uvec2) * (1ull + triangles);
+  return sizeof(RasterPiece) * (1ull + rasterQueuePieces(triangles));
 }
 Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles) {
   return Buffer(device, "large triangles", subsystem, rasterQueueBytes(triangles));
@@ -42,6 +45,7 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
   push.queue = raster.queue.address;
   push.target = raster.target.address + raster.targetOffset;
   push.size = raster.size;
+  push.pieces = rasterQueuePieces(triangles);
   push.cull = raster.cull;
   const auto declare = [&](bool alpha) {
     return [&, alpha](Pass& pass) {

@@ -9,6 +9,7 @@
 namespace irad {
 
 /// Where the first pass of a rasterization sets triangles aside for the second; one rasterization after the other.
+uint32_t rasterQueuePieces(uint32_t triangles);  ///< that it holds; others are drawn in the first pass, slowly
 uint64_t rasterQueueBytes(uint32_t triangles);
 Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles);
 

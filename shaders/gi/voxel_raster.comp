@@ -10,16 +10,17 @@ FlatTriangle current;
 
 RasterJob rasterJob() {
   uvec3 dims = push.grid.at[0].dims;
-  return RasterJob(RasterQueue(push.tileStart), uvec2(max(dims.x, max(dims.y, dims.z))), push.firstTriangle,
+  return RasterJob(RasterQueue(push.tileStart), push.tileCount, uvec2(max(dims.x, max(dims.y, dims.z))), push.firstTriangle,
                    push.endTriangle);
 }
 
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  current = flatTriangle(t, triangle);
   for (uint i = 0u; i < 3u; ++i) corners[i] = flatCorner(t, i, push.grid.at[0].dims);
   cull = false;
   return !degenerate(t);
 }
+
+void rasterBegin(uint triangle) { current = flatTriangle(loadTriangle(push.scene, push.grid, triangle), triangle); }
 
 void rasterPixel(uint triangle, ivec2 pixel, float depth) { voxelFragment(current, vec2(pixel) + 0.5); }

@@ -1,15 +1,16 @@
 // Rasterization by a compute kernel, by the graphics pipeline's rules: corners snapped to 1/256 pixel, exact edge
 // functions (Pineda 1988, "A Parallel Algorithm for Polygon Rasterization"), shared edges drawn once (top-left rule),
 // depth affine in the picture, clip space with y up. A first pass gives each triangle an invocation, which draws small
-// ones and sets the others aside; in a second one workgroups share those, tile by tile (as Laine and Karras 2011,
+// ones and sets the others aside; in a second one invocations share those, tile by tile (as Laine and Karras 2011,
 // "High-Performance Software Rasterization on GPUs", and Nanite part small from large).
 #include "shared/raster.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = RASTER_WORKGROUP) in;
 layout(constant_id = RASTER_TILES) const bool TILES = false;
 
 struct RasterJob {
   RasterQueue queue;
+  uint pieces;      ///< that the queue holds
   uvec2 size;       ///< pixels
   uint first, end;  ///< triangles
 };
@@ -17,8 +18,9 @@ struct RasterJob {
 // From the including shader.
 RasterJob rasterJob();
 /// Corners in clip space, and whether triangles that show their back (clockwise) are left out. False: nothing to draw.
-/// What it keeps in globals is there for rasterPixel of the same triangle.
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull);
+/// The pixels to come are this triangle's.
+void rasterBegin(uint triangle);
 void rasterPixel(uint triangle, ivec2 pixel, float depth);
 
 /// Corners further than this many half-pictures off the axis are clipped, so that edge functions fit 64 bits.
@@ -55,11 +57,6 @@ ivec2 snapped(vec4 c, uvec2 size) {
   return ivec2(floor(at + 0.5));
 }
 
-/// Pixels whose centres the snapped bounds hold: first xy, last zw.
-ivec4 pixelsBetween(ivec2 lo, ivec2 hi, uvec2 size) {
-  return ivec4(max((lo + 127) >> 8, ivec2(0)), min((hi - 128) >> 8, ivec2(size) - 1));
-}
-
 /// Twice the area of p, q, r, positive if they turn clockwise to the eye.
 int64_t turn(ivec2 p, ivec2 q, ivec2 r) {
   return int64_t(q.x - p.x) * int64_t(r.y - p.y) - int64_t(q.y - p.y) * int64_t(r.x - p.x);
@@ -70,57 +67,66 @@ int64_t leastInside(ivec2 p, ivec2 q) {
   return q.y < p.y || (q.y == p.y && q.x > p.x) ? int64_t(0) : int64_t(1);
 }
 
-/// The pixels of a triangle, or of a piece of a clipped one, within `box`: every one, or those of this invocation of the
-/// workgroup.
-void scanPiece(uint triangle, vec4 ca, vec4 cb, vec4 cc, bool cull, ivec4 box, uvec2 size) {
-  ivec2 a = snapped(ca, size), b = snapped(cb, size), c = snapped(cc, size);
+/// False: nothing of it is seen.
+bool setUp(uint triangle, vec4 ca, vec4 cb, vec4 cc, bool cull, uvec2 size, out RasterPiece p) {
+  p.triangle = triangle;
+  p.firstTile = 0u;
+  p.a = snapped(ca, size);
+  p.b = snapped(cb, size);
+  p.c = snapped(cc, size);
   precise float da = ca.z / ca.w;
   precise float db = cb.z / cb.w;
   precise float dc = cc.z / cc.w;
-  int64_t area = turn(a, b, c);
-  if (area == 0 || (cull && area > 0)) return;
-  if (area < 0) {
-    ivec2 p = b;
-    b = c;
-    c = p;
-    float d = db;
-    db = dc;
-    dc = d;
-    area = -area;
-  }
-  ivec4 own = pixelsBetween(min(a, min(b, c)), max(a, max(b, c)), size);
-  box = ivec4(max(box.xy, own.xy), min(box.zw, own.zw));
-  int stride = 1;
-  if (TILES) {
-    stride = 8;
-    box.xy += ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
-  }
+  int64_t area = turn(p.a, p.b, p.c);
+  bool back = area > 0;
+  ivec2 b = p.b;
+  p.b = back ? b : p.c;
+  p.c = back ? p.c : b;
+  p.da = da;
+  p.db = back ? db : dc;
+  p.dc = back ? dc : db;
+  return area != 0 && !(cull && back);
+}
+
+/// Pixels whose centres the piece's bounds hold: first xy, last zw.
+ivec4 bounds(RasterPiece p, uvec2 size) {
+  ivec2 lo = min(p.a, min(p.b, p.c)), hi = max(p.a, max(p.b, p.c));
+  return ivec4(max((lo + 127) >> 8, ivec2(0)), min((hi - 128) >> 8, ivec2(size) - 1));
+}
+
+/// The piece's pixels within `box`, from its first on in steps. One loop, not two: invocations side by side with boxes
+/// of other shapes would wait for each other in either.
+void scan(RasterPiece p, ivec4 box, ivec2 stride) {
   if (any(greaterThan(box.xy, box.zw))) return;
   ivec2 at = box.xy * 256 + 128;
-  int64_t rowA = turn(b, c, at), rowB = turn(c, a, at), rowC = turn(a, b, at);
-  int64_t step = int64_t(256 * stride);
-  int64_t leastA = leastInside(b, c), leastB = leastInside(c, a), leastC = leastInside(a, b);
-  precise float inverseArea = 1.0 / float(area);
-  for (int y = box.y; y <= box.w; y += stride) {
-    int64_t ea = rowA, eb = rowB, ec = rowC;
-    for (int x = box.x; x <= box.z; x += stride) {
-      if (ea >= leastA && eb >= leastB && ec >= leastC) {
-        precise float toB = float(eb) * inverseArea;
-        precise float toC = float(ec) * inverseArea;
-        precise float depth = da + (toB * (db - da) + toC * (dc - da));
-        rasterPixel(triangle, ivec2(x, y), clamp(depth, 0.0, 1.0));
-      }
-      ea -= int64_t(c.y - b.y) * step;
-      eb -= int64_t(a.y - c.y) * step;
-      ec -= int64_t(b.y - a.y) * step;
+  int64_t rowA = turn(p.b, p.c, at), rowB = turn(p.c, p.a, at), rowC = turn(p.a, p.b, at);
+  int64_t leastA = leastInside(p.b, p.c), leastB = leastInside(p.c, p.a), leastC = leastInside(p.a, p.b);
+  ivec2 step = stride * 256;
+  precise float inverseArea = 1.0 / float(turn(p.a, p.b, p.c));
+  int64_t ea = rowA, eb = rowB, ec = rowC;
+  ivec2 pixel = box.xy;
+  while (pixel.y <= box.w) {
+    if (ea >= leastA && eb >= leastB && ec >= leastC) {
+      precise float toB = float(eb) * inverseArea;
+      precise float toC = float(ec) * inverseArea;
+      precise float depth = p.da + (toB * (p.db - p.da) + toC * (p.dc - p.da));
+      rasterPixel(p.triangle, pixel, clamp(depth, 0.0, 1.0));
     }
-    rowA += int64_t(c.x - b.x) * step;
-    rowB += int64_t(a.x - c.x) * step;
-    rowC += int64_t(b.x - a.x) * step;
+    pixel.x += stride.x;
+    if (pixel.x <= box.z) {
+      ea -= int64_t(p.c.y - p.b.y) * step.x;
+      eb -= int64_t(p.a.y - p.c.y) * step.x;
+      ec -= int64_t(p.b.y - p.a.y) * step.x;
+    } else {
+      pixel = ivec2(box.x, pixel.y + stride.y);
+      ea = rowA += int64_t(p.c.x - p.b.x) * step.y;
+      eb = rowB += int64_t(p.a.x - p.c.x) * step.y;
+      ec = rowC += int64_t(p.b.x - p.a.x) * step.y;
+    }
   }
 }
 
-/// Level and number of the tiles that a box is cut into; they start at its first pixel.
+/// How many tiles a box is cut into, 1 << bits pixels wide; they start at its first pixel.
 uvec2 tilesOf(ivec4 box, out int bits) {
   bits = RASTER_TILE_BITS;
   uvec2 tiles;
@@ -130,33 +136,32 @@ uvec2 tilesOf(ivec4 box, out int bits) {
   return tiles;
 }
 
-/// What of `box` is to be drawn here and now: in the first pass all of a small one, none of another, which is set aside;
-/// in the second the tile.
-bool claim(RasterJob job, uint triangle, uint tile, inout ivec4 box) {
-  if (any(greaterThan(box.xy, box.zw))) return false;
+/// First pass: a small piece is drawn, another set aside, or drawn all the same where there is no place left for it.
+void drawPiece(RasterJob job, RasterPiece p) {
+  ivec4 box = bounds(p, job.size);
+  if (any(greaterThan(box.xy, box.zw))) return;
   ivec2 extent = box.zw - box.xy + 1;
-  if (!TILES && extent.x <= RASTER_SMALL && extent.y <= RASTER_SMALL && extent.x * extent.y <= RASTER_SMALL) return true;
-  int bits;
-  uvec2 tiles = tilesOf(box, bits);
-  if (TILES) {
-    box.xy += ivec2(tile % tiles.x, tile / tiles.x) << bits;
-    box.zw = min(box.zw, box.xy + (1 << bits) - 1);
-    return true;
+  if (max(extent.x, extent.y) > RASTER_SMALL || extent.x * extent.y > RASTER_SMALL) {
+    int bits;
+    uvec2 tiles = tilesOf(box, bits);
+    uvec2 before = unpack32(atomicAdd(RasterCounter(job.queue).at[0], pack64(uvec2(tiles.x * tiles.y, 1u))));
+    p.firstTile = before.x;
+    if (before.y < job.pieces) {
+      job.queue.at[1u + before.y] = p;
+      return;
+    }
   }
-  RasterCounter counter = RasterCounter(job.queue);
-  uvec2 before = unpack32(atomicAdd(counter.at[0], pack64(uvec2(tiles.x * tiles.y, 1u))));
-  job.queue.at[1u + before.y] = uvec2(triangle, before.x);
-  return false;
+  rasterBegin(p.triangle);
+  scan(p, box, ivec2(1));
 }
 
-void rasterize(RasterJob job, uint triangle, uint tile) {
+void drawTriangle(RasterJob job, uint triangle) {
   vec4 c[3];
   bool cull;
+  RasterPiece p;
   if (!rasterCorners(triangle, c, cull) || outOfPicture(c[0], c[1], c[2])) return;
   if (needsNoClip(c[0]) && needsNoClip(c[1]) && needsNoClip(c[2])) {
-    ivec2 a = snapped(c[0], job.size), b = snapped(c[1], job.size), d = snapped(c[2], job.size);
-    ivec4 box = pixelsBetween(min(a, min(b, d)), max(a, max(b, d)), job.size);
-    if (claim(job, triangle, tile, box)) scanPiece(triangle, c[0], c[1], c[2], cull, box, job.size);
+    if (setUp(triangle, c[0], c[1], c[2], cull, job.size, p)) drawPiece(job, p);
     return;
   }
   // Sutherland and Hodgman 1974; each plane adds a corner at most.
@@ -170,45 +175,48 @@ void rasterize(RasterJob job, uint triangle, uint tile) {
       vec4 from = polygon[i], to = polygon[i + 1 < corners ? i + 1 : 0];
       float f = clipDistance(from, plane), t = clipDistance(to, plane);
       if (f >= 0.0) clipped[kept++] = from;
-      if ((f >= 0.0) != (t >= 0.0)) {
-        // From the inner corner, so that two triangles get the same point of the edge between them.
-        vec4 point = f >= 0.0 ? mix(from, to, f / (f - t)) : mix(to, from, t / (t - f));
-        clipped[kept++] = point;
-      }
+      // From the inner corner, so that two triangles get the same point of the edge between them.
+      if ((f >= 0.0) != (t >= 0.0)) clipped[kept++] = f >= 0.0 ? mix(from, to, f / (f - t)) : mix(to, from, t / (t - f));
     }
     corners = kept;
     for (int i = 0; i < corners; ++i) polygon[i] = clipped[i];
   }
-  if (corners < 3) return;
-  ivec2 lo = ivec2(0x7FFFFFFF), hi = ivec2(-0x7FFFFFFF);
-  for (int i = 0; i < corners; ++i) {
-    ivec2 at = snapped(polygon[i], job.size);
-    lo = min(lo, at);
-    hi = max(hi, at);
-  }
-  ivec4 box = pixelsBetween(lo, hi, job.size);
-  if (!claim(job, triangle, tile, box)) return;
   for (int i = 2; i < corners; ++i)
-    scanPiece(triangle, polygon[0], polygon[i - 1], polygon[i], cull, box, job.size);
+    if (setUp(triangle, polygon[0], polygon[i - 1], polygon[i], cull, job.size, p)) drawPiece(job, p);
+}
+
+/// Second pass: a tile of a piece, by its lanes.
+void drawTile(RasterJob job, uvec2 total, uint tile, uint lane) {
+  // The last piece that starts at or before this tile.
+  uint found = 0u, end = min(total.y, job.pieces);
+  while (end - found > 1u) {
+    uint middle = (found + end) / 2u;
+    if (job.queue.at[1u + middle].firstTile <= tile) found = middle;
+    else end = middle;
+  }
+  RasterPiece p = job.queue.at[1u + found];
+  if (p.triangle < job.first || p.triangle >= job.end) return;
+  ivec4 box = bounds(p, job.size);
+  int bits;
+  uvec2 tiles = tilesOf(box, bits);
+  tile -= p.firstTile;
+  if (tile >= tiles.x * tiles.y) return;  // of a piece for which there was no place
+  box.xy += ivec2(tile % tiles.x, tile / tiles.x) << bits;
+  box.zw = min(box.zw, box.xy + (1 << bits) - 1);
+  box.xy += ivec2(lane & 7u, lane >> 3);
+  rasterBegin(p.triangle);
+  scan(p, box, ivec2(8, RASTER_LANES / 8u));
 }
 
 void main() {
   RasterJob job = rasterJob();
+  uint index = irad_index();
   if (!TILES) {
-    uint triangle = job.first + irad_index();
-    if (triangle < job.end) rasterize(job, triangle, 0u);
+    if (index < job.end - job.first) drawTriangle(job, job.first + index);
     return;
   }
-  uvec2 total = job.queue.at[0];
-  for (uint tile = gl_WorkGroupID.x; tile < total.x; tile += gl_NumWorkGroups.x) {
-    // The last triangle that starts at or before this tile.
-    uint found = 0u, end = total.y;
-    while (end - found > 1u) {
-      uint middle = (found + end) / 2u;
-      if (job.queue.at[1u + middle].y <= tile) found = middle;
-      else end = middle;
-    }
-    uvec2 item = job.queue.at[1u + found];
-    if (item.x >= job.first && item.x < job.end) rasterize(job, item.x, tile - item.y);
-  }
+  uvec2 total = unpack32(RasterCounter(job.queue).at[0]);
+  uint together = RASTER_WORKGROUP / RASTER_LANES * gl_NumWorkGroups.x;
+  for (uint tile = index / RASTER_LANES; tile < total.x; tile += together)
+    drawTile(job, total, tile, index % RASTER_LANES);
 }

@@ -7,20 +7,28 @@
 layout(constant_id = RASTER_MASKED) const bool MASKED = false;
 layout(push_constant, scalar) uniform PushBlock { RasterPush push; };
 
-vec4 corner[3];  ///< of the current triangle
+vec4 corner[3];  ///< of the current triangle, of a masked material
 
-RasterJob rasterJob() { return RasterJob(push.queue, push.size, push.first, push.end); }
+RasterJob rasterJob() { return RasterJob(push.queue, push.pieces, push.size, push.first, push.end); }
+
+void projectCorners(uint triangle, out vec4 corners[3]) {
+  GpuScene scene = push.scene.at[0];
+  mat4 projection = push.projection.at[0].matrix;
+  for (uint i = 0u; i < 3u; ++i)
+    corners[i] = project(projection, scene.positions.at[scene.indices.at[3u * triangle + i]]);
+}
 
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   GpuScene scene = push.scene.at[0];
   uint flags = scene.materials.at[scene.triangleMaterials.at[triangle]].flags;
   cull = push.cull != 0u && (flags & MATERIAL_DOUBLE_SIDED) == 0u;
   if (push.skipMasked != 0u && (flags & MATERIAL_ALPHA_MASK) != 0u) return false;
-  mat4 projection = push.projection.at[0].matrix;
-  for (uint i = 0u; i < 3u; ++i)
-    corners[i] = project(projection, scene.positions.at[scene.indices.at[3u * triangle + i]]);
-  if (MASKED) corner = corners;
+  projectCorners(triangle, corners);
   return true;
+}
+
+void rasterBegin(uint triangle) {
+  if (MASKED) projectCorners(triangle, corner);
 }
 
 /// Whether the material's alpha cuts the pixel out.

@@ -10,16 +10,24 @@ IRAD_CONST uint RASTER_MASKED = 9u;  ///< the alpha of the bound material decide
 
 /// Pixels of a triangle's bounds up to which one invocation draws it by itself.
 IRAD_CONST int RASTER_SMALL = 64;
-/// The others are cut into tiles of (64 << level)^2 pixels, a workgroup each; level the least for which this many
-/// suffice, so that MAX_TRIANGLES of them fit a uint.
-IRAD_CONST int RASTER_TILE_BITS = 6;
+/// The others are cut into tiles of (32 << level)^2 pixels, level the least for which this many suffice, so that
+/// MAX_TRIANGLES of them fit a uint.
+IRAD_CONST int RASTER_TILE_BITS = 5;
 IRAD_CONST uint RASTER_TILES_PER_TRIANGLE = 256u;
-/// Workgroups of the second pass; they take tiles in turn.
-IRAD_CONST uint RASTER_GROUPS = 8192u;
+/// Invocations of a workgroup, those that share a tile, and workgroups of the second pass, which take tiles in turn.
+IRAD_CONST uint RASTER_WORKGROUP = 128u;
+IRAD_CONST uint RASTER_LANES = 32u;
+IRAD_CONST uint RASTER_GROUPS = 2048u;
 
-/// Triangles set aside. Element 0: their tiles (x) and their number (y); from 1 on a triangle (x) and the number of its
-/// first tile (y), ascending.
-IRAD_ARRAY(RasterQueue, uvec2, 8)
+/// A triangle, or what clipping has left of it, ready to be scanned.
+struct RasterPiece {
+  ivec2 a, b, c;      ///< corners, 1/256 pixel, y down; clockwise to the eye
+  float da, db, dc;   ///< their depths
+  uint triangle;
+  uint firstTile;     ///< number of its first tile
+};
+/// Pieces set aside, by firstTile. In the place of the first: their tiles (a uint) and their number (another).
+IRAD_ARRAY(RasterQueue, RasterPiece, 4)
 #ifndef __cplusplus
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RasterCounter { uint64_t at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer VisibleArray { uint64_t at[]; };
@@ -33,6 +41,7 @@ struct RasterPush {
   UintArray target;  ///< a word, or two, per pixel
   uvec2 size;        ///< pixels
   uint first, end;   ///< triangles
+  uint pieces;       ///< that the queue holds
   uint cull;         ///< 1: not the backs of single-sided materials
   uint skipMasked;   ///< 1: not those of masked materials
 };

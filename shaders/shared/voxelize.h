@@ -50,7 +50,7 @@ struct VoxelizePush {
   uint firstTriangle;
   uint endTriangle;
   uint firstTile;
-  uint tileCount;
+  uint tileCount;  ///< by kernels the pieces that the RasterQueue holds
   uint slot;   ///< 0: the best side of all; 1: the best that faces against it
   uint slots;  ///< 2: both sides of a double-sided triangle may be the first facet
 };
