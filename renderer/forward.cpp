@@ -141,7 +141,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       .sample(targets.depth, sampler(context.device, nearest))
       .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
              targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.bound(&Targets::emitted))
-      .dispatch(uint64_t{targets.size.x} * targets.size.y);
+      .dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8);
 
   // Shading, material by material: of the triangles drawn, or of the pixels listed.
   if (effects.kernels) listPixels(frame, scene, targets);
@@ -154,7 +154,6 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
   if (effects.kernels) {
-    push.visible = targets.visible.address;
     push.lists = targets.pixelLists.address;
     push.listed = targets.listedPixels.address;
   }
@@ -206,17 +205,15 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
           .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
                  targets.bound(&Targets::highlight), targets.bound(&Targets::indirect));
       if (!fromVolume) pass.write(targets.linear);  // the lookup's normal
-      pass.read(targets.visible, targets.pixelLists, targets.listedPixels)
-          .indirect(targets.pixelLists)
-          .run([&](Commands& commands) {
-            std::set<uint32_t> materials;
-            for (const Draw& draw : draws)
-              if (drawnHere(draw)) materials.insert(draw.material);
-            for (const uint32_t material : materials) {
-              use(commands, material);
-              commands.dispatchIndirect(targets.pixelLists, sizeof(PixelList) * material);
-            }
-          });
+      pass.read(targets.pixelLists, targets.listedPixels).indirect(targets.pixelLists).run([&](Commands& commands) {
+        std::set<uint32_t> materials;
+        for (const Draw& draw : draws)
+          if (drawnHere(draw)) materials.insert(draw.material);
+        for (const uint32_t material : materials) {
+          use(commands, material);
+          commands.dispatchIndirect(targets.pixelLists, sizeof(PixelList) * material);
+        }
+      });
       continue;
     }
     pass.color(targets.normal)

@@ -10,7 +10,7 @@ void listPixels(Frame& frame, const SceneOnDevice& scene, Targets& targets) {
   };
   const auto materials = static_cast<uint32_t>(scene.materialValues.size());
   fit(targets.pixelLists, "lists of pixels by material", sizeof(PixelList) * (materials + 1ull));
-  fit(targets.listedPixels, "pixels by material", 4ull * targets.size.x * targets.size.y);
+  fit(targets.listedPixels, "pixels by material", sizeof(glm::uvec2) * targets.size.x * targets.size.y);
 
   PixelListPush push{};
   push.scene = scene.record.address;

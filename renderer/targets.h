@@ -28,11 +28,11 @@ struct Targets {
   Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M), where a view asks
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   // Where kernels rasterize:
-  Buffer visible;       ///< uint64 per pixel, row by row: bits of the depth << 32 | triangle of what is seen, all bits set
-                        ///< where nothing is
+  Buffer visible;  ///< uint64 per pixel, row by row: bits of the depth << 32 | triangle of what is seen, all bits set
+                   ///< where nothing is
   Buffer rasterQueue;   ///< renderer/raster.h
   Buffer pixelLists;    ///< a PixelList per material and one more
-  Buffer listedPixels;  ///< what they are lists of, x | y << 16
+  Buffer listedPixels;  ///< what they are lists of: x | y << 16, triangle
 
   Buffer glossy;  ///< pixels that trace specular rays (shaders/shared/passes.h); with `specular`, where that is listed
 

@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "RE Forward": the targets that are there are zero where the depth prepass left nothing. Clears of whole targets would go through the
-// raster units, which are few on some devices.
+// "RE Forward": the targets that are there are zero where the depth prepass left nothing. Clears of whole targets would
+// go through the raster units, which are few on some devices.
 #include "shared/passes.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint TARGETS = TARGETS_ALL;  ///< those that are there
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D normalTarget;
@@ -17,10 +17,9 @@ layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D indirectTarget;
 layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D emittedTarget;
 
 void main() {
-  uvec2 size = uvec2(textureSize(depthTarget, 0));
-  uint i = irad_index();
-  ivec2 pixel = ivec2(i % size.x, i / size.x);
-  if (i >= size.x * size.y || texelFetch(depthTarget, pixel, 0).r < 1.0) return;
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, textureSize(depthTarget, 0)))) return;
+  if (texelFetch(depthTarget, pixel, 0).r < 1.0) return;
   imageStore(normalTarget, pixel, vec4(0.0));
   imageStore(geometricTarget, pixel, vec4(0.0));
   imageStore(albedoTarget, pixel, vec4(0.0));

@@ -3,6 +3,7 @@
 // once, whatever its pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "shared/passes.h"
 
 const uint INVOCATIONS = 256u;
@@ -38,8 +39,19 @@ void main() {
   if (all(lessThan(pixel, push.size))) triangle = push.visible.at[pixel.y * push.size.x + pixel.x].x;
   uint slot, rank;
   if (triangle != NONE) {
-    slot = slotOf(push.scene.at[0].triangleMaterials.at[triangle]);
-    rank = atomicAdd(pixelsAt[slot], 1u);
+    // One of the subgroup's materials after the other: few atomics, each for all of its pixels.
+    uint material = push.scene.at[0].triangleMaterials.at[triangle];
+    for (;;) {
+      if (material != subgroupBroadcastFirst(material)) continue;
+      uvec4 alike = subgroupBallot(true);
+      if (subgroupElect()) {
+        slot = slotOf(material);
+        rank = atomicAdd(pixelsAt[slot], subgroupBallotBitCount(alike));
+      }
+      slot = subgroupBroadcastFirst(slot);
+      rank = subgroupBroadcastFirst(rank) + subgroupBallotExclusiveBitCount(alike);
+      break;
+    }
   }
   barrier();
   if (materialAt[i] != NONE) {
@@ -48,5 +60,5 @@ void main() {
   }
   if (!WRITE) return;
   barrier();
-  if (triangle != NONE) push.listed.at[placeAt[slot] + rank] = pixel.x | (pixel.y << 16);
+  if (triangle != NONE) push.listed.at[placeAt[slot] + rank] = uvec2(pixel.x | (pixel.y << 16), triangle);
 }

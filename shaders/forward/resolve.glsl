@@ -18,7 +18,7 @@ layout(set = 0, binding = IRAD_LIGHTS_BINDING + 7, rgba32f) uniform writeonly im
 layout(set = 0, binding = IRAD_LIGHTS_BINDING + 8, rgba32f) uniform writeonly image2D lookupTarget;
 #endif
 
-/// As forward/forward.vert, and the differences of uv to the neighbours.
+/// As forward/forward.vert, and the differences of uv within the block of 2 x 2 pixels.
 Interpolants interpolate(uint triangle, ivec2 pixel) {
   GpuScene scene = push.scene.at[0];
   GpuCamera camera = push.camera.at[0];
@@ -47,10 +47,9 @@ void main() {
   PixelList list = push.lists.at[push.material];
   uint i = irad_index();
   if (i >= list.count) return;
-  uint packed_ = push.listed.at[list.end - list.count + i];
-  ivec2 pixel = ivec2(packed_ & 0xFFFFu, packed_ >> 16);
-  uint triangle = push.visible.at[pixel.y * push.camera.at[0].size.x + pixel.x].x;
-  Shaded o = shade(interpolate(triangle, pixel));
+  uvec2 listed = push.listed.at[list.end - list.count + i];
+  ivec2 pixel = ivec2(listed.x & 0xFFFFu, listed.x >> 16);
+  Shaded o = shade(interpolate(listed.y, pixel));
   imageStore(normalTarget, pixel, o.normal);
   imageStore(geometricTarget, pixel, o.geometric);
   imageStore(albedoTarget, pixel, o.albedo);

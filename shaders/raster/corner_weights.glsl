@@ -3,17 +3,25 @@
 #define IRAD_RASTER_CORNER_WEIGHTS_GLSL
 
 /// Perspective-correct, sum 1: clip-space corners relative to the point are as areas (Olano and Greer 1997, "Triangle
-/// Scan Conversion Using 2D Homogeneous Coordinates"), so that nothing is divided by a w that may be 0 or below.
+/// Scan Conversion Using 2D Homogeneous Coordinates"), so that nothing is divided by a w that may be 0 or below. Of a
+/// triangle seen edge-on the first corner.
 vec3 cornerWeights(vec4 c[3], vec2 ndc) {
   vec2 p[3];
   for (int i = 0; i < 3; ++i) p[i] = c[i].xy - ndc * c[i].w;
   vec3 w = vec3(p[1].x * p[2].y - p[1].y * p[2].x, p[2].x * p[0].y - p[2].y * p[0].x, p[0].x * p[1].y - p[0].y * p[1].x);
-  return w / (w.x + w.y + w.z);
+  float sum = w.x + w.y + w.z;
+  return sum != 0.0 ? w / sum : vec3(1.0, 0.0, 0.0);
 }
 
 /// Of the whole picture, y up.
 vec2 pixelCentre(ivec2 pixel, uvec2 size) {
   return (vec2(pixel) + 0.5) / vec2(size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+}
+
+/// Of a point that is the triangle's but for rounding and the snapping of corners, from which slivers would extrapolate.
+vec3 weightsWithin(vec3 w) {
+  w = max(w, 0.0);
+  return w / (w.x + w.y + w.z);
 }
 
 /// At the pixel's centre, and at three of the four pixels whose differences the graphics pipeline takes for derivatives.
@@ -23,7 +31,7 @@ struct PixelWeights {
 };
 PixelWeights pixelWeights(vec4 c[3], ivec2 pixel, uvec2 size) {
   ivec2 quad = pixel & ~1;
-  return PixelWeights(cornerWeights(c, pixelCentre(pixel, size)), cornerWeights(c, pixelCentre(quad, size)),
+  return PixelWeights(weightsWithin(cornerWeights(c, pixelCentre(pixel, size))), cornerWeights(c, pixelCentre(quad, size)),
                       cornerWeights(c, pixelCentre(quad + ivec2(1, 0), size)),
                       cornerWeights(c, pixelCentre(quad + ivec2(0, 1), size)));
 }

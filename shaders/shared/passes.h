@@ -50,7 +50,7 @@ IRAD_CONST uint UNIFORM_LIGHTS = 64u;
 struct PixelList {
   uvec3 groups;  ///< dispatch arguments
   uint count;
-  uint end;  ///< of the list in the array of listed pixels (x | y << 16), which keep no particular order
+  uint end;  ///< of the list in the array of listed pixels (x | y << 16, triangle), which keep no particular order
 };
 IRAD_ARRAY(PixelListArray, PixelList, 4)
 IRAD_CONST uint RESOLVE_GROUP = 64u;  ///< pixels per workgroup
@@ -61,7 +61,7 @@ struct PixelListPush {
   SceneArray scene;
   Uvec2Array visible;
   PixelListArray lists;  ///< per material, and after them one whose `end` is that of all
-  UintArray listed;
+  Uvec2Array listed;
   uvec2 size;
   uint materials;
 };
@@ -72,10 +72,9 @@ struct ForwardPush {
   SceneArray scene;
   CameraArray camera;
   MaterialArray materials;
-  GridArray grid;         ///< of the volume; 0: there is none
-  Uvec2Array visible;     ///< kernels: Targets::visible
-  PixelListArray lists;   ///< kernels: per material
-  UintArray listed;       ///< kernels: pixels, list after list
+  GridArray grid;        ///< of the volume; 0: there is none
+  PixelListArray lists;  ///< kernels: per material
+  Uvec2Array listed;     ///< kernels: pixels and triangles, list after list
   vec4 baseColor;
   vec3 emission;
   float metallic, roughness;
