@@ -1,5 +1,5 @@
-// Who shades what: where kernels rasterize, the visible pixels are listed by material, because a kernel knows the
-// textures of one material at a time.
+// Where kernels rasterize, the visible pixels are listed by material for shading: a kernel has the textures of one
+// material at a time.
 #pragma once
 
 #include "renderer/frame.h"

@@ -1,6 +1,6 @@
-// "RE Forward": surface and direct light at a visible point, and with IRAD_VOLUME the thesis's indirect lookup; without,
-// what forward/indirect.comp needs for the lookup in the facets. For the fragment stage (forward/fragment.glsl) and for
-// the kernel (forward/resolve.glsl).
+// "RE Forward": surface and direct light at a visible point, and with IRAD_VOLUME the thesis's indirect lookup;
+// without, what forward/indirect.comp needs for the lookup in the facets. For the fragment stage (forward/fragment.glsl)
+// and for the kernel (forward/resolve.glsl).
 #define IRAD_LIGHT_CONSTANTS FORWARD_LIGHTS
 #define IRAD_TEXTURED TEXTURED
 #include "shared/passes.h"

@@ -18,7 +18,8 @@ vec2 pixelCentre(ivec2 pixel, uvec2 size) {
   return (vec2(pixel) + 0.5) / vec2(size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
 }
 
-/// Of a point that is the triangle's but for rounding and the snapping of corners, from which slivers would extrapolate.
+/// Of a point that is the triangle's but for rounding and the snapping of corners, from which slivers would
+/// extrapolate.
 vec3 weightsWithin(vec3 w) {
   w = max(w, 0.0);
   return w / (w.x + w.y + w.z);
@@ -31,7 +32,8 @@ struct PixelWeights {
 };
 PixelWeights pixelWeights(vec4 c[3], ivec2 pixel, uvec2 size) {
   ivec2 quad = pixel & ~1;
-  return PixelWeights(weightsWithin(cornerWeights(c, pixelCentre(pixel, size))), cornerWeights(c, pixelCentre(quad, size)),
+  return PixelWeights(weightsWithin(cornerWeights(c, pixelCentre(pixel, size))),
+                      cornerWeights(c, pixelCentre(quad, size)),
                       cornerWeights(c, pixelCentre(quad + ivec2(1, 0), size)),
                       cornerWeights(c, pixelCentre(quad + ivec2(0, 1), size)));
 }

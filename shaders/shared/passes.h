@@ -53,8 +53,8 @@ struct PixelList {
   uint end;  ///< of the list in the array of listed pixels (x | y << 16, triangle), which keep no particular order
 };
 IRAD_ARRAY(PixelListArray, PixelList, 4)
-IRAD_CONST uint RESOLVE_GROUP = 64u;  ///< pixels per workgroup
-IRAD_CONST uint RESOLVE_ROW = 32768u; ///< workgroups in x at most
+IRAD_CONST uint RESOLVE_GROUP = 64u;   ///< pixels per workgroup
+IRAD_CONST uint RESOLVE_ROW = 32768u;  ///< workgroups in x at most
 
 /// forward/list_pixels.comp and forward/place_lists.comp.
 struct PixelListPush {
