@@ -97,10 +97,13 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   if (!raster && !ranges.empty()) tileStarts = countTiles(context, scene, push, voxels, ranges);
   push.tileStart = tileStarts.address;
 
-  const bool kernels = raster && rasterizesByKernels(context.device, settings);
+  const bool kernels = raster && triangles > 0 && rasterizesByKernels(context.device, settings);
   const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
   Buffer queue;
   if (kernels) {
+    // A kernel passes over what is masked by itself: all the others are one range.
+    std::erase_if(ranges, [](const Range& range) { return !range.masked; });
+    ranges.push_back({0, triangles, 0, /*masked*/ false});
     queue = makeRasterQueue(context.device, Subsystem::Voxels, triangles);
     push.tileStart = queue.address;
   }
@@ -129,8 +132,11 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
         }
       };
       if (kernels) {
+        const auto count = std::ranges::count(ranges, masked, &Range::masked);
         rasterize(frame, kStage, "gi/voxel_raster.comp", queue, declare, [&](Commands& commands, bool tiles) {
-          eachRange(commands, [&](const Range& r) { rasterDispatch(commands, tiles, r.end - r.first); });
+          eachRange(commands, [&](const Range& r) {
+            rasterDispatch(commands, tiles, r.end - r.first, static_cast<uint32_t>(count));
+          });
         });
         continue;
       }

@@ -29,9 +29,9 @@ void rasterize(Frame& frame, const char* stage, std::string_view shader, const B
   }
 }
 
-void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles) {
+void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles, uint32_t dispatches) {
   if (tiles)
-    commands.dispatchGroups(RASTER_GROUPS);
+    commands.dispatchGroups(std::max(RASTER_GROUPS / dispatches, 64u));
   else
     commands.dispatch(triangles);
 }
@@ -59,22 +59,24 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
       if (alpha) pass.read(scene.uv0, scene.uv1, scene.colors);
     };
   };
-  const auto draw = [&](Commands& commands, bool tiles, size_t material, uint32_t first, uint32_t end) {
+  const auto draw = [&](Commands& commands, bool tiles, size_t material, uint32_t first, uint32_t end,
+                        uint32_t dispatches) {
     push.first = first;
     push.end = end;
     commands.bindMaterial(scene.materialSets.at(material));
     commands.push(push);
-    rasterDispatch(commands, tiles, end - first);
+    rasterDispatch(commands, tiles, end - first, dispatches);
   };
 
   push.skipMasked = raster.alphaTest;
   rasterize(frame, raster.stage, raster.shader, raster.queue, declare(false),
-            [&](Commands& commands, bool tiles) { draw(commands, tiles, 0, 0, triangles); });
-  if (std::none_of(scene.scene.draws.begin(), scene.scene.draws.end(), masked)) return;
+            [&](Commands& commands, bool tiles) { draw(commands, tiles, 0, 0, triangles, 1); });
+  const auto count = static_cast<uint32_t>(std::count_if(scene.scene.draws.begin(), scene.scene.draws.end(), masked));
+  if (count == 0) return;
   push.skipMasked = 0;
   rasterize(frame, raster.stage, raster.shader, raster.queue, declare(true), [&](Commands& commands, bool tiles) {
     for (const Draw& d : scene.scene.draws)
-      if (masked(d)) draw(commands, tiles, d.material, d.firstIndex / 3, (d.firstIndex + d.indexCount) / 3);
+      if (masked(d)) draw(commands, tiles, d.material, d.firstIndex / 3, (d.firstIndex + d.indexCount) / 3, count);
   });
 }
 

@@ -13,11 +13,12 @@ uint32_t rasterQueuePieces(uint32_t triangles);  ///< that it holds; others are 
 uint64_t rasterQueueBytes(uint32_t triangles);
 Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles);
 
-/// Both passes of `shader`. `declare`: what they read and write, and constants; `body`: their dispatches, each over
-/// `Commands::dispatch(triangles)` in the first pass and dispatchGroups(RASTER_GROUPS) in the second: rasterDispatch.
+/// Both passes of `shader`. `declare`: what they read and write, and constants; `body`: their dispatches, by
+/// rasterDispatch.
 void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue,
                const std::function<void(Pass&)>& declare, const std::function<void(Commands&, bool tiles)>& body);
-void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles);
+/// One of the `dispatches` of a pass, over this many triangles.
+void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles, uint32_t dispatches);
 
 /// The scene through a projection.
 struct RasterPass {

@@ -15,6 +15,7 @@ RasterJob rasterJob() {
 }
 
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
+  if (SAMPLES_TEXTURES == 0u && (triangleFlags(push.scene, triangle) & MATERIAL_ALPHA_MASK) != 0u) return false;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   current = flatTriangle(t, triangle);
   for (uint i = 0u; i < 3u; ++i) corners[i] = flatCorner(t, i, push.grid.at[0].dims);

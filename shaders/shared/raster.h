@@ -9,7 +9,7 @@ IRAD_CONST uint RASTER_TILES = 8u;   ///< second pass: tiles of the triangles th
 IRAD_CONST uint RASTER_MASKED = 9u;  ///< the alpha of the bound material decides
 
 /// Pixels of a triangle's bounds up to which one invocation draws it by itself.
-IRAD_CONST int RASTER_SMALL = 64;
+IRAD_CONST int RASTER_SMALL = 16;
 /// The others are cut into tiles of (32 << level)^2 pixels, level the least for which this many suffice, so that
 /// MAX_TRIANGLES of them fit a uint.
 IRAD_CONST int RASTER_TILE_BITS = 5;
@@ -17,7 +17,7 @@ IRAD_CONST uint RASTER_TILES_PER_TRIANGLE = 256u;
 /// Invocations of a workgroup, those that share a tile, and workgroups of the second pass, which take tiles in turn.
 IRAD_CONST uint RASTER_WORKGROUP = 128u;
 IRAD_CONST uint RASTER_LANES = 32u;
-IRAD_CONST uint RASTER_GROUPS = 2048u;
+IRAD_CONST uint RASTER_GROUPS = 4096u;
 
 /// A triangle, or what clipping has left of it, ready to be scanned.
 struct RasterPiece {
