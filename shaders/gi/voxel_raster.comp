@@ -6,7 +6,7 @@
 #include "gi/voxel_raster.glsl"
 #include "raster/raster.glsl"
 
-FlatTriangle current;
+FlatTriangle current = FlatTriangle(0xFFFFFFFFu, 0u, vec3(0.0), vec2(0.0));
 
 RasterJob rasterJob() {
   uvec3 dims = push.grid.at[0].dims;
@@ -23,6 +23,9 @@ bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   return !degenerate(t);
 }
 
-void rasterBegin(uint triangle) { current = flatTriangle(loadTriangle(push.scene, push.grid, triangle), triangle); }
+void rasterBegin(uint triangle) {
+  if (triangle != current.triangle)
+    current = flatTriangle(loadTriangle(push.scene, push.grid, triangle), triangle);
+}
 
 void rasterPixel(uint triangle, ivec2 pixel, float depth) { voxelFragment(current, vec2(pixel) + 0.5); }

@@ -20,8 +20,8 @@ struct RasterJob {
 // From the including shader.
 RasterJob rasterJob();
 /// Corners in clip space, and whether triangles that show their back (clockwise) are left out. False: nothing to draw.
-/// What it leaves for rasterPixel of the same triangle, rasterBegin leaves in the second pass.
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull);
+/// The pixels to come are this triangle's.
 void rasterBegin(uint triangle);
 void rasterPixel(uint triangle, ivec2 pixel, float depth);
 
@@ -171,6 +171,7 @@ void drawPiece(RasterJob job, RasterPiece p) {
     uvec2 tiles = tilesOf(box, bits);
     if (setAside(job, p, tiles.x * tiles.y)) return;
   }
+  rasterBegin(p.triangle);
   scan(p, box, ivec2(1));
 }
 

@@ -8,6 +8,6 @@ void rasterPixel(uint triangle, ivec2 pixel, float depth) {
   uint place = uint(pixel.y) * push.size.x + uint(pixel.x);
   uint bits = floatBitsToUint(depth);
   // A look, at the depth alone, which one load reads whole, pays only where it spares textures: atomics nobody waits for.
-  if (MASKED && (push.target.at[2u * place + 1u] < bits || cutOut(triangle, pixel))) return;
+  if (MASKED && (push.target.at[2u * place + 1u] < bits || cutOut(pixel))) return;
   atomicMin(VisibleArray(push.target).at[place], pack64(uvec2(triangle, bits)));
 }
