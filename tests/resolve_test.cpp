@@ -55,7 +55,7 @@ Scene everything() {
   floor.normalTexture.image = addWaves(b.scene, {0.5f, 0.5f, 0.9f, 1}, {0.2f, 0.2f, 0, 0});
   floor.occlusionTexture = {.image = addWaves(b.scene, glm::vec4(0.6f), glm::vec4(0.3f)), .uvSet = 1};
   floor.emissiveTexture.image = addWaves(b.scene, glm::vec4(0.5f), glm::vec4(0.4f), /*srgb*/ true);
-  b.addQuad({-1.3f, 0, 1.2f}, {2.6f, 0, 0}, {0, 0, -4});
+  b.addQuad({-3, 0, 1.6f}, {6, 0, 0}, {0, 0, -4.4f});
   for (size_t i = 0; i < 4; ++i) {
     const auto share = static_cast<float>(i);
     b.scene.uv1[i] = 2.0f * b.scene.uv0[i];
@@ -194,6 +194,13 @@ TEST_F(Resolve, LeavesWhatTheGraphicsPipelineLeaves) {
 TEST_F(Resolve, Box) {
   Lit lit(context(), loadScene(assets() / "box.glb"), small());
   same("Box", draw(lit, 0, {}, false), draw(lit, 0, {}, true), 0.4);
+}
+
+TEST_F(Resolve, Sponza) {
+  const auto scenes = sharedScenes();
+  if (!scenes) GTEST_SKIP() << "no shared scenes";
+  Lit lit(context(), loadScene(*scenes / "sponza/sponza_small_lit_m.glb"), small());
+  same("Sponza", draw(lit, 0, {}, false), draw(lit, 0, {}, true), 0.1);
 }
 
 TEST_F(Resolve, LooksUpTheThesissVolume) {

@@ -1,4 +1,5 @@
 // "RE Forward", fragment stage. Once per visible pixel: the depth prepass and EQUAL see to it.
+#define IRAD_UV_GRADIENTS
 #include "forward/shade.glsl"
 
 layout(location = 0) in vec3 local;
@@ -21,6 +22,8 @@ layout(location = 7) out vec4 outLookup;
 #endif
 
 void main() {
+  uvDx = dFdx(uv);
+  uvDy = dFdy(uv);
   Shaded o = shade(Interpolants(local, normal, tangent, uv, tint, faceNormal, towardsEye));
   outNormal = o.normal;
   outGeometric = o.geometric;

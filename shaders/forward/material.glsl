@@ -19,7 +19,9 @@ vec2 textureUv(GpuMaterial m, uint i, vec4 uv) {
 }
 
 #ifdef IRAD_UV_GRADIENTS
-/// Of `uv` to the pixels on the right and below, for stages without derivatives.
+/// Of `uv` to the pixels on the right and below. For stages without derivatives; and for fragments because a driver
+/// takes those of what textureUv makes of `m` from pixels beside the triangle, too, for which lavapipe reads zeros from
+/// memory.
 vec4 uvDx, uvDy;
 vec2 uvDifference(GpuMaterial m, uint i, vec4 d) {
   vec2 set = (m.uvSets & (1u << i)) != 0u ? d.zw : d.xy;
