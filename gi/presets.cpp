@@ -85,7 +85,7 @@ void applyPreset(Settings& settings, std::string_view name, bool cpuDevice) {
   preset.camera.exposureEv = settings.camera.exposureEv;
   preset.camera.gpu.toneCurve = settings.camera.gpu.toneCurve;
   preset.view = settings.view;
-  preset.lambertian = settings.lambertian;
+  preset.scene = settings.scene;
   settings = preset;
 }
 
