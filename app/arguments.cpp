@@ -133,7 +133,8 @@ void SceneArguments::check() const {
 
 LoadOptions SceneArguments::load(const Config& config, const Settings& settings) const {
   LoadOptions out;
-  out.lambertian = settings.lambertian;
+  out.lambertian = settings.scene.lambertian;
+  out.doubleSided = settings.scene.doubleSided;
   out.sidecar = !noSidecar && !config.manifest;
   out.lights = config.lights;
   if (lights) out.lights = lightsFromJson(*lights, "--lights");

@@ -43,10 +43,10 @@ std::vector<glm::vec3> perVoxel(Context& context, const FacetList& facets, const
   const std::vector<uint32_t> reverse = downloadAs<uint32_t>(context, facets.reverse);
   for (uint32_t v = 0; v < facets.grid.voxels; ++v) {
     if (reverse[v] == NO_FACET) continue;
-    const uint32_t first = reverse[v] & ~SECOND_FACET;
-    const bool two = (reverse[v] & SECOND_FACET) != 0;
-    IRAD_CHECK_OP(size_t{first} + (two ? 1 : 0), <, values.size());
-    out[v] = two && mean ? 0.5f * (values[first] + values[first + 1]) : values[first];
+    const uint32_t first = firstFacet(reverse[v]), facets = mean ? facetsOf(reverse[v]) : 1;
+    IRAD_CHECK_OP(size_t{first} + facets, <=, values.size());
+    for (uint32_t i = first; i < first + facets; ++i) out[v] += values[i];
+    out[v] /= static_cast<float>(facets);
   }
   return out;
 }

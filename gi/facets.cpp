@@ -159,9 +159,8 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   const std::vector<uint32_t> found = downloadAs<uint32_t>(context, totals);
   list.count = found.at(0);
   list.solidVoxels = found.at(1);
-  // The reverse map's top bit marks a second facet.
-  if (list.count >= SECOND_FACET)
-    throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, SECOND_FACET - 1));
+  if (list.count > MAX_FACETS)
+    throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, MAX_FACETS));
 
   allocate(context.device, list);
   list.triangle = Buffer(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
@@ -178,7 +177,8 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, settings);
   makeRecord(context, list);
-  if (settings.matrix.gpu.hitRule == HIT_RULE_ROBUST) markCorners(context, list);  // the thesis's rule asks for none
+  if (settings.matrix.gpu.hitRule == HIT_RULE_ROBUST)
+    markCorners(context, list, settings.voxel.facets);  // the thesis's rule asks for none
   voxels.keys = Buffer();
   return list;
 }
@@ -202,12 +202,14 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
     IRAD_CHECK(glm::all(glm::lessThan(v, grid.dims)), "facet {} lies in voxel ({}, {}, {}), outside the grid", i, v.x,
                v.y, v.z);
     uint32_t& entry = reverse[voxelIndex(v, grid.dims)];
-    IRAD_CHECK(entry == NO_FACET || entry == i - 1, "facets of one voxel are neighbours, two at most (facet {})", i);
     if (entry == NO_FACET) {
-      entry = i;
+      entry = facetEntryOf(i, 1);
       ++list.solidVoxels;
     } else {
-      entry |= SECOND_FACET;
+      const uint32_t facets = facetsOf(entry);
+      IRAD_CHECK(firstFacet(entry) + facets == i && facets < MAX_VOXEL_FACETS,
+                 "facets of one voxel are neighbours, {} at most (facet {})", MAX_VOXEL_FACETS, i);
+      entry = facetEntryOf(firstFacet(entry), facets + 1);
     }
   }
   const auto make = [&context]<class T>(const char* name, const std::vector<T>& values) {
@@ -219,7 +221,7 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
   list.emission = make("facet emission", list.hasEmission ? emission : std::vector<glm::vec3>{});
   list.reverse = make("facet reverse map", reverse);
   makeRecord(context, list);
-  markCorners(context, list);
+  markCorners(context, list, /*slots=*/2);
   return list;
 }
 

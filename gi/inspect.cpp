@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "gi/angle.h"
 #include "gi/oracle/voxels.h"
@@ -58,8 +59,9 @@ bool Inspector::contains(const glm::ivec3& voxel) const {
 std::vector<uint32_t> Inspector::facetsOf(const glm::uvec3& voxel) const {
   const uint32_t entry = list_.reverse.at(voxelIndex(voxel, facets_.grid.dims));
   if (entry == NO_FACET) return {};
-  const uint32_t first = entry & ~SECOND_FACET;
-  return entry & SECOND_FACET ? std::vector{first, first + 1} : std::vector{first};
+  std::vector<uint32_t> facets(::irad::facetsOf(entry));
+  std::iota(facets.begin(), facets.end(), firstFacet(entry));
+  return facets;
 }
 
 void Inspector::requireFacets(const glm::uvec3& voxel) const {

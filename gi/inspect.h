@@ -69,7 +69,7 @@ struct InspectedVoxel {
   glm::dvec3 world{0};                 ///< of its centre
   double distance = 0;                 ///< to the nearest solid voxel by the field in use, voxels
   std::optional<glm::uvec3> seed;      ///< nearest solid voxel by jump flooding; with field.method jfa
-  std::vector<InspectedFacet> facets;  ///< none, one or two
+  std::vector<InspectedFacet> facets;  ///< MAX_VOXEL_FACETS at most
 };
 
 /// One cell that a ray went through.

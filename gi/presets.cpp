@@ -86,7 +86,7 @@ void applyPreset(Settings& settings, std::string_view name, bool cpuDevice) {
   preset.camera.gpu.toneCurve = settings.camera.gpu.toneCurve;
   preset.view = settings.view;
   preset.rasterizer = settings.rasterizer;
-  preset.lambertian = settings.lambertian;
+  preset.scene = settings.scene;
   settings = preset;
 }
 

@@ -32,11 +32,12 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
   return pass;
 }
 
-void markCorners(Context& context, FacetList& list) {
+void markCorners(Context& context, FacetList& list, uint32_t slots) {
   if (list.count == 0) return;
   FacetCornersPush push{};
   push.facets = list.record.address;
   push.dims = list.grid.dims;
+  push.slots = slots;
   Frame frame = context.begin();
   frame.pass("GI CompactList")
       .shader("gi/facet_corners.comp")

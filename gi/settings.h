@@ -120,6 +120,12 @@ struct EffectSettings {
   float blurNoise = 2e-3f;  ///< share of the largest H that the blur may change for it to be left out
 };
 
+/// How the scene's file is read (LoadOptions).
+struct SceneSettings {
+  bool lambertian = false, doubleSided = false;
+  bool operator==(const SceneSettings&) const = default;
+};
+
 struct Settings {
   VoxelSettings voxel;
   FieldSettings field;
@@ -135,7 +141,7 @@ struct Settings {
   ThesisSettings thesis;
   EffectSettings effects;
   Rasterizer rasterizer = Rasterizer::automatic;  ///< device.rasterizer
-  bool lambertian = false;  ///< scene.lambertian: all materials Lambertian (LoadOptions::lambertian)
+  SceneSettings scene;
 };
 
 template <>
@@ -228,7 +234,7 @@ void visit(Settings& s, F&& f) {
   using enum Redo;
   f(s.voxel.resolution, Meta{"voxel.resolution", 8, 1022, "voxels", "Voxels along the scene's longest axis (N).", Voxels});
   f(s.voxel.method, Meta{"voxel.method", 0, 0, "", "raster: dominant-axis rasterization (T 5.1.2, leaves pin-holes); conservative: separating-axis test, watertight.", Voxels});
-  f(s.voxel.facets, Meta{"voxel.facets", 1, 2, "", "Facets that a voxel may hold; 2 keeps both sides of thin walls.", Voxels});
+  f(s.voxel.facets, Meta{"voxel.facets", 1, 4, "", "Facets that a voxel may hold; 2 keeps both sides of thin walls, 4 of a sheet before a wall too.", Voxels});
   f(s.voxel.normals, Meta{"voxel.normals", 0, 0, "", "Encoding of facet normals.", Voxels});
   f(s.field.method, Meta{"field.method", 0, 0, "", "Distance field that sdf traversals read.", Field});
   f(s.matrix.format, Meta{"matrix.format", 0, 0, "", "padded: fixed stride, 8 B per hit (T Fig. 7); csr: exact size, 4 B per distinct column.", Matrix});
@@ -292,11 +298,12 @@ void visit(Settings& s, F&& f) {
   f(s.effects.blur, Meta{"effects.blur", 0, 0, "", "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than effects.blur_noise.", Scatter});
   f(s.effects.blurNoise, Meta{"effects.blur_noise", 0, 1, "", "Largest change of H, as a share of the largest, that is left to noise: below, there is no blur.", Scatter});
   f(s.rasterizer, Meta{"device.rasterizer", 0, 0, "", "Who rasterizes voxels (voxel.method=raster), shadow maps and pictures: the graphics pipeline or compute kernels; auto: kernels where few of the GPU's processors serve the graphics pipeline.", Voxels});
-  f(s.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
+  f(s.scene.lambertian, Meta{"scene.lambertian", 0, 1, "", "Every material Lambertian with its base colour (read at load).", Voxels});
+  f(s.scene.doubleSided, Meta{"scene.double_sided", 0, 1, "", "Every material double-sided, as path tracers without culling have them (read at load).", Voxels});
 }
 
 /// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view,
-/// device.rasterizer and scene.lambertian, which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
+/// device.rasterizer and scene.*, which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by device class (METHOD: CPU
 /// rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);

@@ -59,8 +59,8 @@ struct FacetList {
 /// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
 /// Sets FACET_CORNER, the clear distance and the joints in the list's shape words, and fills `around`; the last step of
-/// the two functions that make lists.
-void markCorners(Context& context, FacetList& list);
+/// the two functions that make lists. `slots`: facets of a voxel that were looked for.
+void markCorners(Context& context, FacetList& list, uint32_t slots);
 /// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.
 FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,
                        const std::vector<uint32_t>& shape, const std::vector<glm::uvec2>& albedo,

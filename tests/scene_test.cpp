@@ -299,6 +299,10 @@ TEST_F(SceneLoading, FactorsAreClampedAndReported) {
   EXPECT_EQ(flat.materials[0].metallic, 0.0f);
   EXPECT_EQ(flat.materials[0].roughness, 1.0f);
   EXPECT_EQ(flat.materials[0].emission, s.materials[0].emission);
+  EXPECT_FALSE(flat.materials[0].doubleSided);
+  LoadOptions both;
+  both.doubleSided = true;
+  EXPECT_TRUE(load(file, both).materials[0].doubleSided);
 }
 
 TEST_F(SceneLoading, DefaultCameraSeesEverythingAndDefaultSunIsNoted) {

@@ -1,7 +1,9 @@
 // Rays on the device against the double-precision oracle (METHOD sections 3, 5); the traversals against each other are
 // `irad check traversal`.
 #include <bit>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "gi/host_facets.h"
 #include "gi/ray_kernel.h"
@@ -20,6 +22,27 @@ class Trace : public GiTest {
     frame.submitAndWait();
     return downloadAs<uint32_t>(context(), out);
   }
+  /// Compares what all rays of all facets meet, which it returns, with the oracle.
+  std::vector<uint32_t> expectOracle(const World& w, const oracle::Facets& host, const MatrixParams& params) {
+    const std::vector<uint32_t> met = hits(w, params);
+    size_t wrong = 0, found = 0;
+    for (uint32_t f = 0; f < w.facets.count; ++f)
+      for (uint32_t k = 0; k < params.rays; ++k) {
+        const oracle::Hit expected = oracle::trace(host, oracle::facetRay(host, f, k, params), params.hitRule);
+        const uint32_t got = met[size_t{f} * params.rays + k];
+        found += got <= TRACE_LAST_FACET;
+        if (got == expected.facet) continue;
+        ++wrong;
+        // Only where the decision is too close for fp32: 1e-3 voxels over paths of up to 50.
+        EXPECT_LT(expected.margin, 1e-3) << "facet " << f << " ray " << k << ": met " << got << " instead of "
+                                         << expected.facet << " at " << expected.t;
+      }
+    fmt::print("rule {}: {} of {} rays differ from the oracle, {} met a facet\n", params.hitRule, wrong, met.size(),
+               found);
+    EXPECT_LE(wrong, met.size() / 10000);
+    EXPECT_GT(found, met.size() / 2);
+    return met;
+  }
 };
 
 TEST_F(Trace, HitsEqualTheOracle) {
@@ -32,23 +55,49 @@ TEST_F(Trace, HitsEqualTheOracle) {
   params.traversal = TRAVERSAL_SDF;
   for (const uint32_t rule : {HIT_RULE_ROBUST, HIT_RULE_THESIS}) {
     params.hitRule = rule;
-    const std::vector<uint32_t> met = hits(w, params);
-    ASSERT_GE(met.size(), 100000u);
-    size_t wrong = 0, found = 0;
-    for (uint32_t f = 0; f < w.facets.count; ++f)
-      for (uint32_t k = 0; k < params.rays; ++k) {
-        const oracle::Hit expected = oracle::trace(host, oracle::facetRay(host, f, k, params), rule);
-        const uint32_t got = met[size_t{f} * params.rays + k];
-        found += got <= TRACE_LAST_FACET;
-        if (got == expected.facet) continue;
-        ++wrong;
-        // Only where the decision is too close for fp32: 1e-3 voxels over paths of up to 50.
-        EXPECT_LT(expected.margin, 1e-3) << "facet " << f << " ray " << k << ": met " << got << " instead of "
-                                         << expected.facet << " at " << expected.t;
-      }
-    fmt::print("rule {}: {} of {} rays differ from the oracle, {} met a facet\n", rule, wrong, met.size(), found);
-    EXPECT_LE(wrong, met.size() / 10000);
-    EXPECT_GT(found, met.size() / 2);
+    ASSERT_GE(expectOracle(w, host, params).size(), 100000u);
+  }
+}
+
+TEST_F(Trace, BetweenASheetAndTheWallBehindIt) {
+  // A room of 32 voxels; under its ceiling, in the same voxels, a sheet of 16 x 16, .4 voxels apart (G).
+  constexpr double kGap = 0.4;
+  Settings settings = defaults();
+  settings.voxel.resolution = 32;
+  settings.voxel.facets = MAX_VOXEL_FACETS;
+  SceneBuilder b;
+  const uint32_t wall = b.material(glm::vec3(0.5f));
+  const uint32_t sheet = b.material(glm::vec3(0.2f), glm::vec3(0), /*doubleSided=*/true);
+  b.box({wall, wall, wall, wall, wall, wall}, glm::vec3(-16), {16, 15.7f, 16}, /*inward=*/true);
+  const float y = 15.7f - static_cast<float>(kGap);
+  b.quad(sheet, {-8, y, -8}, {8, y, -8}, {8, y, 8}, {-8, y, 8});
+  const World w = world(b.finish("sheet"), settings);
+  const oracle::Facets host = oracleFacets(context(), w.facets);
+  const std::vector<glm::uvec2> albedo = downloadAs<glm::uvec2>(context(), w.facets.albedo);
+  const auto onSheet = [&](uint32_t f) { return unpackAlbedo(albedo[f]).x < 0.3f; };
+  MatrixParams params = settings.matrix.gpu;
+  params.rays = 64;
+  const std::vector<uint32_t> met = expectOracle(w, host, params);
+  // Mean form factors to the sheet by rows of ceiling facets, across the sheet's edge far from its corners: of strips
+  // one voxel wide below an edge of a half-plane at distance G, from s to s + 1 beyond the edge,
+  // 1/2 (1 - sqrt((s + 1)^2 + G^2) + sqrt(s^2 + G^2)).
+  std::map<int, std::pair<uint32_t, uint32_t>> strips;  // by s: rays, those that met the sheet
+  for (uint32_t f = 0; f < w.facets.count; ++f) {
+    const glm::ivec3 v(unpackVoxel(host.voxel[f]));
+    if (onSheet(f) || host.normal(f).y > -0.5 || v.z < 13 || v.z > 20) continue;
+    auto& [rays, hit] = strips[v.x - 25];  // the sheet ends at x = 25
+    for (uint32_t k = 0; k < params.rays; ++k) {
+      const uint32_t m = met[size_t{f} * params.rays + k];
+      ++rays;
+      hit += m <= TRACE_LAST_FACET && onSheet(m);
+    }
+  }
+  for (int s = -3; s <= 3; ++s) {
+    const auto [rays, hit] = strips[s];
+    ASSERT_EQ(rays, 8 * params.rays) << s;
+    const double expected = 0.5 * (1 - std::hypot(s + 1, kGap) + std::hypot(s, kGap));
+    const double sigma = std::sqrt(expected * (1 - expected) / rays);
+    EXPECT_NEAR(static_cast<double>(hit) / rays, expected, 3 * sigma) << "from " << s << " voxels beyond the edge";
   }
 }
 

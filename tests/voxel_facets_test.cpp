@@ -93,6 +93,34 @@ TEST_F(VoxelFacetsTest, SheetsHaveTheSidesTheirMaterialHas) {
   }
 }
 
+TEST_F(VoxelFacetsTest, ASheetBeforeAWallInOneVoxel) {
+  // N = 16: one unit is a voxel, [-8, 8] is voxels 1 to 16. The ceiling is y = 8 - .25; a sheet .5 below it, in the
+  // same voxels, ends where it covers .3 of voxel 13 along x and .7 of voxel 12 along z.
+  Soup soup;
+  const uint32_t white = soup.diffuse(glm::vec3(0.5f));
+  soup.quad(white, {-8, -8, -8}, {0, 0, 16}, {16, 0, 0});       // floor, faces +y
+  soup.quad(white, {-8, 7.75f, -8}, {16, 0, 0}, {0, 0, 16});    // ceiling, faces -y
+  soup.quad(white, {-8, 8, -8}, {1e-3f, 0, 0}, {0, 0, 1e-3f});  // so that the box is a cube
+  soup.quad(soup.diffuse(glm::vec3(0.5f), /*doubleSided=*/true), {-4, 7.25f, -4}, {8.3f, 0, 0}, {0, 0, 7.7f});
+  for (const VoxelMethod method : {VoxelMethod::conservative, VoxelMethod::raster})
+    for (const uint32_t slots : {3u, MAX_VOXEL_FACETS}) {
+      const Result result = run(soup.build(), with(16, slots, method));
+      for (uint32_t x = 3; x < 16; ++x)
+        for (uint32_t z = 3; z < 16; ++z) {
+          uint32_t sheet = 0, ceiling = 0;
+          for (const Facet& f : result.facets) {
+            if (f.voxel != glm::uvec3(x, 16, z)) continue;
+            const float up = f.normal().y * facetOffset(f.shape);  // of the plane above the voxel's centre
+            ceiling += f.normal().y < 0 && std::abs(up - 0.25f) < 0.01f;
+            sheet += std::abs(up + 0.25f) < 0.01f;
+          }
+          const bool covered = x >= 5 && x <= 12 && z >= 5 && z <= 12;
+          EXPECT_EQ(sheet, covered ? 2u : 0u) << x << ' ' << z << ": both sides or none";
+          EXPECT_EQ(ceiling, 1u) << x << ' ' << z;
+        }
+    }
+}
+
 TEST_F(VoxelFacetsTest, PlaneOffsetIsTheDistanceFromTheVoxelsCentre) {
   Soup soup;
   const uint32_t white = soup.diffuse(glm::vec3(0.5f));

@@ -40,13 +40,15 @@ void Builder::load(const std::filesystem::path& path) {
                unsaved = session_.edits.modified();
     LoadOptions load = session_.load;
     if (again && unsaved) load.lights = session_.edits.lights;
-    load.lambertian = session_.edited.lambertian;
+    load.lambertian = session_.edited.scene.lambertian;
+    load.doubleSided = session_.edited.scene.doubleSided;
     load.progress = [this](float fraction, const char* step) {
       if (!progress(step, fraction)) throw WorkError(kCancelled);
     };
     Scene scene = openScene(path, load);
     if (again && adopt(scene)) {
       session_.beginEdits(unsaved);
+      loaded_ = session_.edited.scene;
       session_.work.reset();
       return session_.note(
           fmt::format("{}: its surfaces are as they were, and so is what was made of them", path.filename().string()));
@@ -63,14 +65,14 @@ void Builder::load(const std::filesystem::path& path) {
     session_.load.lights.reset();
     session_.beginEdits(again && unsaved);
     session_.applied = values(session_.pipeline->settings());
-    loadedLambertian_ = session_.pipeline->settings().lambertian;
+    loaded_ = session_.pipeline->settings().scene;
     session_.halted = false;
     if (!again) session_.useSceneCamera(0);
   } catch (const Error&) {
     forgetTimes();
     const bool cancelled = session_.work->cancel;
     session_.work.reset();
-    if (session_.pipeline) session_.edited.lambertian = loadedLambertian_;
+    if (session_.pipeline) session_.edited.scene = loaded_;
     if (!cancelled) throw;
     session_.note(fmt::format("{}: loading was cancelled", path.filename().string()));
   }
@@ -133,7 +135,7 @@ void Builder::apply(bool held) {
   applyLights();
   Pipeline& pipeline = *session_.pipeline;
   if (values(session_.edited) != session_.applied) {
-    const bool reload = session_.edited.lambertian != loadedLambertian_;
+    const bool reload = session_.edited.scene != loaded_;
     const Redo redo = reload ? Redo::Voxels : pipeline.due(session_.edited);
     session_.next = redo;
     if (redo < Redo::Shade && (shownNext_ != redo || held)) return;

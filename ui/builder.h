@@ -50,7 +50,7 @@ class Builder {
   Context& context_;
   Session& session_;
   std::function<void()> breathe_;
-  bool loadedLambertian_ = false;
+  SceneSettings loaded_;            ///< as the scene that is shown was read
   bool stale_ = false;              ///< shaders have changed that made what the pipeline holds
   Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced
 };

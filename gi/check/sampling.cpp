@@ -239,7 +239,7 @@ void halfCase(CheckRun& run) {
       if (reverse[v] == NO_FACET) continue;
       uint16_t red;
       std::memcpy(&red, &texels[8 * v], sizeof(red));
-      const double fp32 = b[reverse[v] & ~SECOND_FACET].x;
+      const double fp32 = b[firstFacet(reverse[v])].x;
       worst = std::max(worst, std::abs(glm::unpackHalf1x16(red) - fp32) / fp32);
     }
     run.atMost(fmt::format("largest relative error of B at rho {}", rho), worst, 0.005);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "shaders/shared/normals.h"
 #include "shaders/shared/sampling.h"
@@ -69,8 +70,9 @@ std::vector<uint32_t> facetsAt(const Facets& f, const ivec3& cell) {
     if (cell[a] < 0 || cell[a] >= static_cast<int>(f.grid.dims[a])) return {};
   const uint32_t entry = f.reverse[voxelIndex(glm::uvec3(cell), f.grid.dims)];
   if (entry == NO_FACET) return {};
-  const uint32_t first = entry & ~SECOND_FACET;
-  return entry & SECOND_FACET ? std::vector{first, first + 1} : std::vector{first};
+  std::vector<uint32_t> facets(facetsOf(entry));
+  std::iota(facets.begin(), facets.end(), firstFacet(entry));
+  return facets;
 }
 
 bool inside(const Facets& f, const ivec3& cell) {

@@ -47,6 +47,8 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) {
         material.metallic = 0.0f, material.roughness = 1.0f, material.lambertian = true;
         material.metallicRoughnessTexture = {};
       }
+    if (options.doubleSided)
+      for (Material& material : scene.materials) material.doubleSided = true;
     if (!cache) addDefaults(scene);
     scene.fileLights = scene.lights;
     if (options.sidecar) takeSidecar(scene);

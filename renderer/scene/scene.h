@@ -118,9 +118,12 @@ struct Scene {
 
 struct LoadOptions {
   bool lambertian =
-      false;             ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
-  bool sidecar = false;  ///< take the sidecar beside the file (scene/sidecar.h), if there is one
-  std::optional<std::vector<Light>> lights;                        ///< in place of the file's and the sidecar's
+      false;  ///< every material Lambertian with its base colour: metallic 0, no specular (for references)
+  /// Every material double-sided, so that faces emit and are seen from both sides: for comparisons with path tracers
+  /// that know no culled faces.
+  bool doubleSided = false;
+  bool sidecar = false;                      ///< take the sidecar beside the file (scene/sidecar.h), if there is one
+  std::optional<std::vector<Light>> lights;  ///< in place of the file's and the sidecar's
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };
 

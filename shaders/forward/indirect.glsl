@@ -15,25 +15,22 @@ float facetAgreement(uint shape, uint encoding, vec3 v, Receiver r) {
   return facing * facing * clamp(1.5 - plane, 0.0, 1.0);
 }
 
-/// The better of a voxel's facets; returns its index, or NO_FACET when neither agrees or a wall hides it.
+/// The best of a voxel's facets; returns its index, or NO_FACET when none agrees or a wall hides it.
 uint bestFacet(FacetMap map, ivec3 v, Receiver r, out float agreement) {
   agreement = 0.0;
   uint entry = facetEntry(map, v);
   if (entry == NO_FACET || hiddenVoxel(r, vec3(v) + 0.5)) return NO_FACET;
-  uint facet = entry & ~SECOND_FACET;
-  uint shape = map.shape.at[facet];
-  agreement = facetAgreement(shape, map.encoding, vec3(v), r);
-  if (entry < SECOND_FACET) return agreement > 0.0 ? facet : NO_FACET;
-  uint wallShape = map.shape.at[facet + 1u];
-  float other = facetAgreement(wallShape, map.encoding, vec3(v), r);
-  if (other > agreement) {
-    agreement = other;
-    ++facet;
-    uint first = shape;
-    shape = wallShape;
-    wallShape = first;
+  uint facet = NO_FACET;
+  uint shape = 0u;
+  for (uint i = firstFacet(entry); i < firstFacet(entry) + facetsOf(entry); ++i) {
+    uint candidate = map.shape.at[i];
+    float agrees = facetAgreement(candidate, map.encoding, vec3(v), r);
+    if (agrees <= agreement) continue;
+    agreement = agrees;
+    facet = i;
+    shape = candidate;
   }
-  bool hidden = agreement <= 0.0 || hiddenByWall(map, facet, shape, wallShape, r.normal, r.position - vec3(v) - 0.5);
+  bool hidden = facet != NO_FACET && hiddenByWalls(map, entry, facet, shape, r.normal, r.position - vec3(v) - 0.5);
   return hidden ? NO_FACET : facet;
 }
 
@@ -78,16 +75,16 @@ uint nearestFacet(FacetMap map, Receiver r) {
 vec3 facetsBeside(FacetMap map, Vec4Array values, Receiver r) {
   ivec3 centre = ivec3(floor(r.position));
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < 54; ++i) {
-    ivec3 v = centre + ivec3((i / 2) % 3, (i / 6) % 3, i / 18) - 1;
+  for (int i = 0; i < 27; ++i) {
+    ivec3 v = centre + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
     uint entry = facetEntry(map, v);
-    if (entry == NO_FACET || (i % 2 == 1 && (entry & SECOND_FACET) == 0u)) continue;
-    if (hiddenVoxel(r, vec3(v) + 0.5)) continue;
-    uint facet = (entry & ~SECOND_FACET) + uint(i % 2);
-    uint shape = map.shape.at[facet];
-    vec3 m = decodeNormal(shape & 0xFFFFu, map.encoding);
-    vec3 d = vec3(v) + 0.5 + m * facetOffset(shape) - r.position;
-    if (dot(m, r.normal) > -0.5) sum += vec4(values.at[facet].xyz, 1.0) / (0.1 + dot(d, d));
+    if (entry == NO_FACET || hiddenVoxel(r, vec3(v) + 0.5)) continue;
+    for (uint facet = firstFacet(entry); facet < firstFacet(entry) + facetsOf(entry); ++facet) {
+      uint shape = map.shape.at[facet];
+      vec3 m = decodeNormal(shape & 0xFFFFu, map.encoding);
+      vec3 d = vec3(v) + 0.5 + m * facetOffset(shape) - r.position;
+      if (dot(m, r.normal) > -0.5) sum += vec4(values.at[facet].xyz, 1.0) / (0.1 + dot(d, d));
+    }
   }
   return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
 }

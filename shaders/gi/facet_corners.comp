@@ -23,6 +23,9 @@ void main() {
   vec3 normal = decodeNormal(code, NORMALS);
   vec3 point = normal * facetOffset(shape);  // of the own plane, from the voxel's centre
   ivec3 voxel = ivec3(unpackVoxel(f.voxel.at[facet]));
+  // Of more than two slots one is free: all faces that cross the voxel's middle are recorded (gi/voxelize.comp), and
+  // those around that look against this one end before it.
+  bool complete = p.slots > 2u && facetsOf(f.reverse.at[voxelIndex(uvec3(voxel), p.dims)]) < p.slots;
   uint around = 0u;
   float joint = 0.0f;
   // One voxel per plane is enough to ask: the one that stands highest above the own plane, or where the planes meet
@@ -47,9 +50,8 @@ void main() {
       if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(p.dims)))) continue;
       uint entry = f.reverse.at[voxelIndex(uvec3(at), p.dims)];
       if (entry == NO_FACET) continue;
-      uint first = entry & ~SECOND_FACET;
-      uint last = entry >= SECOND_FACET ? first + 1u : first;
-      for (uint other = first; other <= last; ++other) {
+      uint first = firstFacet(entry);
+      for (uint other = first; other < first + facetsOf(entry); ++other) {
         // Neighbours may be setting their own bits meanwhile; the bits read here do not change.
         uint otherShape = f.shape.at[other];
         vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
@@ -66,6 +68,7 @@ void main() {
           float gap = abs(dot(normal + otherNormal, across));
           if (gap < TRACE_JOINT) joint = max(joint, gap);
         }
+        if (radius == 1 && complete && alike < OPPOSED_COSINE) continue;
         if (radius > 1 || back || (radius == 0 && slab) || alike >= TRACE_OWN_NORMAL || abs(centre) >= REACH) continue;
         float rise = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape) - point);
         int place = (step_.x + 1) + 3 * (step_.y + 1) + 9 * (step_.z + 1);
@@ -108,9 +111,9 @@ void main() {
     if ((convex & (1u << i)) == 0u) continue;
     ivec3 step_ = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
     uint entry = f.reverse.at[voxelIndex(uvec3(voxel + step_), p.dims)];
-    uint first = entry & ~SECOND_FACET;
+    uint first = firstFacet(entry);
     uint others = 0u;
-    for (uint other = first; other <= (entry >= SECOND_FACET ? first + 1u : first); ++other)
+    for (uint other = first; other < first + facetsOf(entry); ++other)
       if (dot(normal, decodeNormal(f.shape.at[other] & 0xFFFFu, NORMALS)) < TRACE_OWN_NORMAL) ++others;
     if (others == 1u) flags |= 1u << n;
   }

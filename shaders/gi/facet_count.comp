@@ -21,7 +21,8 @@ void main() {
       if (push.keys.at[index] == 0u) continue;
       ++solid;
       ++facets;
-      if (push.slots == 2u && push.keys.at[voxels + index] != 0u) ++facets;
+      for (uint slot = 1u; slot < push.slots; ++slot)
+        if (push.keys.at[slot * voxels + index] != 0u) ++facets;
     }
   }
   push.blockCounts.at[block] = facets;

@@ -19,21 +19,14 @@ void main() {
     uvec3 v = corner + inBlock(code);
     if (any(greaterThanEqual(v, dims))) continue;
     uint index = voxelIndex(v, dims);
-    uint first = push.keys.at[index];
-    uint entry = NO_FACET;
-    if (first != 0u) {
-      entry = facet;
+    uint first = facet;
+    for (uint slot = 0u; slot < push.slots; ++slot) {
+      uint key = push.keys.at[slot * voxels + index];
+      if (key == 0u) continue;
       push.voxel.at[facet] = packVoxel(v);
-      push.triangle.at[facet] = facetTriangle(first);
+      push.triangle.at[facet] = facetTriangle(key);
       ++facet;
-      uint second = push.slots == 2u ? push.keys.at[voxels + index] : 0u;
-      if (second != 0u) {
-        entry |= SECOND_FACET;
-        push.voxel.at[facet] = packVoxel(v);
-        push.triangle.at[facet] = facetTriangle(second);
-        ++facet;
-      }
     }
-    push.reverse.at[index] = entry;
+    push.reverse.at[index] = facet > first ? facetEntryOf(first, facet - first) : NO_FACET;
   }
 }

@@ -47,8 +47,8 @@ Receiver receiverAt(FacetMap map, vec3 p, vec3 n, vec3 viewer) {
   uint entry = facetEntry(map, ivec3(centre));
   if (entry == NO_FACET) return r;
   float before = -TRACE_PLANE;
-  for (uint i = 0u; i < (entry >= SECOND_FACET ? 2u : 1u); ++i) {
-    uint shape = map.shape.at[(entry & ~SECOND_FACET) + i];
+  for (uint i = 0u; i < facetsOf(entry); ++i) {
+    uint shape = map.shape.at[firstFacet(entry) + i];
     vec3 facing = decodeNormal(shape & 0xFFFFu, map.encoding);
     // At a wall's foot the plane's code cannot tell the side: a little towards the viewer.
     float distance_ = dot(facing, p + TRACE_PLANE * viewer - centre) - facetOffset(shape);
@@ -68,15 +68,21 @@ bool convexInVoxel(uint around) {
   return (around & AROUND_SELF) != 0u && before < 5 && ((around >> (AROUND_CONVEX_SHIFT + uint(before))) & 1u) != 0u;
 }
 
-/// Whether the other face of a voxel that has two is a wall on a facet, and hides it from `point`, given from the
-/// voxel's centre: the point is behind the wall, or all of the facet is. `shape`, `wallShape`: of the two.
-bool hiddenByWall(FacetMap map, uint facet, uint shape, uint wallShape, vec3 normal, vec3 point) {
-  if ((shape & FACET_CORNER) == 0u) return false;
-  vec3 facing = decodeNormal(wallShape & 0xFFFFu, map.encoding);
-  float offset = facetOffset(wallShape);
-  return abs(dot(facing, normal)) < WALL_COSINE &&
-         (dot(facing, point) - offset < -TRACE_ON_PLANE || offset > allBehind(facing)) &&
-         !convexInVoxel(map.around.at[facet]);
+/// Whether another face of the facet's voxel (`entry` of the reverse map) is a wall on it, and hides it from `point`,
+/// given from the voxel's centre: the point is behind the wall, or all of the facet is. `shape`: the facet's.
+bool hiddenByWalls(FacetMap map, uint entry, uint facet, uint shape, vec3 normal, vec3 point) {
+  if (facetsOf(entry) == 1u || (shape & FACET_CORNER) == 0u || convexInVoxel(map.around.at[facet])) return false;
+  uint first = firstFacet(entry);
+  for (uint other = first; other < first + facetsOf(entry); ++other) {
+    if (other == facet) continue;
+    uint wallShape = map.shape.at[other];
+    vec3 facing = decodeNormal(wallShape & 0xFFFFu, map.encoding);
+    float offset = facetOffset(wallShape);
+    if (abs(dot(facing, normal)) < WALL_COSINE &&
+        (dot(facing, point) - offset < -TRACE_ON_PLANE || offset > allBehind(facing)))
+      return true;
+  }
+  return false;
 }
 
 #endif

@@ -13,7 +13,12 @@ layout(constant_id = 2) const bool STORES = true;   ///< false: what it would ch
 layout(push_constant, scalar) uniform Push { ScatterFacetsPush p; };
 
 const float FACING = 0.5f;  // least cosine between the normals
-const float LEVEL = 1.5f;   // voxels: farthest from the own plane
+const float LEVEL = 0.5f;   // voxels: farthest that a parallel face on the same level is from the own plane
+
+/// The same of a face `chord` away that turns from the own one: a curved surface leaves the plane.
+float level(float facing, vec3 chord) {
+  return LEVEL + sqrt(max(0.0f, 1.0f - facing * facing)) * length(chord);
+}
 
 void main() {
   uint facet = irad_index();
@@ -28,8 +33,6 @@ void main() {
   vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
   float offset = facetOffset(shape);
   uint own = facetEntry(map, ivec3(voxel));
-  bool walled = own >= SECOND_FACET;
-  uint wallShape = walled ? f.shape.at[(own & ~SECOND_FACET) == facet ? facet + 1u : facet - 1u] : 0u;
   vec3 sumH = vec3(0.0f), sumE = vec3(0.0f);
   float total = 0.0f;
   for (int i = 0; i < 27; ++i) {
@@ -37,21 +40,19 @@ void main() {
     uint entry = facetEntry(map, ivec3(voxel) + step_);
     if (entry == NO_FACET) continue;
     float tent = (step_.x == 0 ? 2.0f : 1.0f) * (step_.y == 0 ? 2.0f : 1.0f) * (step_.z == 0 ? 2.0f : 1.0f);
-    uint first = entry & ~SECOND_FACET;
-    uint last = entry >= SECOND_FACET ? first + 1u : first;
-    for (uint other = first; other <= last; ++other) {
+    uint first = firstFacet(entry);
+    for (uint other = first; other < first + facetsOf(entry); ++other) {
       uint otherShape = f.shape.at[other];
       vec3 otherNormal = decodeNormal(otherShape & 0xFFFFu, NORMALS);
       // Both ways: the other's plane point from the own plane, and the own point from the other plane.
-      float away = dot(normal, vec3(step_) + otherNormal * facetOffset(otherShape)) - offset;
-      float back = dot(otherNormal, normal * offset - vec3(step_)) - facetOffset(otherShape);
+      vec3 chord = vec3(step_) + otherNormal * facetOffset(otherShape) - normal * offset;
+      float away = dot(normal, chord);
+      float back = dot(otherNormal, chord);
       float facing = dot(normal, otherNormal);
-      if (facing <= FACING || max(abs(away), abs(back)) >= LEVEL) continue;
+      if (facing <= FACING || max(abs(away), abs(back)) > level(facing, chord)) continue;
       if (other != facet &&
-          ((walled && hiddenByWall(map, facet, shape, wallShape, normal,
-                                   vec3(step_) + otherNormal * facetOffset(otherShape))) ||
-           (last > first && hiddenByWall(map, other, otherShape, f.shape.at[first + last - other], otherNormal,
-                                         normal * offset - vec3(step_)))))
+          (hiddenByWalls(map, own, facet, shape, normal, vec3(step_) + otherNormal * facetOffset(otherShape)) ||
+           hiddenByWalls(map, entry, other, otherShape, otherNormal, normal * offset - vec3(step_))))
         continue;
       sumH += tent * p.indirect.at[other].xyz;
       if (EMITTED) sumE += tent * p.emitted.at[other].xyz;

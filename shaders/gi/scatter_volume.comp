@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // "GI Scatter" (T 5.9): one value per solid voxel into the sampled volume, alpha 1 marks presence. H, or B; with edge
-// removal B - lambda (M + rho D) (T eq. 23). A voxel with two facets shows its first: that of the larger coverage.
+// removal B - lambda (M + rho D) (T eq. 23). A voxel shows its first facet.
 #include "shared/grid.h"
 #include "shared/solve.h"
 
@@ -14,7 +14,7 @@ void main() {
   FacetArrays f = p.facets.at[0];
   if (facet >= f.count) return;
   uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
-  if ((f.reverse.at[voxelIndex(voxel, p.dims)] & ~SECOND_FACET) != facet) return;
+  if (firstFacet(f.reverse.at[voxelIndex(voxel, p.dims)]) != facet) return;
   vec3 value = p.value.at[facet].xyz;
   if (p.removal > 0.0f) {
     vec3 source = unpackAlbedo(f.albedo.at[facet]) * p.direct.at[facet].xyz;

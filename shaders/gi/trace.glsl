@@ -170,11 +170,11 @@ bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing
     if ((convex & 1u) != 0u) {
       vec3 at = cellAround(cell, around);
       uint entry = world.facets.reverse.at[traceIndex(at, world.dims)];
-      uint other = entry & ~SECOND_FACET;
+      uint other = firstFacet(entry);
       uint shape = world.facets.shape.at[other];
       vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
-      if (dot(facing, normal) >= TRACE_OWN_NORMAL) {
-        shape = world.facets.shape.at[other + 1u];
+      while (dot(facing, normal) >= TRACE_OWN_NORMAL) {  // all but one
+        shape = world.facets.shape.at[++other];
         facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
       }
       if (dot(facing, crossing - facetMiddle(at, facing, shape)) > TRACE_ON_PLANE) return true;
@@ -196,8 +196,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
     vec3 bounds = traceBounds(w, 1.0f);
     float leave = min(bounds.x, min(bounds.y, bounds.z));
     uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
-    uint facet = entry & ~SECOND_FACET;
-    uint left = entry >= SECOND_FACET ? 2u : 1u;
+    uint facet = firstFacet(entry);
+    uint left = facetsOf(entry);
     vec3 at = w.cell;
     bool recorded = true;  // in this cell; later: in those around
     uint ask = 0u;         // cells around that may know of more
@@ -206,7 +206,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
     float back = 1e30f;  // the same of the faces met from behind
     uint backMet = TRACE_ESCAPED;
     vec2 backPlane = vec2(0.0f);
-    vec4 planes[2] = vec4[2](vec4(0.0f), vec4(0.0f));  // of the recorded faces
+    vec4 planes[4] = vec4[4](vec4(0.0f), vec4(0.0f), vec4(0.0f), vec4(0.0f));  // of the recorded faces
     uint over = 0u;
     for (;;) {
       if (left > 0u) {
@@ -226,6 +226,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
           if (alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
           if ((shape & FACET_CORNER) != 0u) around = world.facets.around.at[facet];
           ask |= around & AROUND_VOXELS & ~AROUND_SELF;
+          planes[3] = planes[2];
+          planes[2] = planes[1];
           planes[1] = planes[0];
           planes[0] = planeEquation(p, w, behind);
         }
@@ -242,7 +244,9 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
         if (crosses) {
           // Of a ray that starts on both planes: a little ahead, which tells the side.
           vec3 crossing = w.origin + clamp(max(cross, TRACE_PLANE), w.t, leave) * w.direction;
-          if (!recorded) beyond = max(overrun(planes[0], middle, crossing), overrun(planes[1], middle, crossing));
+          if (!recorded)
+            beyond = max(max(overrun(planes[0], middle, crossing), overrun(planes[1], middle, crossing)),
+                         max(overrun(planes[2], middle, crossing), overrun(planes[3], middle, crossing)));
           crosses = recorded ? !cutOff(world, at, around, p.normal, crossing) : beyond <= TRACE_ON_PLANE;
         }
         if (crosses && front) {
@@ -276,8 +280,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
         at = cellAround(w.cell, ask);
         ask &= ask - 1u;
         uint other = world.facets.reverse.at[traceIndex(at, world.dims)];
-        facet = other & ~SECOND_FACET;
-        left = other >= SECOND_FACET ? 2u : 1u;
+        facet = firstFacet(other);
+        left = facetsOf(other);
       }
     }
     if (met != TRACE_ESCAPED) {
@@ -303,13 +307,13 @@ TraceHit traceThesis(TraceWorld world, TraceWalk w) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   while (traceToSolid(world, w, hit.steps)) {
     uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
-    uint facet = entry & ~SECOND_FACET;
+    uint facet = firstFacet(entry);
     float slope = dot(decodeNormal(world.facets.shape.at[facet] & 0xFFFFu, TRACE_NORMALS), w.direction);
-    if (entry >= SECOND_FACET) {
-      float second = dot(decodeNormal(world.facets.shape.at[facet + 1u] & 0xFFFFu, TRACE_NORMALS), w.direction);
-      if (second < slope) {
-        slope = second;
-        ++facet;
+    for (uint i = firstFacet(entry) + 1u; i < firstFacet(entry) + facetsOf(entry); ++i) {
+      float other = dot(decodeNormal(world.facets.shape.at[i] & 0xFFFFu, TRACE_NORMALS), w.direction);
+      if (other < slope) {
+        slope = other;
+        facet = i;
       }
     }
     if (slope < 0.0f) {
@@ -332,18 +336,18 @@ TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
 /// The faces that `around` of a facet names, one after the other.
 struct FacesAround {
   uint around, convex;
-  bool second;
+  uint next;  ///< of the first voxel's
 };
 FacesAround facesAround(uint around) {
-  return FacesAround(around & AROUND_VOXELS, around >> AROUND_CONVEX_SHIFT, false);
+  return FacesAround(around & AROUND_VOXELS, around >> AROUND_CONVEX_SHIFT, 0u);
 }
 uint nextAround(TraceWorld world, vec3 voxel, inout FacesAround list, out vec3 at, out bool convex) {
   at = cellAround(voxel, list.around);
   convex = (list.convex & 1u) != 0u;
   uint entry = world.facets.reverse.at[traceIndex(at, world.dims)];
-  uint facet = (entry & ~SECOND_FACET) + (list.second ? 1u : 0u);
-  list.second = entry >= SECOND_FACET && !list.second;
-  if (!list.second) {
+  uint facet = firstFacet(entry) + list.next;
+  if (++list.next == facetsOf(entry)) {
+    list.next = 0u;
     list.around &= list.around - 1u;
     list.convex >>= 1;
   }

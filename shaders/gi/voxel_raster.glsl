@@ -42,7 +42,7 @@ void voxelFragment(FlatTriangle f, vec2 pixel) {
   bool back = false;
   float cosine = -1.0;
   // One facet of an opaque material needs nothing of the triangle itself.
-  if (push.slots == 2u || SAMPLES_TEXTURES != 0u) {
+  if (push.slots > 1u || SAMPLES_TEXTURES != 0u) {
     uint flags = triangleFlags(push.scene, triangle);
     VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
     if (push.slot == 1u) {
@@ -52,8 +52,11 @@ void voxelFragment(FlatTriangle f, vec2 pixel) {
       if (cosine >= ELSEWHERE_COSINE) return;
     }
     if (masked(push.scene, t, triangle, flags, point)) return;
-    if (push.slot == 0u && push.slots == 2u && (flags & MATERIAL_DOUBLE_SIDED) != 0u)
+    if (push.slot > 1u && push.keys.at[voxel] == 0u) return;
+    if (push.slot != 1u && push.slots > 1u && (flags & MATERIAL_DOUBLE_SIDED) != 0u &&
+        (push.slot == 0u || !recorded(push, voxel, -t.normal, point)))
       atomicMax(push.keys.at[place], middleKey(-front, true, triangle));
+    if (push.slot > 1u && recorded(push, voxel, t.normal, point)) return;
   }
   uint key = middleKey(back ? -front : front, back, triangle);
   atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);

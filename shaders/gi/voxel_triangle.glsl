@@ -56,6 +56,22 @@ float secondCosine(vec3 normal, uint flags, vec3 winner, out bool back) {
   return back ? -cosine : cosine;
 }
 
+/// Whether a facet that the voxel has from slots before lies in the plane through `point` (voxel units) that faces along
+/// `normal` (not normalized).
+bool recorded(VoxelizePush push, uint voxel, vec3 normal, vec3 point) {
+  for (uint slot = 0u; slot < push.slot; ++slot) {
+    uint key = push.keys.at[slot * push.grid.at[0].voxels + voxel];
+    if (key == 0u) continue;
+    VoxelTriangle t = loadTriangle(push.scene, push.grid, keyTriangle(key));
+    vec3 facing = keyBack(key) ? -t.normal : t.normal;
+    float size = length(facing);
+    if (dot(facing, normal) >= ELSEWHERE_COSINE * size * length(normal) &&
+        abs(dot(facing, point - t.v[0])) < SAME_LEVEL * size)
+      return true;
+  }
+  return false;
+}
+
 /// The cells [lo, hi] that the triangle's bounds touch; false when none is in the grid (a wall at p == max of a grid
 /// without padding: thesis.literal). Cells are half-open: a wall on a cell face lies in one cell.
 bool cellBounds(VoxelTriangle t, uvec3 dims, out ivec3 lo, out ivec3 hi) {

@@ -50,7 +50,8 @@ void main() {
   float wholeArea = 0.5 * length(normal);
   float columnArea = length(normal) / abs(normal.z);
   bool oneCell = lo == hi;
-  uint sides = push.slot == 0u && push.slots == 2u && (flags & MATERIAL_DOUBLE_SIDED) != 0u ? 2u : 1u;
+  bool sheet = (flags & MATERIAL_DOUBLE_SIDED) != 0u;
+  uint sides = push.slot != 1u && push.slots > 1u && sheet ? 2u : 1u;
 
   uvec2 tiles;
   int edge = int(tileEdge(uvec2(hi.xy - lo.xy + 1), tiles));
@@ -78,9 +79,9 @@ void main() {
         uint voxel = voxelIndex(cell, dims);
         bool back = false;  // the triangle's back is the candidate
         float cosine = -1.0;  // between it and the voxel's first facet
+        uint winner = push.slot > 0u ? push.keys.at[voxel] : 0u;
+        if (push.slot > 0u && winner == 0u) continue;  // cut away by its alpha mask
         if (push.slot == 1u) {
-          uint winner = push.keys.at[voxel];
-          if (winner == 0u) continue;  // cut away by its alpha mask
           cosine = secondCosine(t.normal, flags, winnerFacing(push.scene, push.grid, winner), back);
           if (cosine >= ELSEWHERE_COSINE) continue;
         }
@@ -89,7 +90,10 @@ void main() {
         vec3 centre = vec3(0.5, 0.5, middle);
         float area = 0.0;
         if (!crosses) {
-          if (cosine >= OPPOSED_COSINE) continue;
+          if (cosine >= OPPOSED_COSINE || push.slot > 1u) continue;
+          // Where there is room for them, a sheet before a surface that crosses the middle is there with both its sides,
+          // or not at all.
+          if (push.slots > 2u && sheet && (winner & KEY_MIDDLE) != 0u && keyTriangle(winner) != triangle) continue;
           if (oneCell) {
             area = wholeArea;
             centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
@@ -103,7 +107,9 @@ void main() {
         uint place = push.slot * voxels + voxel;
         for (uint side = 0u; side < sides; ++side) {
           uint key = crosses ? middleKey(back ? -front : front, back, triangle) : sliverKey(area, back, triangle);
-          atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
+          vec3 facing = back ? -t.normal : t.normal;
+          if (push.slot < 2u || !recorded(push, voxel, facing, originalAxes(centre + base, t.axis)))
+            atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
           back = true;
         }
       }

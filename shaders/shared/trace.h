@@ -73,7 +73,7 @@ IRAD_FN uvec4 rayShifts(uint packedVoxel, uint seed, uint jitter) {
 struct FacetCornersPush {
   FacetRecord facets;
   uvec3 dims;
-  uint pad;
+  uint slots;  ///< facets of a voxel that were looked for
 };
 
 /// Pushed to gi/trace_rays.comp.

@@ -29,6 +29,9 @@ IRAD_FN bool keyBack(uint key) { return (key & KEY_FRONT_SIDE) == 0u; }
 /// The second facet of a voxel is opposed to the first. Where none is, it is the best of those that face elsewhere
 /// (n . n' below this) and cross their middle line: the other wall of a corner.
 IRAD_CONST float ELSEWHERE_COSINE = 0.7f;
+/// Further facets are the best of those that cross their middle line and of which none before has the plane: facing alike,
+/// this near, voxels. (A sheet just before a wall: its two sides and the wall.)
+IRAD_CONST float SAME_LEVEL = 0.2f;
 /// Key of a second facet: opposed ones first (bit 31), then as `key` has it with half the steps.
 IRAD_FN uint secondKey(uint key, bool opposed) {
   return (opposed ? 1u << 31 : 0u) | ((key >> 1) & 0x7E000000u) | (key & 0x1FFFFFFu);
@@ -51,8 +54,8 @@ struct VoxelizePush {
   uint endTriangle;
   uint firstTile;
   uint tileCount;  ///< by kernels the pieces that the RasterQueue holds
-  uint slot;   ///< 0: the best side of all; 1: the best that faces against it
-  uint slots;  ///< 2: both sides of a double-sided triangle may be the first facet
+  uint slot;   ///< 0: the best side of all; 1: the best that faces against it; 2, 3: the best in no plane of those
+  uint slots;  ///< 2 and more: both sides of a double-sided triangle may be the first facet
 };
 
 IRAD_CONST uint BACK_SIDE = 0x80000000u;

@@ -105,15 +105,21 @@ vec4 fieldValue(uvec3 voxel) {
   return exact < 0.0 || found < 0.0 ? vec4(0.0) : vec4(vec3(found - exact), 1.0);
 }
 
-/// The value of a voxel, as seen from `towards` (relative to its centre): of two facets the one that faces there more.
+/// The value of a voxel, as seen from `towards` (relative to its centre): of its facets the one that faces there more.
 /// Alpha 0: it has none.
 vec4 voxelValue(FacetArrays facets, uvec3 voxel, vec3 towards) {
   if (showsField()) return fieldValue(voxel);
   uint entry = facets.reverse.at[voxelIndex(voxel, push.grid.dims)];
   if (entry == NO_FACET) return vec4(0.0);
-  uint facet = entry & ~SECOND_FACET;
-  uint count = (entry & SECOND_FACET) != 0u ? 2u : 1u;
-  if (count == 2u && dot(facetNormal(facets, facet + 1u), towards) > dot(facetNormal(facets, facet), towards)) ++facet;
+  uint facet = firstFacet(entry);
+  uint count = facetsOf(entry);
+  float most = dot(facetNormal(facets, facet), towards);
+  for (uint i = firstFacet(entry) + 1u; i < firstFacet(entry) + count; ++i) {
+    float cosine = dot(facetNormal(facets, i), towards);
+    if (cosine <= most) continue;
+    most = cosine;
+    facet = i;
+  }
   return vec4(facetValue(facets, facet, count), 1.0);
 }
 
