@@ -6,6 +6,7 @@
 
 #include "gi/stages.h"
 #include "renderer/depth_pass.h"
+#include "renderer/instance.h"
 #include "renderer/targets.h"
 #include "shaders/shared/passes.h"
 #include "tests/forward_support.h"
@@ -276,12 +277,23 @@ TEST_F(RasterTest, ShadowMapsAreTheGraphicsPipelines) {
   EXPECT_EQ(ours, maps(true)) << "the same bits again";
 }
 
+TEST_F(RasterTest, IsChosenForDevicesWithNarrowGraphics) {
+  for (const char* narrow : {"NVIDIA H100 80GB HBM3", "NVIDIA H200", "NVIDIA GH200 480GB"})
+    EXPECT_TRUE(hasNarrowGraphics(narrow)) << narrow;
+  for (const char* wide : {"NVIDIA GeForce RTX 4090", "AMD Radeon RX 7700 XT", "llvmpipe (LLVM 15.0.6, 256 bits)"})
+    EXPECT_FALSE(hasNarrowGraphics(wide)) << wide;
+  Settings settings;
+  EXPECT_EQ(rasterizesByKernels(context().device, settings), context().device.narrowGraphics);
+  settings.rasterizer = Rasterizer::kernels;
+  EXPECT_TRUE(rasterizesByKernels(context().device, settings));
+}
+
 TEST_F(RasterTest, VoxelsAreTheGraphicsPipelines) {
   std::vector<Scene> scenes;
   scenes.push_back(loadScene(assets() / "box.glb"));
   if (const auto shared = sharedScenes()) scenes.push_back(loadScene(*shared / "sponza/sponza_small_lit_m.glb"));
   for (const Scene& scene : scenes)
-    for (const uint32_t facets : {1u, 2u}) {
+    for (const uint32_t facets : {1u, 2u, 4u}) {
       const SceneOnDevice device(context(), scene);
       Settings settings = defaultSettings(/*cpuDevice*/ true);
       settings.voxel.method = VoxelMethod::raster;
