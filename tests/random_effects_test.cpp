@@ -113,7 +113,7 @@ Scene randomScene(Dice& dice) {
 Settings randomSettings(Dice& dice) {
   Settings s = defaultSettings(/*cpuDevice=*/true);
   s.voxel.resolution = 8 + dice.below(7);
-  s.voxel.facets = 1 + dice.below(2);
+  s.voxel.facets = 1 + dice.below(MAX_VOXEL_FACETS);
   s.voxel.method = dice.any<VoxelMethod>();
   s.voxel.normals = dice.any<NormalEncoding>();
   s.matrix.gpu.rays = 16;
