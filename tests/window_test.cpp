@@ -108,13 +108,13 @@ TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {
   // In the list behind the arrow of the first row, emissive facets: "off", and "auto" again.
   const auto choose = [this](int y) {
     xdotool(
-        fmt::format("mousemove 301 684 sleep 0.5 click 1 sleep 0.8 mousemove 305 {} sleep 0.5 click 1 sleep 0.5", y));
+        fmt::format("mousemove 301 703 sleep 0.5 click 1 sleep 0.8 mousemove 305 {} sleep 0.5 click 1 sleep 0.5", y));
     xdotool("mousemove 360 510");
   };
-  choose(660);
+  choose(679);
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.1; }))
       << "the lamp still shines";
-  choose(632);
+  choose(651);
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; })) << "not auto again";
   key("Escape");
   EXPECT_EQ(window_->wait(20), 0);
