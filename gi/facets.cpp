@@ -130,6 +130,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   FacetList list;
   list.grid = voxels.grid;
   list.encoding = settings.voxel.normals;
+  list.slots = voxels.slots;
   const EffectMode emission = settings.effects.emission;
   list.hasEmission = emission == EffectMode::automatic ? voxels.scene->anyEmission : emission == EffectMode::on;
   const uint32_t bits = voxels.grid.mortonBits.x + voxels.grid.mortonBits.y + voxels.grid.mortonBits.z;

@@ -20,6 +20,7 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
       .constant(0, method)
       .constant(1, hitRule)
       .constant(2, encoding)
+      .constant(4, facets.slots > 2)
       .read(facets.voxel, facets.shape, facets.reverse, facets.around);
   if (field.chebyshev) pass.read(field.chebyshev);
   if (jfa)

@@ -67,6 +67,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
     pass.constant(0, method)
         .constant(1, settings.matrix.gpu.hitRule)
         .constant(2, static_cast<uint32_t>(facets.encoding))
+        .constant(4, facets.slots > 2)
         .read(camera, facets.record, facets.shape, facets.reverse, facets.around, lighting.radiosity)
         .sample(targets.depth, point)
         .read(targets.normal, targets.geometric, targets.f0);

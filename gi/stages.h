@@ -48,6 +48,7 @@ struct FacetList {
   Grid grid;
   uint32_t count = 0;  ///< facets
   uint32_t solidVoxels = 0;
+  uint32_t slots = MAX_VOXEL_FACETS;  ///< facets of a voxel at most
   uint32_t clampedAlbedo = 0;  ///< facets whose albedo was outside [0, .98] or not a number
   Buffer voxel, shape, albedo, emission, reverse, around;
   Buffer triangle;  ///< which triangle won, | BACK_SIDE where its back did, for the inspector; none of uploaded lists

@@ -26,6 +26,7 @@
 layout(constant_id = 0) const uint TRACE_METHOD = TRACE_DDA_REVERSE;
 layout(constant_id = 1) const uint TRACE_HIT_RULE = HIT_RULE_ROBUST;
 layout(constant_id = 2) const uint TRACE_NORMALS = NORMALS_OCT16;
+layout(constant_id = 4) const bool TRACE_MANY = true;  ///< a voxel may have more than two facets
 
 struct TraceWorld {
   FacetArrays facets;
@@ -173,9 +174,11 @@ bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing
       uint other = firstFacet(entry);
       uint shape = world.facets.shape.at[other];
       vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
-      while (dot(facing, normal) >= TRACE_OWN_NORMAL) {  // all but one
+      bool own = dot(facing, normal) >= TRACE_OWN_NORMAL;
+      while (own) {  // all but one
         shape = world.facets.shape.at[++other];
         facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+        own = TRACE_MANY && dot(facing, normal) >= TRACE_OWN_NORMAL;
       }
       if (dot(facing, crossing - facetMiddle(at, facing, shape)) > TRACE_ON_PLANE) return true;
     }
@@ -226,8 +229,10 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
           if (alike > 0.99999f && abs(p.start) < TRACE_ON_PLANE) over = facetClear(shape);
           if ((shape & FACET_CORNER) != 0u) around = world.facets.around.at[facet];
           ask |= around & AROUND_VOXELS & ~AROUND_SELF;
-          planes[3] = planes[2];
-          planes[2] = planes[1];
+          if (TRACE_MANY) {
+            planes[3] = planes[2];
+            planes[2] = planes[1];
+          }
           planes[1] = planes[0];
           planes[0] = planeEquation(p, w, behind);
         }
@@ -244,9 +249,11 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
         if (crosses) {
           // Of a ray that starts on both planes: a little ahead, which tells the side.
           vec3 crossing = w.origin + clamp(max(cross, TRACE_PLANE), w.t, leave) * w.direction;
-          if (!recorded)
-            beyond = max(max(overrun(planes[0], middle, crossing), overrun(planes[1], middle, crossing)),
-                         max(overrun(planes[2], middle, crossing), overrun(planes[3], middle, crossing)));
+          if (!recorded) {
+            beyond = max(overrun(planes[0], middle, crossing), overrun(planes[1], middle, crossing));
+            if (TRACE_MANY)
+              beyond = max(beyond, max(overrun(planes[2], middle, crossing), overrun(planes[3], middle, crossing)));
+          }
           crosses = recorded ? !cutOff(world, at, around, p.normal, crossing) : beyond <= TRACE_ON_PLANE;
         }
         if (crosses && front) {
