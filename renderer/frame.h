@@ -155,7 +155,7 @@ class Pass {
   Pass& depthBias(float constant, float slope);
   Pass& depthCompare(VkCompareOp op);
   Pass& indirect(const Buffer& arguments);  ///< of Commands::dispatchIndirect
-  Pass& indices(const Buffer& buffer);  ///< of drawIndexed: 32 bits each
+  Pass& indices(const Buffer& buffer);      ///< of drawIndexed: 32 bits each
   Pass& extent(uint32_t width, uint32_t height);
   Pass& additive();  ///< blend ONE, ONE
   Pass& alphaBlend();
