@@ -1,7 +1,6 @@
 // Alpha-masked surfaces: texels below the cutoff leave no depth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define IRAD_UV_GRADIENTS
 #include "forward/material.glsl"
 #include "shared/passes.h"
 

@@ -1,5 +1,4 @@
 // "RE Forward", fragment stage. Once per visible pixel: the depth prepass and EQUAL see to it.
-#define IRAD_UV_GRADIENTS
 #include "forward/shade.glsl"
 
 layout(location = 0) in vec3 local;

@@ -18,7 +18,6 @@ vec2 textureUv(GpuMaterial m, uint i, vec4 uv) {
   return vec2(dot(m.uvRow[2u * i], p), dot(m.uvRow[2u * i + 1u], p));
 }
 
-#ifdef IRAD_UV_GRADIENTS
 /// Of `uv` to the pixels on the right and below. For stages without derivatives; and for fragments because a driver
 /// takes those of what textureUv makes of `m` from pixels beside the triangle, too, for which lavapipe reads zeros from
 /// memory.
@@ -29,9 +28,6 @@ vec2 uvDifference(GpuMaterial m, uint i, vec4 d) {
 }
 #define IRAD_TEXEL(map, m, i, uv) \
   textureGrad(map, textureUv(m, i, uv), uvDifference(m, i, uvDx), uvDifference(m, i, uvDy))
-#else
-#define IRAD_TEXEL(map, m, i, uv) texture(map, textureUv(m, i, uv))
-#endif
 
 /// Base colour (linear) and alpha; `tint` is the vertex colour.
 vec4 materialBaseColor(GpuMaterial m, vec4 uv, vec4 tint) {

@@ -1,6 +1,5 @@
 // "RE Forward" by kernels: one invocation per listed pixel of a material. The triangle that is seen there gives what
 // the graphics pipeline would have interpolated; bindings follow those of forward/shade.glsl.
-#define IRAD_UV_GRADIENTS
 #include "forward/project.glsl"
 #include "forward/shade.glsl"
 #include "raster/corner_weights.glsl"

@@ -1,7 +1,6 @@
 // "RE Shadow" by kernels: per pixel the bits of the largest depth (reversed: the nearest), 0 where there is nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define IRAD_UV_GRADIENTS
 #include "raster/scene_triangle.glsl"
 
 void rasterPixel(uint triangle, ivec2 pixel, float depth) {

@@ -1,7 +1,6 @@
 // "RE Depth" by kernels: per pixel the least depth's bits << 32 | triangle, so that of equals the first is seen.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define IRAD_UV_GRADIENTS
 #include "raster/scene_triangle.glsl"
 
 void rasterPixel(uint triangle, ivec2 pixel, float depth) {
