@@ -1,6 +1,7 @@
 // Small scenes made by hand, and a picture of them: for the suites about shading, shadows and views.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -42,6 +43,18 @@ struct SceneBuilder {
     if (scene.draws.empty() || scene.draws.back().material != material)
       scene.draws.push_back({material, static_cast<uint32_t>(scene.indices.size()) - 6, 0});
     scene.draws.back().indexCount += 6;
+  }
+  /// One by itself, which faces +Z for shading; of the first material, in a draw that the caller adds.
+  void addTriangle(const std::array<glm::vec3, 3>& corners, const std::array<glm::vec4, 3>& colors) {
+    for (size_t i = 0; i < 3; ++i) {
+      scene.indices.push_back(static_cast<uint32_t>(scene.positions.size()));
+      scene.positions.push_back(corners[i]);
+      scene.normals.emplace_back(0, 0, 1);
+      scene.tangents.emplace_back(1, 0, 0, 1);
+      scene.uv0.emplace_back(0);
+      scene.uv1.emplace_back(0);
+      scene.colors.push_back(colors[i]);
+    }
   }
   /// Faces outwards.
   void addBox(glm::vec3 lo, glm::vec3 hi) {

@@ -93,17 +93,7 @@ class RasterTest : public GpuTest {
 Scene triangles(const std::vector<std::array<glm::vec3, 3>>& corners) {
   SceneBuilder b;
   b.scene.materials[0].doubleSided = true;
-  for (const auto& t : corners) {
-    for (const glm::vec3& p : t) {
-      b.scene.indices.push_back(static_cast<uint32_t>(b.scene.positions.size()));
-      b.scene.positions.push_back(p);
-      b.scene.normals.emplace_back(0, 0, 1);
-      b.scene.tangents.emplace_back(1, 0, 0, 1);
-      b.scene.uv0.emplace_back(0);
-      b.scene.uv1.emplace_back(0);
-      b.scene.colors.emplace_back(1);
-    }
-  }
+  for (const auto& t : corners) b.addTriangle(t, {glm::vec4(1), glm::vec4(1), glm::vec4(1)});
   b.scene.draws.push_back({0, 0, static_cast<uint32_t>(b.scene.indices.size())});
   return b.finish();
 }

@@ -289,15 +289,9 @@ TEST_F(Resolve, SliversKeepTheirCornersValues) {
   for (uint32_t i = 0; i < 4000; ++i) {
     const glm::vec3 from(place(random), place(random), 0.3f * place(random)), to(place(random), place(random), 0);
     const glm::vec3 beside = 0.5f * (from + to) + glm::vec3(2e-5f * place(random), 2e-5f * place(random), 0);
-    for (const glm::vec3& p : {from, to, beside}) {
-      b.scene.indices.push_back(static_cast<uint32_t>(b.scene.positions.size()));
-      b.scene.positions.push_back(p);
-      b.scene.normals.push_back({0, 0, 1});
-      b.scene.tangents.push_back({1, 0, 0, 1});
-      b.scene.uv0.push_back({});
-      b.scene.uv1.push_back({});
-      b.scene.colors.push_back({color(random), color(random), color(random), 1});
-    }
+    std::array<glm::vec4, 3> colors;
+    for (glm::vec4& c : colors) c = {color(random), color(random), color(random), 1};
+    b.addTriangle({from, to, beside}, colors);
   }
   b.scene.draws = {{0, 0, static_cast<uint32_t>(b.scene.indices.size())}};
   b.addCamera({0, 0, 2.4}, {0, 0, 0}, 0.8f);
