@@ -54,6 +54,7 @@ struct Pipeline::Impl {
     std::optional<Field> field;
     std::optional<FormFactors> matrix;
     std::optional<Emitters> emitters;
+    EmissiveTriangles emissiveTriangles;
     std::optional<Lighting> light;
     Buffer reference;  ///< H by the oracle, for its view; none where the scene does not know it
     ViewFields fields;
@@ -183,6 +184,7 @@ struct Pipeline::Impl {
       p.facets = compactFacets(context, voxels, obeyed);
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
+      p.emissiveTriangles = listEmissiveTriangles(context, onDevice, *p.facets, p.gridRecord);
       p.reference = makeReference(*p.facets);
     }
 
@@ -317,7 +319,8 @@ struct Pipeline::Impl {
     in.reverse = &now.facets->reverse;
     in.around = &now.facets->around;
     in.shaded = &now.light->shaded();
-    if ((view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE) && now.light->emitted)
+    in.keepPosition = planned.on(Effect::pixelEmitters) && now.light->emitted;
+    if ((view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE || in.keepPosition) && now.light->emitted)
       in.shadedEmitted = &now.light->shadedEmitted();
     in.volume = now.light->volume ? &now.light->volume : nullptr;
     in.normalEncoding = static_cast<uint32_t>(now.facets->encoding);
@@ -491,11 +494,13 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   if (p.now.matrix && *p.now.matrix) inputs.matrix = &*p.now.matrix;
   if (p.now.light && *p.now.light) inputs.lighting = &*p.now.light;
   if (p.now.emitters) inputs.emitters = &*p.now.emitters;
+  if (p.planned.on(Effect::pixelEmitters)) inputs.emissiveTriangles = &p.now.emissiveTriangles;
   if (p.now.reference) inputs.reference = &p.now.reference;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;
   inputs.fields = &p.now.fields;
   inputs.range = range;
+  lightByEmitters(frame, inputs, p.planned.settings(), targets);
   traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);
   drawView(frame, view, inputs, p.camera, p.planned.settings(), targets);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gi/emitter_rule.h"
+#include "shaders/shared/pixel_emitters.h"
 
 namespace irad {
 namespace {
@@ -31,6 +32,7 @@ class Planner {
     specular();
     matrix();
     emitterSampling();
+    pixelEmitters();
     secondFacet();
     field();
     relight();
@@ -195,6 +197,24 @@ class Planner {
     r.epsilon = std::max(r.epsilon, std::abs(1 - t_.build->sampledShare));
     said(t_.build->sampled,
          fmt::format("{}; their samples bring {:.4g} of what the rays do", share, t_.build->sampledShare));
+  }
+
+  void pixelEmitters() {
+    uint64_t triangles = 0;
+    for (const MaterialTraits& m : t_.materials) triangles += m.emission > 0 ? m.triangles : 0;
+    const bool wanted = s_.sample.emitters == EmitterLookup::pixels;
+    const bool possible = triangles > 0 && plan_.on(Effect::emission) && plan_.on(Effect::matrix) &&
+                          s_.sample.gpu.gated != 0 && triangles <= MAX_EMISSIVE_TRIANGLES;
+    const std::string reason =
+        !wanted                        ? "sample.emitters = facets"
+        : triangles == 0               ? "nothing emits"
+        : !plan_.on(Effect::emission)  ? "emission is off"
+        : !plan_.on(Effect::matrix)    ? "no indirect light to take the facets' share from"
+        : s_.sample.gpu.gated == 0     ? "sample.gated = false: the volume does not tell emitters' light from other"
+        : possible ? fmt::format("{} emissive triangles, {} rays per pixel", triangles, s_.sample.emitterRays)
+                   : fmt::format("{} emissive triangles, more than {}: the facets serve", triangles, MAX_EMISSIVE_TRIANGLES);
+    // F M per pixel.
+    decide(Effect::pixelEmitters, wanted ? EffectMode::automatic : EffectMode::off, wanted && possible, reason, t_.pixels * 16);
   }
 
   void secondFacet() {

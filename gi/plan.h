@@ -15,6 +15,7 @@ namespace irad {
 #define IRAD_EFFECTS(X)                                                                 \
   X(emission, "emission", "Emissive facets", "effects.emission")                        \
   X(emitterSampling, "emitter-sampling", "Emitter sampling", "matrix.emitter_sampling") \
+  X(pixelEmitters, "pixel-emitters", "Emitters per pixel", "sample.emitters")           \
   X(sun, "sun", "Sun", "effects.sun")                                                   \
   X(point, "point", "Point lights", "effects.point")                                    \
   X(spot, "spot", "Spot lights", "effects.spot")                                        \
@@ -82,7 +83,7 @@ struct EffectPlan {
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before = nullptr);
 
 /// The settings that stages get: `settings` with every effects.* decided (on or off), and off where it has a setting of
-/// its own written there (specular.mode, voxel.facets, sample.filter).
+/// its own written there (specular.mode, voxel.facets, sample.filter, sample.emitters).
 Settings obeyed(const Settings& settings, const EffectPlan& plan);
 
 /// automatic where nothing forces it. (Of emitterSampling see matrix.emitter_sampling.)

@@ -24,6 +24,8 @@ enum class SampleFilter : uint32_t { nearest, linear, blur };
 enum class SpecularMode : uint32_t { off, fragment, compute };
 enum class ToneCurve : uint32_t { linear, neutral };
 enum class EmitterSampling : uint32_t { off, automatic, on };
+/// Who gives a pixel the light that comes straight from emissive faces: the facets around it, or their triangles.
+enum class EmitterLookup : uint32_t { facets, pixels };
 enum class SolverKernel : uint32_t { automatic, tree, subgroup, row };
 /// Who turns triangles into pixels: the graphics pipeline, or compute kernels (shaders/raster).
 enum class Rasterizer : uint32_t { automatic, hardware, kernels };
@@ -83,6 +85,8 @@ struct ScatterSettings {
 };
 struct SampleSettings {
   SampleParams gpu{FILTER_BLUR, 1, 1, 0.5f};
+  EmitterLookup emitters = EmitterLookup::facets;
+  uint32_t emitterRays = 8;  ///< per pixel
 };
 struct SpecularSettings {
   SpecularMode mode = SpecularMode::compute;
@@ -189,6 +193,10 @@ struct EnumNames<EmitterSampling> {
   static constexpr std::array names{"off", "auto", "on"};
 };
 template <>
+struct EnumNames<EmitterLookup> {
+  static constexpr std::array names{"facets", "pixels"};
+};
+template <>
 struct EnumNames<SolverKernel> {
   static constexpr std::array names{"auto", "tree", "subgroup", "row"};
 };
@@ -258,6 +266,8 @@ void visit(Settings& s, F&& f) {
   f(BoolRef{s.sample.gpu.premultiplied}, Meta{"sample.premultiplied", 0, 1, "", "Divide by the presence in alpha (T eq. 24).", Shade});
   f(BoolRef{s.sample.gpu.gated}, Meta{"sample.gated", 0, 1, "", "Take only facets that face the same way, so that walls do not leak.", Scatter});
   f(s.sample.gpu.normalOffset, Meta{"sample.normal_offset", 0, 2, "voxels", "Offset of the lookup along the normal.", Shade});
+  f(s.sample.emitters, Meta{"sample.emitters", 0, 0, "", "Light straight from emissive faces: facets: as all of H; pixels: of each pixel from the triangles' true outlines, with shadow rays.", Shade});
+  f(s.sample.emitterRays, Meta{"sample.emitter_rays", 1, 256, "rays", "Shadow rays per pixel to emissive triangles.", Shade});
   f(s.specular.mode, Meta{"specular.mode", 0, 0, "", "Where specular rays are traced: in the forward fragment shader (T 5.11) or in compute over the G-buffer.", Shade});
   f(s.specular.gpu.rays, Meta{"specular.rays", 1, 64, "rays", "Specular rays per pixel; a quarter as many more go to emissive faces.", Shade});
   f(EnumRef<Traversal>{s.specular.gpu.traversal}, Meta{"specular.traversal", 0, 0, "", "Traversal of specular rays.", Shade});

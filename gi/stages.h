@@ -117,6 +117,14 @@ struct Emitters {
   Buffer entries, record;  ///< Emitter per facet, one EmitterTable
 };
 Emitters listEmitters(Context& context, const FacetList& facets);
+/// The triangles of emissive materials, in voxel units, for pixels that look for emitters themselves
+/// (shaders/shared/pixel_emitters.h). None where nothing emits, or more triangles than that takes.
+struct EmissiveTriangles {
+  uint32_t count = 0;
+  Buffer triangles;  ///< an EmissiveTriangle each
+};
+EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& scene, const FacetList& facets,
+                                        const Buffer& grid);
 /// Vose's alias table of facets[i] with probability powers[i] / sum; powers > 0.
 std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const std::vector<double>& powers);
 

@@ -58,6 +58,7 @@ struct ViewInputs {
   const FormFactors* matrix = nullptr;
   const Lighting* lighting = nullptr;
   const Emitters* emitters = nullptr;
+  const EmissiveTriangles* emissiveTriangles = nullptr;  ///< where pixels look for emitters themselves
   const Buffer* reference = nullptr;  ///< vec4 per facet: H by the oracle, W/m^2
   const ShadowMaps* shadows = nullptr;
   const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
@@ -74,6 +75,11 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
 void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings, const Targets& values,
                     const Targets& reference, Targets& out);
 Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
+
+/// "RE Emitters": of every pixel the light that comes straight from emissive triangles, from their true outlines (shaders/gi/emitters_light.comp),
+/// in place of what the facets around it have of it: in targets.emitted and within targets.indirect. Between drawForward and
+/// traceSpecular; records nothing where there is no targets.emitted.
+void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& settings, Targets& targets);
 
 /// "RE Specular" in compute over the G-buffer (METHOD section 8): traces settings.specular.rays rays per pixel in the
 /// GGX lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Makes and writes

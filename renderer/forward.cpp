@@ -250,9 +250,10 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   pass.shader("forward/indirect.comp")
       .constant(0, indirect.normalEncoding)
       .constant(1, emitted)
+      .constant(2, indirect.keepPosition)
       .read(camera, *indirect.grid, *indirect.shape, *indirect.reverse, *indirect.around, *indirect.shaded)
       .write(targets.indirect)
-      .read(targets.linear)
+      .write(targets.linear)
       .write(emitted ? targets.emitted : targets.indirect);
   if (emitted) pass.read(*indirect.shadedEmitted);
   pass.push(lookup).run(

@@ -33,6 +33,7 @@ struct IndirectInputs {
   const Buffer* around = nullptr;         ///< corners' neighbours
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
   const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, no Targets::emitted
+  bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
   const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup (gated off)
   uint32_t normalEncoding = 3;
   SampleParams sample{};

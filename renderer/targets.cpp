@@ -24,6 +24,7 @@ constexpr Optional kOptional[] = {
     {&Targets::highlight, TARGET_HIGHLIGHT, "highlights and emission", kFull},
     {&Targets::indirect, TARGET_INDIRECT, "indirect irradiance", kFull},
     {&Targets::emitted, TARGET_EMITTED, "irradiance of emitters", kFull},
+    {&Targets::seen, 0, "seen share of emitters", kHalf},
     {&Targets::specular, TARGET_SPECULAR, "specular radiance", kFull},
 };
 

@@ -26,6 +26,8 @@ struct Targets {
   Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
   Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; before forward/indirect.comp the position
   Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M), where a view asks
+  Image seen;       ///< RGBA16F: how much of the emitters' light arrives, by channel, where pixels look for it; w = 0:
+                    ///< unknown. No picture is composed from it
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   // Where kernels rasterize:
   Buffer visible;  ///< uint64 per pixel, row by row: bits of the depth << 32 | triangle of what is seen, all bits set

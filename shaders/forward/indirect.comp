@@ -9,11 +9,12 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMAL_ENCODING = NORMALS_OCT16;
 layout(constant_id = 1) const bool EMITTED = true;  ///< F M too: there is a target for it
+layout(constant_id = 2) const bool KEEPS_POSITION = false;  ///< in the normal's place, for gi/emitters_seen.comp
 layout(push_constant, scalar) uniform PushBlock {
   IndirectPush push;
 };
 layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D lookupTarget;
+layout(set = 0, binding = 1, rgba32f) uniform image2D lookupTarget;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
 
 void main() {
@@ -26,6 +27,7 @@ void main() {
   vec4 position = imageLoad(indirectTarget, pixel);
   if (position.w == 0.0) return;
   vec3 normal = imageLoad(lookupTarget, pixel).xyz;
+  if (KEEPS_POSITION) imageStore(lookupTarget, pixel, position);
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   Receiver r = receiverAt(map, (position.xyz - grid.origin) * grid.inverseEdge, normal, viewer);

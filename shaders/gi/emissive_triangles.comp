@@ -1,0 +1,37 @@
+// The emissive triangles in voxel units (shared/pixel_emitters.h), one invocation each. Texture and alpha mask are averaged over
+// the triangle at the level of detail of a voxel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "voxel_triangle.glsl"
+#include "voxel_material.glsl"
+#include "shared/pixel_emitters.h"
+#include "shared/sampling.h"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { EmissiveTrianglesPush push; };
+
+const uint SAMPLES = 256u;
+
+/// A point of the triangle, uniform over its area for u uniform over the square.
+vec3 pointOf(VoxelTriangle t, vec2 u) {
+  float s = sqrt(u.x);
+  return t.v[0] * (1.0 - s) + t.v[1] * (s * (1.0 - u.y)) + t.v[2] * (s * u.y);
+}
+
+void main() {
+  uint i = irad_index();
+  if (i >= push.count) return;
+  uint triangle = push.first + i;
+  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  uint flags = triangleFlags(push.scene, triangle);
+  uint samples = SAMPLES_TEXTURES != 0u ? SAMPLES : 1u;
+  vec3 sum = vec3(0.0);
+  for (uint k = 0u; k < samples && !degenerate(t); ++k) {
+    vec3 point = pointOf(t, hammersley(k, samples, uvec2(0u)));
+    MaterialPoint p = materialPoint(push.scene, t, triangle, point);
+    if (!masked(push.scene, t, triangle, flags, point)) sum += emittedRadianceAt(push.scene, p);
+  }
+  vec3 exitance = sum * (IRAD_PI / float(samples));
+  for (int c = 0; c < 3; ++c) exitance[c] = exitance[c] > 0.0 ? min(exitance[c], 3.0e38) : 0.0;
+  push.triangles.at[push.place + i] =
+      EmissiveTriangle(t.v[0], t.v[1] - t.v[0], t.v[2] - t.v[0], exitance, flags & MATERIAL_DOUBLE_SIDED);
+}

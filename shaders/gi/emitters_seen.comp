@@ -1,0 +1,102 @@
+// "RE Emitters", step 1: how much of the light of the emissive triangles a visible point sees, by channel, from rays
+// through the voxels. They are drawn in proportion to what each triangle gives; the share of the weights that get through
+// takes the place of their sum, which cancels the noise where all or none do (Heitz, Hill and McGuire 2018, "Combining
+// analytic direct illumination and stochastic shadows").
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/pixel_emitters.glsl"
+#include "gi/trace.glsl"
+#include "shared/sampling.h"
+
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D seenTarget;  ///< w = 0: unknown
+
+/// What a ray meets at most this far before its end is the emitter itself, if it emits: voxels know a lamp's shape no
+/// better. Voxels, as the next two.
+const float OWN_DEPTH = 1.0;
+/// A face met nearer than this, or a sheet: the point lies in a corner, or a sheet's edge, as voxels have it.
+const float NEAR_FACE = 0.1, NEAR_SHEET = 1.0;
+
+/// Whether `facet`, of a sheet, is met in a voxel that has the point's surface, too: which of the two ends there at the
+/// other is not known.
+bool endsAtOwnPlane(TraceWorld world, uint facet, vec3 p, vec3 face) {
+  vec3 voxel = vec3(unpackVoxel(world.facets.voxel.at[facet]));
+  uint entry = world.facets.reverse.at[traceIndex(voxel, world.dims)];
+  for (uint i = firstFacet(entry); i < firstFacet(entry) + facetsOf(entry); ++i) {
+    uint shape = world.facets.shape.at[i];
+    vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+    if (dot(normal, face) > TRACE_OWN_NORMAL && abs(dot(normal, p - facetMiddle(voxel, normal, shape))) < TRACE_JOINT)
+      return true;
+  }
+  return false;
+}
+
+/// Whether the point at `reach` along `direction`, of a face inclined by `cosine`, is seen from `origin`: 1, 0, or -1
+/// where voxels do not know.
+int sees(TraceWorld world, vec3 origin, vec3 direction, vec3 face, float reach, float cosine) {
+  TraceHit hit = traceRay(world, origin, direction, face);
+  if (hit.facet == TRACE_INVALID) return -1;
+  if (hit.facet == TRACE_ESCAPED) return 1;
+  float before = reach - hit.t;
+  if (before * cosine <= TRACE_ON_PLANE) return 1;
+  if (hit.facet == TRACE_BLOCKED) return 0;
+  if (world.facets.emission.at[hit.facet] != vec3(0.0) && before <= OWN_DEPTH) return 1;
+  bool sheet = (world.facets.shape.at[hit.facet] & FACET_DOUBLE_SIDED) != 0u;
+  bool unknown = hit.t < (sheet ? NEAR_SHEET : NEAR_FACE) || (sheet && endsAtOwnPlane(world, hit.facet, origin, face));
+  return unknown ? -1 : 0;
+}
+
+void main() {
+  ivec2 pixel = ownPixel();
+  if (!inPicture(pixel)) return;
+  vec4 position = imageLoad(positionTarget, pixel);
+  vec3 p = inVoxels(position.xyz);
+  vec3 n = normalize(imageLoad(normalTarget, pixel).xyz);
+  vec3 face = normalize(imageLoad(geometricTarget, pixel).xyz);
+  float total = 0.0;
+  for (uint i = 0u; position.w != 0.0 && i < push.count; ++i) {
+    EmissiveTriangle t = push.triangles.at[i];
+    total += formFactor(t, p, n) * luminance(t.exitance);
+  }
+
+  // Shifts of neighbouring pixels follow the R2 lattice (Roberts 2018), as in specular/trace_compute.glsl.
+  uvec3 shift = uvec3(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u,
+                      pixel.x * 2447445414u + pixel.y * 3242174889u);
+  float start = unitFloat(shift.x);
+  TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.grid.dims, 0.0);
+  vec3 seen = vec3(0.0), asked = vec3(0.0);
+  float seenSum = 0.0, askedSum = 0.0;
+  float upTo = 0.0;  // rays to this triangle and those before it
+  uint k = 0u;
+  for (uint i = 0u; total > 0.0 && i < push.count && k < push.rays; ++i) {
+    EmissiveTriangle t = push.triangles.at[i];
+    float share = formFactor(t, p, n) * luminance(t.exitance) / total;
+    if (share == 0.0) continue;
+    upTo += share * float(push.rays);
+    vec3 facing = cross(t.edge1, t.edge2);
+    float size = length(facing);
+    for (; k < push.rays && float(k) + start < upTo; ++k) {
+      vec2 u = facetJitter(k, shift.yz);
+      float s = sqrt(u.x);
+      vec3 way = t.corner + t.edge1 * (s * (1.0 - u.y)) + t.edge2 * (s * u.y) - p;
+      float reach = length(way);
+      vec3 direction = way / reach;
+      float cosine = abs(dot(direction, facing)) / size;
+      // The point's form factor over the density with which it is drawn.
+      float weight = max(dot(n, direction), 0.0) * cosine * size / (reach * reach * share);
+      if (weight == 0.0) continue;
+      int clear = dot(face, direction) > 0.0 ? sees(world, p, direction, face, reach, cosine) : 0;
+      if (clear < 0) continue;
+      asked += weight * t.exitance;
+      askedSum += weight;
+      seen += float(clear) * weight * t.exitance;
+      seenSum += float(clear) * weight;
+    }
+  }
+  vec4 result = vec4(0.0);
+  if (askedSum > 0.0) {
+    result = vec4(vec3(seenSum / askedSum), 1.0);
+    for (int c = 0; c < 3; ++c)
+      if (asked[c] > 0.0) result[c] = seen[c] / asked[c];
+  }
+  imageStore(seenTarget, pixel, result);
+}
