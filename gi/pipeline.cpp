@@ -319,7 +319,7 @@ struct Pipeline::Impl {
     in.reverse = &now.facets->reverse;
     in.around = &now.facets->around;
     in.shaded = &now.light->shaded();
-    in.keepPosition = planned.on(Effect::pixelEmitters) && now.light->emitted;
+    in.keepPosition = planned.plan().pixelEmitters && now.light->emitted;
     if ((view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE || in.keepPosition) && now.light->emitted)
       in.shadedEmitted = &now.light->shadedEmitted();
     in.volume = now.light->volume ? &now.light->volume : nullptr;
@@ -494,7 +494,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   if (p.now.matrix && *p.now.matrix) inputs.matrix = &*p.now.matrix;
   if (p.now.light && *p.now.light) inputs.lighting = &*p.now.light;
   if (p.now.emitters) inputs.emitters = &*p.now.emitters;
-  if (p.planned.on(Effect::pixelEmitters)) inputs.emissiveTriangles = &p.now.emissiveTriangles;
+  if (p.planned.plan().pixelEmitters) inputs.emissiveTriangles = &p.now.emissiveTriangles;
   if (p.now.reference) inputs.reference = &p.now.reference;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;

@@ -200,21 +200,19 @@ class Planner {
   }
 
   void pixelEmitters() {
+    EffectRow& r = row(Effect::emission);
+    if (s_.sample.emitters != EmitterLookup::pixels || !plan_.on(Effect::emission)) return;
     uint64_t triangles = 0;
     for (const MaterialTraits& m : t_.materials) triangles += m.emission > 0 ? m.triangles : 0;
-    const bool wanted = s_.sample.emitters == EmitterLookup::pixels;
-    const bool possible = triangles > 0 && plan_.on(Effect::emission) && plan_.on(Effect::matrix) &&
-                          s_.sample.gpu.gated != 0 && triangles <= MAX_EMISSIVE_TRIANGLES;
-    const std::string reason =
-        !wanted                        ? "sample.emitters = facets"
-        : triangles == 0               ? "nothing emits"
-        : !plan_.on(Effect::emission)  ? "emission is off"
-        : !plan_.on(Effect::matrix)    ? "no indirect light to take the facets' share from"
-        : s_.sample.gpu.gated == 0     ? "sample.gated = false: the volume does not tell emitters' light from other"
-        : possible ? fmt::format("{} emissive triangles, {} rays per pixel", triangles, s_.sample.emitterRays)
-                   : fmt::format("{} emissive triangles, more than {}: the facets serve", triangles, MAX_EMISSIVE_TRIANGLES);
-    // F M per pixel.
-    decide(Effect::pixelEmitters, wanted ? EffectMode::automatic : EffectMode::off, wanted && possible, reason, t_.pixels * 16);
+    plan_.pixelEmitters = triangles > 0 && triangles <= MAX_EMISSIVE_TRIANGLES && s_.sample.gpu.gated != 0 &&
+                          !plan_.off(Effect::matrix);
+    if (plan_.pixelEmitters)
+      r.reason += fmt::format("; pixels look for {}", counted(triangles, "triangle", "triangles"));
+    else if (triangles > MAX_EMISSIVE_TRIANGLES)
+      r.reason += fmt::format("; {} triangles, more than {} that pixels could look for: facets serve", triangles,
+                              MAX_EMISSIVE_TRIANGLES);
+    else if (triangles > 0 && s_.sample.gpu.gated == 0)
+      r.reason += "; pixels cannot look for it, sample.gated = false: the volume does not tell it from other light";
   }
 
   void secondFacet() {

@@ -15,7 +15,6 @@ namespace irad {
 #define IRAD_EFFECTS(X)                                                                 \
   X(emission, "emission", "Emissive facets", "effects.emission")                        \
   X(emitterSampling, "emitter-sampling", "Emitter sampling", "matrix.emitter_sampling") \
-  X(pixelEmitters, "pixel-emitters", "Emitters per pixel", "sample.emitters")           \
   X(sun, "sun", "Sun", "effects.sun")                                                   \
   X(point, "point", "Point lights", "effects.point")                                    \
   X(spot, "spot", "Spot lights", "effects.spot")                                        \
@@ -71,6 +70,7 @@ struct EffectRow {
 
 struct EffectPlan {
   std::array<EffectRow, kEffects> rows;
+  bool pixelEmitters = false;  ///< sample.emitters = pixels is obeyed; the row of emission says why not
   const EffectRow& row(Effect effect) const { return rows[static_cast<size_t>(effect)]; }
   bool on(Effect effect) const { return row(effect).state == EffectState::on; }
   bool off(Effect effect) const { return row(effect).state == EffectState::off; }

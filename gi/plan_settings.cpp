@@ -55,7 +55,7 @@ Settings obeyed(const Settings& settings, const EffectPlan& plan) {
     s.effects.*forced.mode = plan.off(forced.effect) ? EffectMode::off : EffectMode::on;
   if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
   if (settings.effects.secondFacet == EffectMode::off) s.voxel.facets = 1;
-  if (plan.off(Effect::pixelEmitters)) s.sample.emitters = EmitterLookup::facets;
+  if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
   if (plan.off(Effect::blur) && s.sample.gpu.filter_ == FILTER_BLUR) s.sample.gpu.filter_ = FILTER_LINEAR;
   return s;
 }

@@ -1,5 +1,6 @@
 // The effect plan: every row of it in both directions, on numbers alone.
 #include "gi/plan.h"
+#include "shaders/shared/pixel_emitters.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -64,6 +65,35 @@ TEST(Plan, EmissionIsCalledForByAnyEmissiveMaterialInUse) {
   EXPECT_TRUE(without.off(Effect::emission));
   EXPECT_EQ(without.row(Effect::emission).skip, Skip::exact);
   EXPECT_EQ(without.row(Effect::emission).bytesNotAllocated, 500u * (12 + 16 + 16));
+}
+
+TEST(Plan, PixelsLookForEmittersWhereTheyCan) {
+  SceneTraits t = lit();
+  EXPECT_FALSE(plan(t, usual()).pixelEmitters);
+  Settings s = usual();
+  s.sample.emitters = EmitterLookup::pixels;
+  const auto reason = [&] { return plan(t, s).row(Effect::emission).reason; };
+  EXPECT_TRUE(plan(t, s).pixelEmitters);
+  EXPECT_TRUE(contains(reason(), fmt::format("pixels look for {} triangles", t.materials[1].triangles)));
+  EXPECT_EQ(obeyed(s, plan(t, s)).sample.emitters, EmitterLookup::pixels);
+  t.materials[1].triangles = MAX_EMISSIVE_TRIANGLES + 1;
+  EXPECT_FALSE(plan(t, s).pixelEmitters);
+  EXPECT_TRUE(contains(reason(), "257 triangles, more than 256"));
+  EXPECT_EQ(obeyed(s, plan(t, s)).sample.emitters, EmitterLookup::facets);
+  t.materials[1].triangles = MAX_EMISSIVE_TRIANGLES;
+  EXPECT_TRUE(plan(t, s).pixelEmitters);
+  s.sample.gpu.gated = 0;  // the thesis's volume
+  EXPECT_FALSE(plan(t, s).pixelEmitters);
+  EXPECT_TRUE(contains(reason(), "sample.gated = false"));
+  s.sample.gpu.gated = 1;
+  s.effects.matrix = EffectMode::off;
+  EXPECT_FALSE(plan(t, s).pixelEmitters);
+  s.effects.matrix = EffectMode::automatic;
+  s.effects.emission = EffectMode::off;
+  EXPECT_FALSE(plan(t, s).pixelEmitters);
+  s.effects.emission = EffectMode::on;
+  t.materials[1].emission = 0;  // of nothing
+  EXPECT_FALSE(plan(t, s).pixelEmitters);
 }
 
 TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {

@@ -126,6 +126,7 @@ Settings randomSettings(Dice& dice) {
   s.solver.kernel = dice.any<SolverKernel>();
   s.scatter.edgeRemoval = dice.one(6);
   s.sample.gpu.filter_ = dice.below(3);
+  s.sample.emitters = dice.any<EmitterLookup>();
   s.sample.gpu.gated = dice.one(4) ? 0 : 1;
   s.sample.gpu.premultiplied = dice.below(2);
   s.specular.mode = dice.any<SpecularMode>();
