@@ -16,7 +16,8 @@ EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& s
   if (out.count == 0) return out;
 
   constexpr uint32_t kSamplesTextures = 0;  // specialization constant of shaders/gi/voxel_material.glsl
-  out.triangles = Buffer(context.device, "emissive triangles", Subsystem::Specular, sizeof(EmissiveTriangle) * out.count);
+  out.triangles =
+      Buffer(context.device, "emissive triangles", Subsystem::Specular, sizeof(EmissiveTriangle) * out.count);
   EmissiveTrianglesPush push{};
   push.scene = scene.record.address;
   push.grid = grid.address;
@@ -25,8 +26,8 @@ EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& s
   frame.pass("GI CompactList")
       .shader("gi/emissive_triangles.comp")
       .constant(kSamplesTextures, true)
-      .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0, scene.uv1,
-            scene.colors, grid)
+      .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+            scene.uv1, scene.colors, grid)
       .write(out.triangles)
       .run([&](Commands& commands) {
         for (const Draw& draw : scene.scene.draws) {

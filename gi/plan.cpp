@@ -204,8 +204,8 @@ class Planner {
     if (s_.sample.emitters != EmitterLookup::pixels || !plan_.on(Effect::emission)) return;
     uint64_t triangles = 0;
     for (const MaterialTraits& m : t_.materials) triangles += m.emission > 0 ? m.triangles : 0;
-    plan_.pixelEmitters = triangles > 0 && triangles <= MAX_EMISSIVE_TRIANGLES && s_.sample.gpu.gated != 0 &&
-                          !plan_.off(Effect::matrix);
+    plan_.pixelEmitters =
+        triangles > 0 && triangles <= MAX_EMISSIVE_TRIANGLES && s_.sample.gpu.gated != 0 && !plan_.off(Effect::matrix);
     if (plan_.pixelEmitters)
       r.reason += fmt::format("; pixels look for {}", counted(triangles, "triangle", "triangles"));
     else if (triangles > MAX_EMISSIVE_TRIANGLES)

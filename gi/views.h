@@ -59,7 +59,7 @@ struct ViewInputs {
   const Lighting* lighting = nullptr;
   const Emitters* emitters = nullptr;
   const EmissiveTriangles* emissiveTriangles = nullptr;  ///< where pixels look for emitters themselves
-  const Buffer* reference = nullptr;  ///< vec4 per facet: H by the oracle, W/m^2
+  const Buffer* reference = nullptr;                     ///< vec4 per facet: H by the oracle, W/m^2
   const ShadowMaps* shadows = nullptr;
   const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
   ViewFields* fields = nullptr;    ///< of `facets`
@@ -76,9 +76,9 @@ void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings
                     const Targets& reference, Targets& out);
 Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
 
-/// "RE Emitters": of every pixel the light that comes straight from emissive triangles, from their true outlines (shaders/gi/emitters_light.comp),
-/// in place of what the facets around it have of it: in targets.emitted and within targets.indirect. Between drawForward and
-/// traceSpecular; records nothing where there is no targets.emitted.
+/// "RE Emitters": of every pixel the light that comes straight from emissive triangles, from their true outlines
+/// (shaders/gi/emitters_light.comp), in place of what the facets around it have of it: in targets.emitted and within
+/// targets.indirect. Between drawForward and traceSpecular; records nothing where there is no targets.emitted.
 void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& settings, Targets& targets);
 
 /// "RE Specular" in compute over the G-buffer (METHOD section 8): traces settings.specular.rays rays per pixel in the

@@ -1,5 +1,5 @@
-// Light straight from emissive triangles, looked for by each pixel ("RE Emitters", sample.emitters = pixels), against closed
-// forms in double precision.
+// Light straight from emissive triangles, looked for by each pixel ("RE Emitters", sample.emitters = pixels), against
+// closed forms in double precision.
 #include <algorithm>
 #include <numbers>
 #include <random>
@@ -107,14 +107,15 @@ class PixelEmitters : public EffectsTest {
   }
   using Quad = std::array<glm::dvec3, 4>;
   static double formFactor(const Quad& q, const glm::dvec3& p, const glm::dvec3& n) {
-    return formFactorTriangle({q[0] - p, q[1] - p, q[2] - p}, n) + formFactorTriangle({q[0] - p, q[2] - p, q[3] - p}, n);
+    return formFactorTriangle({q[0] - p, q[1] - p, q[2] - p}, n) +
+           formFactorTriangle({q[0] - p, q[2] - p, q[3] - p}, n);
   }
   static void add(SceneBuilder& b, uint32_t material, const Quad& q, uint32_t n = 1) {
     b.quad(material, q[0], q[1], q[2], q[3], n);
   }
   /// Faces down; its sides lie on no voxel's.
-  static constexpr Quad kLamp{glm::dvec3(-0.31, 1.03, -0.23), glm::dvec3(0.42, 1.03, -0.23), glm::dvec3(0.42, 1.03, 0.37),
-                              glm::dvec3(-0.31, 1.03, 0.37)};
+  static constexpr Quad kLamp{glm::dvec3(-0.31, 1.03, -0.23), glm::dvec3(0.42, 1.03, -0.23),
+                              glm::dvec3(0.42, 1.03, 0.37), glm::dvec3(-0.31, 1.03, 0.37)};
   static constexpr Quad kFloor{glm::dvec3(-1, 0, 1), glm::dvec3(1, 0, 1), glm::dvec3(1, 0, -1), glm::dvec3(-1, 0, -1)};
   static Scene lampAboveFloor(uint32_t cuts = 1) {
     SceneBuilder b;
@@ -276,8 +277,7 @@ TEST_F(PixelEmitters, TexturesAndMasksAreAveraged) {
   scene.images.push_back({.name = "half", .width = 64, .height = 1, .srgb = false, .rgba = {}});
   for (int x = 0; x < 64; ++x)
     for (int c = 0; c < 4; ++c) scene.images.back().rgba.push_back(c == 3 || x < 32 ? 255 : 0);
-  for (size_t i = 0; i < scene.positions.size(); ++i)
-    scene.uv0.at(i) = {(scene.positions[i].x + 0.31f) / 0.73f, 0.5f};
+  for (size_t i = 0; i < scene.positions.size(); ++i) scene.uv0.at(i) = {(scene.positions[i].x + 0.31f) / 0.73f, 0.5f};
   for (const bool mask : {false, true}) {
     Material& lamp = scene.materials.at(1);
     lamp.emissiveTexture.image = mask ? -1 : 0;
@@ -289,7 +289,8 @@ TEST_F(PixelEmitters, TexturesAndMasksAreAveraged) {
       lamp.alphaCutoff = 0.5f;
     }
     const World w = world(scene, settings());
-    const Buffer grid = makeBuffer<Grid>(context(), "grid", Subsystem::Voxels, std::span<const Grid>(&w.facets.grid, 1));
+    const Buffer grid =
+        makeBuffer<Grid>(context(), "grid", Subsystem::Voxels, std::span<const Grid>(&w.facets.grid, 1));
     const EmissiveTriangles list = listEmissiveTriangles(context(), *w.device, w.facets, grid);
     ASSERT_EQ(list.count, 2u);
     const auto triangles = downloadAs<EmissiveTriangle>(context(), list.triangles);

@@ -27,9 +27,9 @@ class Reference : public GpuTest {
 
   struct Quality {
     uint32_t resolution = 128, rays = 256;
-    bool doubleSided = false;  ///< every material
-    uint32_t facets = 2;       ///< of a voxel
-    uint32_t samples = 1;      ///< of a pixel, along each axis
+    bool doubleSided = false;                        ///< every material
+    uint32_t facets = 2;                             ///< of a voxel
+    uint32_t samples = 1;                            ///< of a pixel, along each axis
     EmitterLookup emitters = EmitterLookup::facets;  ///< sample.emitters
   };
   /// The views' linear pixels for a scene, lit by its own lights, at the reference settings.
@@ -115,10 +115,11 @@ TEST_F(Reference, CornellAgainstCycles) {
 
 TEST_F(Reference, CornellWithATwoSidedLamp) {
   const Camera camera = lookFrom({0, 1, 3.4}, 40.0f);
-  // The strip of ceiling that is seen is one pixel high: like Cycles, several samples of a pixel. It is .6 voxel from the lamp: pixels
-  // look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
-  expectMarks(compare(*scenes_ / "references/cornell_base_diffuse.exr", *scenes_ / "variants/cornell_base.glb", &camera,
-                      {.doubleSided = true, .facets = MAX_VOXEL_FACETS, .samples = 8, .emitters = EmitterLookup::pixels}));
+  // The strip of ceiling that is seen is one pixel high: like Cycles, several samples of a pixel. It is .6 voxel from
+  // the lamp: pixels look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
+  expectMarks(
+      compare(*scenes_ / "references/cornell_base_diffuse.exr", *scenes_ / "variants/cornell_base.glb", &camera,
+              {.doubleSided = true, .facets = MAX_VOXEL_FACETS, .samples = 8, .emitters = EmitterLookup::pixels}));
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint NORMAL_ENCODING = NORMALS_OCT16;
-layout(constant_id = 1) const bool EMITTED = true;  ///< F M too: there is a target for it
+layout(constant_id = 1) const bool EMITTED = true;          ///< F M too: there is a target for it
 layout(constant_id = 2) const bool KEEPS_POSITION = false;  ///< in the normal's place, for gi/emitters_seen.comp
 layout(push_constant, scalar) uniform PushBlock {
   IndirectPush push;

@@ -1,5 +1,5 @@
-// The emissive triangles in voxel units (shared/pixel_emitters.h), one invocation each. Texture and alpha mask are averaged over
-// the triangle at the level of detail of a voxel.
+// The emissive triangles in voxel units (shared/pixel_emitters.h), one invocation each. Texture and alpha mask are
+// averaged over the triangle at the level of detail of a voxel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
@@ -7,7 +7,9 @@
 #include "shared/pixel_emitters.h"
 #include "shared/sampling.h"
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { EmissiveTrianglesPush push; };
+layout(push_constant, scalar) uniform Push {
+  EmissiveTrianglesPush push;
+};
 
 const uint SAMPLES = 256u;
 

@@ -1,6 +1,6 @@
-// "RE Emitters", step 2: irradiance of a visible point from the emissive triangles, by Lambert's formula, times the share
-// of it that is seen, averaged over the pixels around on the same surface. It takes the place of F M of the facets around,
-// which know of a lamp's rim and of the distance to it no better than to a voxel.
+// "RE Emitters", step 2: irradiance of a visible point from the emissive triangles, by Lambert's formula, times the
+// share of it that is seen, averaged over the pixels around on the same surface. It takes the place of F M of the
+// facets around, which know of a lamp's rim and of the distance to it no better than to a voxel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/pixel_emitters.glsl"

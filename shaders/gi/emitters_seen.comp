@@ -1,7 +1,7 @@
 // "RE Emitters", step 1: how much of the light of the emissive triangles a visible point sees, by channel, from rays
-// through the voxels. They are drawn in proportion to what each triangle gives; the share of the weights that get through
-// takes the place of their sum, which cancels the noise where all or none do (Heitz, Hill and McGuire 2018, "Combining
-// analytic direct illumination and stochastic shadows").
+// through the voxels. They are drawn in proportion to what each triangle gives; the share of the weights that get
+// through takes the place of their sum, which cancels the noise where all or none do (Heitz, Hill and McGuire 2018,
+// "Combining analytic direct illumination and stochastic shadows").
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/pixel_emitters.glsl"

@@ -3,7 +3,9 @@
 #include "shared/pixel_emitters.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform PushBlock { PixelEmittersPush push; };
+layout(push_constant, scalar) uniform PushBlock {
+  PixelEmittersPush push;
+};
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positionTarget;  ///< local space; w = 0: nothing drawn
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -21,7 +23,9 @@ bool inPicture(ivec2 pixel) {
 }
 
 /// Voxel units.
-vec3 inVoxels(vec3 position) { return (position - push.grid.origin) * push.grid.inverseEdge; }
+vec3 inVoxels(vec3 position) {
+  return (position - push.grid.origin) * push.grid.inverseEdge;
+}
 
 /// F to the whole triangle from point `p` with normal `n`; 0 behind it.
 float formFactor(EmissiveTriangle t, vec3 p, vec3 n) {
