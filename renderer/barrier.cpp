@@ -29,13 +29,15 @@ Dependency dependency(const ResourceState& state, const Use& next) {
     return {written, {read.stages | next.stages, read.access | next.access}};
   }
   // Write after read: whoever read has already waited for the write before, so waiting for the readers suffices, unless
-  // `next` also reads what has not been made visible to it.
+  // `next` also reads what has not been made visible to it. The destination names the access: a write before the read is
+  // ordered before `next` by the chain of the two.
   if (read.stages != 0) {
     const bool alsoReads = (next.access & ~kWrites) != 0;
-    if (written.stages == 0 || !alsoReads || covers(read, next)) return {{read.stages, 0}, {next.stages, 0}};
+    if (written.stages == 0 || !alsoReads || covers(read, next)) return {{read.stages, 0}, next};
     return {{written.stages | read.stages, written.access}, next};
   }
-  // Write after write.
+  // Write after write. What the first of passes that commute has waited for, the others need not.
+  if (next.commutes && written == Use{next.stages, next.access & kWrites, true}) return {};
   if (written.stages != 0) return {written, next};
   return {};
 }
@@ -44,7 +46,7 @@ ResourceState advance(const ResourceState& state, const Use& next) {
   ResourceState after = state;
   after.defined = true;
   if (next.writes()) {
-    after.lastWrite = {next.stages, next.access & kWrites};
+    after.lastWrite = {next.stages, next.access & kWrites, next.commutes};
     after.readsSince = {};
   } else {
     after.readsSince.stages |= next.stages;

@@ -11,6 +11,7 @@ namespace irad {
 struct Use {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
+  bool commutes = false;  ///< by atomics whose order does not matter, nor that of their passes (Pass::accumulate)
   bool writes() const;
   bool operator==(const Use&) const = default;
 };
@@ -24,7 +25,8 @@ struct ResourceState {
 
 /// The memory dependency that `next` needs after `state`; both sides zero: none. Rules: read after write waits for and
 /// makes visible the write, unless an earlier read already did so for these stages; write after read is an execution
-/// dependency only; write after write is a full memory dependency; read after read needs nothing.
+/// dependency only; write after write is a full memory dependency, but for atomics that commute, at the same stages:
+/// they need nothing, as read after read.
 struct Dependency {
   Use source, destination;
   bool needed() const { return source.stages != 0; }

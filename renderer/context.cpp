@@ -145,7 +145,7 @@ void Context::Impl::deliver(FrameSlot& slot, Timings& timings) {
       timings.add(timers[i], static_cast<double>(elapsed) * tick, static_cast<double>(ticks[0] & mask) * tick);
     }
   } else if (timers.size() == 1 && slot.awaited) {
-    // No timestamps: the wall clock of a frame of one pass, which somebody has waited for, is an upper bound.
+    // No timestamps: the wall clock of a frame of one stage, which somebody has waited for, is an upper bound.
     const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - slot.submitted;
     timings.add(timers.front(), wall.count());
   }

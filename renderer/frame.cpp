@@ -27,6 +27,7 @@ Frame::~Frame() {
   if (!impl_ || !impl_->slot) return;
   // Dropped: run what was recorded, deliver nothing.
   FrameSlot& slot = *impl_->slot;
+  impl_->stopTimer();
   slot.timers.clear();
   slot.readbacks.clear();
   slot.sample.reset();
@@ -80,6 +81,7 @@ void Frame::readback(const Buffer& buffer, uint64_t offset, uint64_t bytes,
 }
 
 void Frame::Impl::submit(VkSemaphore presentWait, VkSemaphore presentSignal, bool awaited) {
+  stopTimer();
   std::unique_ptr<FrameSlot> finished = std::move(slot);
   const Device& device = context->device;
   if (!finished->readbacks.empty()) {
@@ -164,12 +166,13 @@ void Frame::Impl::endLabel() {
   if (context->device.debugUtils) vkCmdEndDebugUtilsLabelEXT(slot->commands);
 }
 
-std::optional<uint32_t> Frame::Impl::startTimer(const std::string& stage) {
-  if (!timed) return std::nullopt;
+void Frame::Impl::startTimer(const std::string& stage) {
+  if (!timed || slot->timing) return;
   const auto timer = static_cast<uint32_t>(slot->timers.size());
   slot->timers.push_back(stage);
+  slot->timing = true;
   const Device& device = context->device;
-  if (device.timestampBits == 0) return std::nullopt;
+  if (device.timestampBits == 0) return;
   const uint32_t pool = timer / FrameSlot::kTimersPerPool, index = timer % FrameSlot::kTimersPerPool;
   if (pool == slot->queryPools.size()) {
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
@@ -180,14 +183,17 @@ std::optional<uint32_t> Frame::Impl::startTimer(const std::string& stage) {
     slot->queryPools.push_back(created);
   }
   if (index == 0) vkCmdResetQueryPool(slot->commands, slot->queryPools[pool], 0, 2 * FrameSlot::kTimersPerPool);
-  // Both timestamps wait for all earlier commands: a pass's time is what it adds to the frame.
+  // Both timestamps wait for all earlier commands: a stage's time is what it adds to the frame.
   vkCmdWriteTimestamp2(slot->commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queryPools[pool], 2 * index);
   // Lavapipe batches graphics work past the timestamp unless a barrier follows it.
   if (device.isCpu) everythingBarrier(slot->commands);
-  return timer;
 }
 
-void Frame::Impl::stopTimer(uint32_t timer) {
+void Frame::Impl::stopTimer() {
+  if (!slot->timing) return;
+  slot->timing = false;
+  if (context->device.timestampBits == 0) return;
+  const auto timer = static_cast<uint32_t>(slot->timers.size()) - 1;
   const uint32_t pool = timer / FrameSlot::kTimersPerPool, index = timer % FrameSlot::kTimersPerPool;
   vkCmdWriteTimestamp2(slot->commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot->queryPools[pool], 2 * index + 1);
 }

@@ -139,6 +139,14 @@ class Pass {
     (use(resources, true), ...);
     return *this;
   }
+  /// Atomic updates whose order does not matter (a minimum; places in a list that any order does for), and looks that
+  /// an older value serves as well. Passes in a row that accumulate into the same buffers run side by side, unless
+  /// something else keeps them apart.
+  template <class... R>
+  Pass& accumulate(const R&... buffers) {
+    (use(buffers, true, true), ...);
+    return *this;
+  }
   Pass& sample(const Image& image, VkSampler sampler);
   /// A depth array, or cube array, that is empty where the scene has no such: the variant of the shader that the
   /// constants choose does not read it then.
@@ -196,7 +204,7 @@ class Pass {
 
  private:
   friend class Frame;
-  void use(const Buffer& buffer, bool write);
+  void use(const Buffer& buffer, bool write, bool commutes = false);
   void use(const Image& image, bool write);
   void updateBytes(const Buffer& buffer, const void* bytes, size_t size);
   void rasterize(VkCommandBuffer cmd, Commands& commands, const std::function<void(Commands&)>& body);

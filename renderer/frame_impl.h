@@ -20,6 +20,7 @@ struct FrameSlot {
 
   std::vector<VkQueryPool> queryPools;  ///< 2 queries per timer
   std::vector<std::string> timers;      ///< the stage of timer i
+  bool timing = false;                  ///< the last one runs
 
   struct Chunk {
     Buffer buffer;
@@ -74,8 +75,9 @@ struct Frame::Impl {
   std::pair<const Buffer*, uint64_t> stage(uint64_t bytes, const std::byte*& mapped);
   void beginLabel(const std::string& name);
   void endLabel();
-  std::optional<uint32_t> startTimer(const std::string& stage);
-  void stopTimer(uint32_t timer);
+  /// Passes of one stage that follow each other have one timer: timestamps between them would keep them apart.
+  void startTimer(const std::string& stage);
+  void stopTimer();  ///< if one runs
   void submit(VkSemaphore presentWait, VkSemaphore presentSignal, bool awaited);
 };
 

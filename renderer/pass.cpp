@@ -30,9 +30,9 @@ Pass& Pass::effect(uint32_t id, bool on) {
   if (!on) state_->pipeline.leftOut.insert(id);
   return *this;
 }
-void Pass::use(const Buffer& buffer, bool write) {
+void Pass::use(const Buffer& buffer, bool write, bool commutes) {
   IRAD_CHECK(buffer.handle, "{}: an empty buffer", stage_);
-  state_->buffers.push_back({&buffer, write});
+  state_->buffers.push_back({&buffer, write, commutes});
 }
 void Pass::use(const Image& image, bool write) {
   IRAD_CHECK(image.handle, "{}: an empty image", stage_);
@@ -190,15 +190,13 @@ void Pass::record(const std::function<void(VkCommandBuffer)>& body) {
   Frame::Impl& frame = *frame_->impl_;
   IRAD_CHECK(frame.slot, "pass {} after the frame was submitted", stage_);
   const VkCommandBuffer commands = frame.slot->commands;
+  if (frame.slot->timing && frame.slot->timers.back() != stage_) frame.stopTimer();
   BarrierBuilder barriers;
   for (const State::Declared& d : state_->declared) barriers.add(*d.state, d.image, d.use);
   frame.beginLabel(stage_);
   const AtEnd label{[&] { frame.endLabel(); }};
   barriers.record(commands);
-  const std::optional<uint32_t> timer = frame.startTimer(stage_);
-  const AtEnd stop{[&] {
-    if (timer) frame.stopTimer(*timer);
-  }};
+  frame.startTimer(stage_);
   body(commands);
 }
 

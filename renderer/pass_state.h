@@ -33,7 +33,7 @@ struct Pass::State {
 
   struct BufferUse {
     const Buffer* buffer;
-    bool write;
+    bool write, commutes;
   };
   struct Bound {
     const Image* image;
@@ -68,13 +68,15 @@ struct Pass::State {
       if (d.state == &state) {
         d.use.stages |= use.stages;
         d.use.access |= use.access;
+        d.use.commutes &= use.commutes;
         return;
       }
     declared.push_back({&state, image, use});
   }
   /// read() and write() turned into uses at these stages.
   void resolveUses(VkPipelineStageFlags2 stages) {
-    for (const BufferUse& b : buffers) add(b.buffer->state, nullptr, {stages, b.write ? kStorageWrite : kStorageRead});
+    for (const BufferUse& b : buffers)
+      add(b.buffer->state, nullptr, {stages, b.write ? kStorageWrite : kStorageRead, b.commutes});
     for (const Bound& i : bound) {
       if (i.uniform) {
         add(i.uniform->state, nullptr, {stages, VK_ACCESS_2_UNIFORM_READ_BIT});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace irad {
@@ -14,7 +15,7 @@ constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BI
 constexpr VkAccessFlags2 kLoad = VK_ACCESS_2_SHADER_STORAGE_READ_BIT, kStore = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                          kSampled = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, kTransfer = VK_ACCESS_2_TRANSFER_WRITE_BIT;
 constexpr Use kRead{kCompute, kLoad}, kFragmentRead{kFragment, kSampled}, kCopyWrite{kCopy, kTransfer},
-    kWrite{kCompute, kStore}, kReadWrite{kCompute, kLoad | kStore};
+    kWrite{kCompute, kStore}, kReadWrite{kCompute, kLoad | kStore}, kAccumulate{kCompute, kLoad | kStore, true};
 
 ResourceState after(std::vector<Use> uses) {
   ResourceState state;
@@ -73,9 +74,9 @@ TEST(Barrier, SecondReaderElsewhereWaitsToo) {
 }
 
 TEST(Barrier, WriteAfterReadIsExecutionOnly) {
-  expectIs(dependency(after({kRead}), kWrite), {kCompute, 0}, {kCompute, 0});
-  expectIs(dependency(after({kRead, kFragmentRead}), kCopyWrite), {kCompute | kFragment, 0}, {kCopy, 0});
-  expectIs(dependency(after({kWrite, kFragmentRead}), kCopyWrite), {kFragment, 0}, {kCopy, 0});
+  expectIs(dependency(after({kRead}), kWrite), {kCompute, 0}, kWrite);
+  expectIs(dependency(after({kRead, kFragmentRead}), kCopyWrite), {kCompute | kFragment, 0}, kCopyWrite);
+  expectIs(dependency(after({kWrite, kFragmentRead}), kCopyWrite), {kFragment, 0}, kCopyWrite);
 }
 
 TEST(Barrier, WriteAfterWriteIsAFullDependency) {
@@ -88,7 +89,20 @@ TEST(Barrier, ReadModifyWriteAfterAnotherReaderSeesTheWrite) {
   // The fragment stage has seen the write, compute has not: waiting for the reader alone would read stale data.
   expectIs(dependency(after({kWrite, kFragmentRead}), kReadWrite), {kCompute | kFragment, kStore}, kReadWrite);
   // Compute has seen it: execution suffices.
-  expectIs(dependency(after({kWrite, kRead}), kReadWrite), {kCompute, 0}, {kCompute, 0});
+  expectIs(dependency(after({kWrite, kRead}), kReadWrite), {kCompute, 0}, kReadWrite);
+}
+
+TEST(Barrier, AtomicsThatCommuteNeedNothingBetweenThem) {
+  expectIs(dependency(after({kCopyWrite}), kAccumulate), kCopyWrite, kAccumulate);
+  expectNone(dependency(after({kCopyWrite, kAccumulate}), kAccumulate));
+  expectNone(dependency(after({kCopyWrite, kAccumulate, kAccumulate}), kAccumulate));
+  // But with others: of other stages, plain ones, readers between.
+  expectIs(dependency(after({kAccumulate}), {kFragment, kLoad | kStore, true}), kWrite,
+           {kFragment, kLoad | kStore, true});
+  expectIs(dependency(after({kAccumulate}), kReadWrite), kWrite, kReadWrite);
+  expectIs(dependency(after({kReadWrite}), kAccumulate), kWrite, kAccumulate);
+  expectIs(dependency(after({kAccumulate, kAccumulate}), kRead), kWrite, kRead);
+  expectIs(dependency(after({kAccumulate, kRead}), kAccumulate), {kCompute, 0}, kAccumulate);
 }
 
 TEST(Barrier, AWriteForgetsOlderReaders) {
@@ -99,7 +113,7 @@ TEST(Barrier, AWriteForgetsOlderReaders) {
 }
 
 // A model that knows nothing of the rule: it replays barriers and keeps, per stage, what is visible to it and what it
-// has waited for. Every sequence of four uses out of six is checked against it.
+// has waited for. Every sequence of four uses out of seven is checked against it.
 struct Model {
   struct Event {
     Use use;
@@ -126,26 +140,26 @@ struct Model {
   }
   bool safe(const Use& next) const {
     for (const Event& e : events) {
-      if (!e.use.writes() && !next.writes()) continue;
+      if ((!e.use.writes() && !next.writes()) || (e.use.commutes && next.commutes && e.use.stages == next.stages))
+        continue;
       if ((next.stages & ~e.waitedBy) != 0) return false;  // not even ordered
       if (!e.use.writes()) continue;
       if (next.writes() && !e.available) return false;
       const VkAccessFlags2 reads = next.access & (kLoad | kSampled);
-      const bool newest = &e == lastWrite();
-      if (reads && newest && ((next.stages & ~e.seenBy) || (reads & ~e.seenAs))) return false;
+      if (reads && newest(e) && ((next.stages & ~e.seenBy) || (reads & ~e.seenAs))) return false;
     }
     return true;
   }
-  const Event* lastWrite() const {
-    const Event* last = nullptr;
-    for (const Event& e : events)
-      if (e.use.writes()) last = &e;
-    return last;
+  /// No write after this one has to wait for it.
+  bool newest(const Event& e) const {
+    return std::none_of(&e + 1, events.data() + events.size(), [&](const Event& later) {
+      return later.use.writes() && !(e.use.commutes && later.use.commutes && e.use.stages == later.use.stages);
+    });
   }
 };
 
 TEST(Barrier, EverySequenceOfFourUsesIsSafe) {
-  const Use uses[] = {kRead, kFragmentRead, kWrite, kReadWrite, kCopyWrite, {kFragment, kLoad | kStore}};
+  const Use uses[] = {kRead, kFragmentRead, kWrite, kReadWrite, kAccumulate, kCopyWrite, {kFragment, kLoad | kStore}};
   int sequences = 0, needed = 0;
   for (const Use& a : uses)
     for (const Use& b : uses)
@@ -164,7 +178,7 @@ TEST(Barrier, EverySequenceOfFourUsesIsSafe) {
             model.events.push_back({use});
           }
         }
-  EXPECT_EQ(sequences, 1296);
+  EXPECT_EQ(sequences, 2401);
   EXPECT_GT(needed, 0);
 }
 
