@@ -110,44 +110,50 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
 
   Frame frame = context.begin();
   frame.pass(kStage).fill(voxels.keys, 0);
-  for (push.slot = 0; push.slot < voxels.slots; ++push.slot)
-    for (const bool masked : {false, true}) {
-      if (std::none_of(ranges.begin(), ranges.end(), [=](const Range& r) { return r.masked == masked; })) continue;
-      const auto declare = [&](Pass& pass) {
-        pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-                  scene.uv1, scene.colors, voxels.gridRecord)
-            .write(voxels.keys)
-            .constant(kSamplesTextures, masked);
-      };
-      const auto eachRange = [&](Commands& commands, const auto& go) {
-        for (const Range& range : ranges) {
-          if (range.masked != masked) continue;
-          commands.bindMaterial(scene.materialSets.at(range.material));
-          push.firstTriangle = range.first;
-          push.endTriangle = range.end;
-          push.firstTile = range.firstTile;
-          push.tileCount = kernels ? rasterQueuePieces(triangles) : range.tiles;
-          commands.push(push);
-          go(range);
-        }
-      };
-      if (kernels) {
-        const auto count = std::ranges::count(ranges, masked, &Range::masked);
-        rasterize(frame, kStage, "gi/voxel_raster.comp", queue, declare, [&](Commands& commands, bool tiles) {
-          eachRange(commands, [&](const Range& r) {
-            rasterDispatch(commands, tiles, r.end - r.first, static_cast<uint32_t>(count));
-          });
-        });
-        continue;
+  for (push.slot = 0; push.slot < voxels.slots; ++push.slot) {
+    const auto count = [&](bool masked) { return std::ranges::count(ranges, masked, &Range::masked); };
+    const auto declare = [&](Pass& pass, bool masked) {
+      pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
+                scene.uv1, scene.colors, voxels.gridRecord)
+          .constant(kSamplesTextures, masked);
+      if (push.slot == 0)
+        pass.accumulate(voxels.keys);
+      else
+        pass.write(voxels.keys);  // reads those of the slots before
+    };
+    const auto eachRange = [&](Commands& commands, bool masked, const auto& go) {
+      for (const Range& range : ranges) {
+        if (range.masked != masked) continue;
+        commands.bindMaterial(scene.materialSets.at(range.material));
+        push.firstTriangle = range.first;
+        push.endTriangle = range.end;
+        push.firstTile = range.firstTile;
+        push.tileCount = kernels ? rasterQueuePieces(triangles) : range.tiles;
+        commands.push(push);
+        go(range);
       }
+    };
+    if (kernels) {
+      rasterize(
+          frame, kStage, "gi/voxel_raster.comp", queue, count(true) > 0,
+          [&](Pass& pass, RasterStep step) { declare(pass, step.masked); },
+          [&](Commands& commands, RasterStep step) {
+            eachRange(commands, step.masked, [&](const Range& r) {
+              rasterDispatch(commands, step, r.end - r.first, static_cast<uint32_t>(count(step.masked)));
+            });
+          });
+      continue;
+    }
+    for (const bool masked : {false, true}) {
+      if (count(masked) == 0) continue;
       Pass pass = frame.pass(kStage);
-      declare(pass);
+      declare(pass, masked);
       if (raster)
         pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.frag"}).extent(size, size);
       else
         pass.shader("gi/voxelize.comp").read(tileStarts);
       pass.run([&](Commands& commands) {
-        eachRange(commands, [&](const Range& range) {
+        eachRange(commands, masked, [&](const Range& range) {
           if (raster)
             commands.draw(3 * (range.end - range.first), 3 * range.first);
           else if (range.tiles > 0)
@@ -155,6 +161,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
         });
       });
     }
+  }
   frame.submitAndWait();
   return voxels;
 }

@@ -1,5 +1,7 @@
 #include "renderer/raster.h"
 
+#include <algorithm>
+
 #include "renderer/targets.h"
 #include "shaders/shared/raster.h"
 
@@ -11,26 +13,33 @@ uint32_t rasterQueuePieces(uint32_t triangles) {
   return triangles + triangles / 2 + 1024;  // a clipped triangle may come to several
 }
 uint64_t rasterQueueBytes(uint32_t triangles) {
-  const uint64_t pieces = rasterQueuePieces(triangles);
-  return sizeof(RasterPiece) * (1 + pieces) + sizeof(RasterRest) * pieces;
+  return RASTER_COUNTS_BYTES + 2 * rasterPartBytes(rasterQueuePieces(triangles));
 }
 Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles) {
   return Buffer(device, "large triangles", subsystem, rasterQueueBytes(triangles));
 }
 
-void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue,
-               const std::function<void(Pass&)>& declare, const std::function<void(Commands&, bool tiles)>& body) {
-  frame.pass(stage).update(queue, glm::uvec3(0));
-  for (const bool tiles : {false, true}) {
-    Pass pass = frame.pass(stage);
-    pass.shader(shader).constant(RASTER_TILES, tiles).write(queue);
-    declare(pass);
-    pass.run([&](Commands& commands) { body(commands, tiles); });
-  }
+void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue, bool anyMasked,
+               const std::function<void(Pass&, RasterStep)>& declare,
+               const std::function<void(Commands&, RasterStep)>& body) {
+  frame.pass(stage).update(queue, std::array<uint32_t, RASTER_COUNTS_BYTES / 4>{});
+  for (const bool tiles : {false, true})
+    for (const bool masked : {false, true}) {
+      if (masked && !anyMasked) continue;
+      const RasterStep step{tiles, masked};
+      Pass pass = frame.pass(stage);
+      pass.shader(shader).constant(RASTER_TILES, tiles);
+      if (tiles)
+        pass.read(queue);
+      else
+        pass.accumulate(queue);
+      declare(pass, step);
+      pass.run([&](Commands& commands) { body(commands, step); });
+    }
 }
 
-void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles, uint32_t dispatches) {
-  if (tiles)
+void rasterDispatch(Commands& commands, RasterStep step, uint32_t triangles, uint32_t dispatches) {
+  if (step.tiles)
     commands.dispatchGroups(std::max(RASTER_GROUPS / dispatches, 64u));
   else
     commands.dispatch(triangles);
@@ -50,34 +59,28 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
   push.size = raster.size;
   push.pieces = rasterQueuePieces(triangles);
   push.cull = raster.cull;
-  const auto declare = [&](bool alpha) {
-    return [&, alpha](Pass& pass) {
-      pass.constant(RASTER_MASKED, alpha)
-          .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials,
-                raster.projections)
-          .write(raster.target);
-      if (alpha) pass.read(scene.uv0, scene.uv1, scene.colors);
-    };
+  const auto dispatches = static_cast<uint32_t>(std::ranges::count_if(scene.scene.draws, masked));
+  const auto declare = [&](Pass& pass, RasterStep step) {
+    pass.constant(RASTER_MASKED, step.masked)
+        .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials,
+              raster.projections)
+        .accumulate(raster.target);
+    if (step.masked) pass.read(scene.uv0, scene.uv1, scene.colors);
   };
-  const auto draw = [&](Commands& commands, bool tiles, size_t material, uint32_t first, uint32_t end,
-                        uint32_t dispatches) {
-    push.first = first;
-    push.end = end;
-    commands.bindMaterial(scene.materialSets.at(material));
-    commands.push(push);
-    rasterDispatch(commands, tiles, end - first, dispatches);
-  };
-
-  push.skipMasked = raster.alphaTest;
-  rasterize(frame, raster.stage, raster.shader, raster.queue, declare(false),
-            [&](Commands& commands, bool tiles) { draw(commands, tiles, 0, 0, triangles, 1); });
-  const auto count = static_cast<uint32_t>(std::count_if(scene.scene.draws.begin(), scene.scene.draws.end(), masked));
-  if (count == 0) return;
-  push.skipMasked = 0;
-  rasterize(frame, raster.stage, raster.shader, raster.queue, declare(true), [&](Commands& commands, bool tiles) {
-    for (const Draw& d : scene.scene.draws)
-      if (masked(d)) draw(commands, tiles, d.material, d.firstIndex / 3, (d.firstIndex + d.indexCount) / 3, count);
-  });
+  rasterize(frame, raster.stage, raster.shader, raster.queue, dispatches > 0, declare,
+            [&](Commands& commands, RasterStep step) {
+              const auto draw = [&](size_t material, uint32_t first, uint32_t end, uint32_t of) {
+                push.first = first;
+                push.end = end;
+                commands.bindMaterial(scene.materialSets.at(material));
+                commands.push(push);
+                rasterDispatch(commands, step, end - first, of);
+              };
+              push.skipMasked = !step.masked && raster.alphaTest;
+              if (!step.masked) return draw(0, 0, triangles, 1);
+              for (const Draw& d : scene.scene.draws)
+                if (masked(d)) draw(d.material, d.firstIndex / 3, (d.firstIndex + d.indexCount) / 3, dispatches);
+            });
 }
 
 void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camera, bool alphaTest, Targets& targets) {

@@ -8,17 +8,25 @@
 
 namespace irad {
 
-/// Where the first pass of a rasterization sets triangles aside for the second; one rasterization after the other.
-uint32_t rasterQueuePieces(uint32_t triangles);  ///< that it holds; others are drawn in the first pass, slowly
+/// Where the first pass of a rasterization sets triangles aside for the second, opaque and masked ones apart; one
+/// rasterization after the other.
+uint32_t rasterQueuePieces(uint32_t triangles);  ///< of either kind; others are drawn in the first pass, slowly
 uint64_t rasterQueueBytes(uint32_t triangles);
 Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles);
 
-/// Both passes of `shader`. `declare`: what they read and write, and constants; `body`: their dispatches, by
+/// One of the passes of a rasterization: the first or the second, of opaque or of masked triangles.
+struct RasterStep {
+  bool tiles;   ///< the second
+  bool masked;  ///< what a material's alpha cuts out
+};
+/// All passes of `shader`, which accumulates into its target; of masked triangles only if there are any. Either kind's
+/// run side by side, as far as what `declare` says they read and write lets them. `body`: their dispatches, by
 /// rasterDispatch.
-void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue,
-               const std::function<void(Pass&)>& declare, const std::function<void(Commands&, bool tiles)>& body);
+void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue, bool anyMasked,
+               const std::function<void(Pass&, RasterStep)>& declare,
+               const std::function<void(Commands&, RasterStep)>& body);
 /// One of the `dispatches` of a pass, over this many triangles.
-void rasterDispatch(Commands& commands, bool tiles, uint32_t triangles, uint32_t dispatches);
+void rasterDispatch(Commands& commands, RasterStep step, uint32_t triangles, uint32_t dispatches);
 
 /// The scene through a projection.
 struct RasterPass {
@@ -33,7 +41,6 @@ struct RasterPass {
   bool cull = false;          ///< backs of single-sided materials
   bool alphaTest = true;      ///< false: masked materials are opaque
 };
-/// Opaque triangles, then masked ones.
 void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& pass);
 
 /// "RE Depth": what a camera sees, into Targets::visible and Targets::depth.

@@ -10,8 +10,8 @@ FlatTriangle current = FlatTriangle(0xFFFFFFFFu, 0u, vec3(0.0), vec2(0.0));
 
 RasterJob rasterJob() {
   uvec3 dims = push.grid.at[0].dims;
-  return RasterJob(RasterQueue(push.tileStart), push.tileCount, uvec2(max(dims.x, max(dims.y, dims.z))), push.firstTriangle,
-                   push.endTriangle);
+  return RasterJob(RasterQueue(push.tileStart), SAMPLES_TEXTURES, push.tileCount,
+                   uvec2(max(dims.x, max(dims.y, dims.z))), push.firstTriangle, push.endTriangle);
 }
 
 bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {

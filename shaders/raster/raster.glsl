@@ -12,7 +12,8 @@ layout(constant_id = RASTER_TILES) const bool TILES = false;
 
 struct RasterJob {
   RasterQueue queue;
-  uint pieces;      ///< that the queue holds
+  uint kind;        ///< 0: opaque, 1: masked
+  uint pieces;      ///< that the queue holds of either kind
   uvec2 size;       ///< pixels
   uint first, end;  ///< triangles
 };
@@ -25,8 +26,6 @@ bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull);
 void rasterBegin(uint triangle);
 void rasterPixel(uint triangle, ivec2 pixel, float depth);
 
-/// Corners further than this many half-pictures off the axis are clipped, so that edge functions fit 64 bits.
-const float GUARD = 8.0;
 const int CLIP_PLANES = 6;
 
 /// >= 0 inside.
@@ -34,15 +33,15 @@ float clipDistance(vec4 c, int plane) {
   switch (plane) {
     case 0: return c.z;
     case 1: return c.w - c.z;
-    case 2: return GUARD * c.w - c.x;
-    case 3: return GUARD * c.w + c.x;
-    case 4: return GUARD * c.w - c.y;
-    default: return GUARD * c.w + c.y;
+    case 2: return RASTER_GUARD * c.w - c.x;
+    case 3: return RASTER_GUARD * c.w + c.x;
+    case 4: return RASTER_GUARD * c.w - c.y;
+    default: return RASTER_GUARD * c.w + c.y;
   }
 }
 
 bool needsNoClip(vec4 c) {
-  return c.z >= 0.0 && c.z <= c.w && max(abs(c.x), abs(c.y)) <= GUARD * c.w;
+  return c.z >= 0.0 && c.z <= c.w && max(abs(c.x), abs(c.y)) <= RASTER_GUARD * c.w;
 }
 
 bool outOfPicture(vec4 a, vec4 b, vec4 c) {
@@ -95,66 +94,81 @@ ivec4 bounds(RasterPiece p, uvec2 size) {
   return ivec4(max((lo + 127) >> 8, ivec2(0)), min((hi - 128) >> 8, ivec2(size) - 1));
 }
 
-/// The piece's pixels within `box`, from its first on in steps. One loop, not two: invocations side by side with boxes
-/// of other shapes would wait for each other in either.
-void scan(RasterPiece p, ivec4 box, ivec2 stride) {
-  if (any(greaterThan(box.xy, box.zw))) return;
+/// The edge function p, q about a block of pixels whose first has the middle `at`, in 1/256 of its unit: between pixels
+/// it changes by whole numbers, so that its sign there is exact. Beyond what may come to 0 within the block it is cut off.
+struct Edge {
+  int first;  ///< >= 0 inside
+  ivec2 step;
+};
+Edge edge(int64_t value, ivec2 p, ivec2 q) {
+  const int64_t most = int64_t(1) << 30;
+  return Edge(int(clamp((value - leastInside(p, q)) >> 8, -most, most)), ivec2(p.y - q.y, q.x - p.x));
+}
+int edgeAt(Edge e, ivec2 pixel) { return e.first + e.step.x * pixel.x + e.step.y * pixel.y; }
+/// Whether none of the pixels up to `last` is inside.
+bool edgeLeavesOut(Edge e, ivec2 last) { return edgeAt(e, mix(ivec2(0), last, greaterThan(e.step, ivec2(0)))) < 0; }
+
+/// The piece's pixels within `box`, a block at most, from `start` on in steps. One loop, not two: invocations side by side
+/// with boxes of other shapes would wait for each other in either.
+void scanBlock(RasterPiece p, ivec4 box, ivec2 start, ivec2 stride) {
+  ivec2 last = box.zw - box.xy;
   ivec2 at = box.xy * 256 + 128;
-  int64_t rowA = turn(p.b, p.c, at), rowB = turn(p.c, p.a, at), rowC = turn(p.a, p.b, at);
-  int64_t leastA = leastInside(p.b, p.c), leastB = leastInside(p.c, p.a), leastC = leastInside(p.a, p.b);
-  ivec2 step = stride * 256;
+  int64_t firstB = turn(p.c, p.a, at), firstC = turn(p.a, p.b, at);
+  Edge a = edge(turn(p.b, p.c, at), p.b, p.c), b = edge(firstB, p.c, p.a), c = edge(firstC, p.a, p.b);
+  if (edgeLeavesOut(a, last) || edgeLeavesOut(b, last) || edgeLeavesOut(c, last)) return;
   precise float inverseArea = 1.0 / float(turn(p.a, p.b, p.c));
-  int64_t ea = rowA, eb = rowB, ec = rowC;
-  ivec2 pixel = box.xy;
-  while (pixel.y <= box.w) {
-    if (ea >= leastA && eb >= leastB && ec >= leastC) {
-      precise float toB = float(eb) * inverseArea;
-      precise float toC = float(ec) * inverseArea;
+  ivec2 pixel = start;
+  while (pixel.y <= last.y) {
+    if (pixel.x <= last.x && (edgeAt(a, pixel) | edgeAt(b, pixel) | edgeAt(c, pixel)) >= 0) {
+      precise float toB = float(firstB + 256 * (int64_t(b.step.x) * pixel.x + int64_t(b.step.y) * pixel.y)) * inverseArea;
+      precise float toC = float(firstC + 256 * (int64_t(c.step.x) * pixel.x + int64_t(c.step.y) * pixel.y)) * inverseArea;
       precise float depth = p.da + (toB * (p.db - p.da) + toC * (p.dc - p.da));
-      rasterPixel(p.triangle, pixel, clamp(depth, 0.0, 1.0));
+      rasterPixel(p.triangle, box.xy + pixel, clamp(depth, 0.0, 1.0));
     }
     pixel.x += stride.x;
-    if (pixel.x <= box.z) {
-      ea -= int64_t(p.c.y - p.b.y) * step.x;
-      eb -= int64_t(p.a.y - p.c.y) * step.x;
-      ec -= int64_t(p.b.y - p.a.y) * step.x;
-    } else {
-      pixel = ivec2(box.x, pixel.y + stride.y);
-      ea = rowA += int64_t(p.c.x - p.b.x) * step.y;
-      eb = rowB += int64_t(p.a.x - p.c.x) * step.y;
-      ec = rowC += int64_t(p.b.x - p.a.x) * step.y;
-    }
+    if (pixel.x > last.x) pixel = ivec2(start.x, pixel.y + stride.y);
   }
 }
 
+/// The piece's pixels within `box`, from `start` in each block on in steps.
+void scan(RasterPiece p, ivec4 box, ivec2 start, ivec2 stride) {
+  for (int y = box.y; y <= box.w; y += RASTER_BLOCK)
+    for (int x = box.x; x <= box.z; x += RASTER_BLOCK)
+      scanBlock(p, ivec4(x, y, min(box.zw, ivec2(x, y) + (RASTER_BLOCK - 1))), start, stride);
+}
+
 /// How many tiles a box is cut into, 1 << bits pixels wide; they start at its first pixel.
-uvec2 tilesOf(ivec4 box, out int bits) {
-  bits = RASTER_TILE_BITS;
+uvec2 tilesOf(RasterJob job, ivec4 box, out int bits) {
+  uint most = min(RASTER_TILES_PER_PIECE, 0xFFFFFFFFu / job.pieces);
+  bits = RASTER_TILE_BITS - int(job.kind);
   uvec2 tiles;
   do {
     tiles = uvec2((box.zw - box.xy) >> bits) + 1u;
-  } while (tiles.x * tiles.y > RASTER_TILES_PER_TRIANGLE && ++bits < 31);
+  } while (tiles.x * tiles.y > most && ++bits < 31);
   return tiles;
 }
 
+RasterPieces piecesOf(RasterJob job) {
+  return RasterPieces(uint64_t(job.queue) + RASTER_COUNTS_BYTES + job.kind * rasterPartBytes(job.pieces));
+}
 RasterRests restsOf(RasterJob job) {
-  return RasterRests(uint64_t(job.queue) + RASTER_PIECE_BYTES * uint64_t(1u + job.pieces));
+  return RasterRests(uint64_t(piecesOf(job)) + RASTER_PIECE_BYTES * uint64_t(job.pieces));
 }
 
 /// False: there is no place left. One atomic per counter and subgroup: they queue up at the counter.
 bool setAside(RasterJob job, RasterPiece p, uint tiles) {
   uvec4 here = subgroupBallot(true);
   uint place;
-  if (subgroupElect()) place = atomicAdd(RasterCounts(job.queue).pieces, subgroupBallotBitCount(here));
+  if (subgroupElect()) place = atomicAdd(job.queue.at[job.kind].pieces, subgroupBallotBitCount(here));
   place = subgroupBroadcastFirst(place) + subgroupBallotExclusiveBitCount(here);
   if (place >= job.pieces) return false;
-  job.queue.at[1u + place] = p;
+  piecesOf(job).at[place] = p;
   if (tiles == 1u) return true;
   uvec4 more = subgroupBallot(true);
   uint before = subgroupExclusiveAdd(tiles - 1u), sum = subgroupAdd(tiles - 1u);
   uvec2 start;
   if (subgroupElect())
-    start = unpack32(atomicAdd(RasterCounts(job.queue).rests, pack64(uvec2(sum, subgroupBallotBitCount(more)))));
+    start = unpack32(atomicAdd(job.queue.at[job.kind].rests, pack64(uvec2(sum, subgroupBallotBitCount(more)))));
   start = subgroupBroadcastFirst(start);
   RasterRests rests = restsOf(job);
   rests.at[start.y + subgroupBallotExclusiveBitCount(more)] = RasterRest(place, start.x + before);
@@ -168,11 +182,11 @@ void drawPiece(RasterJob job, RasterPiece p) {
   ivec2 extent = box.zw - box.xy + 1;
   if (max(extent.x, extent.y) > RASTER_SMALL || extent.x * extent.y > RASTER_SMALL) {
     int bits;
-    uvec2 tiles = tilesOf(box, bits);
+    uvec2 tiles = tilesOf(job, box, bits);
     if (setAside(job, p, tiles.x * tiles.y)) return;
   }
   rasterBegin(p.triangle);
-  scan(p, box, ivec2(1));
+  scan(p, box, ivec2(0), ivec2(1));
 }
 
 void drawTriangle(RasterJob job, uint triangle) {
@@ -210,12 +224,11 @@ void drawTile(RasterJob job, RasterPiece p, uint tile, uint lane) {
   if (p.triangle < job.first || p.triangle >= job.end) return;
   ivec4 box = bounds(p, job.size);
   int bits;
-  uvec2 tiles = tilesOf(box, bits);
+  uvec2 tiles = tilesOf(job, box, bits);
   box.xy += ivec2(tile % tiles.x, tile / tiles.x) << bits;
   box.zw = min(box.zw, box.xy + (1 << bits) - 1);
-  box.xy += ivec2(lane & 7u, lane >> 3);
   rasterBegin(p.triangle);
-  scan(p, box, ivec2(8, RASTER_LANES / 8u));
+  scan(p, box, ivec2(lane & 7u, lane >> 3), ivec2(8, RASTER_LANES / 8u));
 }
 
 /// The piece that tile `tile` of the row of all but first tiles belongs to: the last that starts at or before it.
@@ -236,17 +249,17 @@ void main() {
     if (index < job.end - job.first) drawTriangle(job, job.first + index);
     return;
   }
-  RasterCounts counts = RasterCounts(job.queue);
+  RasterPieces queued = piecesOf(job);
   RasterRests rests = restsOf(job);
-  uvec2 rest = unpack32(counts.rests);
-  uint pieces = min(counts.pieces, job.pieces);
+  uvec2 rest = unpack32(job.queue.at[job.kind].rests);
+  uint pieces = min(job.queue.at[job.kind].pieces, job.pieces);
   uint together = RASTER_WORKGROUP / RASTER_LANES * gl_NumWorkGroups.x;
   for (uint i = index / RASTER_LANES; i < pieces + rest.x; i += together) {
     if (i < pieces) {
-      drawTile(job, job.queue.at[1u + i], 0u, index % RASTER_LANES);
+      drawTile(job, queued.at[i], 0u, index % RASTER_LANES);
     } else {
       RasterRest r = restAt(rests, rest.y, i - pieces);
-      drawTile(job, job.queue.at[1u + r.piece], 1u + i - pieces - r.firstTile, index % RASTER_LANES);
+      drawTile(job, queued.at[r.piece], 1u + i - pieces - r.firstTile, index % RASTER_LANES);
     }
   }
 }

@@ -16,7 +16,7 @@ struct MaskedTriangle {
 };
 MaskedTriangle current;
 
-RasterJob rasterJob() { return RasterJob(push.queue, push.pieces, push.size, push.first, push.end); }
+RasterJob rasterJob() { return RasterJob(push.queue, MASKED ? 1u : 0u, push.pieces, push.size, push.first, push.end); }
 
 void projectCorners(uint triangle, out vec4 corners[3]) {
   GpuScene scene = push.scene.at[0];

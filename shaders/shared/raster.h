@@ -10,10 +10,15 @@ IRAD_CONST uint RASTER_MASKED = 9u;  ///< the alpha of the bound material decide
 
 /// Pixels of a triangle's bounds up to which one invocation draws it by itself.
 IRAD_CONST int RASTER_SMALL = 16;
-/// The others are cut into tiles of (32 << level)^2 pixels, level the least for which this many suffice, so that
-/// MAX_TRIANGLES of them fit a uint.
+/// The others are cut into tiles of (32 << level)^2 pixels, masked ones, which wait for their textures, of half that;
+/// level the least for which this many suffice (fewer where the queue holds so many pieces that a uint could not count
+/// their tiles).
 IRAD_CONST int RASTER_TILE_BITS = 5;
-IRAD_CONST uint RASTER_TILES_PER_TRIANGLE = 256u;
+IRAD_CONST uint RASTER_TILES_PER_PIECE = 1024u;
+/// Pixels squared within which edge functions fit 32 bits, in pictures of up to 16,384 pixels and RASTER_GUARD.
+IRAD_CONST int RASTER_BLOCK = 32;
+/// Corners further than this many half-pictures off the axis are clipped.
+IRAD_CONST float RASTER_GUARD = 4.0f;
 /// Invocations of a workgroup, those that share a tile, and workgroups of the second pass, which take tiles in turn.
 IRAD_CONST uint RASTER_WORKGROUP = 128u;
 IRAD_CONST uint RASTER_LANES = 32u;
@@ -31,15 +36,20 @@ struct RasterRest {
   uint piece;
   uint firstTile;  ///< ascending
 };
-/// Pieces set aside. In the place of the first: the number of tiles but the pieces' first ones, of the pieces that have
-/// such, and of all pieces (a uint each). Behind them the RasterRests, as many at most.
-IRAD_ARRAY(RasterQueue, RasterPiece, 4)
+/// The queue: counts of the opaque and of the masked, 0 at first; then of either kind the pieces set aside, as many as it
+/// holds, and their RasterRests, as many at most.
+IRAD_CONST uint RASTER_REST_BYTES = 8u;
+IRAD_CONST uint RASTER_COUNTS_BYTES = 32u;
+IRAD_FN uint64_t rasterPartBytes(uint pieces) { return uint64_t(pieces) * (RASTER_PIECE_BYTES + RASTER_REST_BYTES); }
+struct RasterCount {
+  uint64_t rests;  ///< tiles but the pieces' first ones; above them (<< 32) the pieces that have such
+  uint pieces;     ///< all
+  uint padding;
+};
+IRAD_ARRAY(RasterQueue, RasterCount, 8)
+IRAD_ARRAY(RasterPieces, RasterPiece, 4)
 IRAD_ARRAY(RasterRests, RasterRest, 4)
 #ifndef __cplusplus
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RasterCounts {
-  uint64_t rests;  ///< tiles, then pieces
-  uint pieces;
-};
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer VisibleArray { uint64_t at[]; };
 #endif
 
