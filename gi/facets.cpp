@@ -27,7 +27,7 @@ void makeRecord(Context& context, FacetList& list) {
   list.record = makeBuffer<FacetArrays>(context, "facet record", Subsystem::Facets, std::span(&arrays, 1));
 }
 
-/// Facets that one dispatch of gi/facet_shade.comp takes.
+/// Facets that one dispatch of gi/facet_shade.glsl takes.
 struct Group {
   uint32_t material;  // whose set is bound
   bool textured;
@@ -85,13 +85,14 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
   push.encoding = static_cast<uint32_t>(list.encoding);
   push.hasEmission = list.hasEmission;
   push.literal = settings.thesis.literal;
+  const bool raster = settings.voxel.method == VoxelMethod::raster;
   Frame frame = context.begin();
   frame.pass(kStage).fill(clamped, 0);
   for (const bool textured : {false, true}) {
     const auto takes = [=](const Group& g) { return g.textured == textured && g.count > 0; };
     if (std::none_of(order.groups.begin(), order.groups.end(), takes)) continue;
     frame.pass("GI Voxelization")
-        .shader("gi/facet_shade.comp")
+        .shader(raster ? "gi/facet_shade_raster.comp" : "gi/facet_shade.comp")
         .constant(kSamplesTextures, textured)
         .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
               scene.uv1, scene.colors, scene.normals, voxels.gridRecord, facets, list.voxel, list.triangle)

@@ -243,8 +243,9 @@ std::optional<MeshNormal> Inspector::meshNormal(uint32_t i) const {
   const glm::dvec3 across = glm::cross(t[1] - t[0], t[2] - t[0]);
   mesh.face = glm::normalize(across) * (mesh.back ? -1.0 : 1.0);
 
-  // The middle of the part inside the voxel, where gi/facet_shade.comp samples it, in barycentric coordinates.
-  const glm::dvec3 middle = oracle::middleInside(t, glm::ivec3(facets_.voxel[i]));
+  // Where gi/facet_shade.glsl samples it, in barycentric coordinates.
+  const bool raster = pipeline_.obeyed().voxel.method == VoxelMethod::raster;
+  const glm::dvec3 middle = (raster ? oracle::onMiddleLine : oracle::middleInside)(t, glm::ivec3(facets_.voxel[i]));
   glm::dvec3 normal(0);
   for (int c = 0; c < 3; ++c) {
     const glm::dvec3 area = glm::cross(t[(c + 1) % 3] - middle, t[(c + 2) % 3] - middle);

@@ -118,10 +118,11 @@ TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
 
   // A shader of the voxels: they are made anew, and what follows from them.
-  const std::string packed = "packAlbedo(";
+  const std::string included = "#include \"facet_shade.glsl\"\n";
   std::string changed = good;
-  ASSERT_NE(changed.find(packed), std::string::npos);
-  changed.replace(changed.find(packed), packed.size(), packed + "vec3(0.9, 0.1, 0.5) * ");
+  ASSERT_NE(changed.find(included), std::string::npos);
+  changed.insert(changed.find(included),
+                 "#include \"shared/facets.h\"\n#define packAlbedo(a) packAlbedo(vec3(0.9, 0.1, 0.5) * (a))\n");
   std::ofstream(facets) << changed;
   key("F5");
   EXPECT_TRUE(says("Compiled again: gi/facet_shade.comp"));

@@ -95,7 +95,23 @@ glm::dvec3 middleInside(const Triangle& triangle, glm::ivec3 cell) {
 }
 
 namespace {
-/// Where the plane of a triangle crosses the middle line of a cell, if the triangle does so.
+/// Where the plane of a triangle, of normal n, crosses the middle line of a cell along `axis`.
+double depthOnMiddle(const Triangle& t, const glm::dvec3& n, int axis, const glm::ivec3& cell) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return t[0][axis] - (n[u] * (cell[u] + 0.5 - t[0][u]) + n[v] * (cell[v] + 0.5 - t[0][v])) / n[axis];
+}
+}  // namespace
+
+glm::dvec3 onMiddleLine(const Triangle& triangle, glm::ivec3 cell) {
+  const glm::dvec3 n = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]), m = glm::abs(n);
+  const int axis = m.x >= m.y && m.x >= m.z ? 0 : (m.y >= m.z ? 1 : 2);
+  glm::dvec3 point = glm::dvec3(cell) + 0.5;
+  point[axis] = depthOnMiddle(triangle, n, axis, cell);
+  return point;
+}
+
+namespace {
+/// The crossing, if the triangle itself has it.
 struct Crossing {
   Cover cover = Cover::No;
   double front = 0;
@@ -118,8 +134,7 @@ Crossing crossMiddle(const Triangle& t, const glm::ivec3& cell) {
       const double e = inward.x * (cell[u] + 0.5 - a[u]) + inward.y * (cell[v] + 0.5 - a[v]);
       inside = std::min(inside, e / (std::abs(inward.x) + std::abs(inward.y)));
     }
-    const double depth =
-        t[0][axis] - cell[axis] - (n[u] * (cell[u] + 0.5 - t[0][u]) + n[v] * (cell[v] + 0.5 - t[0][v])) / n[axis];
+    const double depth = depthOnMiddle(t, n, axis, cell) - cell[axis];
     const double within = std::min({inside, depth, 1 - depth});
     if (within < -kDoubt) continue;
     const Cover cover = within < kDoubt || tie ? Cover::Unsure : Cover::Yes;

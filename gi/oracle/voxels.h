@@ -24,6 +24,8 @@ Cover cover(const Triangle& triangle, glm::ivec3 cell, double band);
 double areaInside(const Triangle& triangle, glm::ivec3 cell);
 /// The middle of that part; of the whole triangle where there is none.
 glm::dvec3 middleInside(const Triangle& triangle, glm::ivec3 cell);
+/// Where the triangle's plane crosses the cell's middle line along the axis that it faces most.
+glm::dvec3 onMiddleLine(const Triangle& triangle, glm::ivec3 cell);
 
 /// The band for a grid: fp32 voxel coordinates are off by an ulp of the largest, products of differences by a few.
 double coverBand(const Grid& grid);

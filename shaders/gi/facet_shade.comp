@@ -1,59 +1,11 @@
-// Attributes of the facets (METHOD sections 1-2), sampled at the centre of the part of the winning triangle that lies in
-// the voxel: normal, plane offset, albedo = base colour x (1 - metallic) clamped to [0, .98], emitted exitance.
-// One dispatch per textured material, whose set 1 is bound, and one for all facets that sample no texture.
+// Facets are sampled at the centre of the part of the winning triangle that lies in the voxel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/normals.h"
-#include "voxel_triangle.glsl"
+#include "facet_shade.glsl"
 #include "voxel_clip.glsl"
-#include "voxel_material.glsl"
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { ShadeFacetsPush push; };
 
-const float MAX_ALBEDO = 0.98;
-
-bool finite(float x) { return abs(x) < 3.0e38; }
-
-void main() {
-  uint index = irad_index();
-  if (index >= push.count) return;
-  uint facet = push.order.at[push.first + index];
-  uint entry = push.triangle.at[facet];
-  uint triangle = entry & ~BACK_SIDE;
-  uint flags = triangleFlags(push.scene, triangle);
-
-  vec3 cell = vec3(unpackVoxel(push.voxel.at[facet]));
-  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+vec3 sampledAt(VoxelTriangle t, uint triangle, vec3 cell) {
   vec3 centre;
   clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
-  MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
-
-  vec3 facing = normalize(t.normal) * ((entry & BACK_SIDE) != 0u ? -1.0 : 1.0);
-  Vec3Array normals = push.scene.at[0].normals;
-  vec3 normal = normals.at[p.vertex.x] * p.weight.x + normals.at[p.vertex.y] * p.weight.y +
-                normals.at[p.vertex.z] * p.weight.z;
-  float size = dot(normal, normal);
-  normal = size > 1e-12 && finite(size) ? normal * inversesqrt(size) : facing;
-  if (dot(normal, facing) < 0.0) normal = -normal;
-  uint code = push.literal != 0u && push.encoding == NORMALS_OCT8 ? encodeOct8Literal(normal)
-                                                                  : encodeNormal(normal, push.encoding);
-  float offset = dot(centre - vec3(0.5), decodeNormal(code, push.encoding));
-  push.shape.at[facet] =
-      code | packFacetOffset(offset) | ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? FACET_DOUBLE_SIDED : 0u);
-
-  vec3 albedo = baseColorAt(push.scene, p).rgb * (1.0 - metallicAt(push.scene, p));
-  bool clamped = false;
-  for (int i = 0; i < 3; ++i) {
-    float a = albedo[i];
-    albedo[i] = a >= 0.0 ? min(a, MAX_ALBEDO) : 0.0;  // NaN becomes 0
-    if (!(a >= 0.0 && a <= MAX_ALBEDO)) clamped = true;
-  }
-  if (clamped) atomicAdd(push.clamped.at[0], 1u);
-  push.albedo.at[facet] = packAlbedo(albedo);
-
-  if (push.hasEmission != 0u) {
-    vec3 exitance = IRAD_PI * emittedRadianceAt(push.scene, p);
-    for (int i = 0; i < 3; ++i) exitance[i] = exitance[i] > 0.0 ? min(exitance[i], 3.0e38) : 0.0;
-    push.emission.at[facet] = exitance;
-  }
+  return centre;
 }

@@ -4,20 +4,6 @@
 #include "gi/voxel_material.glsl"
 layout(push_constant, scalar) uniform Push { VoxelizePush push; };
 
-/// A triangle projected along its dominant axis.
-struct FlatTriangle {
-  uint triangle;
-  uint axis;    ///< | RASTER_FACES_UP
-  vec3 plane;   ///< depth = plane.z + plane.xy . (pixel - corner)
-  vec2 corner;  ///< the first
-};
-
-FlatTriangle flatTriangle(VoxelTriangle t, uint triangle) {
-  vec3 n = dominantLast(t.normal, t.axis);
-  vec3 first = dominantLast(t.v[0], t.axis);
-  return FlatTriangle(triangle, t.axis | (n.z >= 0.0 ? RASTER_FACES_UP : 0u), vec3(-n.xy / n.z, first.z), first.xy);
-}
-
 /// Corner `i` in clip space. The viewport's y points up: negated here, so that the pixel's row is the voxel's.
 vec4 flatCorner(VoxelTriangle t, uint i, uvec3 dims) {
   float scale = 2.0 / float(max(dims.x, max(dims.y, dims.z)));
@@ -29,7 +15,7 @@ void voxelFragment(FlatTriangle f, vec2 pixel) {
   uvec3 dims = push.grid.at[0].dims;
   uint triangle = f.triangle;
   uint d = f.axis & 3u;
-  vec3 point = originalAxes(vec3(pixel, f.plane.z + dot(f.plane.xy, pixel - f.corner)), d);
+  vec3 point = flatPoint(f, pixel);
   ivec3 cell = ivec3(floor(point));
   if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(dims)))) return;
   uint voxel = voxelIndex(uvec3(cell), dims);
