@@ -8,7 +8,8 @@
 // hit.facet is a facet index, or one of TRACE_ESCAPED, TRACE_BLOCKED, TRACE_INVALID; hit.t the distance in voxels. The
 // includer specializes constant 0 (traversal), 1 (hit rule), 2 (normal encoding). TRACE_JFA needs `#define
 // TRACE_JFA_TEXTURE name` of a sampler3D declared before the include; without it that value behaves as
-// TRACE_DDA_REVERSE.
+// TRACE_DDA_REVERSE. `#define TRACE_AHEAD n` lets cell-by-cell walks load n cells at once, for kernels in which few rays
+// wait for them.
 //
 // Hit rule `robust`: the ray is met by facet planes, not by cells. A facet's plane is taken inside its own cell; a ray
 // that meets none in a cell marked FACET_CORNER asks the cells around, whose surfaces may pass through unrecorded. A
@@ -16,6 +17,7 @@
 // Hit rule `thesis` (T 5.6): the first cell with a front face (d . n < 0), back faces let through.
 #ifndef IRAD_TRACE_GLSL
 #define IRAD_TRACE_GLSL
+#extension GL_EXT_control_flow_attributes : require
 
 #include "shared/facets.h"
 #include "shared/gi_params.h"
@@ -108,6 +110,30 @@ bool traceToSolid(TraceWorld world, inout TraceWalk w, inout uint steps) {
   }
   return false;
 #else
+#ifdef TRACE_AHEAD
+  // Cell by cell the way is known before what lies on it: so many cells are asked at once.
+  while (TRACE_METHOD != TRACE_SKIP && traceInside(w, world.dims)) {
+    vec3 cell[TRACE_AHEAD];
+    float t[TRACE_AHEAD], clearance[TRACE_AHEAD];
+    bool inside[TRACE_AHEAD];
+    [[unroll]] for (int i = 0; i < TRACE_AHEAD; ++i) {
+      cell[i] = w.cell;
+      t[i] = w.t;
+      inside[i] = (i == 0 || inside[max(i - 1, 0)]) && traceInside(w, world.dims);
+      clearance[i] = traceClearance(world, inside[i] ? w.cell : cell[0]);
+      traceAdvance(w, 1.0f);
+    }
+    [[unroll]] for (int i = 0; i < TRACE_AHEAD; ++i) {
+      if (inside[i] && clearance[i] > 0.0f) {
+        ++steps;
+        continue;
+      }
+      w.cell = cell[i];
+      w.t = t[i];
+      return inside[i];
+    }
+  }
+#endif
   while (traceInside(w, world.dims)) {
     float k = traceClearance(world, w.cell);
     if (k <= 0.0f) return true;

@@ -89,19 +89,14 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
   return weights > 0.0 ? sum / (weights * IRAD_PI) : vec3(0.0);
 }
 
-/// T 5.11: rays about the mirror direction of the normal jittered by the roughness, plain mean, radiance of the voxel
-/// met.
-vec3 traceJittered(TraceWorld world, Surface s, uint seed) {
-  vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < push.params.rays; ++k) {
-    uint a = hashUint(seed + k);
-    vec3 jitter = cosineDirection(vec2(unitFloat(a), unitFloat(hashUint(a))));
-    vec3 n = normalize(mix(s.normal, toWorld(jitter, s.normal), s.roughness * s.roughness));
-    vec3 direction = reflect(-s.view, n);
-    float out_ = dot(direction, s.face);
-    if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
-    TraceHit hit = traceFrom(world, s, direction);
-    if (hit.facet <= TRACE_LAST_FACET) sum += push.radiosity.at[hit.facet].xyz;
-  }
-  return sum / (float(push.params.rays) * IRAD_PI);
+/// T 5.11: the radiosity that ray `k` about the mirror direction meets; the normal is jittered by the roughness.
+vec3 traceJittered(TraceWorld world, Surface s, uint seed, uint k) {
+  uint a = hashUint(seed + k);
+  vec3 jitter = cosineDirection(vec2(unitFloat(a), unitFloat(hashUint(a))));
+  vec3 n = normalize(mix(s.normal, toWorld(jitter, s.normal), s.roughness * s.roughness));
+  vec3 direction = reflect(-s.view, n);
+  float out_ = dot(direction, s.face);
+  if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
+  TraceHit hit = traceFrom(world, s, direction);
+  return hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : vec3(0.0);
 }
