@@ -5,6 +5,7 @@
 #if IRAD_OIIO
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "gi/views.h"
 #include "renderer/scene/light_json.h"
@@ -367,6 +368,50 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   }
   xdotool("mousemove 945 552 sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 sleep 1 mousedown 1 sleep 0.3 mouseup 1");
   EXPECT_TRUE(says("Recorded "));
+  quit();
+}
+
+/// Settings with which the scene is read anew, and what a pixel looks for itself.
+TEST_F(WindowWalk, SettingsOfTheSceneAndOfEmittersAreDrawnAtOnce) {
+  // Of the panels only Settings is unfolded, of its groups only the last, `scene`.
+  std::vector<std::string> folded;
+  for (const auto& panel : makePanels())
+    if (panel->title() != std::string("Settings")) folded.emplace_back(panel->title());
+  std::vector<std::string> groups;
+  Settings all;
+  visit(all, [&](auto&&, const Meta& meta) {
+    const std::string name = meta.name, group = name.substr(0, name.find('.'));
+    if (groups.empty() || groups.back() != group) groups.push_back(group);
+  });
+  ASSERT_EQ(groups.back(), "scene");
+  for (const std::string& group : groups)
+    if (group != "scene") folded.push_back("Settings/" + group);
+  fold(nlohmann::json(folded).dump().c_str());
+  start(settings());
+  rests();
+  click(20, unfold("Lights") + kFramed + kLine + 5 + 10);  // no handles in the picture
+  unfold("Lights");
+  const auto header = [&](const std::string& group) {
+    const auto above = std::find(groups.begin(), groups.end(), group) - groups.begin();
+    return kTop + 8 + 4 * kHeader + kFramed + static_cast<int>(above + 1) * kLine + kLine / 2;
+  };
+  const auto row = [&](const std::string& group, int i) { return header(group) + kLine + 3 + i * kFramed; };
+  const ViewInfo& lit = *viewInfo(VIEW_LIT);
+
+  click(151, row("scene", 1));  // double sided
+  rest();
+  EXPECT_TRUE(shows(render("lit", {"--set", "scene.double_sided=true"}), lit));
+  click(151, row("scene", 1));
+  rest();
+  EXPECT_TRUE(shows(render("lit", {}), lit));
+  click(60, header("scene"));
+
+  click(60, header("sample"));
+  const int emitters = row("sample", 4);
+  click(220, emitters);
+  click(220, emitters + 18 + kLine + kLine / 2);  // pixels
+  rest();
+  EXPECT_TRUE(shows(render("lit", {"--set", "sample.emitters=pixels"}), lit));
   quit();
 }
 
