@@ -25,9 +25,9 @@ void main() {
   ivec2 pixel = ivec2(8u * gl_WorkGroupID.xy + uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)));
   if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
   vec4 position = imageLoad(indirectTarget, pixel);
-  if (position.w == 0.0) return;
   vec3 normal = imageLoad(lookupTarget, pixel).xyz;
   if (KEEPS_POSITION) imageStore(lookupTarget, pixel, position);
+  if (position.w == 0.0) return;
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   Receiver r = receiverAt(map, (position.xyz - grid.origin) * grid.inverseEdge, normal, viewer);
