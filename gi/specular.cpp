@@ -36,7 +36,10 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
                    Targets& targets) {
   const bool traces = settings.specular.mode != SpecularMode::off && targets.f0 && targets.indirect &&
                       inputs.facets != nullptr && inputs.field != nullptr && inputs.lighting != nullptr;
-  const bool lists = traces && settings.specular.mode == SpecularMode::compute;
+  // T 5.11: every pixel by itself, unfiltered.
+  const bool alone = settings.specular.mode == SpecularMode::fragment;
+  const bool kernels = static_cast<bool>(targets.visible);
+  const bool lists = traces && (!alone || kernels);
   targets.fit(frame.context(), &Targets::specular, traces);
   if (lists != static_cast<bool>(targets.glossy))
     targets.glossy = lists ? Buffer(frame.context().device, "glossy pixels", Subsystem::Targets,
@@ -60,9 +63,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   push.jfaMax = field.jfaMax;
   push.leastReflected = leastReflected(settings.specular.gpu.threshold, lighting.litH);
   const uint32_t method = traceMethod(settings, field);
-  // T 5.11: every pixel by itself, unfiltered.
-  const bool alone = settings.specular.mode == SpecularMode::fragment;
-  const bool kernels = static_cast<bool>(targets.visible);
+  const bool volume = method == TRACE_JFA;
   const auto traced = [&](Pass& pass) -> Pass& {
     pass.constant(0, method)
         .constant(1, settings.matrix.gpu.hitRule)
@@ -71,33 +72,27 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
         .read(camera, facets.record, facets.shape, facets.reverse, facets.around, lighting.radiosity)
         .sample(targets.depth, point)
         .read(targets.normal, targets.geometric, targets.f0);
+    if (lists) pass.read(targets.glossy);
     if (alone) pass.read(targets.indirect);
-    if (alone && kernels) pass.write(targets.specular);
+    if (lists) pass.write(alone ? targets.specular : targets.linear);
     if (field.chebyshev) pass.read(field.chebyshev);
-    if (!alone) pass.read(targets.glossy).write(targets.linear);
-    if (method == TRACE_JFA) pass.sample(field.jfaDistance, point);
+    if (volume) pass.sample(field.jfaDistance, point);
     return pass.push(push);
   };
 
-  if (alone) {
+  if (!lists) {
     Pass pass = frame.pass("RE Specular");
-    const bool volume = method == TRACE_JFA;
-    if (kernels) {
-      pass.shader(volume ? "specular/trace_picture_jfa.comp" : "specular/trace_picture.comp");
-      traced(pass).run(
-          [&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
-    } else {
-      pass.shaders({"specular/screen.vert", volume ? "specular/trace_jfa.frag" : "specular/trace.frag"});
-      traced(pass).color(targets.specular, ClearColor{}).draw(3);
-    }
+    pass.shaders({"specular/screen.vert", volume ? "specular/trace_jfa.frag" : "specular/trace.frag"});
+    traced(pass).color(targets.specular, ClearColor{}).draw(3);
     return;
   }
 
   // List the pixels that trace; the others are done with that.
   push.glossy = targets.glossy.address;
-  frame.pass("RE Specular").update(targets.glossy, glm::uvec4(0, 1, 1, 0));
+  frame.pass("RE Specular").update(targets.glossy, glm::uvec4(0, alone ? GLOSSY_PARTS : 1, 1, 0));
   frame.pass("RE Specular")
       .shader("specular/classify.comp")
+      .constant(0, !alone)
       .read(camera)
       .sample(targets.depth, point)
       .read(targets.normal, targets.f0, targets.indirect)
@@ -107,7 +102,12 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
 
   // Trace.
   Pass trace = frame.pass("RE Specular");
-  trace.shader(method == TRACE_JFA ? "specular/trace_jfa.comp" : "specular/trace.comp");
+  if (alone) {
+    trace.shader(volume ? "specular/trace_picture_jfa.comp" : "specular/trace_picture.comp");
+    traced(trace).dispatchIndirect(targets.glossy);
+    return;
+  }
+  trace.shader(volume ? "specular/trace_jfa.comp" : "specular/trace.comp");
   const bool emitters = inputs.emitters != nullptr && inputs.emitters->count > 0;
   if (emitters) {
     push.emitters = inputs.emitters->record.address;

@@ -102,6 +102,7 @@ struct IndirectPush {
 IRAD_CONST uint GLOSSY_COUNT = 3u;
 IRAD_CONST uint GLOSSY_FIRST = 4u;
 IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
+IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in specular/trace_picture.glsl
 
 /// "RE Specular".
 struct SpecularPush {
