@@ -52,6 +52,8 @@ void reference(Settings& s, bool cpuDevice) {
   s.matrix.gpu.rays = cpuDevice ? 512 : 1024;
   s.gather.samples = 16;
   s.solver.tolerance = 1e-5f;
+  s.sample.emitters = EmitterLookup::pixels;
+  s.sample.emitterRays = 32;
   s.specular.gpu.rays = 32;
   s.specular.gpu.filter_ = 0;
   s.light.shadowResolution = 4096;
