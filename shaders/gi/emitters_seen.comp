@@ -58,8 +58,9 @@ void main() {
     total += formFactor(t, p, n) * luminance(t.exitance);
   }
 
-  // Shifts of neighbouring pixels follow the R2 lattice (Roberts 2018), as in specular/trace_compute.glsl.
-  uvec3 shift = uvec3(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u,
+  // Shifts of neighbouring pixels follow the R2 and R3 lattices (Roberts 2018), so that any few of them cover the lamp
+  // evenly. (R2's second and third numbers add up to 1: together they would leave lines along diagonals.)
+  uvec3 shift = uvec3(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 3518319155u + pixel.y * 2882110345u,
                       pixel.x * 2447445414u + pixel.y * 3242174889u);
   float start = unitFloat(shift.x);
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.grid.dims, 0.0);
