@@ -29,8 +29,8 @@ Dependency dependency(const ResourceState& state, const Use& next) {
     return {written, {read.stages | next.stages, read.access | next.access}};
   }
   // Write after read: whoever read has already waited for the write before, so waiting for the readers suffices, unless
-  // `next` also reads what has not been made visible to it. The destination names the access: a write before the read is
-  // ordered before `next` by the chain of the two.
+  // `next` also reads what has not been made visible to it. The destination names the access: a write before the read
+  // is ordered before `next` by the chain of the two.
   if (read.stages != 0) {
     const bool alsoReads = (next.access & ~kWrites) != 0;
     if (written.stages == 0 || !alsoReads || covers(read, next)) return {{read.stages, 0}, next};
