@@ -1,6 +1,7 @@
 // "RE Emitters": light straight from emissive triangles, looked for by each pixel (shaders/gi/emitters_light.comp).
 #include "shaders/shared/pixel_emitters.h"
 
+#include "gi/ray_kernel.h"
 #include "gi/views.h"
 
 namespace irad {
@@ -52,10 +53,12 @@ void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& set
   const FacetList& facets = *inputs.facets;
   const Field& field = *inputs.field;
   const EmissiveTriangles& emissive = *inputs.emissiveTriangles;
+  const RayKernel kernel{field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE, settings.matrix.gpu.hitRule,
+                         static_cast<uint32_t>(facets.encoding), facets, field};
   PixelEmittersPush push{};
   push.grid = facets.grid;
   push.facets = facets.record.address;
-  push.chebyshev = field.chebyshev.address;
+  push.chebyshev = kernel.chebyshev();
   push.triangles = emissive.triangles.address;
   push.count = emissive.count;
   push.rays = settings.sample.emitterRays;
@@ -63,15 +66,9 @@ void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& set
   push.size = targets.size;
   const glm::uvec2 groups = (targets.size + 7u) / 8u;
   Pass seen = frame.pass("RE Emitters");
-  seen.shader("gi/emitters_seen.comp")
-      .constant(0, field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE)
-      .constant(1, settings.matrix.gpu.hitRule)
-      .constant(2, static_cast<uint32_t>(facets.encoding))
-      .constant(4, facets.slots > 2)
-      .read(facets.record, facets.voxel, facets.shape, facets.reverse, facets.around, facets.emission)
-      .read(emissive.triangles);
-  if (field.chebyshev) seen.read(field.chebyshev);
-  seen.read(targets.linear, targets.normal, targets.geometric)
+  kernel.configure(seen, frame.context().device, "emitters_seen")
+      .read(facets.record, facets.emission, emissive.triangles)
+      .read(targets.linear, targets.normal, targets.geometric)
       .write(targets.seen)
       .push(push)
       .dispatchGroups(groups.x, groups.y);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
 #include "forward/indirect.glsl"
+#include "forward/tile_pixel.glsl"
 #include "shared/passes.h"
 
 layout(local_size_x = 64) in;
@@ -20,9 +21,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
 void main() {
   Grid grid = push.grid.at[0];
   FacetMap map = FacetMap(push.shape, push.reverse, push.around, grid.dims, NORMAL_ENCODING);
-  // Neighbours in a subgroup are neighbours in the picture: 4 x 2 pixels, of which 2 x 4 make a group.
-  uint i = gl_LocalInvocationIndex;
-  ivec2 pixel = ivec2(8u * gl_WorkGroupID.xy + uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)));
+  ivec2 pixel = tilePixel();
   if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
   vec4 position = imageLoad(indirectTarget, pixel);
   vec3 normal = imageLoad(lookupTarget, pixel).xyz;

@@ -32,8 +32,7 @@ void main() {
     MaterialPoint p = materialPoint(push.scene, t, triangle, point);
     if (!masked(push.scene, t, triangle, flags, point)) sum += emittedRadianceAt(push.scene, p);
   }
-  vec3 exitance = sum * (IRAD_PI / float(samples));
-  for (int c = 0; c < 3; ++c) exitance[c] = exitance[c] > 0.0 ? min(exitance[c], 3.0e38) : 0.0;
+  vec3 exitance = exitanceOf(sum / float(samples));
   push.triangles.at[push.place + i] =
       EmissiveTriangle(t.v[0], t.v[1] - t.v[0], t.v[2] - t.v[0], exitance, flags & MATERIAL_DOUBLE_SIDED);
 }

@@ -13,7 +13,7 @@ const int RADIUS = 2;             ///< pixels
 const float SAME_SURFACE = 0.25;  ///< voxels that a point around may lie off the plane
 
 void main() {
-  ivec2 pixel = ownPixel();
+  ivec2 pixel = tilePixel();
   if (!inPicture(pixel)) return;
   vec4 position = imageLoad(positionTarget, pixel);
   if (position.w == 0.0) return;

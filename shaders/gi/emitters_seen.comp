@@ -46,7 +46,7 @@ int sees(TraceWorld world, vec3 origin, vec3 direction, vec3 face, float reach, 
 }
 
 void main() {
-  ivec2 pixel = ownPixel();
+  ivec2 pixel = tilePixel();
   if (!inPicture(pixel)) return;
   vec4 position = imageLoad(positionTarget, pixel);
   vec3 p = inVoxels(position.xyz);

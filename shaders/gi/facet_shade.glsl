@@ -50,9 +50,5 @@ void main() {
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[facet] = packAlbedo(albedo);
 
-  if (push.hasEmission != 0u) {
-    vec3 exitance = IRAD_PI * emittedRadianceAt(push.scene, p);
-    for (int i = 0; i < 3; ++i) exitance[i] = exitance[i] > 0.0 ? min(exitance[i], 3.0e38) : 0.0;
-    push.emission.at[facet] = exitance;
-  }
+  if (push.hasEmission != 0u) push.emission.at[facet] = exitanceOf(emittedRadianceAt(push.scene, p));
 }

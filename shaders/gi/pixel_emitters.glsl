@@ -1,4 +1,5 @@
 // What the two kernels of "RE Emitters" share: the visible point and the emissive triangles above its horizon.
+#include "forward/tile_pixel.glsl"
 #include "shared/emitters.h"
 #include "shared/pixel_emitters.h"
 
@@ -13,11 +14,6 @@ layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
 /// A point this near a triangle's plane is taken to lie in it, where it gets nothing; voxels.
 const float IN_PLANE = 0.01;
 
-/// This invocation's pixel. Neighbours in a subgroup are neighbours in the picture, as in forward/indirect.comp.
-ivec2 ownPixel() {
-  uint i = gl_LocalInvocationIndex;
-  return ivec2(8u * gl_WorkGroupID.xy + uvec2((i & 3u) | ((i >> 1) & 4u), ((i >> 2) & 1u) | ((i >> 3) & 6u)));
-}
 bool inPicture(ivec2 pixel) {
   return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(push.size)));
 }

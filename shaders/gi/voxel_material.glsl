@@ -90,6 +90,13 @@ vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
   return emission;
 }
 
+/// M of an emitted radiance; finite and not negative, whatever textures hold.
+vec3 exitanceOf(vec3 radiance) {
+  vec3 exitance = IRAD_PI * radiance;
+  for (int i = 0; i < 3; ++i) exitance[i] = exitance[i] > 0.0 ? min(exitance[i], 3.0e38) : 0.0;
+  return exitance;
+}
+
 /// Whether the material's alpha mask cuts the triangle away at `point`.
 bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
   if (SAMPLES_TEXTURES == 0u || (flags & MATERIAL_ALPHA_MASK) == 0u) return false;

@@ -53,3 +53,11 @@ vec4 specularOf(Reflection r, vec3 met) {
   if (r.traces) radiance = mix(radiance, met / (float(push.params.rays) * IRAD_PI), tracedShare(s.roughness));
   return vec4(radiance * environmentBrdf(s.f0, s.roughness, max(dot(s.normal, s.view), 1e-3)), 1.0);
 }
+
+/// All of it by one invocation.
+vec4 specularAt(ivec2 pixel) {
+  Reflection r = reflectionAt(pixel);
+  vec3 met = vec3(0.0);
+  for (uint k = 0u; r.traces && k < push.params.rays; ++k) met += traceJittered(reflectedWorld(), r.surface, r.seed, k);
+  return specularOf(r, met);
+}
