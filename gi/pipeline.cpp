@@ -184,7 +184,7 @@ struct Pipeline::Impl {
       p.facets = compactFacets(context, voxels, obeyed);
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
-      p.emissiveTriangles = listEmissiveTriangles(context, onDevice, *p.facets, p.gridRecord);
+      p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
       p.reference = makeReference(*p.facets);
     }
 

@@ -2,15 +2,17 @@
 #include "shaders/shared/pixel_emitters.h"
 
 #include "gi/ray_kernel.h"
+#include "gi/traits.h"
 #include "gi/views.h"
 
 namespace irad {
 
-EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& scene, const FacetList& facets,
+EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& scene,
+                                        std::span<const MaterialTraits> materials, const FacetList& facets,
                                         const Buffer& grid) {
   EmissiveTriangles out;
   if (!facets.hasEmission || facets.count == 0) return out;
-  const auto emits = [&](const Draw& draw) { return scene.materialValues.at(draw.material).emission != glm::vec3(0); };
+  const auto emits = [&](const Draw& draw) { return materials[draw.material].emission > 0; };  // as the plan counts
   for (const Draw& draw : scene.scene.draws)
     if (emits(draw)) out.count += draw.indexCount / 3;
   if (out.count > MAX_EMISSIVE_TRIANGLES) out.count = 0;

@@ -123,7 +123,9 @@ struct EmissiveTriangles {
   uint32_t count = 0;
   Buffer triangles;  ///< an EmissiveTriangle each
 };
-EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& scene, const FacetList& facets,
+struct MaterialTraits;
+EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& scene,
+                                        std::span<const MaterialTraits> materials, const FacetList& facets,
                                         const Buffer& grid);
 /// Vose's alias table of facets[i] with probability powers[i] / sum; powers > 0.
 std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const std::vector<double>& powers);

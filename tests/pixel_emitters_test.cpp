@@ -271,6 +271,28 @@ TEST_F(PixelEmitters, FacetsServeWhereThereAreTooManyTriangles) {
   EXPECT_EQ(pipeline.obeyed().sample.emitters, EmitterLookup::facets);
 }
 
+TEST_F(PixelEmitters, WhatATextureLeavesDarkDoesNotCount) {
+  // 288 triangles that would emit, but for their texture.
+  SceneBuilder b;
+  const uint32_t floor = b.material(glm::vec3(0.5f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1)),
+                 dark = b.material(glm::vec3(0.5f), glm::vec3(1));
+  add(b, floor, kFloor);
+  add(b, lamp, kLamp);
+  const glm::dvec3 below(0, -0.2, 0);
+  add(b, dark, {kFloor[0] + below, kFloor[1] + below, kFloor[2] + below, kFloor[3] + below}, 12);
+  Scene scene = b.finish("a dark texture");
+  scene.images.push_back({.name = "black", .width = 1, .height = 1, .srgb = false, .rgba = {0, 0, 0, 255}});
+  scene.materials.at(dark).emissiveTexture.image = 0;
+  Pipeline pipeline(context(), scene, settings());
+  const auto picture = draw(pipeline, above(0.9));
+  EXPECT_TRUE(pipeline.plan().pixelEmitters);
+  for (uint32_t y = 0; y < kSize; ++y)
+    for (uint32_t x = 0; x < kSize; ++x) {
+      const double expected = 3 * formFactor(kLamp, onFloor(x, y), {0, 1, 0});
+      EXPECT_NEAR(picture[y * kSize + x].x, expected, 1e-4 * expected);
+    }
+}
+
 TEST_F(PixelEmitters, TexturesAndMasksAreAveraged) {
   // The left half of the texture is white; one of the two triangles has a quarter of it, the other three.
   Scene scene = lampAboveFloor();
@@ -291,7 +313,8 @@ TEST_F(PixelEmitters, TexturesAndMasksAreAveraged) {
     const World w = world(scene, settings());
     const Buffer grid =
         makeBuffer<Grid>(context(), "grid", Subsystem::Voxels, std::span<const Grid>(&w.facets.grid, 1));
-    const EmissiveTriangles list = listEmissiveTriangles(context(), *w.device, w.facets, grid);
+    const EmissiveTriangles list =
+        listEmissiveTriangles(context(), *w.device, measure(scene, 32).materials, w.facets, grid);
     ASSERT_EQ(list.count, 2u);
     const auto triangles = downloadAs<EmissiveTriangle>(context(), list.triangles);
     const auto [low, high] = std::minmax(triangles[0].exitance.x, triangles[1].exitance.x);
