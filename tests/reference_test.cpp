@@ -29,7 +29,7 @@ class Reference : public GpuTest {
     uint32_t resolution = 128, rays = 256;
     bool doubleSided = false;                        ///< every material
     uint32_t facets = 2;                             ///< of a voxel
-    uint32_t samples = 1;                            ///< of direct light in a pixel, along each axis
+    uint32_t samples = 1;                            ///< of a pixel, along each axis
     EmitterLookup emitters = EmitterLookup::facets;  ///< sample.emitters
   };
   struct Shot {
@@ -81,7 +81,10 @@ class Reference : public GpuTest {
     // H holds the emitters' first gather, which Cycles counts as direct: that view's D + F M is compared.
     const std::vector<Picture> ours =
         render(scene, camera, {direct.width, direct.height},
-               {{"direct-irradiance", quality.samples}, {"irradiance"}, {"emitter-irradiance"}}, quality);
+               {{"direct-irradiance", quality.samples},
+                {"irradiance", quality.samples},
+                {"emitter-irradiance", quality.samples}},
+               quality);
     Picture oursDirect = ours[0], oursBounced = ours[1];
     for (size_t i = 0; i < oursDirect.pixels.size(); ++i) {
       oursBounced.pixels[i] = (ours[1].pixels[i] - ours[2].pixels[i]) / 3.14159265f;
@@ -123,7 +126,7 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
   // the lamp: pixels look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
   expectMarks(
       compare(*scenes_ / "references/cornell_base_diffuse.exr", *scenes_ / "variants/cornell_base.glb", &camera,
-              {.doubleSided = true, .facets = MAX_VOXEL_FACETS, .samples = 8, .emitters = EmitterLookup::pixels}));
+              {.doubleSided = true, .facets = MAX_VOXEL_FACETS, .samples = 4, .emitters = EmitterLookup::pixels}));
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {
@@ -162,7 +165,8 @@ TEST_F(Reference, FurnaceCube) {
 
 TEST_F(Reference, IntegratingSphere) {
   // 10 cd inside a sphere of rho .7: L = 1.8568 everywhere (direct + indirect).
-  const Picture lit = render(*scenes_ / "analytic/sphere_point.glb", nullptr, {64, 64}, {{"lit"}}, {.resolution = 64})[0];
+  const Picture lit = render(*scenes_ / "analytic/sphere_point.glb", nullptr, {64, 64}, {{"lit"}},
+                             {.resolution = 64, .rays = 64})[0];
   const glm::dvec3 mean = lit.mean();
   printf("sphere_point: mean %.4f, expected 1.8568\n", mean.x);
   EXPECT_NEAR(mean.x, 1.8568, 0.01 * 1.8568);

@@ -90,6 +90,7 @@ void divergenceCase(CheckRun& run) {
   for (const float lambda : {2.0f, 1.15f}) {
     Settings settings = run.settings;
     settings.solver.gpu.lambda = 1;
+    settings.matrix.gpu.rays = 64;  // all meet the same B
     const auto pipeline = run.prepare(whiteRoom(), settings);
     settings.solver.gpu.lambda = lambda;  // row gain .9 lambda
     pipeline->set(settings);

@@ -30,7 +30,7 @@ uint64_t countNonZero(const std::vector<glm::vec3>& values) {
 
 void darkCase(CheckRun& run) {
   Settings settings = run.settings;
-  settings.matrix.gpu.rays = 64;  // what they meet is dark
+  settings.matrix.gpu.rays = 16;  // what they meet is dark
   const auto pipeline = run.prepare(darkRoom(), settings);
   // At rest the solver stops after a look at two sweeps.
   uint32_t sweeps = 0;
@@ -50,7 +50,9 @@ void darkCase(CheckRun& run) {
 }
 
 void lightsOffCase(CheckRun& run) {
-  const auto pipeline = run.prepare(darkRoom());
+  Settings settings = run.settings;
+  settings.matrix.gpu.rays = 64;  // all meet the same B
+  const auto pipeline = run.prepare(darkRoom(), settings);
   const size_t facets = pipeline->facets().count;
   run.setDirect(*pipeline, std::vector<glm::vec3>(facets, glm::vec3(1, 2, 3)));
   pipeline->prepare();
@@ -100,7 +102,9 @@ Scene whiteRoom() {
 }
 
 void albedoOneCase(CheckRun& run) {
-  const auto pipeline = run.prepare(whiteRoom());
+  Settings settings = run.settings;
+  settings.matrix.gpu.rays = 64;  // all meet the same B
+  const auto pipeline = run.prepare(whiteRoom(), settings);
   const std::vector<glm::vec3> b = run.read(*pipeline, pipeline->lighting().radiosity);
   run.near("mean B / E", spread(b).mean, 50, 0.05);
   run.atMost("largest B / E", spread(b).most, 50 * 1.001);
