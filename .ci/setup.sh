@@ -56,7 +56,6 @@ build() {
 
 # Caches stay in the checkout; a folder that the user has chosen is respected.
 export CCACHE_DIR=${CCACHE_DIR:-$root/.cache/ccache} CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} CCACHE_NOHASHDIR=1
-export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # what it asks for precompiled headers
 export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-$root/.cache/mesa}
 mkdir -p "$MESA_SHADER_CACHE_DIR"
 

@@ -79,12 +79,11 @@ class Reference : public GpuTest {
                  const Quality& quality) {
     const Picture direct = readExr(reference, "ViewLayer.DiffDir"), bounced = readExr(reference, "ViewLayer.DiffInd");
     // H holds the emitters' first gather, which Cycles counts as direct: that view's D + F M is compared.
-    const std::vector<Picture> ours =
-        render(scene, camera, {direct.width, direct.height},
-               {{"direct-irradiance", quality.samples},
-                {"irradiance", quality.samples},
-                {"emitter-irradiance", quality.samples}},
-               quality);
+    const std::vector<Picture> ours = render(scene, camera, {direct.width, direct.height},
+                                             {{"direct-irradiance", quality.samples},
+                                              {"irradiance", quality.samples},
+                                              {"emitter-irradiance", quality.samples}},
+                                             quality);
     Picture oursDirect = ours[0], oursBounced = ours[1];
     for (size_t i = 0; i < oursDirect.pixels.size(); ++i) {
       oursBounced.pixels[i] = (ours[1].pixels[i] - ours[2].pixels[i]) / 3.14159265f;
@@ -145,8 +144,8 @@ TEST_F(Reference, DirectLightOnAPlane) {
     double radiance;
   };
   for (const Case c : {Case{"plane_sun", 0.79577}, Case{"plane_point", 1.98944}, Case{"plane_spot", 1.98944}}) {
-    const Picture direct = render(*scenes_ / "analytic" / (std::string(c.file) + ".glb"), nullptr, {65, 65}, {{"direct"}},
-                                  {.resolution = 32, .rays = 64})[0];
+    const Picture direct = render(*scenes_ / "analytic" / (std::string(c.file) + ".glb"), nullptr, {65, 65},
+                                  {{"direct"}}, {.resolution = 32, .rays = 64})[0];
     float brightest = 0;
     for (const glm::vec3& p : direct.pixels) brightest = std::max(brightest, p.x);
     printf("%s: brightest %.5f, expected %.5f\n", c.file, brightest, c.radiance);
@@ -156,7 +155,8 @@ TEST_F(Reference, DirectLightOnAPlane) {
 
 TEST_F(Reference, FurnaceCube) {
   // Emission .5 x 4 = 2, rho .6: L = 2 / (1 - .6) = 5 everywhere.
-  const Picture lit = render(*scenes_ / "analytic/furnace_cube.glb", nullptr, {64, 64}, {{"lit"}}, {.resolution = 64})[0];
+  const Picture lit =
+      render(*scenes_ / "analytic/furnace_cube.glb", nullptr, {64, 64}, {{"lit"}}, {.resolution = 64})[0];
   const glm::dvec3 mean = lit.mean();
   printf("furnace_cube: mean %.4f, expected 5, centre %.4f\n", mean.x, centre(lit).x);
   EXPECT_NEAR(mean.x, 5.0, 0.05);
@@ -165,8 +165,8 @@ TEST_F(Reference, FurnaceCube) {
 
 TEST_F(Reference, IntegratingSphere) {
   // 10 cd inside a sphere of rho .7: L = 1.8568 everywhere (direct + indirect).
-  const Picture lit = render(*scenes_ / "analytic/sphere_point.glb", nullptr, {64, 64}, {{"lit"}},
-                             {.resolution = 64, .rays = 64})[0];
+  const Picture lit =
+      render(*scenes_ / "analytic/sphere_point.glb", nullptr, {64, 64}, {{"lit"}}, {.resolution = 64, .rays = 64})[0];
   const glm::dvec3 mean = lit.mean();
   printf("sphere_point: mean %.4f, expected 1.8568\n", mean.x);
   EXPECT_NEAR(mean.x, 1.8568, 0.01 * 1.8568);

@@ -29,8 +29,7 @@ uint64_t countNonZero(const std::vector<glm::vec3>& values) {
 }
 
 void darkCase(CheckRun& run) {
-  Settings settings = run.settings;
-  settings.matrix.gpu.rays = 16;  // what they meet is dark
+  const Settings settings = run.small();  // what rays meet is dark
   const auto pipeline = run.prepare(darkRoom(), settings);
   // At rest the solver stops after a look at two sweeps.
   uint32_t sweeps = 0;
