@@ -445,13 +445,12 @@ std::filesystem::path goldenWindow(const std::string& name) {
 
 class WholeWindowTest : public WindowWalk {
  protected:
-  void compare(const std::string& name, const std::vector<std::string>& more) {
+  void compare(const std::string& name, std::vector<std::string> more) {
     const char* font = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
     if (!std::filesystem::exists(font)) GTEST_SKIP() << font << " is not installed: the text is another font's";
     // Solved to less than its rounding, the light would take a sweep more or less from one processor to the next.
-    std::vector<std::string> words = settings({"--set", "solver.tolerance=1e-3"});
-    words.insert(words.end(), more.begin(), more.end());
-    start(words);
+    more.insert(more.end(), {"--set", "solver.tolerance=1e-3"});
+    start(settings(more));
     rests();
     xdotool("mousemove 1500 900");  // out of the picture
     rests();
