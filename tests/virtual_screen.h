@@ -9,7 +9,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -57,6 +60,19 @@ class Program {
     double user = 0, system = 0;
     fields >> user >> system;
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+  /// Per thread how often it has run; nothing while one of them runs, or waits for a processor or a disk. Twice the
+  /// same: it slept from one to the other, however little of the machine it is given.
+  std::optional<std::string> asleep() const {
+    std::string runs;
+    for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process_.pid()))) {
+      std::ifstream status(thread.path() / "status");
+      for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("State:") && line.find("S (") == std::string::npos) return std::nullopt;
+        if (line.find("_ctxt_switches:") != std::string::npos) runs += line + ' ';
+      }
+    }
+    return runs;
   }
   std::string log() const { return slurp(log_); }
 
@@ -147,6 +163,7 @@ class VirtualScreen {
   }
 
   const std::string& display() const { return display_; }
+  const Program& server() const { return *server_; }
   /// Keys, mouse and window, by xdotool's own words; a step later than a frame.
   void xdotool(const std::string& arguments) const {
     const std::string command = fmt::format("DISPLAY={} xdotool {}", display_, arguments);

@@ -99,12 +99,13 @@ class WindowWalk : public WindowTest {
     return std::filesystem::path(screen_->environment().at("XDG_CONFIG_HOME")) / "irad/window.json";
   }
 
-  /// Waits until the window has nothing more to do.
+  /// Waits until the window has nothing more to do, nor the server for it.
   void rests() {
-    for (int i = 0; i < 300 && window_->running(); ++i) {
-      const double used = window_->cpuSeconds();
+    const auto asleep = [this] { return std::pair(screen_->server().asleep(), window_->asleep()); };
+    for (const auto end = Clock::now() + std::chrono::seconds(30); Clock::now() < end && window_->running();) {
+      const auto before = asleep();
       pause(0.1);
-      if (window_->cpuSeconds() == used) return;
+      if (before.first && before.second && asleep() == before) return;
     }
     FAIL() << "the window does not come to rest";
   }
@@ -171,9 +172,10 @@ void WindowWalk::chooseInCombo(View wanted) {
   const int scrolled = std::min(turns * kWheel, most);
   click(kRightColumn, 74);
   const int y = kList + kPadding + line * kLine + kLine / 2 - scrolled;
-  std::string wheel = fmt::format("mousemove {} {} sleep 0.1 click --repeat 20 --delay 1 4", kRightColumn, kList + 100);
-  if (turns > 0) wheel += fmt::format(" sleep 0.1 click --repeat {} --delay 1 5", turns);
-  xdotool(wheel);
+  // To the top first: turns back and forth within one frame would be added up.
+  xdotool(fmt::format("mousemove {} {} click --repeat 20 --delay 1 4", kRightColumn, kList + 100));
+  rests();
+  if (turns > 0) xdotool(fmt::format("click --repeat {} --delay 1 5", turns));
   rests();
   click(kRightColumn, y);
 }
