@@ -8,6 +8,7 @@
 
 #include "gi/host_facets.h"
 #include "gi/planned.h"
+#include "gi/products.h"
 #include "gi/stage_keys.h"
 #include "renderer/error.h"
 
@@ -47,18 +48,6 @@ struct Pipeline::Impl {
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
 
-  /// One member per stage's product; all of one facet list.
-  struct Products {
-    std::optional<FacetList> facets;
-    Buffer gridRecord;  ///< one Grid
-    std::optional<Field> field;
-    std::optional<FormFactors> matrix;
-    std::optional<Emitters> emitters;
-    EmissiveTriangles emissiveTriangles;
-    std::optional<Lighting> light;
-    Buffer reference;  ///< H by the oracle, for its view; none where the scene does not know it
-    ViewFields fields;
-  };
   Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
@@ -105,19 +94,7 @@ struct Pipeline::Impl {
     decide();
   }
 
-  /// What the products have shown.
-  void learn(const Products& p) {
-    const MatrixStats stats = p.matrix ? p.matrix->stats : MatrixStats{};
-    planned.traits.build = BuildTraits{
-        .voxels = p.facets->grid.voxels,
-        .facets = p.facets->count,
-        .solidVoxels = p.facets->solidVoxels,
-        .emitters = p.emitters->count,
-        .sampledShare = p.light ? p.light->sampledShare : 0,
-        .sampled = p.light && p.light->correction,
-        .matrix = p.matrix && *p.matrix,
-        .escaped = stats.rays > 0 ? static_cast<double>(stats.escaped) / static_cast<double>(stats.rays) : 0};
-  }
+  void learn(const Products& p) { planned.traits.build = buildTraits(p); }
 
   /// The light's state, which changes from frame to frame.
   LightState lightState() const {
@@ -297,36 +274,6 @@ struct Pipeline::Impl {
             .alphaTest = planned.on(Effect::alphaTest),
             .kernels = rasterizesByKernels(context.device, settings)};
   }
-
-  ForwardEffects forwardEffects() const {
-    ForwardEffects e;
-    e.lights = {.sun = planned.on(Effect::sun), .spot = planned.on(Effect::spot), .point = planned.on(Effect::point)};
-    e.emission = planned.on(Effect::emission);
-    e.alphaTest = planned.on(Effect::alphaTest);
-    e.normalMap = planned.on(Effect::normalMap);
-    e.specular = planned.on(Effect::specular);
-    e.kernels = rasterizesByKernels(context.device, settings);
-    const auto& materials = planned.traits.materials;
-    e.highlights = std::ranges::any_of(materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });
-    return e;
-  }
-
-  IndirectInputs indirectInputs(View view) const {
-    IndirectInputs in;
-    if (!now.facets || now.facets->count == 0 || !now.light || !*now.light) return in;
-    in.grid = &now.gridRecord;
-    in.shape = &now.facets->shape;
-    in.reverse = &now.facets->reverse;
-    in.around = &now.facets->around;
-    in.shaded = &now.light->shaded();
-    in.keepPosition = planned.plan().pixelEmitters && now.light->emitted;
-    if ((view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE || in.keepPosition) && now.light->emitted)
-      in.shadedEmitted = &now.light->shadedEmitted();
-    in.volume = now.light->volume ? &now.light->volume : nullptr;
-    in.normalEncoding = static_cast<uint32_t>(now.facets->encoding);
-    in.sample = planned.settings().sample.gpu;
-    return in;
-  }
 };
 
 Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings)
@@ -470,7 +417,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
 }
 
 std::vector<Finding> Pipeline::findings() const {
-  const Impl::Products& p = impl_->now;
+  const Products& p = impl_->now;
   if (!p.light) return {};
   const Grid& grid = p.facets->grid;
   return irad::findings(p.light->report, grid, impl_->scene.origin + glm::dvec3(grid.origin), impl_->solvedFrame);
@@ -484,21 +431,16 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
 
   ShadeParams shade = p.settings.camera.gpu;
   shade.exposure = std::exp2(p.settings.camera.exposureEv);
-  const IndirectInputs indirect = p.indirectInputs(view);
-  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, p.forwardEffects());
+  ForwardEffects effects = p.planned.forwardEffects();
+  effects.kernels = rasterizesByKernels(p.context.device, p.settings);
+  const bool pixelEmitters = p.planned.plan().pixelEmitters;
+  const IndirectInputs indirect = indirectInputs(p.now, view, pixelEmitters, p.planned.settings());
+  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, effects);
 
-  ViewInputs inputs;
+  ViewInputs inputs = viewInputs(p.now, pixelEmitters);
   inputs.scene = &p.onDevice;
-  if (p.now.facets) inputs.facets = &*p.now.facets;
-  if (p.now.field) inputs.field = &*p.now.field;
-  if (p.now.matrix && *p.now.matrix) inputs.matrix = &*p.now.matrix;
-  if (p.now.light && *p.now.light) inputs.lighting = &*p.now.light;
-  if (p.now.emitters) inputs.emitters = &*p.now.emitters;
-  if (p.planned.plan().pixelEmitters) inputs.emissiveTriangles = &p.now.emissiveTriangles;
-  if (p.now.reference) inputs.reference = &p.now.reference;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;
-  inputs.fields = &p.now.fields;
   inputs.range = range;
   lightByEmitters(frame, inputs, p.planned.settings(), targets);
   traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);

@@ -1,5 +1,6 @@
 #include "gi/planned.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace irad {
@@ -41,6 +42,17 @@ std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all)
     if (!on(Effect::normalMap)) m.flags &= ~MATERIAL_NORMAL_TEXTURE;
   }
   return out;
+}
+
+ForwardEffects Planned::forwardEffects() const {
+  ForwardEffects e;
+  e.lights = {.sun = on(Effect::sun), .spot = on(Effect::spot), .point = on(Effect::point)};
+  e.emission = on(Effect::emission);
+  e.alphaTest = on(Effect::alphaTest);
+  e.normalMap = on(Effect::normalMap);
+  e.specular = on(Effect::specular);
+  e.highlights = std::ranges::any_of(traits.materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });
+  return e;
 }
 
 }  // namespace irad

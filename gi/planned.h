@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gi/plan.h"
+#include "renderer/forward.h"
 #include "renderer/gpu_scene.h"
 
 namespace irad {
@@ -28,6 +29,8 @@ class Planned {
   bool shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const;
   /// The scene's materials, less what the plan has off.
   std::vector<GpuMaterial> materials(const std::vector<GpuMaterial>& all) const;
+  /// What of forward shading is on; by which rasterizer is not the plan's to say.
+  ForwardEffects forwardEffects() const;
 
  private:
   EffectPlan plan_;

@@ -1,0 +1,36 @@
+// What a pipeline has made of its scene, stage by stage, and how pictures are drawn from it.
+#pragma once
+
+#include <optional>
+
+#include "gi/plan.h"
+#include "gi/stages.h"
+#include "gi/views.h"
+#include "renderer/forward.h"
+
+namespace irad {
+
+/// One member per stage's product; all of one facet list. Before the first build there is none.
+struct Products {
+  std::optional<FacetList> facets;
+  Buffer gridRecord;  ///< one Grid
+  std::optional<Field> field;
+  std::optional<FormFactors> matrix;
+  std::optional<Emitters> emitters;
+  EmissiveTriangles emissiveTriangles;
+  std::optional<Lighting> light;
+  Buffer reference;  ///< H by the oracle, for its view; none where the scene does not know it
+  ViewFields fields;
+};
+
+/// What they have shown to the plan. Of products that have facets and emitters.
+BuildTraits buildTraits(const Products& products);
+
+/// Where shading reads H from for `view`; nothing where there is no light. `pixelEmitters`: EffectPlan's. The products
+/// outlive what is drawn.
+IndirectInputs indirectInputs(const Products& products, View view, bool pixelEmitters, const Settings& obeyed);
+
+/// The products' part of what a view may draw from. They outlive what is drawn.
+ViewInputs viewInputs(Products& products, bool pixelEmitters);
+
+}  // namespace irad
