@@ -244,8 +244,7 @@ class Frame {
 
 // Blocking transfers for set-up, tests and exports. They run at once: before what an open frame has recorded.
 void upload(Context& context, const Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
-void upload(Context& context, const Image& image, std::span<const std::byte> bytes);  ///< mip 0, all layers
-void generateMips(Context& context, const Image& image);
+void upload(Context& context, const Image& image, std::span<const std::byte> bytes, uint32_t mip = 0);  ///< all layers
 std::vector<std::byte> download(Context& context, const Buffer& buffer);
 std::vector<std::byte> download(Context& context, const Image& image);  ///< mip 0, all layers, tightly packed
 /// One texel of a 2D image, from its top left.

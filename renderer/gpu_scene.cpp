@@ -1,10 +1,10 @@
 #include "renderer/gpu_scene.h"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 
 #include "renderer/error.h"
+#include "renderer/scene/mips.h"
 #include "renderer/scene/texel_range.h"
 
 namespace irad {
@@ -14,10 +14,6 @@ constexpr size_t kTextures = 5;  // per material, in the order of TEXTURE_*
 
 std::array<const TextureUse*, kTextures> texturesOf(const Material& m) {
   return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture};
-}
-
-uint32_t mipCount(uint32_t width, uint32_t height) {
-  return static_cast<uint32_t>(std::bit_width(std::max(width, height)));
 }
 
 Image uploadTexture(Context& context, const SceneImage& source) {
@@ -32,7 +28,8 @@ Image uploadTexture(Context& context, const SceneImage& source) {
   desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   Image image(context.device, desc);
   upload(context, image, std::as_bytes(std::span(source.rgba)));
-  if (desc.mips > 1) generateMips(context, image);
+  uint32_t mip = 0;
+  for (const MipLevel& level : mipLevels(source)) upload(context, image, std::as_bytes(std::span(level.rgba)), ++mip);
   return image;
 }
 

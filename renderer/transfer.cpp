@@ -11,9 +11,15 @@ namespace {
 
 constexpr uint64_t kChunk = 64 * 1024 * 1024;
 
-uint64_t texelBytes(const Image& image) {
+/// Of a level: depth is 1 of what is no volume.
+VkExtent3D extentOf(const ImageDesc& d, uint32_t mip) {
+  return {std::max(d.width >> mip, 1u), std::max(d.height >> mip, 1u), d.volume ? std::max(d.depth >> mip, 1u) : 1};
+}
+
+uint64_t texelBytes(const Image& image, uint32_t mip = 0) {
   const ImageDesc& d = image.desc;
-  return uint64_t{d.width} * d.height * (d.volume ? d.depth : 1) * d.layers * formatInfo(d.format).bytes;
+  const VkExtent3D e = extentOf(d, mip);
+  return uint64_t{e.width} * e.height * e.depth * d.layers * formatInfo(d.format).bytes;
 }
 
 /// Submits, waits, and leaves the resource visible to everything, so that nothing later needs a barrier for it (the
@@ -28,24 +34,25 @@ VkImageAspectFlags aspectOf(const FormatInfo& format) {
   return format.kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-/// Visits an image as pieces of whole rows (or slices, or layers) that fit in a chunk: body(piece, byte offset, bytes).
-void forPieces(const Image& image, const std::function<void(const VkBufferImageCopy&, uint64_t, uint64_t)>& body) {
-  const ImageDesc& d = image.desc;
-  const FormatInfo format = formatInfo(d.format);
+/// Visits a level as pieces of whole rows (or slices, or layers) that fit in a chunk: body(piece, byte offset, bytes).
+void forPieces(const Image& image, uint32_t mip,
+               const std::function<void(const VkBufferImageCopy&, uint64_t, uint64_t)>& body) {
+  const FormatInfo format = formatInfo(image.desc.format);
   const VkImageAspectFlags aspect = aspectOf(format);
-  const uint64_t row = uint64_t{d.width} * format.bytes;
-  const auto rows = static_cast<uint32_t>(std::clamp<uint64_t>(kChunk / row, 1, d.height));
+  const VkExtent3D extent = extentOf(image.desc, mip);
+  const uint64_t row = uint64_t{extent.width} * format.bytes;
+  const auto rows = static_cast<uint32_t>(std::clamp<uint64_t>(kChunk / row, 1, extent.height));
   uint64_t at = 0;
-  for (uint32_t layer = 0; layer < d.layers; ++layer)
-    for (uint32_t z = 0; z < (d.volume ? d.depth : 1);) {
+  for (uint32_t layer = 0; layer < image.desc.layers; ++layer)
+    for (uint32_t z = 0; z < extent.depth;) {
       // Several whole slices at once where they fit, else rows of one slice.
-      const uint64_t slices = d.volume ? std::clamp<uint64_t>(kChunk / (row * d.height), 1, d.depth - z) : 1;
-      for (uint32_t y = 0; y < d.height; y += rows) {
-        const uint32_t count = std::min(rows, d.height - y);
+      const uint64_t slices = std::clamp<uint64_t>(kChunk / (row * extent.height), 1, extent.depth - z);
+      for (uint32_t y = 0; y < extent.height; y += rows) {
+        const uint32_t count = std::min(rows, extent.height - y);
         const uint64_t bytes = row * count * slices;
-        const VkBufferImageCopy piece{.imageSubresource = {aspect, 0, layer, 1},
+        const VkBufferImageCopy piece{.imageSubresource = {aspect, mip, layer, 1},
                                       .imageOffset = {0, static_cast<int32_t>(y), static_cast<int32_t>(z)},
-                                      .imageExtent = {d.width, count, static_cast<uint32_t>(slices)}};
+                                      .imageExtent = {extent.width, count, static_cast<uint32_t>(slices)}};
         body(piece, at, bytes);
         at += bytes;
       }
@@ -70,13 +77,14 @@ void upload(Context& context, const Buffer& buffer, std::span<const std::byte> b
   }
 }
 
-void upload(Context& context, const Image& image, std::span<const std::byte> bytes) {
-  IRAD_CHECK(bytes.size() == texelBytes(image), "upload of {} bytes to {}, which has {}", bytes.size(), image.desc.name,
-             texelBytes(image));
+void upload(Context& context, const Image& image, std::span<const std::byte> bytes, uint32_t mip) {
+  IRAD_CHECK(mip < image.desc.mips && bytes.size() == texelBytes(image, mip),
+             "upload of {} bytes to level {} of {}, which has {} levels, this of {}", bytes.size(), mip,
+             image.desc.name, image.desc.mips, texelBytes(image, mip));
   const uint64_t row = uint64_t{image.desc.width} * formatInfo(image.desc.format).bytes;
   const Buffer staging(context.device, "upload", Subsystem::Staging,
                        std::min<uint64_t>(bytes.size(), std::max(kChunk, row)), Access::Upload);
-  forPieces(image, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
+  forPieces(image, mip, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
     std::memcpy(staging.mapped, bytes.data() + at, size);
     Frame frame = context.beginUntimed();
     frame.pass("Upload")
@@ -124,7 +132,7 @@ std::vector<std::byte> download(Context& context, const Image& image) {
   const uint64_t row = uint64_t{image.desc.width} * formatInfo(image.desc.format).bytes;
   const Buffer staging(context.device, "download", Subsystem::Staging,
                        std::min<uint64_t>(bytes.size(), std::max(kChunk, row)), Access::Readback);
-  forPieces(image, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
+  forPieces(image, 0, [&](const VkBufferImageCopy& piece, uint64_t at, uint64_t size) {
     copyToHost(context, image, piece, staging);
     std::memcpy(bytes.data() + at, staging.mapped, size);
   });
@@ -143,38 +151,6 @@ std::vector<std::byte> downloadTexel(Context& context, const Image& image, glm::
              staging);
   const auto* bytes = static_cast<const std::byte*>(staging.mapped);
   return {bytes, bytes + format.bytes};
-}
-
-void generateMips(Context& context, const Image& image) {
-  const ImageDesc& d = image.desc;
-  if (d.mips < 2) return;
-  VkFormatProperties properties;
-  vkGetPhysicalDeviceFormatProperties(context.device.physical, d.format, &properties);
-  constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
-                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-  if ((properties.optimalTilingFeatures & kNeeded) != kNeeded)
-    throw DeviceError(
-        fmt::format("{}: the device cannot make mip levels of {} by linear blits", d.name, formatInfo(d.format).name));
-  Frame frame = context.beginUntimed();
-  const auto extent = [&](uint32_t mip) {
-    return VkOffset3D{static_cast<int32_t>(std::max(1u, d.width >> mip)),
-                      static_cast<int32_t>(std::max(1u, d.height >> mip)),
-                      static_cast<int32_t>(std::max(1u, (d.volume ? d.depth : 1) >> mip))};
-  };
-  for (uint32_t mip = 1; mip < d.mips; ++mip)
-    frame.pass("Mips")
-        .declare(image, {VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT})
-        .record([&](VkCommandBuffer commands) {
-          const VkImageBlit region{
-              .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, d.layers},
-              .srcOffsets = {{0, 0, 0}, extent(mip - 1)},
-              .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, d.layers},
-              .dstOffsets = {{0, 0, 0}, extent(mip)},
-          };
-          vkCmdBlitImage(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, image.handle, VK_IMAGE_LAYOUT_GENERAL, 1,
-                         &region, VK_FILTER_LINEAR);
-        });
-  finish(frame, image.state);
 }
 
 }  // namespace irad

@@ -1,22 +1,15 @@
 #include "renderer/scene/texel_range.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "renderer/scene/srgb.h"
 
 namespace irad {
 namespace {
 
-/// IEC 61966-2-1.
-float linearFromSrgb(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
 glm::vec4 linear(const std::array<uint8_t, 4>& texel, bool srgb) {
   glm::vec4 out;
-  for (int c = 0; c < 4; ++c) {
-    const float value = static_cast<float>(texel[c]) / 255.0f;
-    out[c] = srgb && c < 3 ? linearFromSrgb(value) : value;
-  }
+  for (int c = 0; c < 4; ++c) out[c] = srgb && c < 3 ? linearFromSrgb(texel[c]) : static_cast<float>(texel[c]) / 255.0f;
   return out;
 }
 
