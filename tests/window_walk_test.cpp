@@ -477,7 +477,8 @@ TEST_F(WholeWindowTest, AtFirst) {
 
 TEST_F(WholeWindowTest, WithTheInspector) {
   fold(R"(["Lights", "Cameras", "View", "Compare", "Solver", "Memory"])");
-  compare("window.inspector", {"--inspect", "6,1,12"});
+  // A voxel none of whose values is within 1e-4 of rounding otherwise, but for its area, which no driver computes.
+  compare("window.inspector", {"--inspect", "7,1,13"});
 }
 
 TEST(WholeWindow, AMovedWordIsSeen) {

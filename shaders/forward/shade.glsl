@@ -120,8 +120,9 @@ Shaded shade(Interpolants v) {
     direct += e;
     if (!HIGHLIGHTS || lambertian || push.specularDirect == 0u) continue;
     vec3 h = normalize(l + view);
+    vec3 nxh = cross(n, h);
     highlight += e * fresnelSchlick(f0, max(dot(view, h), 0.0)) *
-                 (ggxDistribution(max(dot(n, h), 0.0), alpha) * ggxVisibility(nl, nv, alpha));
+                 (ggxDistribution(min(dot(nxh, nxh), 1.0), alpha) * ggxVisibility(nl, nv, alpha));
   }
 
   Shaded o;

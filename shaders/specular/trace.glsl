@@ -80,7 +80,7 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
     if (reach > 0.0 && (!(exitance > 0.0) || abs(hit.t - reach) > 1.0)) continue;  // something else is in the way
     if (EMITTERS && exitance > 0.0) {
       // Expected rays per solid angle of either kind.
-      float lobe = density * ggxDistribution(h.z, max(alpha, 1e-3));
+      float lobe = density * ggxDistribution(dot(h.xy, h.xy), max(alpha, 1e-3));
       float emitter = float(aimed) * exitance * hit.t * hit.t / (max(-dot(n, direction), 1e-4) * table.power);
       weight *= lobe / (lobe + emitter);
     }
