@@ -209,8 +209,7 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
   nearest.linearMips = false;
   maps.flatSampler = sampler(context.device, nearest);
-  SamplerDesc compare{Wrap::Clamp, Wrap::Clamp};
-  compare.mips = compare.linearMips = false;
+  SamplerDesc compare = nearest;
   compare.compare = true;
   maps.cubeSampler = sampler(context.device, compare);
   if (flats + cubes == 0) return maps;

@@ -126,18 +126,23 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
   vec3 v = major == a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
   float texel = light.shadowTexel * major;
   float height = preciseDot(n, d);
-  float first = -0.5 * float(pcf - 1u);
-  precise float sum = 0.0;
-  for (uint y = 0u; y < pcf; ++y)
-    for (uint x = 0u; x < pcf; ++x) {
-      precise vec3 tap = d + (u * (float(x) + first) + v * (float(y) + first)) * texel;
+  // Weights as in the flat maps, texel by texel: of a sampler's the last of eight bits shows.
+  precise vec2 at = (vec2(dot(u, d), dot(v, d)) / major * 0.5 + 0.5) * float(textureSize(shadowCubes, 0).x);
+  vec2 first = floor(at - 0.5 * float(pcf));
+  vec2 f = at - 0.5 * float(pcf) - first;
+  precise float lit = 0.0;
+  for (uint y = 0u; y <= pcf; ++y)
+    for (uint x = 0u; x <= pcf; ++x) {
+      vec2 away = first + vec2(x, y) + 0.5 - at;
+      precise vec3 tap = d + (u * away.x + v * away.y) * texel;
       float along = preciseDot(n, tap);
       float ratio = height < 0.0 && along < 0.0 ? clamp(height / along, 0.8, 1.25) : 1.0;
-      vec3 at = abs(tap) * ratio;
-      precise float depth = light.shadowNear / max(at.x, max(at.y, at.z));
-      sum += texture(shadowCubes, vec4(tap, float(light.shadowLayer)), clamp(depth, 1e-30, 1.0));
+      vec3 met = abs(tap) * ratio;
+      precise float depth = light.shadowNear / max(met.x, max(met.y, met.z));
+      float share = (x == 0u ? 1.0 - f.x : x == pcf ? f.x : 1.0) * (y == 0u ? 1.0 - f.y : y == pcf ? f.y : 1.0);
+      lit += share - share * texture(shadowCubes, vec4(tap, float(light.shadowLayer)), clamp(depth, 1e-30, 1.0));
     }
-  return max(1.0 - sum / float(pcf * pcf), 0.0);  // rounding may take the share above 1
+  return min(lit / float(pcf * pcf), 1.0);  // rounding may take the share above 1
 }
 
 /// Share of the light that reaches a point of a surface, 0..1: pcf x pcf bilinear comparisons one texel apart. The point
