@@ -104,7 +104,7 @@ void scale2Case(CheckRun& run) {
 
 void scale10Case(CheckRun& run) {
   const Picture one = lit(run, stillScene());
-  for (const float s : {1e-3f, 1e4f}) {
+  for (const float s : {1e-3f, 0.07f, 30.0f, 1e4f}) {
     const PictureError error = compare(lit(run, scaled(stillScene(), s)), one);
     run.atMost(fmt::format("x {:g}: largest difference / mean", s), error.largest, 1e-3);
   }
