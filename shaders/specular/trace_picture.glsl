@@ -1,6 +1,6 @@
 // "RE Specular" of every listed pixel by itself, where kernels rasterize: two invocations per pixel, which take its rays
 // in turn, since a ray is a long row of loads of which each waits for the one before.
-#define TRACE_AHEAD 12
+#define TRACE_AHEAD 16
 #include "specular/trace_pixel.glsl"
 
 // A workgroup is as slow as its longest ray: small ones.
