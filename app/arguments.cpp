@@ -8,8 +8,8 @@
 #include <charconv>
 
 #include "gi/check/check.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 

@@ -20,7 +20,7 @@ struct SettingArguments {
   void declare(Options& options);
   Config readConfig() const;
   Settings resolve(const Config& config, bool cpuDevice) const;
-  /// Voxels and rays are nobody's choice but the defaults', and may be lowered where memory does not suffice.
+  /// Voxels and rays are the defaults' choice alone, so they may be lowered where memory does not suffice.
   bool sizesAreDefault() const;
 };
 
@@ -42,7 +42,7 @@ struct PictureArguments {
   uint32_t resolveFrames(const Config& config, uint32_t otherwise) const;
   /// Named cameras of the scene and its sidecar, "all", or JSON; default: those of the config, else the scene's first.
   std::vector<Camera> resolveCameras(const Config& config, const Scene& scene) const;
-  /// What can be checked before a scene is loaded.
+  /// Checks what can be checked before a scene is loaded.
   void check() const;
 };
 
@@ -60,8 +60,9 @@ struct SceneArguments {
   std::optional<std::string> lights;
   bool noSidecar = false;
   void declare(Options& options);
-  void check() const;  ///< what can be before a scene is loaded
-  /// How to load the scene. A replayed manifest brings its run's lights: what the sidecar holds by now does not count.
+  void check() const;  ///< checks what it can before a scene is loaded
+  /// How to load the scene. A replayed manifest brings its run's lights; the sidecar, which may have changed since,
+  /// does not count.
   LoadOptions load(const Config& config, const Settings& settings) const;
 };
 

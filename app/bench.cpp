@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/bench.h"
 
 namespace irad::app {
@@ -62,7 +62,7 @@ void Bench::rebuild() {
 }
 
 void Bench::relight() {
-  // Up and down in turn, so that the solver always has the same way to go.
+  // Up and down in turn, so that the solver always has equally far to go.
   const float factor = relights_++ % 2 == 0 ? 1.02f : 1.0f / 1.02f;
   for (GpuLight& light : pipeline_.device().lightValues) light.intensity *= factor;
   pipeline_.lightsChanged();
@@ -178,7 +178,6 @@ double copyBandwidth(Context& context) {
   bytes &= ~uint64_t{15};
   const Buffer from(context.device, "copy source", Subsystem::Staging, bytes);
   const Buffer to(context.device, "copy target", Subsystem::Staging, bytes);
-  const CopyPush push{from.address, to.address, static_cast<uint32_t>(bytes / sizeof(glm::uvec4)), 0};
 
   // The driver's copy and a kernel's in turn: either may take a slow path.
   std::vector<double> transfer, kernel;
@@ -187,7 +186,9 @@ double copyBandwidth(Context& context) {
     Frame frame = context.begin(0);
     if (i == 0) frame.pass("Fill").fill(from, 0x3F800000u);
     frame.pass("Transfer").copy(from, to, bytes);
-    frame.pass("Kernel").shader("bench/copy.comp").read(from).write(to).push(push).dispatch(push.count);
+    Pass pass = frame.pass("Kernel");
+    const CopyPush push{pass.in(from), pass.out(to), static_cast<uint32_t>(bytes / sizeof(glm::uvec4)), 0};
+    pass.shader("bench/copy.comp").push(push).dispatch(push.count);
     frame.submitAndWait();
     context.timings.endFrame(0, /*setup=*/true, 0);
     if (i == 0) continue;  // first touch of the pages

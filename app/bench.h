@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "gi/pipeline.h"
-#include "renderer/timings.h"
+#include "renderer/base/timings.h"
 
 namespace irad::app {
 
-/// What changes from one tick of a window to the next: of the camera its place, of lights place and direction.
+/// What changes from one tick of a window to the next: the camera's place, or the lights' places and directions.
 enum class Moving { Nothing, Camera, Lights };
 
 /// What some ticks made the device do.
@@ -28,8 +28,8 @@ class Bench {
   void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
   void cameraFrame();  ///< one picture, nothing else dirty
   void forget();       ///< drops the samples so far: the warm-up
-  /// Runs `count` ticks as a window does that is at rest to begin with: moves, prepares what is not asleep, and draws
-  /// where anything has changed (`redraws`: in any case). Leaves camera and lights as they were.
+  /// Runs `count` ticks as a window does that begins at rest: moves, prepares what is not asleep, and draws where
+  /// anything has changed (`redraws`: in any case). Leaves camera and lights as they were.
   TickWork ticks(Moving moving, uint32_t count, bool redraws);
   /// Radiance of the picture that a solve from the dark gives, bottom row last.
   std::vector<glm::vec4> picture();

@@ -7,22 +7,22 @@
 
 #include "app/bench.h"
 #include "app/bench_ui.h"
+#include "app/device_session.h"
 #include "app/devices.h"
-#include "app/session.h"
 #include "app/table.h"
-#include "app/views.h"
-#include "renderer/compare_timings.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
-#include "renderer/output_file.h"
-#include "renderer/recording.h"
+#include "renderer/base/compare_timings.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
+#include "renderer/base/output_file.h"
+#include "renderer/base/recording.h"
 
 namespace irad::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct BenchArguments {
   std::optional<std::string> scene, csv, record, warmup, rebuilds, view;
   std::optional<std::pair<std::string, std::string>> compare;
   std::vector<std::string> versus;
@@ -138,17 +138,17 @@ void printComparison(const fs::path& before, const fs::path& after) {
                     ratio(c.ratio), ratio(c.low), ratio(c.high), std::to_string(c.samples[0]),
                     std::to_string(c.samples[1]), toString(c.verdict)});
   }
-  fmt::print("{}", formatTable(rows, {false, false, true, true, true, true, true, true, true, false}));
+  print("{}", formatTable(rows, {false, false, true, true, true, true, true, true, true, false}));
 }
 
 /// --record: the set's calls as a recording (renderer/recording.h).
-void record(const fs::path& folder, const Session& session, const Bench& bench) {
+void record(const fs::path& folder, const DeviceSession& session, const Bench& bench) {
   writeRecording(folder, {.device = session.device->info.name,
                           .scene = bench.pipeline().scene().path.filename().string(),
                           .frames = bench.frames()});
 }
 
-void run(const Arguments& arguments) {
+void run(const BenchArguments& arguments) {
   if (arguments.device.list) return printDevices(arguments.json);
   if (arguments.compare) return printComparison(arguments.compare->first, arguments.compare->second);
   arguments.picture.check();
@@ -167,7 +167,7 @@ void run(const Arguments& arguments) {
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const auto scenePath = findScene(arguments.scene, early, "box");
 
-  Session session(arguments.settings, arguments.device);
+  DeviceSession session(arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const Camera camera = arguments.picture.resolveCameras(session.config, scene).at(0);
   std::vector<std::unique_ptr<Bench>> sets;
@@ -198,7 +198,7 @@ void run(const Arguments& arguments) {
   repeat("rebuilds", rebuilds, [](Bench& bench) { bench.rebuild(); });
   repeat("relights", frames, [](Bench& bench) { bench.relight(); });
   repeat("camera frames", frames, [](Bench& bench) { bench.cameraFrame(); });
-  for (const auto& bench : sets) session.checkNumbers(bench->pipeline());  // times of wrong numbers are none
+  for (const auto& bench : sets) session.checkNumbers(bench->pipeline());  // else the times mean nothing
   const double copy = copyBandwidth(*session.context);
   session.progress.finish();
 
@@ -206,19 +206,19 @@ void run(const Arguments& arguments) {
     nlohmann::ordered_json out = toJson(*sets[0], copy);
     out["device"] = session.device->info.name;
     if (sets.size() > 1) out["versus"] = toJson(*sets[1], copy);
-    fmt::print("{}\n", out.dump(2));
+    print("{}\n", out.dump(2));
   } else {
-    fmt::print("{}, {} x {}, view {}\n", session.device->info.name, size.x, size.y, view.name);
+    print("{}, {} x {}, view {}\n", session.device->info.name, size.x, size.y, view.name);
     for (size_t i = 0; i < sets.size(); ++i) {
-      if (sets.size() > 1) fmt::print("\n{}:\n", i == 0 ? "settings" : "versus");
+      if (sets.size() > 1) print("\n{}:\n", i == 0 ? "settings" : "versus");
       std::vector<std::vector<std::string>> rows = statisticRows(*sets[i]);
       rows.insert(rows.begin(), columns);
-      fmt::print("{}{}", formatTable(rows, {false, false, true, true, true, true, true, true, true, true}),
-                 rates(*sets[i], copy));
+      print("{}{}", formatTable(rows, {false, false, true, true, true, true, true, true, true, true}),
+            rates(*sets[i], copy));
     }
     if (sets.size() > 1)
-      fmt::print("\nversus / settings:\n{}",
-                 formatTable(ratioRows(*sets[0], *sets[1]), {false, false, true, true, true, true, true, true}));
+      print("\nversus / settings:\n{}",
+            formatTable(ratioRows(*sets[0], *sets[1]), {false, false, true, true, true, true, true, true}));
   }
   if (arguments.csv) {
     std::vector<std::vector<std::string>> rows{columns};
@@ -241,7 +241,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Command benchCommand() {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BenchArguments>();
   return {
       "bench", "Time every stage: set-up, relight, camera frames",
       [arguments](Options& options) {

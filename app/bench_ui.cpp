@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "renderer/error.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
 
 #if IRAD_UI
-#include "app/view.h"
-#include "app/views.h"
-#include "renderer/timings.h"
+#include "app/view_command.h"
+#include "renderer/base/timings.h"
 #endif
 
 namespace irad::app {
@@ -29,9 +29,9 @@ void measureUi(const std::optional<std::string>& scene, const std::optional<std:
   options.uiMilliseconds = &ms;
   openWindow(options, config, settings, sceneOptions, device);
   const TimingStats s = statistics(ms);
-  fmt::print("UI, CPU ms per frame, window of {} x {}, {} frames\n", options.size.x, options.size.y, s.samples);
-  fmt::print("p50 {:.3f}  mean {:.3f}  p95 {:.3f}  p99 {:.3f}  max {:.3f}\n", s.p50, s.mean, s.p95, s.p99, s.max);
-  fmt::print("mark: p50 < {} ms: {}\n", kMark, s.p50 < kMark ? "held" : "missed");
+  print("UI, CPU ms per frame, window of {} x {}, {} frames\n", options.size.x, options.size.y, s.samples);
+  print("p50 {:.3f}  mean {:.3f}  p95 {:.3f}  p99 {:.3f}  max {:.3f}\n", s.p50, s.mean, s.p95, s.p99, s.max);
+  print("mark: p50 < {} ms: {}\n", kMark, s.p50 < kMark ? "held" : "missed");
 }
 
 #else

@@ -7,18 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "app/arguments.h"
+#include "app/device_session.h"
 #include "app/devices.h"
-#include "app/session.h"
 #include "app/table.h"
 #include "gi/check/check.h"
-#include "renderer/csv.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/console.h"
+#include "renderer/base/csv.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad::app {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::vector<std::string> cases;
   std::optional<std::string> json, csv, markdown;
   bool list = false, quick = false, figures = false;
@@ -26,7 +27,7 @@ struct Arguments {
   DeviceArguments device;
 };
 
-/// A case's outcome in the default mode and, beside it, in the thesis's.
+/// A case's outcome in the default mode and, for comparison, in the thesis's.
 struct Result {
   const CheckCase* check;
   CheckOutcome outcome;
@@ -52,7 +53,7 @@ std::string figureText(const Result& result, const CheckFigure& figure) {
   return text;
 }
 
-void print(const Result& result, bool allFigures) {
+void printCase(const Result& result, bool allFigures) {
   const CheckOutcome& outcome = result.outcome;
   std::string line = fmt::format("{:<8}{:<18}{:>8.0f} ms  ", result.status(), result.check->name, outcome.milliseconds);
   if (result.check->run == nullptr)
@@ -61,17 +62,17 @@ void print(const Result& result, bool allFigures) {
     line += outcome.error;
   else if (const CheckFigure* figure = result.decisive())
     line += figureText(result, *figure);
-  fmt::print("{}\n", line);
+  print("{}\n", line);
   if (allFigures)
     for (const CheckFigure& figure : outcome.figures)
-      fmt::print("        {} {}\n", figure.passed() ? ' ' : '!', figureText(result, figure));
-  std::fflush(stdout);
+      print("        {} {}\n", figure.passed() ? ' ' : '!', figureText(result, figure));
+  flushStandardOutput();
 }
 
 void printList() {
   std::vector<std::vector<std::string>> rows{{"case", "set-up", "oracle", "mark"}};
   for (const CheckCase& check : checkCases()) rows.push_back({check.name, check.setup, check.oracle, check.mark});
-  fmt::print("{}", formatTable(rows));
+  print("{}", formatTable(rows));
 }
 
 nlohmann::ordered_json toJson(const std::vector<Result>& results, const DeviceInfo& device) {
@@ -147,7 +148,7 @@ void writeMarkdown(const std::string& path, const std::string& table) {
   writeFile(path, text.empty() ? table : text.replace(start, end - start, table));
 }
 
-void run(const Arguments& arguments) {
+void run(const CheckArguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   if (arguments.list) return printList();
   std::vector<const CheckCase*> chosen;
@@ -155,7 +156,8 @@ void run(const Arguments& arguments) {
   if (chosen.empty())
     for (const CheckCase& check : checkCases()) chosen.push_back(&check);
 
-  Session session(arguments.settings, arguments.device, /*timedFrames=*/1);  // nobody reads them, and soak runs long
+  DeviceSession session(arguments.settings, arguments.device,
+                        /*timedFrames=*/1);  // nobody reads them, and soak runs long
   Settings settings = session.settings;
   if (arguments.settings.sizesAreDefault()) applyCheckSizes(settings);
   CheckOptions options{.quick = arguments.quick, .program = "/proc/self/exe", .scenes = {}};
@@ -167,7 +169,7 @@ void run(const Arguments& arguments) {
     if (check->run != nullptr) {
       session.progress(check->name, static_cast<float>(results.size()) / static_cast<float>(chosen.size()));
       result.outcome = runCheck(*session.context, *check, settings, options);
-      // Not judged: long cases shortened.
+      // Not judged; long cases are shortened.
       CheckOptions beside = options;
       beside.quick = true;
       if (!arguments.quick) result.thesis = runCheck(*session.context, *check, thesisBeside(settings), beside);
@@ -175,14 +177,14 @@ void run(const Arguments& arguments) {
     }
     pending += check->run == nullptr;
     failed += check->run != nullptr && !result.outcome.passed();
-    print(result, arguments.figures);
+    printCase(result, arguments.figures);
     results.push_back(std::move(result));
   }
   if (arguments.json) writeFile(*arguments.json, toJson(results, session.device->info).dump(2) + "\n");
   if (arguments.csv) writeFile(*arguments.csv, toCsv(results));
   if (arguments.markdown) writeMarkdown(*arguments.markdown, toMarkdown(results));
-  fmt::print("{} passed, {} failed{}\n", results.size() - failed - pending, failed,
-             pending != 0 ? fmt::format(", {} pending", pending) : "");
+  print("{} passed, {} failed{}\n", results.size() - failed - pending, failed,
+        pending != 0 ? fmt::format(", {} pending", pending) : "");
   session.checkValidation();
   if (failed != 0) throw WorkError(fmt::format("{} of {} hard cases failed", failed, results.size()));
 }
@@ -190,7 +192,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Command checkCommand() {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckArguments>();
   return {"check", "Run the hard cases against their oracles",
           [arguments](Options& options) {
             options.arguments("CASE", arguments->cases, "Cases to run (default: all); `irad check --list` names them");

@@ -44,7 +44,7 @@ Command settingsCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 
-/// Parses, runs, reports. The exit status of DESIGN.md: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
+/// Parses, runs, reports. The exit status: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
 /// suitable device or not enough memory.
 int runProgram(int argc, const char* const* argv, const std::vector<Command>& commands);
 

@@ -3,14 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdio>
 #include <new>
 
 #include "app/command.h"
 #include "app/devices.h"
 #include "app/version.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
 
 namespace irad::app {
 namespace {
@@ -24,7 +24,7 @@ class CliOptions : public Options {
   }
   void value(const std::string& name, const std::string& placeholder, std::optional<std::string>& value,
              const std::string& help) override {
-    // Given twice is an error, not a silent choice.
+    // Options given twice are an error; neither value is chosen silently.
     app_.add_option(name, value, help)->type_name(placeholder)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   }
   void values(const std::string& name, const std::string& placeholder, std::vector<std::string>& values,
@@ -90,13 +90,13 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());  // the help of the subcommand, where one was named
+    print("{}", app.help());  // the help of the subcommand, where one was named
     return {nullptr, true};
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
   if (version) {
-    fmt::print("irad {} ({})\n", versionNumber(), versionCommit());
+    print("irad {} ({})\n", versionNumber(), versionCommit());
     return {nullptr, true};
   }
   if (listDevices) {
@@ -121,15 +121,16 @@ void run(int argc, const char* const* argv, const std::vector<Command>& commands
   CLI::App app("Voxel-radiosity global illumination: interactive viewer and headless tool", "irad");
   const Parsed parsed = parse(app, argc, argv, commands);
   if (!parsed.done) parsed.command->run();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw WorkError("cannot write to standard output");
+  flushStandardOutput();
 }
 
 }  // namespace
 
 int runProgram(int argc, const char* const* argv, const std::vector<Command>& commands) {
-  // A file-size limit shall show as a failed write with a message, not end the process.
+  holdStandardStreams();
+  // A file-size limit should show as a failed write with a message instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  const auto report = [](const char* message) { fmt::print(stderr, "irad: error: {}\n", message); };
+  const auto report = [](const char* message) { tell("irad: error: {}\n", message); };
   try {
     run(argc, argv, commands);
     return 0;

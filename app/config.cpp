@@ -9,8 +9,8 @@
 
 #include "app/version.h"
 #include "gi/manifest.h"
-#include "renderer/error.h"
-#include "renderer/json_reader.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 
@@ -38,7 +38,7 @@ std::optional<T> member(const fs::path& path, const Json& json, const char* name
   }
 }
 
-/// A member {"path", "sha256"}. What travelled together with its manifest is found beside it.
+/// A member {"path", "sha256"}. A file that was moved together with its manifest is found beside it.
 std::pair<std::optional<fs::path>, std::optional<std::string>> readNamedFile(const fs::path& path, const Json& json,
                                                                              const char* name) {
   if (!json.contains(name)) return {};
@@ -61,7 +61,7 @@ auto readArray(const fs::path& path, const Json& json, const char* name, Parse&&
   }
 }
 
-/// A file of a newer program may mean other things by the names it shares with ours.
+/// A newer program's file may mean other things by the names that it shares with ours.
 void checkFormat(const fs::path& path, const Json& json) {
   if (!json.contains("format")) return;
   if (!json["format"].is_number_unsigned())
@@ -73,7 +73,7 @@ void checkFormat(const fs::path& path, const Json& json) {
   if (settings.is_object())
     for (const auto& [name, value] : settings.items()) unknown.insert(name);
   unknown.erase("format");
-  for (const SettingInfo& known : settingInfos(Settings{})) unknown.erase(known.meta.name);
+  for (const Setting& known : settingTable()) unknown.erase(known.name);
   throw InputError(
       fmt::format("{}: is of format {}, written by a newer program; irad {} reads up to format {}{}", path.string(),
                   format, versionNumber(), kConfigFormat,

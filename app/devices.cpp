@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/table.h"
+#include "renderer/base/console.h"
 #include "renderer/device.h"
 
 namespace irad::app {
@@ -23,7 +24,7 @@ void printDevices(bool json) {
                      {"memory_bytes", d.memoryBytes},
                      {"suitable", d.missing.empty()},
                      {"missing", d.missing}});
-    fmt::print("{}\n", out.dump(2));
+    print("{}\n", out.dump(2));
     return;
   }
   std::vector<std::vector<std::string>> rows{{"index", "name", "type", "driver", "Vulkan", "memory", "suitable"}};
@@ -31,7 +32,7 @@ void printDevices(bool json) {
     rows.push_back({std::to_string(d.index), d.name, d.type, d.driver, d.apiVersion,
                     fmt::format("{:.1f} GiB", static_cast<double>(d.memoryBytes) / (1 << 30)),
                     d.missing.empty() ? "yes" : fmt::format("no: {}", fmt::join(d.missing, "; "))});
-  fmt::print("{}", formatTable(rows));
+  print("{}", formatTable(rows));
 }
 
 }  // namespace irad::app

@@ -6,21 +6,22 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/device_session.h"
 #include "app/devices.h"
-#include "app/session.h"
 #include "gi/check/check.h"
 #include "gi/export.h"
 #include "gi/inspect.h"
 #include "gi/pipeline.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
-#include "renderer/output_file.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
+#include "renderer/base/output_file.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
 namespace {
 
-struct Arguments {
+struct ExportArguments {
   std::optional<std::string> scene, out, cache, inspect;
   std::vector<std::string> volumes, formats;
   bool matrix = false, facets = false;
@@ -55,9 +56,9 @@ std::vector<Volume> parseVolumes(const std::vector<std::string>& names) {
   return out;
 }
 
-/// The formats asked for. Each thing asked for is written in all of them that it has: one at least, and none is in
-/// vain.
-std::vector<std::string> parseFormats(const Arguments& arguments) {
+/// The formats asked for. Each export is written in those of them that it has, which must be one at least; a format
+/// that no export has is an error.
+std::vector<std::string> parseFormats(const ExportArguments& arguments) {
   static const std::vector<std::string> known{"npy", "vdb", "csv"};
   const std::vector<std::string> wanted =
       arguments.formats.empty() ? std::vector<std::string>{"npy"} : splitList("--format", arguments.formats);
@@ -91,8 +92,8 @@ std::string gridJson(const Scene& scene, const Grid& grid) {
 }
 
 /// inspect.json: the record of one voxel, and its light sweep by sweep. `voxel` is in the grid and holds facets.
-fs::path exportRecord(Session& session, const Pipeline& pipeline, const Inspector& inspector, const glm::uvec3& voxel,
-                      const fs::path& folder) {
+fs::path exportRecord(DeviceSession& session, const Pipeline& pipeline, const Inspector& inspector,
+                      const glm::uvec3& voxel, const fs::path& folder) {
   const SolveHistory history =
       replaySolve(*session.context, pipeline, inspector.facetsOf(voxel),
                   [&](const char* stage, float fraction) { return session.progress(stage, fraction); });
@@ -101,14 +102,14 @@ fs::path exportRecord(Session& session, const Pipeline& pipeline, const Inspecto
   return path;
 }
 
-void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
+void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& volumes,
                  const std::vector<std::string>& formats, const std::optional<glm::uvec3>& inspected,
                  const fs::path& scenePath) {
-  Session session(arguments.settings, arguments.device);
+  DeviceSession session(arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
-  // What is exported is asked for, whether or not a picture calls for it.
+  // Exports need matrix and field, whether or not a picture calls for them.
   for (EffectMode* asked : {&session.settings.effects.matrix, &session.settings.effects.field})
     if (*asked == EffectMode::automatic) *asked = EffectMode::on;
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
@@ -116,11 +117,11 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   if (arguments.matrix && !pipeline.matrix()) throw UsageError("--matrix: effects.matrix = off, there is no matrix");
   if (std::ranges::find(volumes, Volume::distance) != volumes.end() && !pipeline.field())
     throw UsageError("--volume distance: effects.field = off, there is no distance field");
-  session.checkNumbers(pipeline);  // before anything is written: whoever reads an array does not look at it
+  session.checkNumbers(pipeline);  // before anything is written: readers of arrays do not look at them
   std::optional<Inspector> inspector;
   if (inspected) inspector.emplace(*session.context, pipeline).requireFacets(*inspected);
 
-  // The manifest comes last and vouches for the rest: that of an earlier run goes first.
+  // The manifest is written last and vouches for the rest, so that of an earlier run is removed first.
   removeFile(out / "manifest.json");
   std::vector<fs::path> written;
   for (const Volume volume : volumes) {
@@ -146,7 +147,7 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   manifest.details.emplace_back("effects", planJson(pipeline.plan()));
   for (const Volume volume : volumes) {
     manifest.arguments.emplace_back("--volume");
-    manifest.arguments.emplace_back(EnumNames<Volume>::names.at(static_cast<size_t>(volume)));
+    manifest.arguments.emplace_back(nameOf(volume));
   }
   if (arguments.matrix) manifest.arguments.emplace_back("--matrix");
   if (arguments.facets) manifest.arguments.emplace_back("--facets");
@@ -163,11 +164,11 @@ void exportFiles(const Arguments& arguments, const std::vector<Volume>& volumes,
   writeFile(out / "manifest.json", manifest.toJson());
   written.push_back(out / "manifest.json");
   session.progress.finish();
-  for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
+  for (const fs::path& path : written) print("wrote       {}\n", path.string());
   session.checkValidation();
 }
 
-void run(const Arguments& arguments) {
+void run(const ExportArguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   const std::vector<Volume> volumes = parseVolumes(arguments.volumes);
@@ -182,7 +183,7 @@ void run(const Arguments& arguments) {
   if (arguments.cache) {
     const Settings settings = arguments.settings.resolve(config, /*cpuDevice=*/true);
     writeSceneCache(openScene(scenePath, arguments.sceneOptions.load(config, settings)), *arguments.cache);
-    fmt::print("wrote       {}\n", *arguments.cache);
+    print("wrote       {}\n", *arguments.cache);
   }
   if (files) exportFiles(arguments, volumes, formats, inspected, scenePath);
 }
@@ -190,7 +191,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Command exportCommand() {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ExportArguments>();
   return {"export", "Write volumes, the matrix or facets for numpy, OpenVDB, spreadsheets, or a voxel's record as JSON",
           [arguments](Options& options) {
             options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");

@@ -1,23 +1,22 @@
 // `irad plan`: which effects a scene calls for, which not, why, and what that saves.
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/bench.h"
+#include "app/device_session.h"
 #include "app/devices.h"
 #include "app/plan_proof.h"
-#include "app/session.h"
 #include "app/table.h"
-#include "gi/views.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "gi/views/views.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad::app {
 namespace {
 
-struct Arguments {
+struct PlanArguments {
   std::vector<std::string> scenes;
   SceneArguments sceneOptions;
   SettingArguments settings;
@@ -31,96 +30,39 @@ std::string mebibytes(uint64_t bytes) {
   return bytes == 0 ? "-" : fmt::format("{:.2f}", static_cast<double>(bytes) / (1 << 20));
 }
 
-/// "exact", "0.002 of the largest H".
-std::string skipText(const EffectRow& row) {
-  return row.skip == Skip::exact ? "exact" : fmt::format("{:.2g} of {}", row.epsilon, row.of);
-}
-
-/// Milliseconds that an effect takes when it is forced on, beyond those without it.
-struct Cost {
-  double rebuild = 0, relight = 0, frame = 0;
-};
-
-double wallMedian(const Bench& bench, WorkKind kind) {
-  for (const StageSamples& s : bench.samples())
-    if (s.kind == kind && s.stage == "wall") return statistics(s.ms).p50;
-  return 0;
-}
-
-/// Both sets in turn, so that what the machine does besides falls on both.
-Cost measureCost(Bench& without, Bench& with, uint32_t frames) {
-  constexpr int kRebuilds = 3;
-  for (Bench* bench : {&without, &with}) {
-    bench->relight();
-    bench->cameraFrame();
-    bench->forget();
-  }
-  for (int i = 0; i < kRebuilds; ++i)
-    for (Bench* bench : {&without, &with}) bench->rebuild();
-  for (uint32_t i = 0; i < frames; ++i)
-    for (Bench* bench : {&without, &with}) {
-      bench->relight();
-      bench->cameraFrame();
-    }
-  const auto difference = [&](WorkKind kind) { return wallMedian(with, kind) - wallMedian(without, kind); };
-  return {difference(WorkKind::Setup), difference(WorkKind::Relight), difference(WorkKind::Camera)};
-}
-
-/// Of every effect that the scene does not call for and that can be forced.
-std::map<Effect, Cost> measureCosts(Session& session, const Scene& scene, const EffectPlan& plan, glm::uvec2 size,
-                                    const Camera& camera, uint32_t frames) {
-  std::map<Effect, Cost> costs;
-  const auto bench = [&](const Settings& settings) {
-    auto made = std::make_unique<Bench>(*session.context, scene, settings, size, VIEW_LIT, camera);
-    made->prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
-    return made;
-  };
-  for (const EffectRow& row : plan.rows) {
-    const std::string setting = effectInfo(row.effect).setting;
-    if (row.state != EffectState::off || !setting.starts_with("effects.")) continue;
-    Settings forced = session.settings;
-    applySetting(forced, setting + "=on");
-    const auto without = bench(session.settings), with = bench(forced);
-    if (!with->pipeline().plan().on(row.effect)) continue;  // another setting has it off
-    costs[row.effect] = measureCost(*without, *with, frames);
-  }
-  return costs;
-}
-
-void printTable(const EffectPlan& plan, const std::map<Effect, Cost>* costs) {
+/// `costs`: null where they were not measured.
+void printTable(const EffectPlan& plan, const std::map<Effect, Times>* costs) {
   std::vector<std::vector<std::string>> rows{{"effect", "state", "difference", "MiB not allocated"}};
   if (costs) rows[0].insert(rows[0].end(), {"rebuild ms", "relight ms", "frame ms"});
   rows[0].push_back("reason");
   for (const EffectRow& row : plan.rows) {
-    rows.push_back({effectInfo(row.effect).name, EnumNames<EffectState>::names.at(static_cast<size_t>(row.state)),
-                    skipText(row), mebibytes(row.bytesNotAllocated)});
-    if (costs) {
-      const auto cost = costs->find(row.effect);
-      for (const double Cost::*ms : {&Cost::rebuild, &Cost::relight, &Cost::frame})
-        rows.back().push_back(cost == costs->end() ? "-" : fmt::format("{:.2f}", cost->second.*ms));
-    }
+    rows.push_back({row.info().name, row.stateName(),
+                    row.threshold ? fmt::format("{:.2g} of {}", row.epsilon, row.of) : row.skipName(),
+                    mebibytes(row.bytesNotAllocated)});
+    for (size_t i = 0; costs && i < Times{}.size(); ++i)
+      rows.back().push_back(costs->contains(row.effect) ? fmt::format("{:.2f}", costs->at(row.effect)[i]) : "-");
     rows.back().push_back(row.reason);
   }
-  std::vector<bool> numeric(rows[0].size(), false);
-  for (size_t i = 3; i + 1 < numeric.size(); ++i) numeric[i] = true;
-  fmt::print("{}", formatTable(rows, numeric));
-  fmt::print("{} MiB not allocated in all{}\n", mebibytes(plan.bytesNotAllocated()),
-             costs ? "; milliseconds that the effect would take, by the median" : "");
+  std::vector<bool> numeric(rows[0].size() - 1, true);
+  std::fill_n(numeric.begin(), 3, false);
+  print("{}", formatTable(rows, numeric));
+  print("{} MiB not allocated in all{}\n", mebibytes(plan.bytesNotAllocated()),
+        costs ? "; milliseconds that the effect would take, by the median" : "");
 }
 
 void printJson(const EffectPlan& plan, const Scene& scene, const DeviceInfo& device,
-               const std::map<Effect, Cost>* costs) {
+               const std::map<Effect, Times>* costs) {
   nlohmann::ordered_json out{{"scene", scene.path.string()}, {"device", device.name}};
   out["effects"] = nlohmann::ordered_json::parse(planJson(plan));
   if (costs)
-    for (auto& row : out["effects"])
-      for (const auto& [effect, cost] : *costs)
-        if (row["effect"].get<std::string>() == effectInfo(effect).name)
-          row["ms_not_spent"] = {{"rebuild", cost.rebuild}, {"relight", cost.relight}, {"frame", cost.frame}};
-  fmt::print("{}\n", out.dump(2));
+    for (const auto& [effect, ms] : *costs)
+      out["effects"][static_cast<size_t>(effect)]["ms_not_spent"] = {
+          {"rebuild", ms[0]}, {"relight", ms[1]}, {"frame", ms[2]}};
+  print("{}\n", out.dump(2));
 }
 
-void show(Session& session, const Arguments& arguments, const std::string& name, glm::uvec2 size, uint32_t frames) {
+void show(DeviceSession& session, const PlanArguments& arguments, const std::string& name, glm::uvec2 size,
+          uint32_t frames) {
   Scene scene = session.load(findScene(name, session.config, std::nullopt), arguments.sceneOptions);
   const Camera camera = arguments.picture.resolveCameras(session.config, scene).at(0);
   Pipeline pipeline(*session.context, scene, session.settings);
@@ -130,7 +72,7 @@ void show(Session& session, const Arguments& arguments, const std::string& name,
   pipeline.render(frame, camera, VIEW_LIT, targets);
   frame.submitAndWait();
   const EffectPlan plan = pipeline.plan();
-  std::optional<std::map<Effect, Cost>> costs;
+  std::optional<std::map<Effect, Times>> costs;
   if (arguments.measure) costs = measureCosts(session, scene, plan, size, camera, frames);
   session.progress.finish();
   if (arguments.json)
@@ -140,7 +82,7 @@ void show(Session& session, const Arguments& arguments, const std::string& name,
   session.checkNumbers(pipeline);
 }
 
-void run(const Arguments& arguments) {
+void run(const PlanArguments& arguments) {
   if (arguments.device.list) return printDevices(arguments.json);
   arguments.sceneOptions.check();
   arguments.picture.check();
@@ -148,22 +90,22 @@ void run(const Arguments& arguments) {
   const Config early = arguments.settings.readConfig();
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const uint32_t frames = arguments.picture.resolveFrames({}, 20);
-  Session session(arguments.settings, arguments.device);
+  DeviceSession session(arguments.settings, arguments.device);
   if (!arguments.prove) {
     show(session, arguments, arguments.scenes.empty() ? "box" : arguments.scenes[0], size, frames);
   } else {
     std::vector<std::string> scenes = arguments.scenes.empty() ? builtInScenes() : arguments.scenes;
-    std::vector<SceneProof> proofs;
+    Proof proof;
     for (const std::string& name : scenes) {
       Scene scene = session.load(findScene(name, session.config, std::nullopt), arguments.sceneOptions);
       const Camera camera = arguments.picture.resolveCameras(session.config, scene).at(0);
-      proofs.push_back(prove(session, name, scene, camera, size, frames));
+      std::ranges::copy(prove(session, name, scene, camera, size, frames), std::back_inserter(proof));
       session.progress.finish();
     }
-    fmt::print("{}", proofTable(proofs));
-    if (arguments.csv) writeFile(*arguments.csv, proofCsv(proofs));
-    if (arguments.markdown) writeFile(*arguments.markdown, proofMarkdown(proofs));
-    for (const SceneProof& proof : proofs) proof.require();
+    print("{}", proofTables(proof, /*markdown=*/false));
+    if (arguments.csv) writeFile(*arguments.csv, proofCsv(proof));
+    if (arguments.markdown) writeFile(*arguments.markdown, proofTables(proof, /*markdown=*/true));
+    require(proof);
   }
   session.checkValidation();
 }
@@ -171,7 +113,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Command planCommand() {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PlanArguments>();
   return {"plan", "Show which effects a scene calls for, why, and what leaving the others out saves",
           [arguments](Options& options) {
             options.arguments("SCENE", arguments->scenes,

@@ -1,15 +1,24 @@
-// `irad plan --prove`: a scene with every effect forced on, and with those that it calls for.
+// What a scene's effects take and change: each of two sets of them measured in turn. `irad plan --measure` and --prove.
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/bench.h"
-#include "app/session.h"
+#include "app/device_session.h"
 
 namespace irad::app {
+
+/// Medians of milliseconds: of a rebuild, a relight, a frame.
+using Times = std::array<double, 3>;
+
+/// Milliseconds, by the wall's clock, that each effect of `plan` that is off and can be forced on takes beyond those
+/// without it.
+std::map<Effect, Times> measureCosts(DeviceSession& session, const Scene& scene, const EffectPlan& plan,
+                                     glm::uvec2 size, const Camera& camera, uint32_t frames);
 
 /// How far a picture is from the one that the plan makes.
 struct PictureDifference {
@@ -17,53 +26,59 @@ struct PictureDifference {
   float largest = 0;    ///< of any channel, W/(m^2 sr)
   float mean = 0;       ///< between the pictures' means, as a share of the planned one's
   float allowed = 0;    ///< 0: exact
-  bool ofMean = false;  ///< `allowed` bounds `mean`, not `largest`: of single pixels noise differs
-  bool holds() const { return allowed > 0 ? (ofMean ? mean : largest) <= allowed : pixels == 0; }
+  bool ofMean = false;  ///< `allowed` bounds `mean`, not `largest`: single pixels differ by noise
+  float judged() const { return ofMean ? mean : largest; }
+  bool holds() const { return allowed > 0 ? judged() <= allowed : pixels == 0; }
+  /// "same bits"; "1.2e-05 <= 0.0013" of a threshold; "17 pixels, 3e-06".
+  std::string text() const;
 };
 
-/// One effect that is not on, done all the same, all others as planned.
-struct EffectProof {
-  EffectRow row;                                ///< as planned
-  std::optional<PictureDifference> difference;  ///< none where it could not be put on
-  std::string reason;                           ///< why not
+/// What is measured with a set of effects, in order: heading in tables, column in the CSV, decimals in each. Times are
+/// the GPU's; dispatches, draws and (specialized) SPIR-V instructions are those of a relight and a picture. The figures
+/// per second are those of a window at 60 ticks per second; none where the scene has no lights to move.
+struct Figure {
+  const char *heading, *column;
+  int decimals, csvDecimals;
 };
+inline constexpr Figure kFigures[]{{"rebuild ms", "rebuild_ms", 2, 4},
+                                   {"relight ms", "relight_ms", 2, 4},
+                                   {"frame ms", "frame_ms", 2, 4},
+                                   {"MiB", "mib", 1, 3},
+                                   {"dispatches", "dispatches", 0, 0},
+                                   {"draws", "draws", 0, 0},
+                                   {"instructions", "instructions", 0, 0},
+                                   {"idle ms/s", "idle_ms_per_s", 2, 3},
+                                   {"idle dispatches/s", "idle_dispatches_per_s", 0, 1},
+                                   {"idle draws/s", "idle_draws_per_s", 0, 1},
+                                   {"camera ms/s", "camera_ms_per_s", 2, 3},
+                                   {"camera dispatches/s", "camera_dispatches_per_s", 0, 1},
+                                   {"camera draws/s", "camera_draws_per_s", 0, 1},
+                                   {"light ms/s", "light_ms_per_s", 2, 3},
+                                   {"light dispatches/s", "light_dispatches_per_s", 0, 1},
+                                   {"light draws/s", "light_draws_per_s", 0, 1}};
+inline constexpr size_t kCostFigures = 7;  ///< the others are energy
+using Figures = std::vector<std::optional<double>>;
 
-/// Work per second of a window at kTickRate ticks per second.
-inline constexpr double kTickRate = 60;
-struct Energy {
-  double gpuMs = 0, dispatches = 0, draws = 0;
+/// What is proven of a scene: a set of effects, "all forced on" or "as planned", with what it takes; or one effect that
+/// is not on, run all the same, with all others as planned.
+struct ProofRow {
+  std::string scene, name;
+  Figures figures{};                  ///< of a set
+  std::optional<EffectRow> effect{};  ///< as planned
+  std::optional<PictureDifference>
+      difference{};      ///< from the picture as planned; none of an effect that cannot be put on
+  std::string reason{};  ///< why not
 };
-inline constexpr std::array kMovings{Moving::Nothing, Moving::Camera, Moving::Lights};
+using Proof = std::vector<ProofRow>;
+/// WorkError naming what does not hold.
+void require(const Proof& proof);
 
-/// What one set of effects takes. Times: medians of GPU milliseconds.
-struct EffectsCost {
-  double rebuildMs = 0, relightMs = 0, frameMs = 0;
-  uint64_t bytes = 0;                  ///< of device memory
-  uint64_t dispatches = 0, draws = 0;  ///< of a relight and a picture
-  uint64_t instructions = 0;           ///< SPIR-V, specialized, of the pipelines of a relight and a picture
-  std::array<std::optional<Energy>, kMovings.size()> energy;  ///< measured; none: the scene has no lights to move
-};
+/// Interleaves `frames` relights and pictures of both sets, then runs as many ticks of idle, camera and lights of each.
+Proof prove(DeviceSession& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
+            uint32_t frames);
 
-struct SceneProof {
-  std::string scene;
-  std::vector<EffectProof> effects;
-  PictureDifference all;  ///< everything forced on
-  EffectsCost forced, planned;
-  /// WorkError naming what does not hold.
-  void require() const;
-};
-
-/// Interleaves `frames` relights and pictures of both, then runs as many ticks of idle, camera and lights of each.
-SceneProof prove(Session& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
-                 uint32_t frames);
-
-/// "same bits"; "1.2e-05 <= 0.0013" of a threshold; "17 pixels, 3e-06".
-std::string describe(const PictureDifference& difference);
-
-/// Three tables: cost, energy, and the effects that are not on.
-std::string proofTable(const std::vector<SceneProof>& proofs);
-std::string proofMarkdown(const std::vector<SceneProof>& proofs);
-/// One row per scene and set of effects, "all forced on" and "as planned", and one per effect that is not on.
-std::string proofCsv(const std::vector<SceneProof>& proofs);
+/// Three tables: cost, energy, and the effects that are not on; as text or Markdown.
+std::string proofTables(const Proof& proof, bool markdown);
+std::string proofCsv(const Proof& proof);
 
 }  // namespace irad::app

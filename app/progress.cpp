@@ -4,14 +4,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "renderer/base/console.h"
 
 namespace irad::app {
 
 ProgressReport::ProgressReport() : terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressReport::finish() {
-  if (barShown_) fmt::print(stderr, "\r\x1b[K");
+  if (barShown_) tell("\r\x1b[K");
   barShown_ = false;
 }
 
@@ -23,18 +24,17 @@ bool ProgressReport::operator()(const char* step, float fraction) {
   percent_ = percent;
   if (terminal_) {
     const int filled = percent * 30 / 100;
-    fmt::print(stderr, "\r\x1b[K[{:#<{}}{:.<{}}] {:3} % {}", "", filled, "", 30 - filled, percent, step);
-    std::fflush(stderr);
+    tell("\r\x1b[K[{:#<{}}{:.<{}}] {:3} % {}", "", filled, "", 30 - filled, percent, step);
     barShown_ = true;
   } else if (fresh) {
-    fmt::print(stderr, "{}\n", step);
+    tell("{}\n", step);
   }
   return true;
 }
 
 void ProgressReport::note(const std::string& line) {
   finish();
-  fmt::print(stderr, "{}\n", line);
+  tell("{}\n", line);
 }
 
 }  // namespace irad::app

@@ -14,7 +14,8 @@ namespace irad::app {
 struct ReferenceArgument {
   std::optional<std::string> file;
   void declare(Options& options);
-  /// Of the option, else of the config (a note says where that file has changed since); none where neither names one.
+  /// From the option, else from the config (with a note where that file has changed since); none where neither names
+  /// one.
   std::optional<ReferencePicture> read(const Config& config, ProgressReport& progress) const;
 };
 

@@ -8,22 +8,23 @@
 #include <set>
 #include <sstream>
 
+#include "app/device_session.h"
 #include "app/devices.h"
 #include "app/reference.h"
-#include "app/session.h"
-#include "app/views.h"
+#include "gi/check/check.h"
 #include "gi/inspect.h"
 #include "gi/memory_report.h"
 #include "gi/picture.h"
 #include "gi/pipeline.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
 namespace {
 
-struct Arguments {
+struct RenderArguments {
   std::optional<std::string> scene, out, inspect;
   SceneArguments sceneOptions;
   SettingArguments settings;
@@ -34,7 +35,7 @@ struct Arguments {
   bool legend = false;
 };
 
-/// A camera's name as part of a file name, unlike those before it.
+/// A camera's name as part of a file name, different from those before it.
 std::string fileName(const Camera& camera, size_t index, std::set<std::string>& used) {
   std::string name;
   for (const char c : camera.name) {
@@ -48,8 +49,8 @@ std::string fileName(const Camera& camera, size_t index, std::set<std::string>& 
   return unique;
 }
 
-/// Renders `frames` frames and writes the last, also where it holds what is no number: the picture shows it (NaN red).
-PictureFiles renderPicture(Session& session, Pipeline& pipeline, const Camera& camera, const ViewInfo& view,
+/// Renders `frames` frames and writes the last, even where it holds NaN: the picture shows them (red).
+PictureFiles renderPicture(DeviceSession& session, Pipeline& pipeline, const Camera& camera, const ViewInfo& view,
                            uint32_t frames, bool withLegend, Targets& targets, const fs::path& stem) {
   for (uint32_t i = 0; i < frames; ++i) {
     const auto start = std::chrono::steady_clock::now();
@@ -71,32 +72,31 @@ double meanSetup(const Timings& timings, std::string_view stage) {
   return ms;
 }
 
-void summarize(const Session& session, const Pipeline& pipeline) {
+void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   const FacetList& facets = pipeline.facets();
   const MatrixStats& matrix = pipeline.matrix().stats;
   const SolveReport& solve = pipeline.lighting().report;
   const glm::uvec3 dims = facets.grid.dims;
-  fmt::print("grid        {} x {} x {} voxels, edge {:.6g}\n", dims.x, dims.y, dims.z, facets.grid.edge);
-  fmt::print("facets      {} in {} solid voxels{}\n", facets.count, facets.solidVoxels,
-             facets.clampedAlbedo ? fmt::format(", albedo of {} clamped to [0, .98]", facets.clampedAlbedo) : "");
-  fmt::print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
-             static_cast<double>(matrix.bytesUsed) / (1 << 20), static_cast<double>(matrix.bytesAllocated) / (1 << 20),
-             matrix.largestRow);
+  print("grid        {} x {} x {} voxels, edge {:.6g}\n", dims.x, dims.y, dims.z, facets.grid.edge);
+  print("facets      {} in {} solid voxels{}\n", facets.count, facets.solidVoxels,
+        facets.clampedAlbedo ? fmt::format(", albedo of {} clamped to [0, .98]", facets.clampedAlbedo) : "");
+  print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
+        static_cast<double>(matrix.bytesUsed) / (1 << 20), static_cast<double>(matrix.bytesAllocated) / (1 << 20),
+        matrix.largestRow);
   const double buildMs = meanSetup(session.timings, "GI BuildMatrix");
   if (buildMs > 0)
-    fmt::print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
-               static_cast<double>(matrix.rays) * 1e-3 / buildMs);
-  fmt::print("solve       {} sweeps, bound {:.3g} W/m^2 of largest H {:.4g} W/m^2{}\n", solve.sweeps, solve.bound,
-             solve.largestH, solve.converged ? "" : " (tolerance not reached)");
-  if (solve.energy) fmt::print("energy      {}\n", describe(*solve.energy, facets.grid.edge));
+    print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
+          static_cast<double>(matrix.rays) * 1e-3 / buildMs);
+  print("solve       {} sweeps, bound {:.3g} W/m^2 of largest H {:.4g} W/m^2{}\n", solve.sweeps, solve.bound,
+        solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+  if (solve.energy) print("energy      {}\n", describe(*solve.energy, facets.grid.edge));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);  // ru_maxrss: KiB
-  fmt::print("memory      {:.1f} MiB on the device, {:.1f} MiB at the process's peak\n",
-             static_cast<double>(session.device->memory().used()) / (1 << 20),
-             static_cast<double>(usage.ru_maxrss) / 1024);
+  print("memory      {:.1f} MiB on the device, {:.1f} MiB at the process's peak\n",
+        static_cast<double>(session.device->memory().used()) / (1 << 20), static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
-void run(const Arguments& arguments) {
+void run(const RenderArguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   arguments.picture.check();
@@ -112,13 +112,14 @@ void run(const Arguments& arguments) {
   if (arguments.inspect) inspected = parseVoxel("--inspect", *arguments.inspect);
   const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
 
-  Session session(arguments.settings, arguments.device);
+  DeviceSession session(arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
 
-  Pipeline pipeline(*session.context, std::move(scene), session.settings);
+  ExpectedIrradiance expected = expectedIrradiance(scene);
+  Pipeline pipeline(*session.context, std::move(scene), session.settings, std::move(expected));
   const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
   if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
   session.prepare(pipeline);
@@ -131,7 +132,7 @@ void run(const Arguments& arguments) {
   }
   Targets targets(*session.context, size);
 
-  // The manifest comes last and vouches for the rest: that of an earlier run goes first.
+  // The manifest is written last and vouches for the rest, so that of an earlier run is removed first.
   removeFile(out / "manifest.json");
   Manifest manifest = session.manifest("render", pipeline);
   std::vector<fs::path> written;
@@ -172,7 +173,7 @@ void run(const Arguments& arguments) {
 
   session.progress.finish();
   summarize(session, pipeline);
-  for (const fs::path& path : written) fmt::print("wrote       {}\n", path.string());
+  for (const fs::path& path : written) print("wrote       {}\n", path.string());
   session.checkNumbers(pipeline, badPictures);
   session.checkValidation();
 }
@@ -180,7 +181,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Command renderCommand() {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   return {"render", "Render pictures of a scene, with timings, memory table and manifest",
           [arguments](Options& options) {
             options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");

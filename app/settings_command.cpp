@@ -6,70 +6,69 @@
 #include "app/arguments.h"
 #include "app/table.h"
 #include "gi/manifest.h"
+#include "renderer/base/console.h"
 
 namespace irad::app {
 namespace {
 
-struct Arguments {
+struct SettingsArguments {
   SettingArguments settings;
   bool json = false, values = false;
 };
 
 nlohmann::ordered_json registry(const Settings& settings) {
-  const std::vector<SettingInfo> infos = settingInfos(settings), cpu = settingInfos(defaultSettings(true)),
-                                 gpu = settingInfos(defaultSettings(false));
-  const auto typed = [](const SettingInfo& info) {
-    return info.kind == "choice" ? nlohmann::ordered_json(info.value) : nlohmann::ordered_json::parse(info.value);
-  };
+  const Settings cpu = defaultSettings(true), gpu = defaultSettings(false);
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (size_t i = 0; i < infos.size(); ++i) {
-    const SettingInfo& info = infos[i];
-    nlohmann::ordered_json row{{"name", info.meta.name},
-                               {"kind", info.kind},
-                               {"value", typed(info)},
-                               {"default", typed(gpu[i])},
-                               {"default_cpu", typed(cpu[i])}};
-    if (info.kind == "integer" || info.kind == "number") {
-      row["min"] = info.meta.min;
-      row["max"] = info.meta.max;
-      row["unit"] = info.meta.unit;
+  for (const Setting& setting : settingTable()) {
+    const auto typed = [&](const Settings& of) {
+      return setting.kind == SettingKind::choice ? nlohmann::ordered_json(setting.text(of))
+                                                 : nlohmann::ordered_json::parse(setting.text(of));
+    };
+    nlohmann::ordered_json row{{"name", setting.name},
+                               {"kind", nameOf(setting.kind)},
+                               {"value", typed(settings)},
+                               {"default", typed(gpu)},
+                               {"default_cpu", typed(cpu)}};
+    if (setting.kind == SettingKind::integer || setting.kind == SettingKind::number) {
+      row["min"] = setting.range.min;
+      row["max"] = setting.range.max;
+      row["unit"] = setting.range.unit;
     }
-    if (info.meta.step > 0) row["step"] = info.meta.step;
-    if (!info.choices.empty()) row["choices"] = info.choices;
-    row["redo"] = EnumNames<Redo>::names.at(static_cast<size_t>(info.meta.redo));
-    row["help"] = info.meta.help;
+    if (setting.range.step > 0) row["step"] = setting.range.step;
+    if (!setting.choices.empty()) row["choices"] = setting.choices;
+    row["redo"] = nameOf(setting.redo);
+    row["help"] = setting.help;
     out.push_back(row);
   }
   return out;
 }
 
 std::string table(const Settings& settings) {
-  const std::vector<SettingInfo> infos = settingInfos(settings), cpu = settingInfos(defaultSettings(true)),
-                                 gpu = settingInfos(defaultSettings(false));
+  const Settings cpu = defaultSettings(true), gpu = defaultSettings(false);
   std::vector<std::vector<std::string>> rows{{"name", "value", "default", "range", "redo", "help"}};
-  for (size_t i = 0; i < infos.size(); ++i) {
-    const std::string usual =
-        cpu[i].value == gpu[i].value ? gpu[i].value : fmt::format("{} (CPU {})", gpu[i].value, cpu[i].value);
-    rows.push_back({infos[i].meta.name, infos[i].value, usual, infos[i].range(),
-                    EnumNames<Redo>::names.at(static_cast<size_t>(infos[i].meta.redo)), infos[i].meta.help});
+  for (const Setting& setting : settingTable()) {
+    std::string usual = setting.text(gpu);
+    if (setting.get(cpu) != setting.get(gpu)) usual += fmt::format(" (CPU {})", setting.text(cpu));
+    rows.push_back(
+        {setting.name, setting.text(settings), usual, setting.allowed(), nameOf(setting.redo), setting.help});
   }
   return formatTable(rows);
 }
 
-void run(const Arguments& arguments) {
+void run(const SettingsArguments& arguments) {
   const Settings settings = arguments.settings.resolve(arguments.settings.readConfig(), /*cpuDevice=*/false);
   if (arguments.values)
-    fmt::print("{}\n", settingsFile(settings));
+    print("{}\n", settingsFile(settings));
   else if (arguments.json)
-    fmt::print("{}\n", registry(settings).dump(2));
+    print("{}\n", registry(settings).dump(2));
   else
-    fmt::print("{}", table(settings));
+    print("{}", table(settings));
 }
 
 }  // namespace
 
 Command settingsCommand() {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SettingsArguments>();
   return {"settings", "List the settings: name, value, range, what they do",
           [arguments](Options& options) {
             arguments->settings.declare(options);

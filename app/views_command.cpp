@@ -6,7 +6,8 @@
 
 #include "app/command.h"
 #include "app/table.h"
-#include "gi/views.h"
+#include "gi/views/views.h"
+#include "renderer/base/console.h"
 
 namespace irad::app {
 namespace {
@@ -24,7 +25,7 @@ void run(bool json) {
                      {"min", view.rangeMin},
                      {"max", view.rangeMax},
                      {"tone_mapped", view.toneMapped()}});
-    fmt::print("{}\n", out.dump(2));
+    print("{}\n", out.dump(2));
     return;
   }
   const auto range = [](const ViewInfo& view) -> std::string {
@@ -33,7 +34,7 @@ void run(bool json) {
   };
   std::vector<std::vector<std::string>> rows{{"name", "group", "label", "unit", "range"}};
   for (const ViewInfo& view : views()) rows.push_back({view.name, view.group, view.label, view.unit, range(view)});
-  fmt::print("{}", formatTable(rows));
+  print("{}", formatTable(rows));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// When emissive facets are low-probability, high-energy (METHOD section 5, T 5.6), so that samples of them stand in for
+// When emissive facets are low-probability, high-energy (docs/method.md 5, T 5.6), so that samples of them stand in for
 // the rays that find them.
 #pragma once
 
@@ -6,11 +6,11 @@
 
 namespace irad {
 
-/// Their power per area is then at least ten times the mean.
+/// The power per area of such emitters is at least ten times the mean.
 inline bool emittersAreFew(uint32_t emitters, uint32_t facets) {
   return emitters > 0 && emitters < facets / 10;
 }
-/// By how much the sums of F M by samples and by rays may differ, statistics apart, as a share.
+/// By what share the sums of F M by samples and by rays may differ, beside their statistical error.
 inline constexpr float kEmitterAgreement = 0.05f;
 
 }  // namespace irad

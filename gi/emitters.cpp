@@ -1,8 +1,12 @@
 // The table of emissive facets: specular rays and the samples of the first gather are sent to them.
+#include "gi/emitters.h"
+
 #include <algorithm>
 #include <numeric>
 
-#include "gi/stages.h"
+#include "gi/facets.h"
+#include "gi/subsystems.h"
+#include "renderer/frame/record.h"
 #include "shaders/shared/emitters.h"
 #include "shaders/shared/normals.h"
 
@@ -45,20 +49,19 @@ Emitters listEmitters(Context& context, const FacetList& list) {
     if (!(exitance > 0)) continue;
     emitters.brightest = std::max(emitters.brightest, exitance);
     facets.push_back(i);
-    powers.push_back(static_cast<double>(exitance) *
-                     footprintArea(decodeNormal(shapes[i] & 0xFFFFu, static_cast<uint32_t>(list.encoding))));
+    powers.push_back(static_cast<double>(exitance) * footprintArea(decodeNormal(shapes[i] & 0xFFFFu, list.encoding)));
   }
   if (facets.empty()) return emitters;
 
   const std::vector<Emitter> table = makeAliasTable(facets, powers);
   emitters.count = static_cast<uint32_t>(table.size());
   emitters.entries = makeBuffer(context, "emitters", Subsystem::Specular, std::span<const Emitter>(table));
+  RecordMaker maker(context, "emitter table", Subsystem::Specular, sizeof(EmitterTable));
   EmitterTable record{};
-  record.entries = emitters.entries.address;
+  record.entries = maker.of(emitters.entries);
   record.count = emitters.count;
   record.power = static_cast<float>(std::accumulate(powers.begin(), powers.end(), 0.0));
-  emitters.record =
-      makeBuffer(context, "emitter table", Subsystem::Specular, std::span<const EmitterTable>(&record, 1));
+  emitters.record = maker.make(record);
   return emitters;
 }
 

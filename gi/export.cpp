@@ -7,8 +7,8 @@
 
 #include "gi/host_facets.h"
 #include "gi/host_matrix.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 #include "shaders/shared/normals.h"
 
 namespace irad {
@@ -20,7 +20,7 @@ std::vector<glm::vec3> normals(Context& context, const FacetList& facets) {
   std::vector<glm::vec3> out;
   for (const uint32_t shape : downloadAs<uint32_t>(context, facets.shape)) {
     if (out.size() == facets.count) break;  // an empty list still has 16 bytes
-    out.push_back(decodeNormal(shape & 0xFFFFu, static_cast<uint32_t>(facets.encoding)));
+    out.push_back(decodeNormal(shape & 0xFFFFu, facets.encoding));
   }
   return out;
 }
@@ -92,7 +92,7 @@ VolumeValues readVolume(Context& context, Volume volume, const FacetList& facets
 }
 
 fs::path writeVolumeNpy(const VolumeValues& volume, const fs::path& folder) {
-  const fs::path path = folder / fmt::format("{}.npy", EnumNames<Volume>::names.at(static_cast<size_t>(volume.volume)));
+  const fs::path path = folder / fmt::format("{}.npy", nameOf(volume.volume));
   std::vector<uint64_t> shape{volume.grid.dims.z, volume.grid.dims.y, volume.grid.dims.x};
   if (volume.channels > 1) shape.push_back(volume.channels);
   writeNpy<float>(path, shape, volume.values);

@@ -8,16 +8,20 @@
 #include <utility>
 #include <vector>
 
-#include "gi/stages.h"
-#include "renderer/frame.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "renderer/frame/frame.h"
 
 namespace irad {
 
-enum class Volume : uint32_t { radiosity, irradiance, albedo, normal, emission, distance };
-template <>
-struct EnumNames<Volume> {
-  static constexpr std::array names{"radiosity", "irradiance", "albedo", "normal", "emission", "distance"};
-};
+// clang-format off
+#define IRAD_VOLUMES(X) \
+  X(radiosity, "radiosity") X(irradiance, "irradiance") X(albedo, "albedo") X(normal, "normal") \
+  X(emission, "emission") X(distance, "distance")
+// clang-format on
+IRAD_ENUM(Volume, IRAD_VOLUMES)
 
 /// A volume in host memory; the padding voxels are part of it. radiosity: B, W/m^2; irradiance: H, W/m^2; emission: M,
 /// W/m^2; albedo: rho; normal: unit; distance: voxels to the nearest solid voxel in the metric of field.method.

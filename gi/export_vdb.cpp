@@ -6,9 +6,10 @@
 #include <sstream>
 
 #include "gi/export.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
-#include "renderer/scene/sha256.h"
+#include "gi/grid.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
+#include "renderer/base/sha256.h"
 
 namespace irad {
 namespace {
@@ -75,7 +76,7 @@ void nameByContents(std::string& file) {
 std::filesystem::path writeVolumeVdb(const VolumeValues& volume, glm::dvec3 sceneOrigin,
                                      const std::filesystem::path& folder) {
   openvdb::initialize();
-  const char* name = EnumNames<Volume>::names.at(static_cast<size_t>(volume.volume));
+  const char* name = nameOf(volume.volume);
   const double edge = volume.grid.edge;
   const glm::dvec3 center = sceneOrigin + glm::dvec3(volume.grid.origin) + 0.5 * edge;  // of voxel (0, 0, 0)
   const openvdb::GridBase::Ptr grid = makeGrid(volume);

@@ -1,16 +1,22 @@
-// The facet list (METHOD section 4, T 5.3): Morton-ordered compaction, attributes, reverse map.
+// The facet list (docs/method.md 4, T 5.3): Morton-ordered compaction, attributes, reverse map.
+#include "gi/facets.h"
+
 #include <algorithm>
 #include <vector>
 
-#include "gi/stages.h"
-#include "renderer/error.h"
+#include "gi/mark_corners.h"
+#include "gi/scan.h"
+#include "gi/subsystems.h"
+#include "gi/voxelize.h"
+#include "renderer/base/error.h"
+#include "renderer/frame/record.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
 namespace {
 
-constexpr const char* kStage = "GI CompactList";
-constexpr uint32_t kSamplesTextures = 0;  // specialization constant of shaders/gi/voxel_material.glsl
+constexpr const char* kFacetsStage = "GI CompactList";
 
 void allocate(const Device& device, FacetList& list) {
   const uint64_t n = list.count;
@@ -23,8 +29,8 @@ void allocate(const Device& device, FacetList& list) {
 
 void makeRecord(Context& context, FacetList& list) {
   list.around = Buffer(context.device, "facet neighbours", Subsystem::Facets, 4ull * list.count);
-  const FacetArrays arrays = list.addresses();
-  list.record = makeBuffer<FacetArrays>(context, "facet record", Subsystem::Facets, std::span(&arrays, 1));
+  RecordMaker record(context, "facet record", Subsystem::Facets, sizeof(FacetArrays));
+  list.record = record.make(list.arrays([&](const Buffer& buffer) { return record.of(buffer); }));
 }
 
 /// Facets that one dispatch of gi/facet_shade.glsl takes.
@@ -73,30 +79,27 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
       makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.facets));
   const Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
   ShadeFacetsPush push{};
-  push.scene = scene.record.address;
-  push.grid = voxels.gridRecord.address;
-  push.order = facets.address;
-  push.voxel = list.voxel.address;
-  push.triangle = list.triangle.address;
-  push.shape = list.shape.address;
-  push.albedo = list.albedo.address;
-  push.emission = list.emission.address;
-  push.clamped = clamped.address;
-  push.encoding = static_cast<uint32_t>(list.encoding);
+  push.encoding = list.encoding;
   push.hasEmission = list.hasEmission;
   push.literal = settings.thesis.literal;
   const bool raster = settings.voxel.method == VoxelMethod::raster;
   Frame frame = context.begin();
-  frame.pass(kStage).fill(clamped, 0);
+  frame.pass(kFacetsStage).fill(clamped, 0);
   for (const bool textured : {false, true}) {
     const auto takes = [=](const Group& g) { return g.textured == textured && g.count > 0; };
     if (std::none_of(order.groups.begin(), order.groups.end(), takes)) continue;
-    frame.pass("GI Voxelization")
-        .shader(raster ? "gi/facet_shade_raster.comp" : "gi/facet_shade.comp")
-        .constant(kSamplesTextures, textured)
-        .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-              scene.uv1, scene.colors, scene.normals, voxels.gridRecord, facets, list.voxel, list.triangle)
-        .write(list.shape, list.albedo, list.emission, clamped)
+    Pass pass = frame.pass("GI Voxelization");
+    push.scene = pass.in(scene.record);
+    push.grid = pass.in(voxels.gridRecord);
+    push.order = pass.in(facets);
+    push.voxel = pass.in(list.voxel);
+    push.triangle = pass.in(list.triangle);
+    push.shape = pass.out(list.shape);
+    push.albedo = pass.out(list.albedo);
+    push.emission = pass.out(list.emission);
+    push.clamped = pass.out(clamped);
+    pass.shader(raster ? "thesis/facet_shade_raster.comp" : "gi/facet_shade.comp")
+        .constant(CONSTANT_SAMPLES_TEXTURES, textured)
         .run([&](Commands& commands) {
           for (const Group& group : order.groups) {
             if (!takes(group)) continue;
@@ -114,14 +117,14 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
 
 }  // namespace
 
-FacetArrays FacetList::addresses() const {
+FacetArrays FacetList::arrays(const std::function<uint64_t(const Buffer&)>& addressOf) const {
   FacetArrays arrays{};
-  arrays.voxel = voxel.address;
-  arrays.shape = shape.address;
-  arrays.albedo = albedo.address;
-  arrays.emission = emission.address;
-  arrays.reverse = reverse.address;
-  arrays.around = around.address;
+  arrays.voxel = addressOf(voxel);
+  arrays.shape = addressOf(shape);
+  arrays.albedo = addressOf(albedo);
+  arrays.emission = addressOf(emission);
+  arrays.reverse = addressOf(reverse);
+  arrays.around = addressOf(around);
   arrays.count = count;
   arrays.hasEmission = hasEmission;
   return arrays;
@@ -136,26 +139,22 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   list.hasEmission = emission == EffectMode::automatic ? voxels.scene->anyEmission : emission == EffectMode::on;
   const uint32_t bits = voxels.grid.mortonBits.x + voxels.grid.mortonBits.y + voxels.grid.mortonBits.z;
   CompactPush push{};
-  push.grid = voxels.gridRecord.address;
-  push.keys = voxels.keys.address;
   push.slots = voxels.slots;
   push.blocks = 1u << (bits - 6);
 
   // Facets per block of 64 voxels, and where each block's facets start.
   Buffer blocks(context.device, "block counts", Subsystem::Facets, 4ull * push.blocks);
   Buffer totals(context.device, "facet totals", Subsystem::Facets, 8);
-  push.blockCounts = blocks.address;
-  push.totals = totals.address;
   {
     Frame frame = context.begin();
-    frame.pass(kStage).fill(totals, 0);
-    frame.pass(kStage)
-        .shader("gi/facet_count.comp")
-        .read(voxels.keys, voxels.gridRecord)
-        .write(blocks, totals)
-        .push(push)
-        .dispatch(push.blocks);
-    exclusiveScan(frame, kStage, blocks, push.blocks, totals);
+    frame.pass(kFacetsStage).fill(totals, 0);
+    Pass pass = frame.pass(kFacetsStage);
+    push.grid = pass.in(voxels.gridRecord);
+    push.keys = pass.in(voxels.keys);
+    push.blockCounts = pass.out(blocks);
+    push.totals = pass.out(totals);
+    pass.shader("gi/facet_count.comp").push(push).dispatch(push.blocks);
+    exclusiveScan(frame, kFacetsStage, blocks, push.blocks, totals);
     frame.submitAndWait();
   }
   const std::vector<uint32_t> found = downloadAs<uint32_t>(context, totals);
@@ -166,20 +165,20 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
 
   allocate(context.device, list);
   list.triangle = Buffer(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
-  push.voxel = list.voxel.address;
-  push.triangle = list.triangle.address;
-  push.reverse = list.reverse.address;
   Frame frame = context.begin();
-  frame.pass(kStage)
-      .shader("gi/facet_emit.comp")
-      .read(voxels.keys, voxels.gridRecord, blocks)
-      .write(list.voxel, list.triangle, list.reverse)
-      .push(push)
-      .dispatch(push.blocks);
+  Pass pass = frame.pass(kFacetsStage);
+  push.grid = pass.in(voxels.gridRecord);
+  push.keys = pass.in(voxels.keys);
+  push.blockCounts = pass.in(blocks);
+  push.totals = 0;
+  push.voxel = pass.out(list.voxel);
+  push.triangle = pass.out(list.triangle);
+  push.reverse = pass.out(list.reverse);
+  pass.shader("gi/facet_emit.comp").push(push).dispatch(push.blocks);
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, settings);
   makeRecord(context, list);
-  if (settings.matrix.gpu.hitRule == HIT_RULE_ROBUST)
+  if (settings.matrix.gpu.hitRule == HitRule::robust)
     markCorners(context, list, settings.voxel.facets);  // the thesis's rule asks for none
   voxels.keys = Buffer();
   return list;

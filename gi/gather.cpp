@@ -1,5 +1,9 @@
-// Direct light onto the facets (METHOD section 6, T 5.7). M needs no pass: the solver reads it from the facet list.
-#include "gi/stages.h"
+// Direct light onto the facets (docs/method.md 6, T 5.7). M needs no pass: the solver reads it from the facet list.
+#include "gi/gather.h"
+
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -7,21 +11,19 @@ namespace irad {
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
             Lighting& light, const Settings& settings) {
   if (facets.count == 0) return;
+  Pass pass = frame.pass("GI Gather");
   GatherPush push{};
-  push.scene = scene.record.address;
-  push.facets = facets.record.address;
-  push.direct = light.direct.address;
+  push.scene = pass.in(scene.record);
+  push.facets = pass.in(facets.record);
+  push.direct = pass.out(light.direct);
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
   push.samples = settings.gather.samples;
   push.shadowBias = settings.camera.gpu.shadowBias;
   push.pcf = settings.camera.gpu.pcf;
-  Pass pass = frame.pass("GI Gather");
   pass.shader("gi/gather.comp");
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
-  pass.constant(0, static_cast<uint32_t>(facets.encoding))
-      .read(scene.record, scene.shiningLights, facets.record, facets.voxel, facets.shape)
-      .write(light.direct);
+  pass.constant(CONSTANT_NORMALS, facets.encoding);
   sampleShadows(pass, shadows).push(push).dispatch(facets.count);
 }
 

@@ -1,16 +1,19 @@
-// The first gather from emissive facets, F M: one product with the exitance, or samples of the emitters (METHOD section
+// The first gather from emissive facets, F M: one product with the exitance, or samples of the emitters (docs/method.md
 // 5).
 #include <algorithm>
 #include <cmath>
 
 #include "gi/emitter_rule.h"
+#include "gi/gather_emitters.h"
 #include "gi/ray_kernel.h"
+#include "gi/subsystems.h"
 #include "gi/sweep.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 namespace {
 
-constexpr const char* kStage = "GI Solve Emitters";
+constexpr const char* kGatherEmittersStage = "GI Solve Emitters";
 
 /// Whether the emitters are few enough to be low-probability, high-energy (T 5.6).
 bool sampleEmitters(const Settings& settings, const EmitterSource& source, uint32_t facets) {
@@ -41,46 +44,42 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
                    const Settings& settings, Lighting& light) {
   const RayKernel kernel = rayKernel(facets, *source.field, settings.matrix.gpu);
   light.correction = Buffer(frame.context().device, "emitters' correction", Subsystem::Solver, 16ull * facets.count);
+  Pass pass = frame.pass(kGatherEmittersStage);
   SampleEmittersPush push{};
-  push.matrix = matrix.record.address;
-  push.facets = facets.record.address;
-  push.chebyshev = kernel.chebyshev();
-  push.emitters = source.emitters->record.address;
-  push.emitted = light.emitted.address;
-  push.correction = light.correction.address;
+  push.matrix = pass.in(matrix.record);
+  push.facets = pass.in(facets.record);
+  push.chebyshev = kernel.chebyshev(pass);
+  push.emitters = pass.in(source.emitters->record);
+  push.emitted = pass.out(light.emitted);
+  push.correction = pass.out(light.correction);
   push.dims = facets.grid.dims;
   push.jfaMax = source.field->jfaMax;
   push.samples = settings.matrix.emitterSamples;
   push.seed = settings.matrix.gpu.seed;
-  Pass pass = frame.pass(kStage);
-  kernel.configure(pass, frame.context().device, "sample_emitters")
-      .constant(3, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
-      .read(facets.record, facets.emission, matrix.record, matrix.rowStart, matrix.rowInfo, source.emitters->record,
-            source.emitters->entries);
-  for (const Buffer& segment : matrix.segments) pass.read(segment);
-  pass.write(light.emitted).write(light.correction).push(push).dispatch(facets.count);
+  kernel.configure(pass, frame.context().device, "gi/sample_emitters")
+      .constant(CONSTANT_MATRIX_FORMAT, matrix.format)
+      .push(push)
+      .dispatch(facets.count);
 }
 
 }  // namespace
 
 void gatherEmitters(Context& context, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
-                    const Settings& settings, Sweep& sweep, Lighting& light) {
+                    const Settings& settings, Lighting& light) {
   light.correction = Buffer();
   light.sampledShare = 0;
-  light.emittedCurrent = true;
   if (!facets.hasEmission) return;
+  Sweep sweep(context, facets, matrix, settings.solver);
   const auto byRays = [&] {
     // M as a vector, in the spare half of B's double buffer; then one product.
     Frame frame = context.begin();
-    frame.pass(kStage)
-        .shader("gi/emission.comp")
-        .read(facets.record, facets.emission)
-        .write(light.radiosityNext)
-        .push(EmissionPush{facets.record.address, light.radiosityNext.address})
+    Pass pass = frame.pass(kGatherEmittersStage);
+    pass.shader("gi/emission.comp")
+        .push(EmissionPush{pass.in(facets.record), pass.out(light.radiosityNext)})
         .dispatch(facets.count);
-    sweep.begin(frame, kStage, light.radiosityNext);
-    sweep.record(frame, kStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
-    frame.submit();
+    sweep.begin(frame, kGatherEmittersStage, light.radiosityNext);
+    sweep.record(frame, kGatherEmittersStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
+    frame.submitAndWait();
   };
   byRays();
   if (sampleEmitters(settings, source, facets.count)) {

@@ -1,19 +1,22 @@
+#include "gi/grid.h"
+
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "gi/stages.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 namespace {
 
 /// The scene's bounds lie this far (in voxels) inside the faces of the inner cells of its longest axis: the outer walls
 /// of an axis-aligned room then fall into the outermost inner cells on both sides alike, whatever their coordinates
-/// round to. METHOD's delta = extent / N grows by 2 kInset / N for it (0.01 % at N = 64).
+/// round to. docs/method.md 2's delta = extent / N grows by 2 kInset / N for it (0.01 % at N = 64).
 constexpr double kInset = 1.0 / 256.0;
-constexpr uint32_t kLargestAxis = 1024;  // packVoxel: 10 bits per axis
 
-void checkInput(const glm::vec3& lo, const glm::vec3& hi, uint32_t resolution, uint32_t largest) {
+}  // namespace
+
+void checkGridInput(const glm::vec3& lo, const glm::vec3& hi, uint32_t resolution, uint32_t largest) {
   for (int a = 0; a < 3; ++a)
     IRAD_CHECK(std::isfinite(lo[a]) && std::isfinite(hi[a]) && lo[a] <= hi[a], "scene bounds [{}, {}] on axis {}",
                lo[a], hi[a], a);
@@ -22,8 +25,8 @@ void checkInput(const glm::vec3& lo, const glm::vec3& hi, uint32_t resolution, u
                                  resolution, largest));
 }
 
-/// Derived members. Every axis has at least two Morton bits, so that 64 consecutive codes are a block of 4 x 4 x 4.
-Grid finish(Grid grid) {
+Grid finishedGrid(Grid grid) {
+  // Every axis has at least two Morton bits, so that 64 consecutive codes are a block of 4 x 4 x 4.
   grid.inverseEdge = 1.0f / grid.edge;
   for (int a = 0; a < 3; ++a) {
     IRAD_CHECK_OP(grid.dims[a], <=, kLargestAxis);
@@ -33,10 +36,8 @@ Grid finish(Grid grid) {
   return grid;
 }
 
-}  // namespace
-
 Grid makeGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {
-  checkInput(boundsMin, boundsMax, resolution, kLargestAxis - 2);
+  checkGridInput(boundsMin, boundsMax, resolution, kLargestAxis - 2);
   const glm::dvec3 lo(boundsMin), hi(boundsMax);
   const glm::dvec3 extent = hi - lo;
   const double largest = std::max({extent.x, extent.y, extent.z});
@@ -52,20 +53,7 @@ Grid makeGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {
     // The bounds are centred: a plane of no thickness lies in the middle of its voxels.
     grid.origin[a] = static_cast<float>((lo[a] + hi[a]) / 2 - grid.dims[a] * static_cast<double>(grid.edge) / 2);
   }
-  return finish(grid);
-}
-
-Grid makeLiteralGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {
-  checkInput(boundsMin, boundsMax, resolution, kLargestAxis);
-  const glm::dvec3 extent = glm::dvec3(boundsMax) - glm::dvec3(boundsMin);
-  const double largest = std::max({extent.x, extent.y, extent.z});
-  Grid grid{};
-  grid.edge = largest > 0 ? static_cast<float>(largest / resolution) : 1.0f;
-  // An axis that T eq. 5 leaves without voxels keeps one, since a volume cannot be empty.
-  for (int a = 0; a < 3; ++a)
-    grid.dims[a] = largest > 0 ? std::max(1u, static_cast<uint32_t>(std::floor(resolution * extent[a] / largest))) : 1u;
-  grid.origin = boundsMin;
-  return finish(grid);
+  return finishedGrid(grid);
 }
 
 }  // namespace irad

@@ -1,6 +1,6 @@
 #include "gi/host_facets.h"
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 
@@ -14,7 +14,7 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
   const auto albedo = downloadAs<glm::uvec2>(context, list.albedo);
   for (uint32_t i = 0; i < list.count; ++i) {
     host.voxel.push_back(unpackVoxel(voxel[i]));
-    host.normal.emplace_back(decodeNormal(shape[i] & 0xFFFFu, static_cast<uint32_t>(list.encoding)));
+    host.normal.emplace_back(decodeNormal(shape[i] & 0xFFFFu, list.encoding));
     host.position.push_back(glm::dvec3(list.grid.origin) +
                             double{list.grid.edge} *
                                 (glm::dvec3(host.voxel[i]) + 0.5 + double{facetOffset(shape[i])} * host.normal[i]));
@@ -30,7 +30,7 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
 
 oracle::Facets oracleFacets(Context& context, const FacetList& list) {
   return {list.grid,
-          static_cast<uint32_t>(list.encoding),
+          list.encoding,
           downloadAs<uint32_t>(context, list.voxel),
           downloadAs<uint32_t>(context, list.shape),
           downloadAs<uint32_t>(context, list.reverse),

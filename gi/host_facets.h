@@ -3,8 +3,9 @@
 
 #include <vector>
 
+#include "gi/facets.h"
+#include "gi/field.h"
 #include "gi/oracle/rays.h"
-#include "gi/stages.h"
 
 namespace irad {
 
@@ -24,7 +25,7 @@ oracle::Facets oracleFacets(Context& context, const FacetList& list);
 /// One value per facet of a buffer of vec4; 0 where there is none (Lighting of no light).
 std::vector<glm::vec3> perFacet(Context& context, const FacetList& list, const Buffer& values);
 
-/// Of every voxel to the nearest solid one in the metric of field.method, voxels.
+/// Distance from every voxel to the nearest solid one, in the metric of field.method, voxels.
 std::vector<float> hostDistances(Context& context, const Grid& grid, const Field& field);
 
 }  // namespace irad

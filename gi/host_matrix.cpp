@@ -5,7 +5,8 @@
 #include <cstring>
 #include <utility>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -17,7 +18,7 @@ size_t firstWord(const MatrixArrays& arrays, MatrixFormat format, uint32_t row, 
   if (format == MatrixFormat::csr) return rowStart;
   return 2 * size_t{row & ((1u << arrays.segmentShift) - 1)} * arrays.stride;
 }
-/// And how many there are.
+/// How many there are.
 size_t wordCount(MatrixFormat format, glm::uvec2 info) {
   return size_t{rowEntries(info)} * (format == MatrixFormat::csr ? 1 : 2);
 }
@@ -95,12 +96,9 @@ std::vector<uint32_t> readColumn(Context& context, const FormFactors& matrix, ui
   Frame frame = context.beginUntimed();
   Pass pass = frame.pass("Matrix column");
   pass.shader("gi/matrix_column.comp")
-      .constant(0, matrix.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
-      .read(matrix.record, matrix.rowStart, matrix.rowInfo)
-      .write(hits)
-      .push(MatrixColumnPush{matrix.record.address, hits.address, column, 0});
-  for (const Buffer& segment : matrix.segments) pass.read(segment);
-  pass.dispatch(matrix.rows);
+      .constant(CONSTANT_MATRIX_FORMAT, matrix.format)
+      .push(MatrixColumnPush{pass.in(matrix.record), pass.out(hits), column, 0})
+      .dispatch(matrix.rows);
   frame.submitAndWait();
   std::vector<uint32_t> out = downloadAs<uint32_t>(context, hits);
   out.resize(matrix.rows);

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "gi/stages.h"
+#include "gi/matrix.h"
 
 namespace irad {
 

@@ -10,10 +10,15 @@
 #include <map>
 #include <numeric>
 
-#include "gi/angle.h"
+#include "gi/emitters.h"
+#include "gi/field.h"
+#include "gi/gather_emitters.h"
+#include "gi/lighting.h"
 #include "gi/oracle/voxels.h"
 #include "gi/ray_kernel.h"
-#include "renderer/error.h"
+#include "gi/solve.h"
+#include "renderer/base/angle.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/slice.h"
 #include "shaders/shared/voxelize.h"
 
@@ -30,7 +35,7 @@ void Inspector::refresh() {
     facets_ = hostFacets(context_, list);
     list_ = oracleFacets(context_, list);
     triangles_ = list.triangle ? downloadAs<uint32_t>(context_, list.triangle) : std::vector<uint32_t>{};
-    // Where no ray of the pipeline reads a field it has none.
+    // A pipeline in which no ray reads a field has none.
     madeField_.reset();
     if (!pipeline_.field()) madeField_ = buildField(context_, list, pipeline_.settings());
     const Field& field = this->field();
@@ -103,7 +108,7 @@ std::optional<uint32_t> Inspector::facetAt(const glm::dvec3& point, const glm::d
   return best;
 }
 
-/// Of the facets in a voxel the one that faces the eye more; voxel units.
+/// Of the facets in a voxel, the one that faces the eye more; voxel units.
 std::optional<uint32_t> Inspector::facing(const glm::uvec3& voxel, const glm::dvec3& eye) const {
   const std::vector<uint32_t> facets = facetsOf(voxel);
   if (facets.empty()) return std::nullopt;
@@ -116,7 +121,7 @@ std::optional<uint32_t> Inspector::facing(const glm::uvec3& voxel, const glm::dv
 std::optional<Inspector::SliceCell> Inspector::inSlice(const glm::dvec3& start, const glm::dvec3& direction,
                                                        const glm::dvec3& forward, const ViewSettings& view) const {
   const glm::dvec3 origin = toVoxels(start);
-  const auto axis = static_cast<int>(sliceAxis(static_cast<uint32_t>(view.axis), glm::vec3(forward)));
+  const auto axis = static_cast<int>(sliceAxis(view.axis, glm::vec3(forward)));
   const double layer = sliceLayer(static_cast<float>(facets_.grid.dims[axis]), view.slice);
   const double t = (layer + 0.5 - origin[axis]) / direction[axis];
   if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
@@ -163,7 +168,8 @@ InspectedFacet Inspector::facet(uint32_t i) const {
   r.direct = direct_[i];
   r.irradiance = irradiance_[i];
   r.radiosity = radiosity_[i];
-  r.correction = correction_[i];
+  const double gain = pipeline_.lighting().gain.radiosity;
+  r.correction = gain * glm::dvec3(correction_[i]);
   r.met = traceOnDevice(i);
   addLinks(i, r);
 
@@ -174,11 +180,10 @@ InspectedFacet Inspector::facet(uint32_t i) const {
        : met == TRACE_INVALID ? r.rays.invalid
                               : r.rays.hits);
 
-  // One more sweep: H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
-  const SolverParams& solver = pipeline_.settings().solver.gpu;
+  // One more sweep of the kind that made B: H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
   const glm::dvec3 h = r.row.contribution + r.correction;
-  const glm::dvec3 undamped = double{solver.lambda} * (r.emission + r.albedo * (r.direct + h));
-  const glm::dvec3 change = double{solver.omega} * glm::abs(undamped - r.radiosity);
+  const glm::dvec3 undamped = gain * (r.emission + r.albedo * (r.direct + h));
+  const glm::dvec3 change = double{pipeline_.settings().solver.gpu.omega} * glm::abs(undamped - r.radiosity);
   r.residual = std::max({change.x, change.y, change.z});
   return r;
 }
@@ -226,7 +231,7 @@ void Inspector::addLinks(uint32_t i, InspectedFacet& record) const {
       all->exchange += l.exchange;
     }
   }
-  // Either one's sum the other way round is over all of the other's links.
+  // The row's sum the other way round is that of the column's links, and vice versa.
   record.row.opposite = record.column.exchange;
   record.column.opposite = record.row.exchange;
 }
@@ -285,10 +290,10 @@ SolveHistory replaySolve(Context& context, const Pipeline& pipeline, const std::
   copy.pass("Copy").copy(pipeline.lighting().direct, light.direct, light.direct.bytes);
   copy.submit();
   const Emitters emitters = listEmitters(context, list);
+  gatherEmitters(context, list, pipeline.matrix(), {&emitters, &pipeline.field()}, settings, light);
   while (!history.converged && history.irradiance.size() < settings.solver.maxSweeps) {
     if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
-    const SolveReport report =
-        solve(context, list, pipeline.matrix(), light, settings, /*maxSweeps=*/1, {&emitters, &pipeline.field()});
+    const SolveReport report = solve(context, list, pipeline.matrix(), light, settings, /*maxSweeps=*/1);
     std::vector<glm::vec4> h(facets.size());
     Frame frame = context.beginUntimed();
     for (size_t i = 0; i < facets.size(); ++i)

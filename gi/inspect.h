@@ -111,7 +111,7 @@ class Inspector {
  public:
   /// After a prepare() that succeeded; the pipeline outlives it.
   Inspector(Context& context, const Pipeline& pipeline);
-  /// Takes over what prepare() has changed since.
+  /// Reads again what prepare() has changed since.
   void refresh();
 
   const Grid& grid() const { return facets_.grid; }

@@ -41,13 +41,11 @@ Json linksJson(const Links& links) {
           {"entries", entries}};
 }
 
-Json facetJson(const InspectedFacet& f, uint32_t encoding) {
+Json facetJson(const InspectedFacet& f, NormalEncoding encoding) {
   Json json;
   json["facet"] = f.facet;
   json["position"] = array(f.position);
-  Json normal{{"stored", f.shape & 0xFFFFu},
-              {"encoding", EnumNames<NormalEncoding>::names.at(encoding)},
-              {"decoded", array(f.normal)}};
+  Json normal{{"stored", f.shape & 0xFFFFu}, {"encoding", nameOf(encoding)}, {"decoded", array(f.normal)}};
   if (f.mesh) {
     normal["triangle"] = f.mesh->triangle;
     normal["back_side"] = f.mesh->back;
@@ -113,7 +111,7 @@ std::string inspectJson(const InspectedVoxel& record, const Grid& grid, NormalEn
   if (record.seed) json["jfa_seed"] = array(*record.seed);
   json["facets"] = Json::array();
   for (size_t f = 0; f < record.facets.size(); ++f) {
-    Json facet = facetJson(record.facets[f], static_cast<uint32_t>(encoding));
+    Json facet = facetJson(record.facets[f], encoding);
     Json h = Json::array();
     for (const std::vector<glm::vec3>& sweep : history.irradiance) h.push_back(array(glm::dvec3(sweep.at(f))));
     facet["irradiance_history"] = h;

@@ -3,7 +3,7 @@
 
 #include "gi/inspect.h"
 #include "gi/ray_kernel.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 
@@ -65,7 +65,7 @@ std::string describe(const InspectedRay& r) {
   std::string text = r.dda.met == r.sdf.met
                          ? fmt::format("DDA and SDF agree: {} (SDF {})", end(r.dda), r.sdf.steps.size())
                          : fmt::format("DDA and SDF differ: DDA {}; SDF {}", end(r.dda), end(r.sdf));
-  // Where the paths part for good: the first cell of the SDF's that the DDA never entered.
+  // Where the two paths part for good: the first cell of the SDF's path that the DDA never entered.
   if (r.dda.met != r.sdf.met)
     for (const RayStep& step : r.sdf.steps) {
       const auto known = [&](const RayStep& s) { return s.cell == step.cell; };

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "gi/number_text.h"
-#include "gi/ticks.h"
+#include "renderer/base/number_text.h"
+#include "renderer/base/ticks.h"
 #include "renderer/image_io.h"
 #include "shaders/shared/color_map.h"
 
 namespace irad {
 
-Legend makeLegend(const Quantity& quantity, uint32_t map, const ViewRange& range) {
+Legend makeLegend(const Quantity& quantity, ColorMap map, const ViewRange& range) {
   Legend legend;
   legend.title = quantity.name + (quantity.unit.empty() ? "" : " (" + prettyUnit(quantity.unit) + ")");
   legend.map = map;

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "gi/views.h"
+#include "gi/views/views.h"
 #include "shaders/shared/view.h"
 
 namespace irad {
 
 struct Legend {
   std::string title;  ///< "Depth (m)"
-  uint32_t map = 0;   ///< COLOR_MAP_*
+  ColorMap map{};
   struct Tick {
     float at;  ///< share of the bar's length
     std::string label;
@@ -21,7 +21,7 @@ struct Legend {
   std::vector<Tick> ticks;
   std::string marks;  ///< how many pixels have no place in the map: "12 NaN (red)"; empty: none
 };
-Legend makeLegend(const Quantity& quantity, uint32_t map, const ViewRange& range);
+Legend makeLegend(const Quantity& quantity, ColorMap map, const ViewRange& range);
 
 /// Into the lower right corner of a display picture, top row first: text in the panels' typeface. Pictures too small
 /// for anything legible (below 144 x 96) stay as they are. WorkError in builds without OpenImageIO.

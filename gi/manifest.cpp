@@ -48,10 +48,10 @@ std::string Manifest::commandLine() const {
   for (const Camera& camera : cameras) words.insert(words.end(), {"--camera", cameraToJson(camera)});
   for (const std::string& view : views) words.insert(words.end(), {"--view", view});
   if (frames && *frames != 1) words.insert(words.end(), {"--frames", std::to_string(*frames)});
-  const std::vector<SettingInfo> usual = settingInfos(defaultSettings(cpuDevice)), now = settingInfos(*settings);
-  for (size_t i = 0; i < now.size(); ++i)
-    if (now[i].value != usual[i].value)
-      words.insert(words.end(), {"--set", fmt::format("{}={}", now[i].meta.name, now[i].value)});
+  const Settings usual = defaultSettings(cpuDevice);
+  for (const Setting& setting : settingTable())
+    if (setting.get(*settings) != setting.get(usual))
+      words.insert(words.end(), {"--set", fmt::format("{}={}", setting.name, setting.text(*settings))});
   if (reference) words.insert(words.end(), {"--reference", reference->path.string()});
   words.insert(words.end(), arguments.begin(), arguments.end());
   for (std::string& word : words) word = shellQuote(word);

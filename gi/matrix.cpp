@@ -1,54 +1,20 @@
-// The form-factor matrix (METHOD section 5, T 5.4-5.6): F_ij = share of facet i's cosine-weighted rays that first meet
+// The form-factor matrix (docs/method.md 5, T 5.4-5.6): F_ij = share of facet i's cosine-weighted rays that first meet
 // facet j, kept as integer hit counts (csr) or as one place per hit (padded).
+#include "gi/matrix.h"
+
 #include <algorithm>
 #include <bit>
 
+#include "gi/matrix_build.h"
 #include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"
-#include "renderer/error.h"
+#include "gi/scan.h"
+#include "gi/subsystems.h"
+#include "gi/thesis/padded_rows.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 namespace {
-
-constexpr const char* kStage = "GI BuildMatrix";
-static_assert(sizeof(MatrixArrays) <= FormFactors::kSegmentTable);
-
-/// Rays in one submission: short enough for watchdogs (and for cancelling), long enough to hide the round trip.
-uint64_t raysPerSubmission(const Device& device) {
-  return device.isCpu ? uint64_t{1} << 18 : uint64_t{1} << 24;
-}
-
-double mebibytes(uint64_t bytes) {
-  return static_cast<double>(bytes) / (1024.0 * 1024.0);
-}
-
-void report(const std::function<bool(float)>& progress, uint64_t done, uint64_t all) {
-  if (progress && !progress(static_cast<float>(static_cast<double>(done) / static_cast<double>(all))))
-    throw WorkError("building the matrix: cancelled");
-}
-
-void addSums(MatrixStats& stats, const ChunkCounts& sums) {
-  stats.hits += sums.hits;
-  stats.escaped += sums.escaped;
-  stats.invalid += sums.invalid;
-  stats.largestRow = std::max(stats.largestRow, sums.largestRow);
-}
-
-void writeRecord(Context& context, FormFactors& matrix, const MatrixArrays& arrays) {
-  std::vector<std::byte> bytes(FormFactors::kSegmentTable +
-                               std::max<size_t>(1, matrix.segments.size()) * sizeof(uint64_t));
-  matrix.record = Buffer(context.device, "matrix record", Subsystem::Matrix, bytes.size());
-  MatrixArrays written = arrays;
-  written.segments = matrix.record.address + FormFactors::kSegmentTable;
-  written.rowStart = matrix.rowStart.address;
-  written.rowInfo = matrix.rowInfo.address;
-  written.rows = matrix.rows;
-  std::memcpy(bytes.data(), &written, sizeof(written));
-  for (size_t i = 0; i < matrix.segments.size(); ++i)
-    std::memcpy(bytes.data() + FormFactors::kSegmentTable + i * sizeof(uint64_t), &matrix.segments[i].address,
-                sizeof(uint64_t));
-  upload(context, matrix.record, bytes);
-}
 
 /// What both ways to turn a chunk's hits into its segment share.
 struct CsrBuild {
@@ -75,36 +41,32 @@ struct CsrBuild {
 void mergeAndPackOnDevice(CsrBuild& build, Frame frame, const Chunk& chunk, const Buffer& hits, const Buffer& counts,
                           const Buffer& total, const Buffer& sums) {
   mergeOnDevice(frame, chunk, hits, counts, build.matrix.rowInfo, sums);
-  exclusiveScan(frame, kStage, counts, chunk.rows, total);
+  exclusiveScan(frame, kMatrixStage, counts, chunk.rows, total);
   ChunkCounts found{};
   uint32_t entries = 0;
   frame.readback(sums, 0, sizeof(found), [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
   frame.readback(total, 0, 4, [&](std::span<const uint8_t> b) { std::memcpy(&entries, b.data(), b.size()); });
   frame.submitAndWait();
   const Buffer& segment = build.addSegment(chunk, found, entries, entries);
+  Frame packing = build.context.begin();
+  Pass pass = packing.pass(kMatrixStage);
   PackRowsPush pack{};
-  pack.entries = hits.address;
-  pack.starts = counts.address;
-  pack.rowInfo = build.matrix.rowInfo.address;
-  pack.rowStart = build.matrix.rowStart.address;
-  pack.segment = segment.address;
+  pack.entries = pass.in(hits);
+  pack.starts = pass.in(counts);
+  pack.rowInfo = pass.in(build.matrix.rowInfo);
+  pack.rowStart = pass.out(build.matrix.rowStart);
+  pack.segment = pass.out(segment);
   pack.firstRow = chunk.firstRow;
   pack.rows = chunk.rows;
   pack.rays = chunk.rays;
-  Frame packing = build.context.begin();
-  packing.pass(kStage)
-      .shader("gi/pack_rows.comp")
-      .read(hits, counts, build.matrix.rowInfo)
-      .write(segment, build.matrix.rowStart)
-      .push(pack)
-      .dispatch(uint64_t{chunk.rows} * chunk.rays);
+  pass.shader("gi/pack_rows.comp").push(pack).dispatch(uint64_t{chunk.rows} * chunk.rays);
   packing.submit();
 }
 
 /// CPU devices: the same by the host in mapped memory.
 void mergeAndPackOnHost(CsrBuild& build, Frame frame, const Chunk& chunk, const Buffer& hits) {
   // The device's writes are made visible to the host.
-  frame.pass(kStage)
+  frame.pass(kMatrixStage)
       .declare(hits, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT})
       .record([](VkCommandBuffer) {});
   frame.submitAndWait();
@@ -154,85 +116,10 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
       mergeAndPackOnHost(build, std::move(frame), chunk, hits);
     else
       mergeAndPackOnDevice(build, std::move(frame), chunk, hits, counts, total, sums);
-    report(progress, uint64_t{first} + chunk.rows, rows);
+    reportRows(progress, uint64_t{first} + chunk.rows, rows);
   }
   matrix.stats.bytesUsed = 4 * matrix.stats.entries;
-  writeRecord(context, matrix, arrays);
-}
-
-/// padded (T Fig. 7): a fixed stride of `rays` places of 8 bytes per row, for a power of two of rows, cleared, then
-/// filled by one invocation per row.
-void buildPadded(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
-                 FormFactors& matrix, const std::function<bool(float)>& progress) {
-  const Device& device = context.device;
-  const uint32_t rows = matrix.rows;
-  const uint64_t capacity = std::bit_ceil(rows);
-  const uint64_t rowBytes = 8ull * params.rays;
-  const std::string what = fmt::format("the padded matrix of {} rows x {} places x 8 B", capacity, params.rays);
-  try {
-    device.memory().check(Subsystem::Matrix, what, capacity * rowBytes);
-  } catch (const DeviceError& error) {
-    throw DeviceError(fmt::format("{}; matrix.format=csr keeps only the entries that exist (about {:.0f} MiB at most)",
-                                  error.what(), mebibytes(4ull * rows * params.rays)));
-  }
-  MatrixArrays arrays{};
-  arrays.stride = params.rays;
-  // One array, unless the device cannot allocate (or a shader index) that much in one piece.
-  const uint64_t largest = std::min<uint64_t>({device.maxAllocation, (uint64_t{1} << 32) - rowBytes, 1ull << 32});
-  arrays.segmentShift =
-      static_cast<uint32_t>(std::bit_width(std::min(capacity, std::bit_floor(largest / rowBytes)))) - 1;
-  const uint64_t segmentRows = uint64_t{1} << arrays.segmentShift;
-  matrix.rowStart = Buffer(device, "matrix row starts", Subsystem::Matrix, 0);
-  Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
-  for (uint64_t first = 0; first < capacity; first += segmentRows)
-    matrix.segments.emplace_back(device, fmt::format("matrix places {}", matrix.segments.size()), Subsystem::Matrix,
-                                 segmentRows * rowBytes);
-  {
-    Frame frame = context.begin();
-    for (const Buffer& segment : matrix.segments) frame.pass("GI BuildMatrix Clear").fill(segment, 0);
-    frame.submit();
-  }
-  const RayKernel kernel = rayKernel(facets, field, params);
-  const uint32_t slice = device.isCpu ? 64 : params.rays;  // lavapipe's limit of turns: gi/padded_rows.glsl
-  const uint64_t chunk = std::clamp<uint64_t>(raysPerSubmission(device) * 4 / params.rays, 64, segmentRows);
-  for (uint32_t first = 0; first < rows;) {
-    const uint64_t segment = first >> arrays.segmentShift;
-    const uint64_t end = std::min<uint64_t>({rows, first + chunk, (segment + 1) << arrays.segmentShift});
-    PaddedRowsPush push{};
-    push.facets = facets.addresses();
-    push.chebyshev = kernel.chebyshev();
-    push.segment = matrix.segments[segment].address;
-    push.rowInfo = matrix.rowInfo.address;
-    push.sums = sums.address;
-    push.dims = facets.grid.dims;
-    push.jfaMax = field.jfaMax;
-    push.firstRow = first;
-    push.rows = static_cast<uint32_t>(end - first);
-    push.jitter = params.jitter;
-    push.seed = params.seed;
-    push.segmentRow = static_cast<uint32_t>(first & (segmentRows - 1));
-    Frame frame = context.begin();
-    frame.pass(kStage).fill(sums, 0);
-    for (uint32_t ray = 0; ray < params.rays; ray += slice) {
-      push.slice = params.rays | ray << 16;
-      Pass pass = frame.pass(kStage);
-      kernel.configure(pass, device, "padded_rows")
-          .constant(3, slice)
-          .write(matrix.segments[segment], matrix.rowInfo, sums)
-          .push(push)
-          .dispatch(push.rows);
-    }
-    ChunkCounts found{};
-    frame.readback(sums, 0, sizeof(found),
-                   [&](std::span<const uint8_t> b) { std::memcpy(&found, b.data(), b.size()); });
-    frame.submitAndWait();
-    addSums(matrix.stats, found);
-    first = static_cast<uint32_t>(end);
-    report(progress, first, rows);
-  }
-  matrix.stats.entries = matrix.stats.hits;
-  matrix.stats.bytesUsed = 8 * matrix.stats.hits;
-  writeRecord(context, matrix, arrays);
+  writeMatrixRecord(context, matrix, arrays);
 }
 
 }  // namespace
@@ -248,14 +135,14 @@ FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& 
   matrix.stats.rays = uint64_t{facets.count} * params.rays;
   if (facets.count == 0) {
     matrix.rowStart = Buffer(context.device, "matrix row starts", Subsystem::Matrix, 0);
-    writeRecord(context, matrix, MatrixArrays{});
+    writeMatrixRecord(context, matrix, MatrixArrays{});
     return matrix;
   }
-  report(progress, 0, 1);
+  reportRows(progress, 0, 1);
   if (matrix.format == MatrixFormat::csr)
     buildCsr(context, facets, field, params, matrix, progress);
   else
-    buildPadded(context, facets, field, params, matrix, progress);
+    buildPaddedRows(context, facets, field, params, matrix, progress);
   for (const Buffer& segment : matrix.segments) matrix.stats.bytesAllocated += segment.bytes;
   matrix.stats.bytesAllocated += matrix.rowStart.bytes + matrix.rowInfo.bytes + matrix.record.bytes;
   return matrix;

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/csv.h"
+#include "gi/subsystems.h"
+#include "renderer/base/csv.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -79,7 +80,7 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
       if (resource == name) return bytes;
     return std::nullopt;
   };
-  // Of other images extent and format say what they should take.
+  // What other images should take follows from their extent and format.
   const auto predicted = [&](const MemoryRow& row) {
     return row.texelBytes != 0 && !known(row.name) ? row.texelBytes : known(row.name);
   };
@@ -87,7 +88,7 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
   using Kind = MemoryReportRow::Kind;
   std::vector<MemoryReportRow> rows;
   uint64_t entries = 0, total = 0, volumes = 0, matrixBytes = 0;
-  std::vector<std::pair<Subsystem, uint64_t>> subtotals;
+  std::vector<std::pair<SubsystemName, uint64_t>> subtotals;
   for (const MemoryRow& row : measured) {
     total += row.bytes;
     auto subtotal = std::find_if(subtotals.begin(), subtotals.end(), [&](auto& s) { return s.first == row.subsystem; });
@@ -96,36 +97,27 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
 
     // T Table 1's two groups: textures over the grid (the reverse map among them), and the matrix with its vectors.
     const bool reverse = facets.reverse && row.name == facets.reverse.name;
-    switch (row.subsystem) {
-      case Subsystem::Voxels:
-      case Subsystem::Field:
-      case Subsystem::Volumes:
-        volumes += row.bytes;
-        break;
-      case Subsystem::Facets:
-      case Subsystem::Matrix:
-      case Subsystem::Solver:
-        (reverse ? volumes : matrixBytes) += row.bytes;
-        break;
-      default:
-        break;
-    }
+    const auto isOf = [&](std::initializer_list<SubsystemName> group) {
+      return std::find(group.begin(), group.end(), row.subsystem) != group.end();
+    };
+    if (isOf({Subsystem::Voxels, Subsystem::Field, Subsystem::Volumes})) volumes += row.bytes;
+    if (isOf({Subsystem::Facets, Subsystem::Matrix, Subsystem::Solver})) (reverse ? volumes : matrixBytes) += row.bytes;
 
     if (row.subsystem == Subsystem::Matrix && isSegment(matrix, row.name))
       entries += row.bytes;
     else
-      rows.push_back({row.name, toString(row.subsystem), row.format, row.bytes, predicted(row)});
+      rows.push_back({row.name, row.subsystem.text, row.format, row.bytes, predicted(row)});
   }
-  rows.insert(rows.begin(), {kEntries, toString(Subsystem::Matrix), fmt::format("{} segments", matrix.segments.size()),
+  rows.insert(rows.begin(), {kEntries, Subsystem::Matrix.text, fmt::format("{} segments", matrix.segments.size()),
                              entries, known(kEntries)});
 
   for (const auto& [subsystem, bytes] : subtotals)
-    rows.push_back({"subtotal", toString(subsystem), "", bytes, std::nullopt, Kind::Subtotal});
+    rows.push_back({"subtotal", subsystem.text, "", bytes, std::nullopt, Kind::Subtotal});
   rows.push_back({"total", "all", "", total, std::nullopt, Kind::Sum});
   const ThesisMemory thesis = thesisMemory(facets.grid.voxels, facets.solidVoxels, matrix.rays);
-  rows.push_back({"volumes against T eq. 29", "gi", "", volumes, thesis.volumes, Kind::Sum});
-  rows.push_back({"matrix and list against T eq. 30", "gi", "", matrixBytes, thesis.matrix, Kind::Sum});
-  rows.push_back({"gi against T eq. 31", "gi", "", volumes + matrixBytes, thesis.total, Kind::Sum});
+  rows.push_back({"volumes (formula of the thesis)", "gi", "", volumes, thesis.volumes, Kind::Sum});
+  rows.push_back({"matrix and list (formula of the thesis)", "gi", "", matrixBytes, thesis.matrix, Kind::Sum});
+  rows.push_back({"all of gi (formula of the thesis)", "gi", "", volumes + matrixBytes, thesis.total, Kind::Sum});
   return rows;
 }
 

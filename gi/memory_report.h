@@ -1,4 +1,4 @@
-// METHOD section 10: every resource's size as the allocator measured it, beside what its formula predicts, per
+// docs/method.md 10: every resource's size as the allocator measured it, beside what its formula predicts, per
 // subsystem; and T eq. 29-31 for the same grid.
 #pragma once
 
@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "gi/stages.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 
 namespace irad {
 
@@ -16,9 +19,8 @@ struct MemoryReportRow {
   enum class Kind { Resource, Subtotal, Sum } kind = Kind::Resource;
 };
 
-/// Bytes that the formulas give for the stages' resources, by resource name; of other images memoryReport() predicts
-/// what their extent and format come to. Units: s facets, V voxels (padding
-/// included), R rays, E matrix entries.
+/// Bytes that the formulas give for the stages' resources, by resource name; memoryReport() predicts other images from
+/// their extent and format. Units: s facets, V voxels (padding included), R rays, E matrix entries.
 std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& facets, const Field& field,
                                                             const FormFactors& matrix, const Lighting& lighting);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "shaders/shared/constants.h"
+
 namespace irad {
 
 void mergeOnDevice(Frame& frame, const Chunk& chunk, const Buffer& hits, const Buffer& counts, const Buffer& rowInfo,
@@ -10,24 +12,22 @@ void mergeOnDevice(Frame& frame, const Chunk& chunk, const Buffer& hits, const B
   const Device& device = frame.context().device;
   const uint32_t sorted = std::bit_ceil(std::max(2u, chunk.rays));
   const uint32_t width = device.isCpu ? std::max(8u, device.subgroupSize) : std::clamp(sorted / 4, 32u, 256u);
+  frame.pass("GI BuildMatrix").fill(sums, 0);
+  Pass pass = frame.pass("GI BuildMatrix");
   MergeRowsPush push{};
-  push.hits = hits.address;
-  push.counts = counts.address;
-  push.rowInfo = rowInfo.address;
-  push.sums = sums.address;
+  push.hits = pass.out(hits);
+  push.counts = pass.out(counts);
+  push.rowInfo = pass.out(rowInfo);
+  push.sums = pass.out(sums);
   push.firstRow = chunk.firstRow;
   push.rows = chunk.rows;
   push.rays = chunk.rays;
   push.columnBits = chunk.columnBits;
-  const uint32_t x = std::min(chunk.rows, 32768u);
-  frame.pass("GI BuildMatrix").fill(sums, 0);
-  frame.pass("GI BuildMatrix")
-      .shader("gi/merge_rows.comp")
-      .constant(0, width)
-      .constant(1, sorted)
-      .write(hits, counts, rowInfo, sums)
+  pass.shader("gi/merge_rows.comp")
+      .constant(CONSTANT_MERGE_WORKGROUP, width)
+      .constant(CONSTANT_SORTED, sorted)
       .push(push)
-      .dispatchGroups(x, (chunk.rows + x - 1) / x);
+      .dispatchWorkgroups(chunk.rows);
 }
 
 std::vector<uint32_t> mergeOnHost(const Chunk& chunk, std::span<uint32_t> hits, std::span<glm::uvec2> info,

@@ -1,7 +1,10 @@
-// What the rays of a chunk of rows met -> the rows' entries (METHOD section 5): sorted, equal columns merged.
+// What the rays of a chunk of rows met -> the rows' entries (docs/method.md 5): sorted, equal columns merged.
 #pragma once
 
-#include "gi/stages.h"
+#include <span>
+#include <vector>
+
+#include "renderer/frame/frame.h"
 #include "shaders/shared/matrix_build.h"
 
 namespace irad {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/watch.h"
-#include "renderer/error.h"
-#include "renderer/scene/sha256.h"
+#include "renderer/base/error.h"
+#include "renderer/base/sha256.h"
 #include "shaders/shared/view.h"
 
 namespace irad {

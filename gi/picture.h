@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gi/legend.h"
-#include "gi/views.h"
+#include "gi/views/views.h"
 #include "renderer/image_io.h"
 
 namespace irad {

@@ -6,11 +6,24 @@
 #include <optional>
 #include <utility>
 
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/gather.h"
+#include "gi/gather_emitters.h"
 #include "gi/host_facets.h"
-#include "gi/planned.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/pixel_emitters.h"
+#include "gi/plan.h"
 #include "gi/products.h"
+#include "gi/scatter.h"
+#include "gi/solve.h"
+#include "gi/specular.h"
 #include "gi/stage_keys.h"
-#include "renderer/error.h"
+#include "gi/subsystems.h"
+#include "gi/voxelize.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 
@@ -24,8 +37,13 @@ double since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 struct Pipeline::Impl {
-  Impl(Context& c, Scene s, const Settings& wanted)
-      : context(c), scene(std::move(s)), settings(wanted), planned(scene, wanted), onDevice(c, scene) {
+  Impl(Context& c, Scene s, const Settings& wanted, ExpectedIrradiance h)
+      : context(c),
+        scene(std::move(s)),
+        expected(std::move(h)),
+        settings(wanted),
+        planned(scene, wanted),
+        onDevice(c, scene) {
     materials = onDevice.materialValues;
     content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
     decide();
@@ -33,6 +51,7 @@ struct Pipeline::Impl {
 
   Context& context;
   Scene scene;
+  ExpectedIrradiance expected;
   Settings settings;  ///< the user's; stages get planned.settings()
   Planned planned;
   SceneOnDevice onDevice;
@@ -43,7 +62,8 @@ struct Pipeline::Impl {
   uint64_t solvedFrame = 0;  ///< of the last solve
   uint64_t shaders = 0;      ///< ShaderLibrary::generation() of the last build
 
-  // What there is to be made, and what was made, by content.
+  // What there is to be made, and what was made, by content. Shadow maps are not the product of a stage, but have a key
+  // like one.
   SceneContent content;
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
@@ -62,7 +82,7 @@ struct Pipeline::Impl {
   /// Decides anew on what is known by now; what that changes becomes due.
   void decide() {
     planned.decide(settings);
-    // Back at the settings of the voxels that there are, what those have shown holds again.
+    // With the settings that the present voxels were made with, what those voxels have shown holds again.
     if (!planned.traits.build && now.facets && due() > Redo::Voxels) {
       learn(now);
       planned.decide(settings);
@@ -71,7 +91,7 @@ struct Pipeline::Impl {
     shadowsWanted = shadowKey(onDevice.lightValues);
   }
 
-  /// Of the maps that these lights take.
+  /// The key of the shadow maps that these lights need.
   uint64_t shadowKey(std::span<const GpuLight> lights) const {
     Digest digest;
     digest.add(content.surfaces).add(planned.on(Effect::alphaTest)).add(settings.light.shadowResolution);
@@ -116,7 +136,7 @@ struct Pipeline::Impl {
   void prepare(uint32_t maxSweeps, const Progress& progress) {
     Redo first = due();
     if (first <= Redo::Voxels) {
-      // What the voxels have shown is of the shaders that made them, too.
+      // What the voxels have shown depends on the shaders that made them, too.
       if (std::exchange(shaders, context.shaders.generation()) != context.shaders.generation()) {
         planned.traits.build.reset();
         decide();
@@ -143,7 +163,7 @@ struct Pipeline::Impl {
     made = wanted();
   }
 
-  /// Everything from the geometry to the matrix: T's "Init" set. `first`: the stage to start from.
+  /// Everything from the geometry to the matrix: the thesis's "Init" set. `first`: the stage to start from.
   void build(Products& p, Redo first, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     ++revision.build;
@@ -187,13 +207,14 @@ struct Pipeline::Impl {
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
   }
 
-  /// Whether there is a field where the plan has it on, and none where it has it off.
+  /// Whether there is a field where the plan has it on, and none where it has it off. No stage's key says so, since a
+  /// field that is only kept or dropped causes nothing to be made again; so the product itself is asked.
   bool fieldFits(const Products& p) const { return planned.on(Effect::field) == static_cast<bool>(*p.field); }
   Field plannedField(const Products& p) {
     const Settings& obeyed = planned.settings();
     return planned.on(Effect::field) ? buildField(context, *p.facets, obeyed) : Field{obeyed.field.method};
   }
-  /// Rays may come to need the field, or need it no longer, of the same voxels.
+  /// Rays may come to need the field of the same voxels, or stop needing it.
   void fitField(Products& p) {
     if (fieldFits(p)) return;
     const auto start = std::chrono::steady_clock::now();
@@ -203,36 +224,37 @@ struct Pipeline::Impl {
   }
 
   Buffer makeReference(const FacetList& list) {
-    if (!scene.expectedIrradiance || list.count == 0) return {};
+    if (!expected || list.count == 0) return {};
     const HostFacets host = hostFacets(context, list);
     std::vector<glm::vec4> h;
     for (size_t i = 0; i < host.count(); ++i)
-      h.emplace_back(glm::vec3(scene.expectedIrradiance(host.position[i], host.normal[i])), 0.0f);
+      h.emplace_back(glm::vec3(expected(host.position[i], host.normal[i])), 0.0f);
     return makeBuffer<glm::vec4>(context, "oracle's H", Subsystem::Solver, h);
   }
 
-  /// T's "per-frame" set, on the lights as they are: D, then H <- F B and B <- M + rho (D + H) until the error bound
-  /// holds, then H to where shading reads it.
+  /// The thesis's "per-frame" set, with the lights as they are: D, after F M where that is due, then H <- F B and B <-
+  /// M + rho (D + H) until the error bound holds, then H to where shading reads it.
   void relight(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     ++revision.light;
-    // A new list has no light yet: given up now it would stay black.
+    // A new list has no light yet: if it were given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (!lit()) return darken(p);
-    if (first <= Redo::Emission && p.light) p.light->emittedCurrent = false;
     if (!p.light || !*p.light) {
       planned.traits.light.noise.reset();
       decide();
       p.light = makeLighting(context, *p.facets, planned.settings());
-      first = Redo::Gather;
+      first = Redo::Emission;
     }
+    if (first <= Redo::Emission)
+      gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.light, planned.settings());
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
-      solve(context, *p.facets, *p.matrix, *p.light, planned.settings(), maxSweeps, {&*p.emitters, &*p.field});
+      solve(context, *p.facets, *p.matrix, *p.light, planned.settings(), maxSweeps);
       solvedFrame = frameIndex;
     }
     scatterInto(p);
@@ -243,13 +265,14 @@ struct Pipeline::Impl {
 
   void scatterInto(Products& p) {
     Frame frame = context.begin(frameIndex);
-    const bool mayBlur = settings.effects.blur == EffectMode::automatic && settings.sample.gpu.filter_ == FILTER_BLUR;
+    const bool mayBlur =
+        settings.effects.blur == EffectMode::automatic && settings.sample.gpu.filter_ == SampleFilter::blur;
     scatter(frame, *p.facets, *p.light, planned.settings(), /*watchBlur=*/mayBlur);
     frame.submitAndWait();
   }
 
-  /// Decides on what the blur changes of the light as it is: where that is nothing that shows, H is shown without.
-  /// Returns whether that puts the blur on or off.
+  /// Decides by how much the blur changes the light as it is: where that does not show, H is shown without it. Returns
+  /// whether that puts the blur on or off.
   bool flipsBlur(const SolveReport& report) {
     if (!report.blurChange) return false;
     std::optional<float>& noise = planned.traits.light.noise;
@@ -276,8 +299,8 @@ struct Pipeline::Impl {
   }
 };
 
-Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings)
-    : impl_(std::make_unique<Impl>(context, std::move(scene), settings)) {
+Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings, ExpectedIrradiance expected)
+    : impl_(std::make_unique<Impl>(context, std::move(scene), settings, std::move(expected))) {
   impl_->camera = Buffer(context.device, "Camera", Subsystem::Targets, sizeof(GpuCamera));
 }
 Pipeline::~Pipeline() = default;
@@ -366,7 +389,7 @@ void Pipeline::darken() {
   Impl& p = *impl_;
   if (!p.now.light) return;
   if (*p.now.light) p.now.light = makeLighting(p.context, *p.now.facets, p.planned.settings());
-  p.made.forget(Redo::Gather);
+  p.made.forget(Redo::Emission);  // its F M is gone, too
 }
 
 void Pipeline::invalidate(Redo from) {
@@ -435,7 +458,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   effects.kernels = rasterizesByKernels(p.context.device, p.settings);
   const bool pixelEmitters = p.planned.plan().pixelEmitters;
   const IndirectInputs indirect = indirectInputs(p.now, view, pixelEmitters, p.planned.settings());
-  drawForward(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, effects);
+  drawScene(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, effects);
 
   ViewInputs inputs = viewInputs(p.now, pixelEmitters);
   inputs.scene = &p.onDevice;
@@ -456,6 +479,9 @@ void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels) 
   desc.height = size.y;
   impl_->picture = Image(impl_->context.device, desc);
   upload(impl_->context, impl_->picture, std::as_bytes(pixels));
+}
+bool Pipeline::knowsIrradiance() const {
+  return static_cast<bool>(impl_->expected);
 }
 bool Pipeline::hasReference() const {
   return static_cast<bool>(impl_->picture);

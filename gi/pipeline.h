@@ -1,4 +1,4 @@
-// The whole method, stage after stage, for one scene: what is dirty is redone, the rest is kept.
+// The whole method, stage after stage, for one scene: what is due is redone, the rest is kept.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,12 @@
 #include <span>
 #include <string>
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/plan.h"
-#include "gi/stages.h"
-#include "gi/views.h"
+#include "gi/views/views.h"
 #include "gi/watch.h"
 #include "renderer/forward.h"
 
@@ -24,9 +27,12 @@ struct Revision {
   bool operator==(const Revision&) const = default;
 };
 
+/// The indirect irradiance H, W/m^2, at a local point of a surface with this normal, where it is known (check scenes).
+using ExpectedIrradiance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
+
 class Pipeline {
  public:
-  Pipeline(Context& context, Scene scene, const Settings& settings);
+  Pipeline(Context& context, Scene scene, const Settings& settings, ExpectedIrradiance expected = {});
   ~Pipeline();
 
   const Scene& scene() const;
@@ -69,7 +75,7 @@ class Pipeline {
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
   /// True when nothing is dirty and the solver is done: its bound is below the tolerance, or the watch stopped it.
   bool asleep() const;
-  /// True when nothing is dirty: what the pipeline holds is of its settings. The solver may have sweeps left.
+  /// True when nothing is due: what the pipeline holds was made with its settings. The solver may have sweeps left.
   bool current() const;
   /// Calls `draw` while the light is the one that a headless run solves: from the dark, in one go, to the tolerance.
   /// (The window's own depends on what was shown before, within the tolerance: it starts warm, and stops at another
@@ -84,10 +90,12 @@ class Pipeline {
   /// The picture that the views of group "Reference" show and compare with: radiance, top row first.
   void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels);
   bool hasReference() const;
+  /// Whether it was given what the irradiance should be, for VIEW_REFERENCE.
+  bool knowsIrradiance() const;
 
-  /// What was read of the products before is stale once these are larger.
+  /// Whatever was read from the products before these grew is stale.
   Revision revision() const;
-  // Of a scene that does not call for them field, matrix and light are none: false, without a buffer.
+  // In a scene that does not call for them field, matrix and light are empty: false, without a buffer.
   const FacetList& facets() const;
   const Field& field() const;
   const FormFactors& matrix() const;  ///< after a prepare() that succeeded

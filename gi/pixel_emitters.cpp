@@ -1,9 +1,13 @@
 // "RE Emitters": light straight from emissive triangles, looked for by each pixel (shaders/gi/emitters_light.comp).
+#include "gi/pixel_emitters.h"
+
 #include "shaders/shared/pixel_emitters.h"
 
 #include "gi/ray_kernel.h"
+#include "gi/subsystems.h"
 #include "gi/traits.h"
-#include "gi/views.h"
+#include "gi/views/views.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 
@@ -18,68 +22,62 @@ EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& s
   if (out.count > MAX_EMISSIVE_TRIANGLES) out.count = 0;
   if (out.count == 0) return out;
 
-  constexpr uint32_t kSamplesTextures = 0;  // specialization constant of shaders/gi/voxel_material.glsl
   out.triangles =
       Buffer(context.device, "emissive triangles", Subsystem::Specular, sizeof(EmissiveTriangle) * out.count);
-  EmissiveTrianglesPush push{};
-  push.scene = scene.record.address;
-  push.grid = grid.address;
-  push.triangles = out.triangles.address;
   Frame frame = context.begin();
-  frame.pass("GI CompactList")
-      .shader("gi/emissive_triangles.comp")
-      .constant(kSamplesTextures, true)
-      .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-            scene.uv1, scene.colors, grid)
-      .write(out.triangles)
-      .run([&](Commands& commands) {
-        for (const Draw& draw : scene.scene.draws) {
-          if (!emits(draw)) continue;
-          push.first = draw.firstIndex / 3;
-          push.count = draw.indexCount / 3;
-          commands.bindMaterial(scene.materialSets.at(draw.material));
-          commands.push(push);
-          commands.dispatch(push.count);
-          push.place += push.count;
-        }
-      });
+  Pass pass = frame.pass("GI CompactList");
+  EmissiveTrianglesPush push{};
+  push.scene = pass.in(scene.record);
+  push.grid = pass.in(grid);
+  push.triangles = pass.out(out.triangles);
+  pass.shader("gi/emissive_triangles.comp").constant(CONSTANT_SAMPLES_TEXTURES, true).run([&](Commands& commands) {
+    for (const Draw& draw : scene.scene.draws) {
+      if (!emits(draw)) continue;
+      push.first = draw.firstIndex / 3;
+      push.count = draw.indexCount / 3;
+      commands.bindMaterial(scene.materialSets.at(draw.material));
+      commands.push(push);
+      commands.dispatch(push.count);
+      push.place += push.count;
+    }
+  });
   frame.submit();
   return out;
 }
 
 void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& settings, Targets& targets) {
   const bool looks = inputs.emissiveTriangles != nullptr && inputs.emissiveTriangles->count > 0 && targets.emitted &&
-                     inputs.facets != nullptr && inputs.field != nullptr;
+                     inputs.facets != nullptr && inputs.field != nullptr && inputs.lighting != nullptr;
   targets.fit(frame.context(), &Targets::seen, looks);
   if (!looks) return;
   const FacetList& facets = *inputs.facets;
   const Field& field = *inputs.field;
   const EmissiveTriangles& emissive = *inputs.emissiveTriangles;
-  const RayKernel kernel{field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE, settings.matrix.gpu.hitRule,
-                         static_cast<uint32_t>(facets.encoding), facets, field};
+  const RayKernel kernel{field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE, settings.matrix.gpu.hitRule, facets.encoding,
+                         facets, field};
   PixelEmittersPush push{};
   push.grid = facets.grid;
-  push.facets = facets.record.address;
-  push.chebyshev = kernel.chebyshev();
-  push.triangles = emissive.triangles.address;
   push.count = emissive.count;
   push.rays = settings.sample.emitterRays;
-  push.lambda = settings.solver.gpu.lambda;
+  push.gain = inputs.lighting->gain.indirect;
   push.size = targets.size;
-  const glm::uvec2 groups = (targets.size + 7u) / 8u;
   Pass seen = frame.pass("RE Emitters");
-  kernel.configure(seen, frame.context().device, "emitters_seen")
-      .read(facets.record, facets.emission, emissive.triangles)
+  push.facets = seen.in(facets.record);
+  push.chebyshev = kernel.chebyshev(seen);
+  push.triangles = seen.in(emissive.triangles);
+  kernel.configure(seen, frame.context().device, "gi/emitters_seen")
       .read(targets.linear, targets.normal, targets.geometric)
       .write(targets.seen)
       .push(push)
-      .dispatchGroups(groups.x, groups.y);
-  frame.pass("RE Emitters")
-      .shader("gi/emitters_light.comp")
-      .read(emissive.triangles, targets.linear, targets.normal, targets.geometric, targets.seen)
+      .dispatch(targets.size);
+  Pass light = frame.pass("RE Emitters");
+  push.facets = push.chebyshev = 0;
+  push.triangles = light.in(emissive.triangles);
+  light.shader("gi/emitters_light.comp")
+      .read(targets.linear, targets.normal, targets.geometric, targets.seen)
       .write(targets.indirect, targets.emitted)
       .push(push)
-      .dispatchGroups(groups.x, groups.y);
+      .dispatch(targets.size);
 }
 
 }  // namespace irad

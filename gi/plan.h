@@ -1,5 +1,5 @@
-// What this scene calls for: which effects run, and in words why. A pure function of numbers: passes ask the plan,
-// never the scene, and no device is needed to test it.
+// What a scene calls for: which effects run, and in words why. plan() is a pure function of numbers: passes ask the
+// plan, never the scene, and no device is needed to test it.
 #pragma once
 
 #include <array>
@@ -11,61 +11,62 @@
 
 namespace irad {
 
-// X(identifier, "name", "label", "setting that forces it"): the rows of the plan, in order.
-#define IRAD_EFFECTS(X)                                                                 \
-  X(emission, "emission", "Emissive facets", "effects.emission")                        \
-  X(emitterSampling, "emitter-sampling", "Emitter sampling", "matrix.emitter_sampling") \
-  X(sun, "sun", "Sun", "effects.sun")                                                   \
-  X(point, "point", "Point lights", "effects.point")                                    \
-  X(spot, "spot", "Spot lights", "effects.spot")                                        \
-  X(matrix, "matrix", "Matrix and solve", "effects.matrix")                             \
-  X(specular, "specular", "Specular", "effects.specular")                               \
-  X(secondFacet, "second-facet", "Second facet", "effects.second_facet")                \
-  X(field, "field", "Distance field", "effects.field")                                  \
-  X(relight, "relight", "Relight", "effects.relight")                                   \
-  X(rebuild, "rebuild", "Rebuild", "")                                                  \
-  X(alphaTest, "alpha-test", "Alpha test", "effects.alpha_test")                        \
-  X(normalMap, "normal-map", "Normal maps", "effects.normal_map")                       \
-  X(blur, "blur", "Blur", "effects.blur")                                               \
-  X(redraw, "redraw", "Redraw", "")
+struct ForwardEffects;
+
+// X(identifier, "name", "label", "setting that forces it", the same where it is one of effects.*): the rows of the
+// plan, in order.
+#define IRAD_EFFECTS(X)                                                                                \
+  X(emission, "emission", "Emissive facets", "effects.emission", &EffectSettings::emission)            \
+  X(emitterSampling, "emitter-sampling", "Emitter sampling", "matrix.emitter_sampling", nullptr)       \
+  X(sun, "sun", "Sun", "effects.sun", &EffectSettings::sun)                                            \
+  X(point, "point", "Point lights", "effects.point", &EffectSettings::point)                           \
+  X(spot, "spot", "Spot lights", "effects.spot", &EffectSettings::spot)                                \
+  X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)                   \
+  X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)                   \
+  X(secondFacet, "second-facet", "Second facet", "effects.second_facet", &EffectSettings::secondFacet) \
+  X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                         \
+  X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                        \
+  X(rebuild, "rebuild", "Rebuild", "", nullptr)                                                        \
+  X(alphaTest, "alpha-test", "Alpha test", "effects.alpha_test", &EffectSettings::alphaTest)           \
+  X(normalMap, "normal-map", "Normal maps", "effects.normal_map", &EffectSettings::normalMap)          \
+  X(blur, "blur", "Blur", "effects.blur", &EffectSettings::blur)                                       \
+  X(redraw, "redraw", "Redraw", "", nullptr)
 
 enum class Effect : uint32_t {
-#define IRAD_EFFECT(id, name, label, setting) id,
+#define IRAD_EFFECT(id, ...) id,
   IRAD_EFFECTS(IRAD_EFFECT)
 #undef IRAD_EFFECT
 };
 inline constexpr size_t kEffects = static_cast<size_t>(Effect::redraw) + 1;
 
+/// That of a kind of light.
+Effect effectOf(LightType type);
+
 struct EffectInfo {
-  Effect effect;
-  const char *name, *label;
-  const char* setting;  ///< that forces it; "" where nothing does
+  const char *name, *label, *setting;
+  EffectMode EffectSettings::*mode;
 };
 const EffectInfo& effectInfo(Effect effect);
 
 /// asleep: called for, but nothing is due; what it has made is kept.
-enum class EffectState : uint32_t { off, asleep, on };
-template <>
-struct EnumNames<EffectState> {
-  static constexpr std::array names{"off", "asleep", "on"};
-};
-/// How the picture may differ from that with the effect forced on. exact: not in one bit, what is left out is provably
-/// 0; threshold: by no more than `epsilon` of `of`.
-enum class Skip : uint32_t { exact, threshold };
-template <>
-struct EnumNames<Skip> {
-  static constexpr std::array names{"exact", "threshold"};
-};
+#define IRAD_EFFECT_STATES(X) X(off, "off") X(asleep, "asleep") X(on, "on")
+IRAD_ENUM(EffectState, IRAD_EFFECT_STATES)
 
 struct EffectRow {
   Effect effect{};
   EffectState state = EffectState::on;
   std::string reason;  ///< with the figures: "2 of 14 materials emit, 12 W/(m^2 sr) at most"
-  Skip skip = Skip::exact;
-  float epsilon = 0;  ///< of a threshold skip, a share of `of`
+  /// How the picture may differ from that with the effect forced on. Exact: not in one bit, what is left out is
+  /// provably 0; threshold: by no more than `epsilon`, a share of `of`.
+  bool threshold = false;
+  float epsilon = 0;
   /// emitterSampling: that of the sum over all facets; rays and samples of single ones differ by their noise.
   const char* of = "the largest H";
-  uint64_t bytesNotAllocated = 0;  ///< while it is off, by the formulas of METHOD section 10; 0: unknown before a build
+  uint64_t bytesNotAllocated = 0;  ///< while it is off, by the formulas of docs/method.md 10; 0: unknown before a build
+
+  const EffectInfo& info() const { return effectInfo(effect); }
+  const char* stateName() const { return nameOf(state); }
+  const char* skipName() const { return threshold ? "threshold" : "exact"; }
 };
 
 struct EffectPlan {
@@ -77,21 +78,52 @@ struct EffectPlan {
   uint64_t bytesNotAllocated() const;
 };
 
-/// `before`: the plan until now, for what must not flicker at its trigger: an effect that is on goes off only where a
-/// wider one lets go of it too. blur: half of effects.blur_noise; lights: LightTraits::nears; field for specular rays:
-/// materials up to 0.05 rougher than specular.max_roughness.
+/// `before`: the plan until now, so that effects do not flicker at their triggers: one that is on goes off only where a
+/// wider trigger lets go of it too. blur: half of effects.blur_noise; lights: LightTraits::nears; field for specular
+/// rays: materials up to 0.05 rougher than specular.max_roughness.
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before = nullptr);
+
+/// automatic where nothing forces it. (emitterSampling is forced by matrix.emitter_sampling.)
+EffectMode forcedMode(const Settings& settings, Effect effect);
+/// Sets every effect that effects.* can force.
+void forceEffects(Settings& settings, EffectMode mode);
 
 /// The settings that stages get: `settings` with every effects.* decided (on or off), and off where it has a setting of
 /// its own written there (specular.mode, voxel.facets, sample.filter, sample.emitters).
 Settings obeyed(const Settings& settings, const EffectPlan& plan);
 
-/// automatic where nothing forces it. (Of emitterSampling see matrix.emitter_sampling.)
-EffectMode forcedMode(const Settings& settings, Effect effect);
-/// Of every effect that can be forced by effects.*.
-void forceEffects(Settings& settings, EffectMode mode);
-
 /// [{"effect": "sun", "state": "off", "reason": ..., "skip": "exact", "bytes_not_allocated": 16777216}, ...]
 std::string planJson(const EffectPlan& plan, int indent = -1);
+
+/// A pipeline's plan over time: what is known of its scene, what was decided of it, and the settings its stages get.
+class Planned {
+ public:
+  /// Decides for a scene of which nothing is built.
+  Planned(const Scene& scene, const Settings& settings);
+
+  SceneTraits traits;  ///< whoever learns of a change writes it here, then decides
+
+  const EffectPlan& plan() const { return plan_; }
+  bool on(Effect effect) const { return plan_.on(effect); }
+  /// obeyed() for the plan as it is.
+  const Settings& settings() const { return settings_; }
+  /// How often an effect went on or off since the scene was loaded.
+  uint64_t flips() const { return flips_; }
+
+  /// Decides anew.
+  void decide(const Settings& wanted);
+  /// Whether a light gets a shadow map and is summed up. Where its kind is on, the lights do that reach the scene or
+  /// nearly do; where the kind is forced on, all of them do.
+  bool shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const;
+  /// The scene's materials, less what the plan has off.
+  std::vector<GpuMaterial> materials(const std::vector<GpuMaterial>& all) const;
+  /// Which parts of forward shading are on. The rasterizer is not the plan's choice.
+  ForwardEffects forwardEffects() const;
+
+ private:
+  EffectPlan plan_;
+  Settings settings_;
+  uint64_t flips_ = 0;
+};
 
 }  // namespace irad

@@ -1,9 +1,76 @@
-#include "gi/planned.h"
+// The plan's table of effects, what becomes of the settings under it, and a pipeline's plan over time.
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "gi/plan.h"
+#include "gi/stage_keys.h"
+#include "renderer/forward.h"
+
 namespace irad {
+
+const EffectInfo& effectInfo(Effect effect) {
+  static constexpr EffectInfo infos[]{
+#define IRAD_EFFECT(id, ...) {__VA_ARGS__},
+      IRAD_EFFECTS(IRAD_EFFECT)
+#undef IRAD_EFFECT
+  };
+  return infos[static_cast<size_t>(effect)];
+}
+
+Effect effectOf(LightType type) {
+  static constexpr std::array effects{
+#define IRAD_LIGHT_EFFECT(constant, number, id, effect, gltf, name, one, many, map, traits) Effect::effect,
+      IRAD_LIGHT_KINDS(IRAD_LIGHT_EFFECT)
+#undef IRAD_LIGHT_EFFECT
+  };
+  return effects.at(static_cast<size_t>(type));
+}
+
+uint64_t EffectPlan::bytesNotAllocated() const {
+  uint64_t sum = 0;
+  for (const EffectRow& r : rows) sum += r.bytesNotAllocated;
+  return sum;
+}
+
+EffectMode forcedMode(const Settings& settings, Effect effect) {
+  const auto mode = effectInfo(effect).mode;
+  return mode ? settings.effects.*mode : EffectMode::automatic;
+}
+
+void forceEffects(Settings& settings, EffectMode mode) {
+  for (size_t i = 0; i < kEffects; ++i)
+    if (const auto member = effectInfo(static_cast<Effect>(i)).mode) settings.effects.*member = mode;
+}
+
+Settings obeyed(const Settings& settings, const EffectPlan& plan) {
+  Settings s = settings;
+  for (const EffectRow& row : plan.rows)
+    if (const auto mode = row.info().mode)
+      s.effects.*mode = row.state == EffectState::off ? EffectMode::off : EffectMode::on;
+  if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
+  if (settings.effects.secondFacet == EffectMode::off) s.voxel.facets = 1;
+  if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
+  if (plan.off(Effect::blur) && s.sample.gpu.filter_ == SampleFilter::blur) s.sample.gpu.filter_ = SampleFilter::linear;
+  return s;
+}
+
+std::string planJson(const EffectPlan& plan, int indent) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const EffectRow& r : plan.rows) {
+    nlohmann::ordered_json row{
+        {"effect", r.info().name}, {"state", r.stateName()}, {"reason", r.reason}, {"skip", r.skipName()}};
+    if (r.threshold) {
+      row["epsilon"] = nlohmann::ordered_json::parse(fmt::format("{}", r.epsilon));
+      row["epsilon_of"] = r.of;
+    }
+    row["bytes_not_allocated"] = r.bytesNotAllocated;
+    out.push_back(std::move(row));
+  }
+  return out.dump(indent);
+}
 
 Planned::Planned(const Scene& scene, const Settings& settings)
     : traits(measure(scene, settings.voxel.resolution)),
@@ -13,12 +80,12 @@ Planned::Planned(const Scene& scene, const Settings& settings)
 void Planned::decide(const Settings& wanted) {
   const EffectPlan before = std::exchange(plan_, irad::plan(traits, wanted, &plan_));
   const Settings next = obeyed(wanted, plan_);
-  const Redo first = difference(settings_, next);
+  const Redo first = firstDifference(settings_, next);
   settings_ = next;
   for (const EffectRow& row : plan_.rows)
-    if (*effectInfo(row.effect).setting != 0 && row.effect != Effect::relight)
+    if (*row.info().setting != 0 && row.effect != Effect::relight)
       flips_ += plan_.on(row.effect) != before.on(row.effect) ? 1 : 0;
-  // What was learned of the voxels is of the settings that they were made with.
+  // What was learned from the voxels holds for the settings that they were made with.
   if (first <= Redo::Voxels && traits.build) {
     traits.build.reset();
     decide(wanted);
@@ -26,7 +93,7 @@ void Planned::decide(const Settings& wanted) {
 }
 
 bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const {
-  const Effect kind = light.type == LIGHT_SUN ? Effect::sun : light.type == LIGHT_POINT ? Effect::point : Effect::spot;
+  const Effect kind = effectOf(LightType{light.type});
   if (!on(kind)) return false;
   return forcedMode(wanted, kind) == EffectMode::on || measureLight(light, scene, wanted.voxel.resolution).mayLight();
 }
@@ -46,7 +113,7 @@ std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all)
 
 ForwardEffects Planned::forwardEffects() const {
   ForwardEffects e;
-  e.lights = {.sun = on(Effect::sun), .spot = on(Effect::spot), .point = on(Effect::point)};
+  for (const LightKind& kind : lightKinds()) e.lights[kind.type] = on(effectOf(kind.type));
   e.emission = on(Effect::emission);
   e.alphaTest = on(Effect::alphaTest);
   e.normalMap = on(Effect::normalMap);

@@ -1,41 +1,41 @@
-// The presets and the defaults by device class (METHOD, first paragraphs).
+// The presets and the defaults by device class (docs/method.md).
 #include <fmt/format.h>
 
 #include "gi/plan.h"
 #include "gi/settings.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
 
 namespace irad {
 namespace {
 
 /// T Table 5 and the algorithms behind it: 256 voxels, 384 rays, "3axis" normals, DDA, padded rows, blurred and
-/// premultiplied lookups, two specular rays in the fragment shader, edge removal off, lambda = 0.8 (T 7.7).
+/// premultiplied lookups, two specular rays in the fragment shader, edge removal off, lambda = 0.8 (T 7.10, RQ9).
 void thesis(Settings& s) {
   s.voxel = {256, VoxelMethod::raster, 1, NormalEncoding::axis26};
   s.field.method = FieldMethod::jfa;
   s.matrix.format = MatrixFormat::padded;
   s.matrix.gpu.rays = 384;
   s.matrix.emitterSampling = EmitterSampling::off;
-  s.matrix.gpu.hitRule = HIT_RULE_THESIS;
-  s.matrix.gpu.traversal = TRAVERSAL_DDA;
+  s.matrix.gpu.hitRule = HitRule::thesis;
+  s.matrix.gpu.traversal = Traversal::dda;
   s.matrix.gpu.jitter = 1;  // "a jittered Hammersley sequence" (T 5.4)
   s.gather.samples = 1;
   s.solver.gpu.lambda = 0.8f;
   s.solver.kernel = SolverKernel::tree;
   s.scatter.edgeRemoval = false;
-  s.sample.gpu.filter_ = FILTER_BLUR;
+  s.sample.gpu.filter_ = SampleFilter::blur;
   s.sample.gpu.premultiplied = 1;
   s.sample.gpu.gated = 0;
   s.specular.mode = SpecularMode::fragment;
   s.specular.gpu.rays = 2;
-  s.specular.gpu.traversal = TRAVERSAL_DDA;
+  s.specular.gpu.traversal = Traversal::dda;
   s.specular.gpu.filter_ = 0;
-  // Its stages run whatever the scene holds. But its lights are those that shine, light at rest is not solved again,
-  // and a voxel keeps one facet.
+  // The thesis's stages run whatever the scene holds. But lights without intensity stay out, light at rest is not
+  // solved again, and a voxel keeps one facet.
   forceEffects(s, EffectMode::on);
   s.effects.secondFacet = s.effects.relight = EffectMode::automatic;
-  s.effects.sun = s.effects.point = s.effects.spot = EffectMode::automatic;
+  for (const LightKind& kind : lightKinds()) s.effects.*effectInfo(effectOf(kind.type)).mode = EffectMode::automatic;
 }
 
 void fast(Settings& s, bool cpuDevice) {

@@ -23,10 +23,11 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   in.around = &p.facets->around;
   in.shaded = &p.light->shaded();
   in.keepPosition = pixelEmitters && p.light->emitted;
-  if ((view == VIEW_DIRECT_IRRADIANCE || view == VIEW_EMITTER_IRRADIANCE || in.keepPosition) && p.light->emitted)
+  const ViewInfo* info = viewInfo(view);
+  if (((info != nullptr && info->isFrom(FROM_EMITTED)) || in.keepPosition) && p.light->emitted)
     in.shadedEmitted = &p.light->shadedEmitted();
   in.volume = p.light->volume ? &p.light->volume : nullptr;
-  in.normalEncoding = static_cast<uint32_t>(p.facets->encoding);
+  in.normalEncoding = p.facets->encoding;
   in.sample = obeyed.sample.gpu;
   return in;
 }

@@ -3,14 +3,19 @@
 
 #include <optional>
 
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/indirect.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/pixel_emitters.h"
 #include "gi/plan.h"
-#include "gi/stages.h"
-#include "gi/views.h"
-#include "renderer/forward.h"
+#include "gi/views/views.h"
 
 namespace irad {
 
-/// One member per stage's product; all of one facet list. Before the first build there is none.
+/// One member per stage's product, all made from one facet list. Before the first build there are none.
 struct Products {
   std::optional<FacetList> facets;
   Buffer gridRecord;  ///< one Grid
@@ -23,7 +28,7 @@ struct Products {
   ViewFields fields;
 };
 
-/// What they have shown to the plan. Of products that have facets and emitters.
+/// What the products have shown to the plan; they must have facets and emitters.
 BuildTraits buildTraits(const Products& products);
 
 /// Where shading reads H from for `view`; nothing where there is no light. `pixelEmitters`: EffectPlan's. The products

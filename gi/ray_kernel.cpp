@@ -1,28 +1,27 @@
 #include "gi/ray_kernel.h"
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 
 RayKernel rayKernel(const FacetList& facets, const Field& field, const MatrixParams& params) {
   uint32_t method = field.chebyshev ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
-  if (params.traversal == TRAVERSAL_SDF) {
+  if (params.traversal == Traversal::sdf) {
     method = field.method == FieldMethod::jfa ? TRACE_JFA : TRACE_SKIP;
     if (method == TRACE_JFA) IRAD_CHECK(field.jfaDistance.handle, "an sdf traversal without its jfa volume");
     if (method == TRACE_SKIP) IRAD_CHECK(field.chebyshev.handle, "an sdf traversal without its chebyshev field");
   }
-  return {method, params.hitRule, static_cast<uint32_t>(facets.encoding), facets, field};
+  return {method, params.hitRule, facets.encoding, facets, field};
 }
 
 Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& name) const {
   const bool jfa = method == TRACE_JFA;
-  pass.shader("gi/" + name + (jfa ? "_jfa.comp" : ".comp"))
-      .constant(0, method)
-      .constant(1, hitRule)
-      .constant(2, encoding)
-      .constant(4, facets.slots > 2)
-      .read(facets.voxel, facets.shape, facets.reverse, facets.around);
-  if (field.chebyshev) pass.read(field.chebyshev);
+  pass.shader(name + (jfa ? "_jfa.comp" : ".comp"))
+      .constant(CONSTANT_TRACE_METHOD, method)
+      .constant(CONSTANT_TRACE_HIT_RULE, hitRule)
+      .constant(CONSTANT_NORMALS, encoding)
+      .constant(CONSTANT_TRACE_MANY, facets.slots > 2);
   if (jfa)
     pass.sample(field.jfaDistance, sampler(device, {.u = Wrap::Clamp,
                                                     .v = Wrap::Clamp,
@@ -33,29 +32,13 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
   return pass;
 }
 
-void markCorners(Context& context, FacetList& list, uint32_t slots) {
-  if (list.count == 0) return;
-  FacetCornersPush push{};
-  push.facets = list.record.address;
-  push.dims = list.grid.dims;
-  push.slots = slots;
-  Frame frame = context.begin();
-  frame.pass("GI CompactList")
-      .shader("gi/facet_corners.comp")
-      .constant(0, static_cast<uint32_t>(list.encoding))
-      .read(list.record, list.voxel, list.reverse)
-      .write(list.shape, list.around)
-      .push(push)
-      .dispatch(list.count);
-  frame.submit();
-}
-
 void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params, uint32_t firstRow, uint32_t rows,
                const Buffer& hits) {
+  Pass pass = frame.pass("GI BuildMatrix");
   TraceRaysPush push{};
-  push.facets = kernel.facets.addresses();
-  push.chebyshev = kernel.chebyshev();
-  push.hits = hits.address;
+  push.facets = kernel.facets.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
+  push.chebyshev = kernel.chebyshev(pass);
+  push.hits = pass.out(hits);
   push.dims = kernel.facets.grid.dims;
   push.jfaMax = kernel.field.jfaMax;
   push.firstRow = firstRow;
@@ -63,11 +46,7 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.rays = params.rays;
   push.jitter = params.jitter;
   push.seed = params.seed;
-  Pass pass = frame.pass("GI BuildMatrix");
-  kernel.configure(pass, frame.context().device, "trace_rays")
-      .write(hits)
-      .push(push)
-      .dispatch(uint64_t{rows} * params.rays);
+  kernel.configure(pass, frame.context().device, "gi/trace_rays").push(push).dispatch(uint64_t{rows} * params.rays);
 }
 
 }  // namespace irad

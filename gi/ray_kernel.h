@@ -2,7 +2,8 @@
 // (shaders/gi/trace.glsl).
 #pragma once
 
-#include "gi/stages.h"
+#include "gi/facets.h"
+#include "gi/field.h"
 #include "shaders/shared/trace.h"
 
 namespace irad {
@@ -10,14 +11,14 @@ namespace irad {
 /// How a stage's rays find solid voxels.
 struct RayKernel {
   uint32_t method;  ///< TRACE_*
-  uint32_t hitRule;
-  uint32_t encoding;
+  HitRule hitRule;
+  NormalEncoding encoding;
   const FacetList& facets;
   const Field& field;
 
-  /// Adds shader ("gi/NAME.comp" or "gi/NAME_jfa.comp"), constants and resources to a pass.
+  /// Adds shader ("NAME.comp", or its variant "NAME_jfa.comp"), constants and the field's image to a pass.
   Pass& configure(Pass& pass, const Device& device, const std::string& name) const;
-  uint64_t chebyshev() const { return field.chebyshev.address; }
+  uint64_t chebyshev(Pass& pass) const { return pass.inIfAny(field.chebyshev); }
 };
 RayKernel rayKernel(const FacetList& facets, const Field& field, const MatrixParams& params);
 

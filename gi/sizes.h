@@ -1,4 +1,4 @@
-// Smaller sizes, for where the defaults do not fit into memory (METHOD, first paragraphs).
+// Smaller sizes, for where the defaults do not fit into memory (docs/method.md).
 #pragma once
 
 #include "gi/settings.h"

@@ -1,22 +1,25 @@
-// Jacobi (METHOD sections 1 and 6, T 5.8): H <- F B, then B <- lambda (M + rho (D + H)).
+// Jacobi (docs/method.md 1 and 6, T 5.8): H <- F B, then B <- lambda (M + rho (D + H)).
+#include "gi/solve.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
+#include "gi/subsystems.h"
 #include "gi/sweep.h"
 #include "gi/watch.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 namespace {
 
-constexpr const char* kStage = "GI Solve";
+constexpr const char* kSolveStage = "GI Solve";
 constexpr uint32_t kBatch = 16;           ///< sweeps per submission at most; the last one is watched
 constexpr float kDark = 1e-6f;            ///< share of the last lit H below which an unlit scene is put out
 constexpr float kTameLambda = 1 / 0.98f;  ///< albedos are <= .98 and row sums of F <= 1: no divergence up to here
 
-/// How far B may still be from its fixed point, and H from F times that: q contraction, |dB| the last change.
+/// How far B may still be from its fixed point, and H from F times it. q: the contraction; |dB|: the last change.
 void judge(SolveReport& report, const SolveResidual& r, float omega, float tolerance) {
   report.residual = std::bit_cast<float>(r.maxDelta);
   report.largestH = std::bit_cast<float>(r.maxH);
@@ -33,7 +36,7 @@ void judge(SolveReport& report, const SolveResidual& r, float omega, float toler
   report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
 }
 
-/// A guard for a solve that begins, or goes on: the window calls for a few sweeps at a time.
+/// Makes the guard of a solve that begins, or that goes on: the window calls for a few sweeps at a time.
 void begin(Context& context, const FacetList& facets, Lighting& light, const SolverParams& params) {
   DivergenceGuard& guard = light.guard;
   if (!light.report.settled() && guard.lambda == params.lambda && guard.asked == params.omega) return;
@@ -43,20 +46,23 @@ void begin(Context& context, const FacetList& facets, Lighting& light, const Sol
   fresh.asked = fresh.omega = params.omega;
   if (light.report.nonFinite > 0) {
     Frame frame = context.begin();
-    frame.pass(kStage).fill(light.radiosity, 0);
+    frame.pass(kSolveStage).fill(light.radiosity, 0);
     frame.submit();
+    light.gain.radiosity = params.lambda;
   }
   if (goesOn) {
     fresh.radiosity = std::move(guard.radiosity);
     fresh.indirect = std::move(guard.indirect);
+    fresh.gain = guard.gain;
   } else if (params.lambda > kTameLambda) {
     const uint64_t bytes = 16ull * facets.count;
     fresh.radiosity = Buffer(context.device, "radiosity B (before)", Subsystem::Solver, bytes);
     fresh.indirect = Buffer(context.device, "indirect irradiance H (before)", Subsystem::Solver, bytes);
     Frame frame = context.begin();
-    frame.pass(kStage).copy(light.radiosity, fresh.radiosity, bytes);
-    frame.pass(kStage).copy(light.indirect, fresh.indirect, bytes);
+    frame.pass(kSolveStage).copy(light.radiosity, fresh.radiosity, bytes);
+    frame.pass(kSolveStage).copy(light.indirect, fresh.indirect, bytes);
     frame.submit();
+    fresh.gain = light.gain;
   }
   guard = std::move(fresh);
 }
@@ -66,9 +72,10 @@ void restore(Context& context, const FacetList& facets, Lighting& light) {
   if (!light.guard.radiosity) return;
   const uint64_t bytes = 16ull * facets.count;
   Frame frame = context.begin();
-  frame.pass(kStage).copy(light.guard.radiosity, light.radiosity, bytes);
-  frame.pass(kStage).copy(light.guard.indirect, light.indirect, bytes);
+  frame.pass(kSolveStage).copy(light.guard.radiosity, light.radiosity, bytes);
+  frame.pass(kSolveStage).copy(light.guard.indirect, light.indirect, bytes);
   frame.submit();
+  light.gain = light.guard.gain;
 }
 
 }  // namespace
@@ -86,7 +93,7 @@ void DivergenceGuard::judge(float gain, float residual) {
 }
 
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
-                  const Settings& settings, uint32_t maxSweeps, const EmitterSource& source) {
+                  const Settings& settings, uint32_t maxSweeps) {
   IRAD_CHECK_OP(matrix.rows, ==, facets.count);
   SolveReport report;
   if (facets.count == 0) {
@@ -95,24 +102,27 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   }
   const SolverParams& params = settings.solver.gpu;
   Sweep sweep(context, facets, matrix, settings.solver);
-  if (!light.emittedCurrent) gatherEmitters(context, facets, matrix, source, settings, sweep, light);
   begin(context, facets, light, params);
   DivergenceGuard& guard = light.guard;
   const float litBefore = light.litH;
 
-  // A CPU device sweeps slowly: short submissions. The first is short too, a warm start is often at its goal.
+  // A CPU device sweeps slowly, so its submissions are short. The first is short everywhere: a warm start is often at
+  // its goal.
   const uint32_t longest = context.device.isCpu ? 4 : kBatch;
   uint32_t batch = std::min(2u, longest);
   while (report.sweeps < maxSweeps && !report.settled()) {
     const uint32_t count = std::min(batch, maxSweeps - report.sweeps);
     sweep.omega = guard.omega;
     Frame frame = context.begin();
-    frame.pass(kStage).fill(light.residual, 0);
-    if (report.sweeps == 0) sweep.begin(frame, kStage, light.radiosity);
+    frame.pass(kSolveStage).fill(light.residual, 0);
+    if (report.sweeps == 0) sweep.begin(frame, kSolveStage, light.radiosity);
     for (uint32_t i = 0; i < count; ++i) {
-      sweep.record(frame, kStage, i + 1 == count ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext,
+      sweep.record(frame, kSolveStage, i + 1 == count ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext,
                    light);
       std::swap(light.radiosity, light.radiosityNext);
+      SourceGain& gain = light.gain;
+      gain.indirect = gain.radiosity;
+      gain.radiosity += sweep.omega * (params.lambda - gain.radiosity);
     }
     SolveResidual residual{};
     frame.readback(light.residual, 0, sizeof(residual),
@@ -124,7 +134,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     report.growth = guard.growth;
     report.damped = guard.damped;
     report.diverging = guard.gaveUp;
-    // Where light may grow it is looked at often, and while it grows after every sweep.
+    // Where light may grow it is checked often, and while it does grow after every sweep.
     batch = report.largestGain < 1 ? longest : guard.growing > 0 || guard.damped ? 1 : std::min(4u, longest);
 
     if (residual.maxSource != 0) {

@@ -1,11 +1,14 @@
-// "RE Specular": reflections of the voxelized scene (METHOD section 8).
+// "RE Specular": reflections of the voxelized scene (docs/method.md 8).
+#include "gi/specular.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
 
-#include "gi/views.h"
-#include "shaders/shared/passes.h"
+#include "gi/views/views.h"
+#include "shaders/shared/constants.h"
+#include "shaders/shared/indirect.h"
 
 namespace irad {
 namespace {
@@ -17,15 +20,15 @@ struct FilterStep {
 };
 constexpr std::array<FilterStep, 3> kFilter{{{1, 0.03f}, {2, 0.08f}, {4, 0.15f}}};
 
-/// Which of gi/trace.glsl's walks serves the settings and the field that there is.
+/// Which of gi/trace.glsl's walks fits the settings and the field at hand.
 uint32_t traceMethod(const Settings& settings, const Field& field) {
   const bool bytes = static_cast<bool>(field.chebyshev);
-  if (settings.specular.gpu.traversal == TRAVERSAL_DDA) return bytes ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
+  if (settings.specular.gpu.traversal == Traversal::dda) return bytes ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
   if (field.method == FieldMethod::jfa && field.jfaDistance) return TRACE_JFA;
   return bytes ? TRACE_SKIP : TRACE_DDA_REVERSE;
 }
 
-/// W/m^2. In the dark no pixel traces rays, but with a threshold of 0.
+/// W/m^2. In the dark no pixel traces rays, unless the threshold is 0.
 float leastReflected(float threshold, float largestH) {
   return threshold > 0 ? std::max(threshold * largestH, std::numeric_limits<float>::min()) : 0;
 }
@@ -53,29 +56,30 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   nearest.linearMips = false;
   const VkSampler point = sampler(frame.context().device, nearest);
 
-  SpecularPush push{};
-  push.camera = camera.address;
-  push.grid = facets.grid;
-  push.facets = facets.record.address;
-  push.radiosity = lighting.radiosity.address;
-  push.chebyshev = field.chebyshev.address;
-  push.params = settings.specular.gpu;
-  push.jfaMax = field.jfaMax;
-  push.leastReflected = leastReflected(settings.specular.gpu.threshold, lighting.litH);
+  SpecularPush common{};
+  common.grid = facets.grid;
+  common.params = settings.specular.gpu;
+  common.jfaMax = field.jfaMax;
+  common.leastReflected = leastReflected(settings.specular.gpu.threshold, lighting.litH);
   const uint32_t method = traceMethod(settings, field);
   const bool volume = method == TRACE_JFA;
-  const auto traced = [&](Pass& pass) -> Pass& {
-    pass.constant(0, method)
-        .constant(1, settings.matrix.gpu.hitRule)
-        .constant(2, static_cast<uint32_t>(facets.encoding))
-        .constant(4, facets.slots > 2)
-        .read(camera, facets.record, facets.shape, facets.reverse, facets.around, lighting.radiosity)
+  const auto traced = [&](Pass& pass, const Emitters* emitters = nullptr) -> Pass& {
+    SpecularPush push = common;
+    push.camera = pass.in(camera);
+    push.facets = pass.in(facets.record);
+    push.radiosity = pass.in(lighting.radiosity);
+    push.chebyshev = pass.inIfAny(field.chebyshev);
+    if (lists) push.glossy = pass.in(targets.glossy);
+    if (emitters != nullptr) push.emitters = pass.in(emitters->record);
+    pass.constant(CONSTANT_TRACE_METHOD, method)
+        .constant(CONSTANT_TRACE_HIT_RULE, settings.matrix.gpu.hitRule)
+        .constant(CONSTANT_NORMALS, facets.encoding)
+        .constant(CONSTANT_TRACE_MANY, facets.slots > 2)
+        .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
         .sample(targets.depth, point)
         .read(targets.normal, targets.geometric, targets.f0);
-    if (lists) pass.read(targets.glossy);
     if (alone) pass.read(targets.indirect);
     if (lists) pass.write(alone ? targets.specular : targets.linear);
-    if (field.chebyshev) pass.read(field.chebyshev);
     if (volume) pass.sample(field.jfaDistance, point);
     return pass.push(push);
   };
@@ -87,18 +91,19 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
     return;
   }
 
-  // List the pixels that trace; the others are done with that.
-  push.glossy = targets.glossy.address;
+  // List the pixels that trace; the others have their reflection with this step.
   frame.pass("RE Specular").update(targets.glossy, glm::uvec4(0, alone ? GLOSSY_PARTS : 1, 1, 0));
-  frame.pass("RE Specular")
-      .shader("specular/classify.comp")
-      .constant(0, !alone)
-      .read(camera)
+  Pass classify = frame.pass("RE Specular");
+  SpecularPush push = common;
+  push.camera = classify.in(camera);
+  push.glossy = classify.out(targets.glossy);
+  classify.shader("specular/classify.comp")
+      .constant(CONSTANT_FILTERED, !alone)
       .sample(targets.depth, point)
       .read(targets.normal, targets.f0, targets.indirect)
-      .write(targets.linear, targets.specular, targets.glossy)
+      .write(targets.linear, targets.specular)
       .push(push)
-      .run([&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
+      .dispatch(targets.size);
 
   // Trace.
   Pass trace = frame.pass("RE Specular");
@@ -109,12 +114,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   }
   trace.shader(volume ? "specular/trace_jfa.comp" : "specular/trace.comp");
   const bool emitters = inputs.emitters != nullptr && inputs.emitters->count > 0;
-  if (emitters) {
-    push.emitters = inputs.emitters->record.address;
-    trace.read(inputs.emitters->record, inputs.emitters->entries, facets.voxel, facets.emission);
-  }
-  trace.constant(3, emitters);
-  traced(trace).dispatchIndirect(targets.glossy);
+  traced(trace, emitters ? inputs.emitters : nullptr).dispatchIndirect(targets.glossy);
 
   // Filter; linear and specular take turns, so that the last of the three steps ends in `specular`.
   const Image* from = &targets.linear;
@@ -122,12 +122,13 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   for (size_t i = 0; i < kFilter.size(); ++i) {
     const bool last = i + 1 == kFilter.size();
     if (settings.specular.gpu.filter_ == 0 && !last) continue;
-    frame.pass("RE Specular")
-        .shader("specular/filter.comp")
-        .constant(0, settings.specular.gpu.filter_ != 0 ? kFilter[i].step : 0)
-        .constant(1, last)
-        .constant(2, std::bit_cast<uint32_t>(kFilter[i].leastRoughness))
-        .read(camera, targets.glossy)
+    Pass filter = frame.pass("RE Specular");
+    push.camera = filter.in(camera);
+    push.glossy = filter.in(targets.glossy);
+    filter.shader("specular/filter.comp")
+        .constant(CONSTANT_FILTER_STEP, settings.specular.gpu.filter_ != 0 ? kFilter[i].step : 0)
+        .constant(CONSTANT_FILTER_RESOLVE, last)
+        .constant(CONSTANT_LEAST_ROUGHNESS, std::bit_cast<uint32_t>(kFilter[i].leastRoughness))
         .read(targets.normal, targets.geometric, targets.f0, targets.indirect, *from)
         .write(*to)
         .push(push)

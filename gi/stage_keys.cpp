@@ -59,14 +59,7 @@ void StageKeys::forget(Redo from) {
 StageKeys stageKeys(const SceneContent& content, const Settings& obeyed) {
   // Each stage reads its own settings,
   std::array<Digest, static_cast<size_t>(Redo::Nothing) + 1> own;
-  Settings settings = obeyed;
-  visit(settings, [&](auto&& member, const Meta& meta) {
-    Digest& digest = own[static_cast<size_t>(meta.redo)];
-    if constexpr (requires { member.value; })
-      digest.add(member.value);
-    else
-      digest.add(member);
-  });
+  for (const Setting& setting : settingTable()) own[static_cast<size_t>(setting.redo)].add(setting.get(obeyed));
   // a part of the scene, and what the stage before it has made.
   StageKeys keys;
   Digest chain;
@@ -82,6 +75,10 @@ Redo firstDifference(const StageKeys& made, const StageKeys& wanted) {
   for (size_t stage = 0; stage < made.of.size(); ++stage)
     if (made.of[stage] != wanted.of[stage]) return static_cast<Redo>(stage);
   return Redo::Nothing;
+}
+
+Redo firstDifference(const Settings& made, const Settings& wanted) {
+  return firstDifference(stageKeys({}, made), stageKeys({}, wanted));
 }
 
 }  // namespace irad

@@ -1,6 +1,7 @@
 #include "gi/sweep.h"
 
-#include <algorithm>
+#include "gi/subsystems.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 namespace {
@@ -35,42 +36,34 @@ Sweep::Sweep(Context& context, const FacetList& facets, const FormFactors& matri
 
 void Sweep::begin(Frame& frame, const char* stage, const Buffer& input) {
   if (!images_) return;
-  frame.pass(stage)
-      .shader("gi/solve_image.comp")
-      .read(input)
+  Pass pass = frame.pass(stage);
+  pass.shader("gi/solve_image.comp")
       .write(vectors_[0])
-      .push(SolveImagePush{input.address, facets_.count, 0})
+      .push(SolveImagePush{pass.in(input), facets_.count, 0})
       .dispatch(facets_.count);
   current_ = 0;
 }
 
 void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
                    const Lighting& light) {
+  Pass pass = frame.pass(stage);
   SolvePush push{};
-  push.matrix = matrix_.record.address;
-  push.facets = facets_.record.address;
-  push.direct = light.direct.address;
-  push.input_ = input.address;
-  push.output_ = output.address;
-  push.indirect = light.indirect.address;
-  push.residual = light.residual.address;
-  push.rowSum = light.rowSum.address;
-  push.correction = light.correction.address;
-  push.corrected = light.correction ? 1 : 0;
+  push.matrix = pass.in(matrix_.record);
+  push.facets = pass.in(facets_.record);
+  push.direct = pass.in(light.direct);
+  push.input_ = pass.in(input);
+  push.output_ = pass.out(output);
+  if (work != SOLVE_PRODUCT) push.indirect = pass.out(light.indirect);
+  if (work == SOLVE_WATCH) {
+    push.residual = pass.out(light.residual);
+    push.rowSum = pass.out(light.rowSum);
+  }
+  push.correction = pass.inIfAny(light.correction);
+  push.correctionGain = light.correction ? light.gain.radiosity : 0;
   push.lambda = lambda_;
   push.omega = omega;
   push.flush = flush;
-  Pass pass = frame.pass(stage);
-  pass.constant(0, matrix_.format == MatrixFormat::csr ? SOLVE_CSR : SOLVE_PADDED)
-      .constant(1, work)
-      .read(matrix_.record, matrix_.rowStart, matrix_.rowInfo, facets_.record, facets_.albedo, facets_.emission,
-            light.direct, input)
-      .write(output)
-      .push(push);
-  for (const Buffer& segment : matrix_.segments) pass.read(segment);
-  if (light.correction) pass.read(light.correction);
-  if (work != SOLVE_PRODUCT) pass.write(light.indirect);
-  if (work == SOLVE_WATCH) pass.write(light.residual, light.rowSum);
+  pass.constant(CONSTANT_MATRIX_FORMAT, matrix_.format).constant(CONSTANT_SOLVE_WORK, work).push(push);
   switch (kernel_) {
     case SolverKernel::row:
       if (images_) {
@@ -81,11 +74,9 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
         pass.shader("gi/solve_row.comp").dispatch(matrix_.rows);
       }
       break;
-    case SolverKernel::tree: {
-      const uint32_t x = std::min(matrix_.rows, 32768u);
-      pass.shader("gi/solve_tree.comp").dispatchGroups(x, (matrix_.rows + x - 1) / x);
+    case SolverKernel::tree:
+      pass.shader("thesis/solve_tree.comp").dispatchWorkgroups(matrix_.rows);
       break;
-    }
     default:
       pass.shader("gi/solve_subgroup.comp").dispatch(uint64_t{matrix_.rows} * frame.context().device.subgroupSize);
   }

@@ -3,7 +3,10 @@
 
 #include <array>
 
-#include "gi/stages.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/solve.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -30,9 +33,5 @@ class Sweep {
   std::array<Image, 2> vectors_;  ///< input and output, in turn
   uint32_t current_ = 0;
 };
-
-/// The first gather, light.emitted = F M, and light.correction where the emitters are sampled.
-void gatherEmitters(Context& context, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
-                    const Settings& settings, Sweep& sweep, Lighting& light);
 
 }  // namespace irad

@@ -21,7 +21,7 @@ float largest(const glm::vec3& v) {
 class Texels {
  public:
   explicit Texels(const Scene& scene) : scene_(scene) {}
-  /// Of a material without the texture: 1.
+  /// 1 for a material without the texture.
   TexelRange range(const TextureUse& use) {
     if (use.image < 0) return {glm::vec4(1), glm::vec4(1)};
     const auto [at, fresh] = ranges_.try_emplace(use.image);
@@ -53,7 +53,6 @@ MaterialTraits measureMaterial(const Material& m, Texels& texels) {
     t.f0 = std::max({least, 0.04f * (1 - std::min(m.metallic * rough.least.b, 1.0f)),
                      largest(base) * std::min(m.metallic * rough.most.b, 1.0f)});
     t.leastRoughness = std::min(m.roughness * rough.least.g, 1.0f);
-    t.roughness = std::min(m.roughness * rough.most.g, 1.0f);
   }
   t.normalMap = m.normalTexture.image >= 0;
   t.alphaTest = m.alpha == AlphaMode::Mask || (m.alpha == AlphaMode::Blend && m.baseColorTexture.image >= 0);
@@ -71,7 +70,7 @@ bool allFaceOneWay(const Scene& scene) {
                      c = scene.positions[scene.indices[i + 2]];
     const glm::dvec3 n = glm::cross(b - a, c - a);
     const double area = glm::length(n);
-    if (!(area > 0)) return false;  // faces anywhere
+    if (!(area > 0)) return false;  // it may face anywhere
     normals.push_back(n / area);
     mean += normals.back();
   }
@@ -83,7 +82,7 @@ bool allFaceOneWay(const Scene& scene) {
                      [&](const glm::dvec3& n) { return glm::dot(n, mean / length) > half; });
 }
 
-/// Whether a spot's cone meets the sphere around the bounds.
+/// Whether a light's cone meets the sphere around the bounds.
 bool coneReaches(const GpuLight& light, const glm::dvec3& centre, double radius) {
   const glm::dvec3 to = centre - glm::dvec3(light.position);
   const double distance = glm::length(to);
@@ -95,12 +94,12 @@ bool coneReaches(const GpuLight& light, const glm::dvec3& centre, double radius)
 
 bool reachesBounds(const GpuLight& light, const Scene& scene, double margin) {
   if (scene.triangleCount() == 0) return false;
-  if (light.type == LIGHT_SUN) return true;
+  if (lightHas(light.type, LIGHT_DISTANT)) return true;
   const glm::dvec3 lo = glm::dvec3(scene.boundsMin) - margin, hi = glm::dvec3(scene.boundsMax) + margin;
   const glm::dvec3 position(light.position);
   const double distance = glm::distance(glm::clamp(position, lo, hi), position);
   if (light.range > 0 && !(distance <= double{light.range} * (1 + 1e-5))) return false;
-  return light.type == LIGHT_POINT || coneReaches(light, 0.5 * (lo + hi), 0.5 * glm::length(hi - lo));
+  return !lightHas(light.type, LIGHT_CONE) || coneReaches(light, 0.5 * (lo + hi), 0.5 * glm::length(hi - lo));
 }
 
 }  // namespace
@@ -118,7 +117,6 @@ LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t res
 
 SceneTraits measure(const Scene& scene, uint32_t resolution) {
   SceneTraits traits;
-  traits.triangles = scene.triangleCount();
   traits.facesOneWay = allFaceOneWay(scene);
   Texels texels(scene);
   traits.materials.resize(scene.materials.size());

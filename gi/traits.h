@@ -12,14 +12,13 @@
 
 namespace irad {
 
-/// Of a material, over all that its textures hold: upper bounds where nothing else is said.
+/// What a material may hold, over all its texels: upper bounds where nothing else is said.
 struct MaterialTraits {
   uint32_t triangles = 0;    ///< that have it
   float emission = 0;        ///< emitted radiance, luminance, W/(m^2 sr); > 0 where any channel of any texel is
   float albedo = 0;          ///< of the largest channel
   float f0 = 0;              ///< specular reflectance at normal incidence; 0: Lambertian
   float leastRoughness = 1;  ///< lower bound
-  float roughness = 1;
   bool alphaTest = false, normalMap = false;
 };
 
@@ -27,13 +26,13 @@ struct LightTraits {
   LightType type = LightType::Sun;
   bool shines = false;   ///< intensity > 0
   bool reaches = false;  ///< a point of the scene's bounds; conservative
-  bool nears = false;    ///< of bounds widened by as much again: what has gone on stays until it is out of these
+  bool nears = false;    ///< a point of bounds widened once more, until it is out of which a light that is on stays on
   bool cube = false;     ///< six shadow maps instead of one (lightUsesCube)
   bool lights() const { return shines && reaches; }
   bool mayLight() const { return shines && nears; }
 };
 
-/// Of the voxels and their matrix, once they are built.
+/// What the voxels and their matrix have shown, once they are built.
 struct BuildTraits {
   uint64_t voxels = 0;
   uint32_t facets = 0, solidVoxels = 0;
@@ -44,7 +43,7 @@ struct BuildTraits {
   double escaped = 0;      ///< share of its rays that left the grid
 };
 
-/// Of the light as it is.
+/// The light as it is.
 struct LightState {
   Redo due = Redo::Voxels;  ///< first stage that has to run again
   bool settled = false;     ///< the solver has nothing left to do
@@ -57,7 +56,6 @@ struct LightState {
 struct SceneTraits {
   std::vector<MaterialTraits> materials;
   std::vector<LightTraits> lights;
-  uint32_t triangles = 0;
   /// All faces look one way, within half the angle at which a voxel keeps a second one, and none shows its back.
   bool facesOneWay = false;
 

@@ -1,31 +1,85 @@
-// Voxelization (METHOD section 2, T 5.1): which triangle owns each voxel, and which one faces against it.
+// Voxelization (docs/method.md 2, T 5.1): which triangles own each voxel's facets.
+#include "gi/voxelize.h"
+
 #include <algorithm>
 
-#include "gi/stages.h"
-#include "renderer/error.h"
-#include "renderer/raster.h"
-#include "shaders/shared/voxelize.h"
+#include "gi/grid.h"
+#include "gi/scan.h"
+#include "gi/subsystems.h"
+#include "gi/thesis/literal_grid.h"
+#include "gi/thesis/raster_voxels.h"
+#include "gi/voxel_pass.h"
+#include "renderer/base/error.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 namespace {
 
-constexpr const char* kStage = "GI Voxelization";
-constexpr uint32_t kSamplesTextures = 0;  // specialization constant of shaders/gi/voxel_material.glsl
-
-/// Triangles that one dispatch or draw takes: a masked material by itself, with its textures; all between together.
-struct Range {
-  uint32_t first, end;  // triangles
-  uint32_t material;    // whose set is bound
-  bool masked;          // its alpha decides
-  uint32_t firstTile = 0, tiles = 0;
+/// The pieces of triangles that workgroups take.
+struct Tiles {
+  Buffer starts;                 ///< of each triangle
+  std::vector<uint32_t> bounds;  ///< of each range: where its tiles start; and the end
 };
 
-std::vector<Range> triangleRanges(const SceneOnDevice& scene) {
-  std::vector<Range> ranges;
+/// Counts the tiles of every triangle and reads back where each range's tiles start.
+Tiles countTiles(Context& context, const Voxels& voxels, const std::vector<TriangleRange>& ranges) {
+  const SceneOnDevice& scene = *voxels.scene;
+  const uint32_t triangles = scene.scene.triangleCount();
+  Tiles tiles;
+  tiles.starts = Buffer(context.device, "tile starts", Subsystem::Voxels, 4ull * triangles);
+  Buffer total(context.device, "tile total", Subsystem::Voxels, 4);
+  Buffer bounds(context.device, "tile bounds", Subsystem::Voxels, 4ull * (ranges.size() + 1), Access::Readback);
+  Frame frame = context.begin();
+  Pass pass = frame.pass(kVoxelizeStage);
+  VoxelizePush push{};
+  push.scene = pass.in(scene.record);
+  push.grid = pass.in(voxels.gridRecord);
+  push.tileStart = pass.out(tiles.starts);
+  push.endTriangle = triangles;
+  pass.shader("gi/voxel_tiles.comp").push(push).dispatch(triangles);
+  exclusiveScan(frame, kVoxelizeStage, tiles.starts, triangles, total);
+  for (size_t i = 0; i < ranges.size(); ++i)
+    frame.pass(kVoxelizeStage).copy(tiles.starts, bounds, 4, 4ull * ranges[i].first, 4 * i);
+  frame.pass(kVoxelizeStage).copy(total, bounds, 4, 0, 4 * ranges.size());
+  frame.submitAndWait();
+  const auto* start = static_cast<const uint32_t*>(bounds.mapped);
+  tiles.bounds.assign(start, start + ranges.size() + 1);
+  return tiles;
+}
+
+/// Clips triangles to cells: a workgroup for each tile.
+void clipTriangles(Frame& frame, const Voxels& voxels, const std::vector<TriangleRange>& ranges, const Tiles& tiles,
+                   const Settings& settings) {
+  for (uint32_t slot = 0; slot < voxels.slots; ++slot)
+    for (const bool masked : {false, true}) {
+      if (std::ranges::count(ranges, masked, &TriangleRange::masked) == 0) continue;
+      Pass pass = frame.pass(kVoxelizeStage);
+      VoxelizePush push = voxelizePush(pass, voxels, settings, slot, masked);
+      push.tileStart = pass.in(tiles.starts);
+      pass.shader("gi/voxelize.comp").run([&](Commands& commands) {
+        for (size_t i = 0; i < ranges.size(); ++i) {
+          const TriangleRange& range = ranges[i];
+          push.tileCount = tiles.bounds[i + 1] - tiles.bounds[i];
+          if (range.masked != masked || push.tileCount == 0) continue;
+          commands.bindMaterial(voxels.scene->materialSets.at(range.material));
+          push.firstTriangle = range.first;
+          push.endTriangle = range.end;
+          push.firstTile = tiles.bounds[i];
+          commands.push(push);
+          commands.dispatch(push.tileCount);
+        }
+      });
+    }
+}
+
+}  // namespace
+
+std::vector<TriangleRange> triangleRanges(const SceneOnDevice& scene) {
+  std::vector<TriangleRange> ranges;
   bool open = false;  // the last range may grow
   for (const Draw& draw : scene.scene.draws) {
     const bool masked = (scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
-    const Range range{draw.firstIndex / 3, (draw.firstIndex + draw.indexCount) / 3, draw.material, masked};
+    const TriangleRange range{draw.firstIndex / 3, (draw.firstIndex + draw.indexCount) / 3, draw.material, masked};
     if (open && !masked && ranges.back().end == range.first)
       ranges.back().end = range.end;
     else
@@ -35,36 +89,17 @@ std::vector<Range> triangleRanges(const SceneOnDevice& scene) {
   return ranges;
 }
 
-/// Counts the tiles of every triangle and reads back where each range's tiles start.
-Buffer countTiles(Context& context, const SceneOnDevice& scene, const VoxelizePush& base, const Voxels& voxels,
-                  std::vector<Range>& ranges) {
-  const uint32_t triangles = scene.scene.triangleCount();
-  Buffer starts(context.device, "tile starts", Subsystem::Voxels, 4ull * triangles);
-  Buffer total(context.device, "tile total", Subsystem::Voxels, 4);
-  Buffer bounds(context.device, "tile bounds", Subsystem::Voxels, 4ull * (ranges.size() + 1), Access::Readback);
-  VoxelizePush push = base;
-  push.tileStart = starts.address;
-  push.endTriangle = triangles;
-  Frame frame = context.begin();
-  frame.pass(kStage)
-      .shader("gi/voxel_tiles.comp")
-      .read(scene.record, scene.positions, scene.indices, voxels.gridRecord)
-      .write(starts)
-      .push(push)
-      .dispatch(triangles);
-  exclusiveScan(frame, kStage, starts, triangles, total);
-  for (size_t i = 0; i < ranges.size(); ++i) frame.pass(kStage).copy(starts, bounds, 4, 4ull * ranges[i].first, 4 * i);
-  frame.pass(kStage).copy(total, bounds, 4, 0, 4 * ranges.size());
-  frame.submitAndWait();
-  const auto* start = static_cast<const uint32_t*>(bounds.mapped);
-  for (size_t i = 0; i < ranges.size(); ++i) {
-    ranges[i].firstTile = start[i];
-    ranges[i].tiles = start[i + 1] - start[i];
-  }
-  return starts;
+VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, const Settings& settings, uint32_t slot, bool masked) {
+  pass.constant(CONSTANT_SAMPLES_TEXTURES, masked);
+  VoxelizePush push{};
+  push.scene = pass.in(voxels.scene->record);
+  push.grid = pass.in(voxels.gridRecord);
+  // Later slots read those before.
+  push.keys = slot == 0 ? pass.accumulate(voxels.keys) : pass.out(voxels.keys);
+  push.slots = settings.voxel.facets;
+  push.slot = slot;
+  return push;
 }
-
-}  // namespace
 
 bool rasterizesByKernels(const Device& device, const Settings& settings) {
   if (settings.rasterizer == Rasterizer::kernels && !device.int64Atomics)
@@ -86,82 +121,15 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   voxels.gridRecord = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&voxels.grid, 1));
   voxels.keys = Buffer(context.device, "voxel keys", Subsystem::Voxels, 4ull * voxels.slots * voxels.grid.voxels);
 
-  VoxelizePush push{};
-  push.scene = scene.record.address;
-  push.grid = voxels.gridRecord.address;
-  push.keys = voxels.keys.address;
-  push.slots = settings.voxel.facets;
-  std::vector<Range> ranges = triangles > 0 ? triangleRanges(scene) : std::vector<Range>{};
+  const auto ranges = triangles > 0 ? triangleRanges(scene) : std::vector<TriangleRange>{};
   const bool raster = settings.voxel.method == VoxelMethod::raster;
-  Buffer tileStarts;
-  if (!raster && !ranges.empty()) tileStarts = countTiles(context, scene, push, voxels, ranges);
-  push.tileStart = tileStarts.address;
-
-  const bool kernels = raster && triangles > 0 && rasterizesByKernels(context.device, settings);
-  const uint32_t size = std::max({voxels.grid.dims.x, voxels.grid.dims.y, voxels.grid.dims.z});
-  Buffer queue;
-  if (kernels) {
-    // A kernel passes over what is masked by itself: all the others are one range.
-    std::erase_if(ranges, [](const Range& range) { return !range.masked; });
-    ranges.push_back({0, triangles, 0, /*masked*/ false});
-    queue = makeRasterQueue(context.device, Subsystem::Voxels, triangles);
-    push.tileStart = queue.address;
-  }
-
+  const Tiles tiles = raster || ranges.empty() ? Tiles{} : countTiles(context, voxels, ranges);
   Frame frame = context.begin();
-  frame.pass(kStage).fill(voxels.keys, 0);
-  for (push.slot = 0; push.slot < voxels.slots; ++push.slot) {
-    const auto count = [&](bool masked) { return std::ranges::count(ranges, masked, &Range::masked); };
-    const auto declare = [&](Pass& pass, bool masked) {
-      pass.read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials, scene.uv0,
-                scene.uv1, scene.colors, voxels.gridRecord)
-          .constant(kSamplesTextures, masked);
-      if (push.slot == 0)
-        pass.accumulate(voxels.keys);
-      else
-        pass.write(voxels.keys);  // reads those of the slots before
-    };
-    const auto eachRange = [&](Commands& commands, bool masked, const auto& go) {
-      for (const Range& range : ranges) {
-        if (range.masked != masked) continue;
-        commands.bindMaterial(scene.materialSets.at(range.material));
-        push.firstTriangle = range.first;
-        push.endTriangle = range.end;
-        push.firstTile = range.firstTile;
-        push.tileCount = kernels ? rasterQueuePieces(triangles) : range.tiles;
-        commands.push(push);
-        go(range);
-      }
-    };
-    if (kernels) {
-      rasterize(
-          frame, kStage, "gi/voxel_raster.comp", queue, count(true) > 0,
-          [&](Pass& pass, RasterStep step) { declare(pass, step.masked); },
-          [&](Commands& commands, RasterStep step) {
-            eachRange(commands, step.masked, [&](const Range& r) {
-              rasterDispatch(commands, step, r.end - r.first, static_cast<uint32_t>(count(step.masked)));
-            });
-          });
-      continue;
-    }
-    for (const bool masked : {false, true}) {
-      if (count(masked) == 0) continue;
-      Pass pass = frame.pass(kStage);
-      declare(pass, masked);
-      if (raster)
-        pass.shaders({"gi/voxel_raster.vert", "gi/voxel_raster.frag"}).extent(size, size);
-      else
-        pass.shader("gi/voxelize.comp").read(tileStarts);
-      pass.run([&](Commands& commands) {
-        eachRange(commands, masked, [&](const Range& range) {
-          if (raster)
-            commands.draw(3 * (range.end - range.first), 3 * range.first);
-          else if (range.tiles > 0)
-            commands.dispatch(range.tiles);
-        });
-      });
-    }
-  }
+  frame.pass(kVoxelizeStage).fill(voxels.keys, 0);
+  if (raster)
+    rasterizeVoxels(frame, voxels, ranges, settings);
+  else
+    clipTriangles(frame, voxels, ranges, tiles, settings);
   frame.submitAndWait();
   return voxels;
 }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "gi/subsystems.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/grid.h"
 
@@ -14,7 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kWrong{"NaN", "infinite", "negative"};
 
-/// Index in kWrong of the worst that these values are.
+/// Index in kWrong of the worst fault among these values.
 std::optional<size_t> whatIsWrong(std::span<const float> values) {
   const auto any = [&](auto wrong) { return std::any_of(values.begin(), values.end(), wrong); };
   if (any([](float v) { return std::isnan(v); })) return 0;
@@ -26,7 +28,7 @@ std::optional<size_t> whatIsWrong(std::span<const float> values) {
 }  // namespace
 
 std::optional<Defect> findDefect(Context& context, const FacetList& facets, const Lighting& light) {
-  // In the order in which the stages depend on each other: what is bad in one spoils those after it.
+  // In the order of the stages: what is bad in one spoils those after it.
   struct Product {
     const char *stage, *quantity;
     const Buffer& values;
@@ -63,24 +65,18 @@ double EnergyBalance::imbalance() const {
 EnergyBalance balance(Context& context, const FacetList& facets, const Lighting& light) {
   const uint32_t invocations = (facets.count + ENERGY_FACETS - 1) / ENERGY_FACETS;
   const Buffer sums(context.device, "energy sums", Subsystem::Solver, sizeof(EnergySums) * uint64_t{invocations});
-  EnergyPush push{};
-  push.facets = facets.record.address;
-  push.direct = light.direct.address;
-  push.indirect = light.indirect.address;
-  push.radiosity = light.radiosity.address;
-  push.rowSum = light.rowSum.address;
-  push.sums = sums.address;
-  push.invocations = invocations;
   EnergyBalance total;
   Frame frame = context.begin();
-  frame.pass("GI Solve Energy")
-      .shader("gi/energy.comp")
-      .constant(0, static_cast<uint32_t>(facets.encoding))
-      .read(facets.record, facets.shape, facets.albedo, facets.emission, light.direct, light.indirect, light.radiosity,
-            light.rowSum)
-      .write(sums)
-      .push(push)
-      .dispatch(invocations);
+  Pass pass = frame.pass("GI Solve Energy");
+  EnergyPush push{};
+  push.facets = pass.in(facets.record);
+  push.direct = pass.in(light.direct);
+  push.indirect = pass.in(light.indirect);
+  push.radiosity = pass.in(light.radiosity);
+  push.rowSum = pass.in(light.rowSum);
+  push.sums = pass.out(sums);
+  push.invocations = invocations;
+  pass.shader("gi/energy.comp").constant(CONSTANT_NORMALS, facets.encoding).push(push).dispatch(invocations);
   frame.readback(sums, 0, sizeof(EnergySums) * uint64_t{invocations}, [&](std::span<const uint8_t> bytes) {
     for (size_t at = 0; at < bytes.size(); at += sizeof(EnergySums)) {
       EnergySums part;

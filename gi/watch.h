@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "gi/stages.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
 
 namespace irad {
 
-/// Where the light of a solve went wrong; none where every number is finite and >= 0. Reads everything back: for when
-/// the solver's counts say that there is something to find.
+/// Where the light of a solve went wrong; nothing where every number is finite and >= 0. Reads everything back, so it
+/// is called only when the solver's counts say that there is something to find.
 std::optional<Defect> findDefect(Context& context, const FacetList& facets, const Lighting& light);
 
 /// The energy balance of B, H, D and M as they are (gi/energy.comp). Deterministic, blocking.
@@ -19,8 +20,8 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
 /// "in 3.21, absorbed 3.20, escaped 0.01 W, imbalance -0.05 %": all channels; voxels of this edge.
 std::string describe(const EnergyBalance& energy, double edge);
 
-/// Largest |imbalance| that is passed over in silence. Voxels make .2 % in Sponza at N = 64, in the Box scene 1.7 % there
-/// and 6 % at N = 24; a light, a bounce or a wall that is lost makes far more.
+/// Largest |imbalance| that is no finding. Voxels alone make .2 % in Sponza at N = 64, and in the Box scene 1.7 % at N
+/// = 64 and 6 % at N = 24; a lost light, bounce or wall makes far more.
 inline constexpr double kImbalance = 0.1;
 
 struct Finding {

@@ -36,7 +36,7 @@ Dependency dependency(const ResourceState& state, const Use& next) {
     if (written.stages == 0 || !alsoReads || covers(read, next)) return {{read.stages, 0}, next};
     return {{written.stages | read.stages, written.access}, next};
   }
-  // Write after write. What the first of passes that commute has waited for, the others need not.
+  // Write after write. Of passes that commute only the first waits.
   if (next.commutes && written == Use{next.stages, next.access & kWrites, true}) return {};
   if (written.stages != 0) return {written, next};
   return {};

@@ -11,7 +11,7 @@ namespace irad {
 struct Use {
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
-  bool commutes = false;  ///< by atomics whose order does not matter, nor that of their passes (Pass::accumulate)
+  bool commutes = false;  ///< atomics whose order does not matter, nor that of their passes (Pass::accumulate)
   bool writes() const;
   bool operator==(const Use&) const = default;
 };

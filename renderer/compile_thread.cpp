@@ -35,7 +35,7 @@ void CompileThread::loop() {
     jobs_.pop_front();
     lock.unlock();
     job();
-    job = {};  // of a result that nobody waits for any more
+    job = {};  // frees a result that nobody waits for any more
     lock.lock();
   }
 }

@@ -16,7 +16,7 @@ struct Counters {
 
   uint64_t resources() const { return buffers + images; }
   bool operator==(const Counters&) const = default;
-  /// What was asked since `before`.
+  /// What was asked of it since `before`.
   Counters since(const Counters& before) const {
     return {.dispatches = dispatches - before.dispatches,
             .draws = draws - before.draws,
@@ -29,7 +29,7 @@ struct Counters {
   }
 };
 
-/// The same while threads count.
+/// The same, safe to raise from several threads.
 struct LiveCounters {
   std::atomic<uint64_t> dispatches{0}, draws{0}, submissions{0}, allocations{0}, buffers{0}, images{0}, pipelines{0},
       exchanges{0};

@@ -12,7 +12,7 @@ struct Range {
   uint32_t material;  ///< of masked ones
 };
 
-/// Opaque neighbours in the index buffer are one range if they are culled alike: depth knows no materials.
+/// Opaque neighbours in the index buffer are one range where they are culled alike: depth does not depend on materials.
 std::vector<Range> ranges(const SceneOnDevice& scene, const DepthPass& depth, bool masked) {
   std::vector<Range> ranges;
   for (const Draw& draw : scene.scene.draws) {
@@ -35,11 +35,10 @@ std::vector<Range> ranges(const SceneOnDevice& scene, const DepthPass& depth, bo
 }  // namespace
 
 void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth) {
-  DepthPush push{scene.record.address, depth.projections.address + depth.offset, 0, 0};
-  frame.pass(depth.stage)
-      .shaders({"forward/depth.vert", "forward/depth.frag"})
+  Pass opaque = frame.pass(depth.stage);
+  DepthPush push{opaque.in(scene.record), opaque.in(depth.projections, depth.offset), 0, 0};
+  opaque.shaders({"forward/depth.vert", "forward/depth.frag"})
       .indices(scene.indices)
-      .read(scene.record, scene.positions, depth.projections)
       .depth(depth.target, /*write*/ true, depth.clear, depth.layer)
       .depthCompare(depth.compare)
       .run([&](Commands& commands) {
@@ -50,10 +49,11 @@ void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth)
         }
       });
   if (!depth.alphaTest) return;
-  frame.pass(depth.stage)
-      .shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
+  Pass masked = frame.pass(depth.stage);
+  push.scene = masked.in(scene.record);
+  push.projection = masked.in(depth.projections, depth.offset);
+  masked.shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
       .indices(scene.indices)
-      .read(scene.record, scene.positions, scene.uv0, scene.uv1, scene.colors, scene.materials, depth.projections)
       .depth(depth.target, /*write*/ true, {}, depth.layer)
       .depthCompare(depth.compare)
       .run([&](Commands& commands) {

@@ -1,7 +1,7 @@
 // Depth alone, of the whole scene through one projection: "RE Shadow" and "RE Depth".
 #pragma once
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 
 namespace irad {
@@ -18,7 +18,7 @@ struct DepthPass {
   bool alphaTest = true;  ///< false: masked materials are opaque
 };
 
-/// Opaque triangles in as few draws as their culling allows; then masked materials, which look at their textures.
+/// Opaque triangles in as few draws as their culling allows, then masked materials, which read their textures.
 void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& pass);
 
 }  // namespace irad

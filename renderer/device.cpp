@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "renderer/base/error.h"
 #include "renderer/device_impl.h"
-#include "renderer/error.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
@@ -129,7 +129,7 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
 Device::~Device() {
   if (handle) {
     vkDeviceWaitIdle(handle);
-    // Everything is finished: run all retirements, those that retirements add included.
+    // Everything has finished: run all retirements, including those that retirements add.
     for (;;) {
       std::vector<std::function<void()>> pending;
       {

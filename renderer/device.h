@@ -23,7 +23,7 @@ struct DeviceOptions {
   bool presentable = false;   ///< enable the surface and swapchain extensions (GLFW names them)
   bool poison = false;        ///< fill all fresh device memory with NaN bit patterns
   uint64_t memoryBudget = 0;  ///< bytes that may be taken of the device's own heap; 0: what the heap allows
-  // Failures to provoke, to see what follows them. They are compared with `counters`: set anew, they strike again.
+  // Failures to provoke, to see what follows. They are compared with `counters`; set again, they strike again.
   uint64_t failResource = 0;  ///< the buffer or image of this number finds no memory, from 1; 0: none
   uint64_t loseDevice = 0;    ///< the device is lost at the submission or wait of this number, from 1; 0: never
 };
@@ -59,10 +59,10 @@ class Device {
   bool debugUtils = false;     ///< object names and labels reach a debugger
   bool anisotropy = false;     ///< samplers may be anisotropic
   bool memoryBudget = false;   ///< VK_EXT_memory_budget
-  bool isCpu = false;          ///< lavapipe: smaller defaults, quirks of ENVIRONMENT.md
+  bool isCpu = false;          ///< Mesa's CPU driver: smaller defaults, and workarounds where they are needed
   bool int64Atomics = false;   ///< on buffers
-  /// Few of its processors serve the graphics pipeline: of an H100's 66 TPCs two run vertex and fragment shaders
-  /// (NVIDIA, "H100 Tensor Core GPU Architecture", 2022). No query tells; known by name.
+  /// Few of its processors serve the graphics pipeline: two of an H100's 66 TPCs run vertex and fragment shaders
+  /// (NVIDIA, "H100 Tensor Core GPU Architecture", 2022). No query tells, so such devices are known by name.
   bool narrowGraphics = false;
   mutable LiveCounters counters;
 
@@ -73,7 +73,7 @@ class Device {
   /// Runs `destroy` once every submission made so far, and every command buffer being recorded now, has finished on
   /// the device.
   void retire(std::function<void()> destroy) const;
-  /// Brackets the recording of a command buffer: what is retired meanwhile may be used by it. Frames call these.
+  /// Called by frames around the recording of a command buffer, which may use what is retired meanwhile.
   void recordingBegan() const;
   void recordingEnded() const;
   // The next four throw WorkError once the device is lost (driver reset, hang, removal): nothing brings it back.

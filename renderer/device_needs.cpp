@@ -1,8 +1,8 @@
-// What irad needs of a device, in words, and which of its wishes a device grants.
+// What irad needs from a device, in words, and which optional features a device has.
 #include <algorithm>
 #include <string_view>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/instance.h"
 
 namespace irad {
@@ -21,7 +21,6 @@ struct Feature {
   }
 constexpr bool kNeed = true, kWish = false;
 const Feature kFeatures[] = {
-    ROW(core.features, geometryShader, kNeed),
     ROW(core.features, fragmentStoresAndAtomics, kNeed),
     ROW(core.features, vertexPipelineStoresAndAtomics, kNeed),
     ROW(core.features, imageCubeArray, kNeed),

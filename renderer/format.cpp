@@ -1,6 +1,6 @@
 #include "renderer/format.h"
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 

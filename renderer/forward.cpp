@@ -7,10 +7,13 @@
 #include "renderer/depth_pass.h"
 #include "renderer/raster.h"
 #include "renderer/resolve.h"
+#include "shaders/shared/constants.h"
 #include "shaders/shared/passes.h"
 
 namespace irad {
 namespace {
+
+static_assert(FORWARD_TARGETS < CONSTANT_NORMALS, "a kind of light more moves these: shared/constants.h begins above");
 
 bool hasFlag(const SceneOnDevice& scene, const Draw& draw, uint32_t flag) {
   return (scene.materialValues.at(draw.material).flags & flag) != 0;
@@ -44,7 +47,7 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
   const glm::dmat3 axes = glm::mat3_cast(glm::dquat(glm::normalize(camera.orientation)));
   const glm::dvec3 right = axes[0], up = axes[1], forward = -axes[2];
 
-  // Planes: the file's, the far one from the bounds where it gives none.
+  // Planes as the file gives them; the far one from the bounds where it gives none.
   const glm::dvec2 range = depthOfBounds(scene, eye, forward);
   double nearPlane = camera.znear, farPlane = camera.zfar;
   if (!(farPlane > nearPlane)) {
@@ -104,22 +107,17 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
   return gpu;
 }
 
-void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
-                 const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects) {
+void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const Buffer& camera,
+                 const ShadeParams& shade, Targets& targets, const ForwardEffects& effects) {
   Context& context = frame.context();
   const std::vector<Draw>& draws = scene.scene.draws;
   const bool highlights = effects.highlights && shade.specularDirect != 0;
-  const bool fromVolume =
-      effects.indirect && indirect.volume != nullptr && indirect.grid != nullptr && indirect.sample.gated == 0;
-  const bool fromFacets = effects.indirect && !fromVolume && indirect.grid != nullptr && indirect.shaded != nullptr;
-  const bool emitted = fromFacets && effects.emission && indirect.shadedEmitted != nullptr;
 
   targets.fit(context, &Targets::f0, effects.specular);
   targets.fit(context, &Targets::highlight, highlights || effects.emission);
-  targets.fit(context, &Targets::indirect, fromVolume || fromFacets);
-  targets.fit(context, &Targets::emitted, emitted);
+  targets.fit(context, &Targets::indirect, effects.indirect);
 
-  // Depth prepass: masked materials look at their textures here, so that shading writes each pixel once.
+  // Depth prepass: masked materials read their textures here, so that shading writes each pixel once.
   targets.fitRaster(context, effects.kernels, scene.scene.triangleCount());
   if (effects.kernels)
     rasterVisible(frame, scene, camera, effects.alphaTest, targets);
@@ -137,26 +135,18 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   nearest.linearMag = nearest.linearMin = nearest.mips = nearest.linearMips = false;
   frame.pass("RE Forward")
       .shader("forward/background.comp")
-      .constant(0, targets.present())
+      .constant(CONSTANT_TARGETS, targets.present())
       .sample(targets.depth, sampler(context.device, nearest))
       .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
              targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.bound(&Targets::emitted))
-      .dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8);
+      .dispatch(targets.size);
 
-  // Shading, material by material: of the triangles drawn, or of the pixels listed.
+  // Shading, material by material: by drawing triangles, or over the listed pixels.
   if (effects.kernels) listPixels(frame, scene, targets);
   ForwardPush push{};
-  push.scene = scene.record.address;
-  push.camera = camera.address;
-  push.materials = scene.materials.address;
   push.lightCount = static_cast<uint32_t>(scene.shining.size());
-  push.sampling = indirect.sample;
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
-  if (effects.kernels) {
-    push.lists = targets.pixelLists.address;
-    push.listed = targets.listedPixels.address;
-  }
   const auto use = [&](Commands& commands, uint32_t index) {
     const GpuMaterial& material = scene.materialValues.at(index);
     push.material = index;
@@ -170,42 +160,37 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   };
 
   // Untextured materials have a pass of their own: a device that runs both sides of a branch would otherwise fetch five
-  // textures that are not there.
+  // textures in vain.
   for (const bool textured : {false, true}) {
     const auto drawnHere = [&](const Draw& draw) { return hasFlag(scene, draw, kAnyTexture) == textured; };
     if (std::none_of(draws.begin(), draws.end(), drawnHere)) continue;
     const Image none;
     Pass pass = frame.pass("RE Forward");
     if (effects.kernels)
-      pass.shader(fromVolume ? "forward/resolve_volume.comp" : "forward/resolve.comp");
+      pass.shader("forward/resolve.comp");
     else
-      pass.shaders({"forward/forward.vert", fromVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
+      pass.shaders({"forward/forward.vert", "forward/forward.frag"});
     specialize(pass, FORWARD_LIGHTS, effects.lights, scene.shining);
     pass.effect(FORWARD_TEXTURED, textured)
         .effect(FORWARD_NORMAL_MAP, effects.normalMap)
         .effect(FORWARD_EMISSION, effects.emission)
         .effect(FORWARD_HIGHLIGHTS, highlights)
         .effect(FORWARD_F0, effects.specular)
-        .effect(FORWARD_INDIRECT, fromVolume || fromFacets)
+        .effect(FORWARD_INDIRECT, effects.indirect)
         .constant(FORWARD_PCF, std::clamp(shade.pcf, 1u, 5u) | 1u)
         .constant(FORWARD_MANY_LIGHTS, push.lightCount > UNIFORM_LIGHTS);
-    pass.read(scene.record, scene.positions, scene.normals, scene.tangents, scene.uv0, scene.uv1, scene.colors,
-              scene.indices, scene.materials, scene.shiningLights, camera);
+    push.scene = pass.in(scene.record);
+    push.camera = pass.in(camera);
+    push.materials = pass.in(scene.materials);
     sampleShadows(pass, shadows);
-    if (fromVolume) {
-      push.grid = indirect.grid->address;
-      pass.read(*indirect.grid);
-      SamplerDesc linear{Wrap::Clamp, Wrap::Clamp};
-      linear.mips = linear.linearMips = false;
-      pass.sample(*indirect.volume, sampler(context.device, linear));
-    }
     pass.uniform(scene.shiningLights);
     if (effects.kernels) {
       pass.constant(FORWARD_TARGETS, targets.present() & (TARGET_F0 | TARGET_HIGHLIGHT | TARGET_INDIRECT))
           .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
-                 targets.bound(&Targets::highlight), targets.bound(&Targets::indirect));
-      if (!fromVolume) pass.write(targets.linear);  // the lookup's normal
-      pass.read(targets.pixelLists, targets.listedPixels).indirect(targets.pixelLists).run([&](Commands& commands) {
+                 targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.linear);
+      push.lists = pass.in(targets.pixelLists);
+      push.listed = pass.in(targets.listedPixels);
+      pass.indirect(targets.pixelLists).run([&](Commands& commands) {
         std::set<uint32_t> materials;
         for (const Draw& draw : draws)
           if (drawnHere(draw)) materials.insert(draw.material);
@@ -222,8 +207,8 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
         .colorIfAny(targets.f0)
         .color(targets.direct)
         .colorIfAny(targets.highlight)
-        .colorIfAny(targets.indirect);
-    if (!fromVolume) pass.colorIfAny(fromFacets ? targets.linear : none);  // the lookup's normal
+        .colorIfAny(targets.indirect)
+        .colorIfAny(effects.indirect ? targets.linear : none);  // the lookup's normal
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
         if (!drawnHere(draw)) continue;
@@ -233,31 +218,6 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       }
     });
   }
-  if (!fromFacets) return;
-
-  // Indirect light of the facets: in compute, where no lane is spent outside a triangle.
-  IndirectPush lookup{};
-  lookup.camera = camera.address;
-  lookup.grid = indirect.grid->address;
-  lookup.shape = indirect.shape->address;
-  lookup.reverse = indirect.reverse->address;
-  lookup.around = indirect.around->address;
-  lookup.shaded = indirect.shaded->address;
-  lookup.shadedEmitted = emitted ? indirect.shadedEmitted->address : 0;
-  lookup.sampling = indirect.sample;
-  lookup.size = targets.size;
-  Pass pass = frame.pass("RE Forward");
-  pass.shader("forward/indirect.comp")
-      .constant(0, indirect.normalEncoding)
-      .constant(1, emitted)
-      .constant(2, indirect.keepPosition)
-      .read(camera, *indirect.grid, *indirect.shape, *indirect.reverse, *indirect.around, *indirect.shaded)
-      .write(targets.indirect)
-      .write(targets.linear)
-      .write(emitted ? targets.emitted : targets.indirect);
-  if (emitted) pass.read(*indirect.shadedEmitted);
-  pass.push(lookup).run(
-      [&](Commands& commands) { commands.dispatchGroups((targets.size.x + 7) / 8, (targets.size.y + 7) / 8); });
 }
 
 }  // namespace irad

@@ -3,11 +3,12 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/shaders.h"
 
 namespace irad {
@@ -48,13 +49,12 @@ class Includer : public glslang::TShader::Includer {
   std::filesystem::path root_;
 };
 
-EShLanguage stageOf(const std::string& name) {
+EShLanguage languageOf(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   if (extension == ".comp") return EShLangCompute;
   if (extension == ".vert") return EShLangVertex;
-  if (extension == ".geom") return EShLangGeometry;
   if (extension == ".frag") return EShLangFragment;
-  throw WorkError(fmt::format("{}: not a shader stage (.comp, .vert, .geom, .frag)", name));
+  throw WorkError(fmt::format("{}: not a shader stage (.comp, .vert, .frag)", name));
 }
 
 /// glslang's process-wide tables, for as long as the process uses them.
@@ -65,12 +65,13 @@ struct GlslangProcess {
 
 }  // namespace
 
-std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const std::string& name) {
+std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const std::string& name,
+                                  std::string_view definition) {
   static const GlslangProcess process;
   const std::filesystem::path path = sources / name;
   const std::optional<std::string> source = readText(path);
   if (!source) throw WorkError(fmt::format("{}: cannot be read", path.string()));
-  const EShLanguage stage = stageOf(name);
+  const EShLanguage stage = languageOf(name);
 
   glslang::TShader shader(stage);
   const char* text = source->c_str();
@@ -78,6 +79,12 @@ std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const st
   const std::string pathText = path.string();
   const char* label = pathText.c_str();
   shader.setStringsWithLengthsAndNames(&text, &length, &label, 1);
+  std::string preamble;
+  if (!definition.empty()) {
+    preamble = fmt::format("#define {}\n", definition);
+    std::ranges::replace(preamble, '=', ' ');
+  }
+  shader.setPreamble(preamble.c_str());
   shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "renderer/frame/record.h"
 #include "renderer/scene/mips.h"
 #include "renderer/scene/texel_range.h"
 
@@ -134,7 +135,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   materialSets = MaterialSets(context, bound);
   surveyMaterials();
 
-  // Lights, and the record that every geometry pass gets the address of.
+  // Lights, and the record whose address every geometry pass gets.
   setLights(context, gpuLights(scene.lights, scene.origin));
 }
 
@@ -158,20 +159,21 @@ void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values, co
   std::vector<GpuLight> some;
   std::copy_if(values.begin(), values.end(), std::back_inserter(some), shines);
   Buffer all = uploadArray(context, "lights", values), those = uploadArray(context, "shining lights", some);
+  RecordMaker maker(context, "scene record", Subsystem::Scene, sizeof(GpuScene));
   GpuScene gpu{};
-  gpu.positions = positions.address;
-  gpu.normals = normals.address;
-  gpu.tangents = tangents.address;
-  gpu.uv0 = uv0.address;
-  gpu.uv1 = uv1.address;
-  gpu.colors = colors.address;
-  gpu.indices = indices.address;
-  gpu.triangleMaterials = triangleMaterials.address;
-  gpu.materials = materials.address;
-  gpu.lights = those.address;
+  gpu.positions = maker.of(positions);
+  gpu.normals = maker.of(normals);
+  gpu.tangents = maker.of(tangents);
+  gpu.uv0 = maker.of(uv0);
+  gpu.uv1 = maker.of(uv1);
+  gpu.colors = maker.of(colors);
+  gpu.indices = maker.of(indices);
+  gpu.triangleMaterials = maker.of(triangleMaterials);
+  gpu.materials = maker.of(materials);
+  gpu.lights = maker.of(those);
   gpu.lightCount = static_cast<uint32_t>(some.size());
   gpu.triangleCount = scene.triangleCount();
-  record = makeBuffer(context, "scene record", Subsystem::Scene, std::span<const GpuScene>(&gpu, 1));
+  record = maker.make(gpu);
   lights = std::move(all);
   shiningLights = std::move(those);
   lightValues = std::move(values);

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/material_sets.h"
 #include "renderer/scene/scene.h"
 #include "shaders/shared/scene_gpu.h"
 
@@ -40,7 +41,7 @@ class SceneOnDevice {
   void surveyMaterials();
 };
 
-/// Lights as passes read them; without shadow maps, which drawShadows gives them.
+/// Lights as passes read them; drawShadows adds their shadow maps.
 std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin);
 
 }  // namespace irad

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 #ifdef IRAD_OIIO
 #include <OpenImageIO/filesystem.h>

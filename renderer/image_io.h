@@ -20,7 +20,7 @@ std::filesystem::path writeLinear(const std::filesystem::path& stem, glm::uvec2 
 std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2 size,
                                    std::span<const glm::u8vec4> pixels);
 
-/// The typeface of panels and legends where Debian's packages put it, and the one that stands in.
+/// The typeface of panels and legends, where Debian's packages put it, and the one to fall back on.
 inline constexpr std::array kTextFonts{"/usr/share/fonts/opentype/inter/Inter-Regular.otf",
                                        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"};
 /// Whether this build draws text.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "renderer/error.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
@@ -29,7 +30,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT 
   auto* log = static_cast<ValidationLog*>(user);
   const std::lock_guard lock(log->mutex);
   log->messages.emplace_back(data->pMessage ? data->pMessage : "(no text)");
-  fmt::print(stderr, "validation: {}\n", log->messages.back());
+  tell("validation: {}\n", log->messages.back());
   return VK_FALSE;
 }
 

@@ -11,7 +11,7 @@
 
 namespace irad {
 
-/// Messages of the validation layer that count (ENVIRONMENT.md, "Validation").
+/// Messages of the validation layer that count: warnings and worse, without performance notes and the loader's own.
 struct ValidationLog {
   mutable std::mutex mutex;
   std::vector<std::string> messages;

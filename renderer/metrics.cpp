@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 
@@ -15,7 +15,7 @@ Metrics measure(std::span<const glm::vec4> values, std::span<const glm::vec4> re
   for (size_t i = 0; i < values.size(); ++i) {
     const glm::dvec3 v(values[i]), r(reference[i]);
     const glm::dvec3 d = v - r;
-    if (!std::isfinite(d.x + d.y + d.z)) {  // of two infinities the difference is no number
+    if (!std::isfinite(d.x + d.y + d.z)) {  // the difference of two infinities is NaN
       ++m.leftOut;
       continue;
     }

@@ -1,4 +1,4 @@
-// How far one picture is from another: the metrics of DESIGN.md, by their exact names.
+// How far one picture is from another: the field's metrics, by their exact names.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -6,12 +6,13 @@
 
 namespace irad {
 
-/// Added to the squared reference in relMSE, in squared units of the pictures: dark pixels do not decide alone. 0.01 as
-/// in Rousselle et al. 2011, "Adaptive Sampling and Reconstruction using Greedy Error Minimization", section 4.1.
+/// Added to the squared reference in relMSE, in squared units of the pictures: so that dark pixels do not
+/// decide alone. 0.01 as in Rousselle et al. 2011, "Adaptive Sampling and Reconstruction using Greedy Error
+/// Minimization", section 4.1.
 inline constexpr double kRelMseEpsilon = 0.01;
 
-/// Of `values` against `reference`, over the first three channels of every element. Elements where either is not finite
-/// are left out and counted.
+/// Compares `values` with `reference`, over the first three channels of every element. Elements where either is not
+/// finite are left out and counted.
 struct Metrics {
   double rmse = 0;       ///< sqrt(mean (v - r)^2), in the pictures' unit
   double relMse = 0;     ///< mean (v - r)^2 / (r^2 + kRelMseEpsilon)

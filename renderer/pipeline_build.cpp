@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
@@ -16,7 +16,6 @@ struct Stage {
 constexpr Stage kStages[] = {
     {".comp", VK_SHADER_STAGE_COMPUTE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT},
     {".vert", VK_SHADER_STAGE_VERTEX_BIT, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT},
-    {".geom", VK_SHADER_STAGE_GEOMETRY_BIT, VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT},
     {".frag", VK_SHADER_STAGE_FRAGMENT_BIT, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT},
 };
 
@@ -157,6 +156,8 @@ PipelineParts gatherParts(const Device& device, const ShaderLibrary& shaders, co
     pipeline.name += (pipeline.name.empty() ? "" : " + ") + name;
     pipeline.stages |= stageOf(name).barrierStage;
     pipeline.pushBytes = std::max(pipeline.pushBytes, module.pushBytes);
+    pipeline.addressOffsets.insert(pipeline.addressOffsets.end(), module.addressOffsets.begin(),
+                                   module.addressOffsets.end());
   }
   IRAD_CHECK(pipeline.pushBytes <= kPushBytes, "{}: {} bytes of push constants", pipeline.name, pipeline.pushBytes);
   IRAD_CHECK(!request.compute() || parts.modules.size() == 1, "{}: a compute shader stands alone", pipeline.name);

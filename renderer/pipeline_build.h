@@ -52,10 +52,11 @@ struct GpuPipeline {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkDescriptorSetLayout set0 = VK_NULL_HANDLE;
   VkPipelineBindPoint bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
-  VkPipelineStageFlags2 stages = 0;     ///< shader stages, for barriers
-  std::vector<ShaderBinding> bindings;  ///< set 0, merged over the stages, sorted by binding
-  bool material = false;                ///< some stage declares set 1
-  uint32_t pushBytes = 0;               ///< the largest push-constant block of the stages
+  VkPipelineStageFlags2 stages = 0;      ///< shader stages, for barriers
+  std::vector<ShaderBinding> bindings;   ///< set 0, merged over the stages, sorted by binding
+  bool material = false;                 ///< some stage declares set 1
+  uint32_t pushBytes = 0;                ///< the largest push-constant block of the stages
+  std::vector<uint32_t> addressOffsets;  ///< where addresses lie in it, for any of the stages
   std::array<uint32_t, 3> localSize{1, 1, 1};
   bool compute() const { return bindPoint == VK_PIPELINE_BIND_POINT_COMPUTE; }
 };

@@ -2,14 +2,14 @@
 
 #include <spirv-tools/optimizer.hpp>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/shaders.h"
 
 namespace irad {
 
 uint64_t specializedInstructions(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants) {
-  // The values of constants, then what a driver does with them: everything inlined, branches on constants gone, and
-  // what nobody uses.
+  // Sets the constants' values, then does what a driver does: inlines everything, and drops branches on constants and
+  // whatever is unused.
   std::unordered_map<uint32_t, std::vector<uint32_t>> values;
   for (const auto& [id, value] : constants) values[id] = {value};
   std::string problem;

@@ -1,4 +1,4 @@
-// Which pipelines drew, and how much there is in them.
+// Which pipelines were used, and how large they are.
 #pragma once
 
 #include <cstdint>

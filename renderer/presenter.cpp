@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
@@ -108,7 +109,7 @@ VkSurfaceFormatKHR Presenter::Impl::chooseFormat() const {
                                 formats.size()));
 }
 
-/// False while nothing can be shown: the window has no area, or its surface is lost once more.
+/// False while nothing can be shown: the window has no area, or its surface was lost again.
 bool Presenter::Impl::rebuild() {
   device().waitIdle();
   if (surfaceLost) {
@@ -170,7 +171,7 @@ bool Presenter::Impl::rebuild() {
 /// The swapchain and what belongs to it; the device is idle.
 void Presenter::Impl::drop() {
   if (acquired) {
-    // Signalled or about to be, and never waited for: not to be used again.
+    // Signalled, or about to be, and never waited for: it cannot be used again.
     vkDestroySemaphore(device().handle, acquired, nullptr);
     acquired = VK_NULL_HANDLE;
   }
@@ -192,7 +193,7 @@ Presenter::~Presenter() {
   try {
     detach();
   } catch (const Error& error) {
-    fmt::print(stderr, "irad: closing the window: {}\n", error.what());
+    tell("irad: closing the window: {}\n", error.what());
   }
 }
 

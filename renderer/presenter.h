@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 
 struct GLFWwindow;
 

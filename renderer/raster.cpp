@@ -10,17 +10,17 @@ namespace irad {
 static_assert(sizeof(RasterPiece) == RASTER_PIECE_BYTES);
 
 uint32_t rasterQueuePieces(uint32_t triangles) {
-  return triangles + triangles / 2 + 1024;  // a clipped triangle may come to several
+  return triangles + triangles / 2 + 1024;  // clipping may turn a triangle into several
 }
 uint64_t rasterQueueBytes(uint32_t triangles) {
   return RASTER_COUNTS_BYTES + 2 * rasterPartBytes(rasterQueuePieces(triangles));
 }
-Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles) {
+Buffer makeRasterQueue(const Device& device, SubsystemName subsystem, uint32_t triangles) {
   return Buffer(device, "large triangles", subsystem, rasterQueueBytes(triangles));
 }
 
 void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue, bool anyMasked,
-               const std::function<void(Pass&, RasterStep)>& declare,
+               const std::function<void(Pass&, RasterStep, uint64_t queued)>& declare,
                const std::function<void(Commands&, RasterStep)>& body) {
   frame.pass(stage).update(queue, std::array<uint32_t, RASTER_COUNTS_BYTES / 4>{});
   for (const bool tiles : {false, true})
@@ -29,18 +29,14 @@ void rasterize(Frame& frame, const char* stage, std::string_view shader, const B
       const RasterStep step{tiles, masked};
       Pass pass = frame.pass(stage);
       pass.shader(shader).constant(RASTER_TILES, tiles);
-      if (tiles)
-        pass.read(queue);
-      else
-        pass.accumulate(queue);
-      declare(pass, step);
+      declare(pass, step, tiles ? pass.in(queue) : pass.accumulate(queue));
       pass.run([&](Commands& commands) { body(commands, step); });
     }
 }
 
 void rasterDispatch(Commands& commands, RasterStep step, uint32_t triangles, uint32_t dispatches) {
   if (step.tiles)
-    commands.dispatchGroups(std::max(RASTER_GROUPS / dispatches, 64u));
+    commands.dispatchWorkgroups(std::max(RASTER_GROUPS / dispatches, 64u));
   else
     commands.dispatch(triangles);
 }
@@ -52,20 +48,16 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
     return raster.alphaTest && (scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) != 0;
   };
   RasterPush push{};
-  push.scene = scene.record.address;
-  push.projection = raster.projections.address + raster.offset;
-  push.queue = raster.queue.address;
-  push.target = raster.target.address + raster.targetOffset;
   push.size = raster.size;
   push.pieces = rasterQueuePieces(triangles);
   push.cull = raster.cull;
   const auto dispatches = static_cast<uint32_t>(std::ranges::count_if(scene.scene.draws, masked));
-  const auto declare = [&](Pass& pass, RasterStep step) {
-    pass.constant(RASTER_MASKED, step.masked)
-        .read(scene.record, scene.positions, scene.indices, scene.triangleMaterials, scene.materials,
-              raster.projections)
-        .accumulate(raster.target);
-    if (step.masked) pass.read(scene.uv0, scene.uv1, scene.colors);
+  const auto declare = [&](Pass& pass, RasterStep step, uint64_t queued) {
+    pass.constant(RASTER_MASKED, step.masked);
+    push.scene = pass.in(scene.record);
+    push.projection = pass.in(raster.projections, raster.offset);
+    push.queue = queued;
+    push.target = pass.accumulate(raster.target, raster.targetOffset);
   };
   rasterize(frame, raster.stage, raster.shader, raster.queue, dispatches > 0, declare,
             [&](Commands& commands, RasterStep step) {
@@ -95,12 +87,8 @@ void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camer
                .queue = targets.rasterQueue,
                .cull = true,
                .alphaTest = alphaTest});
-  frame.pass(kStage)
-      .shader("raster/store_depth.comp")
-      .read(targets.visible)
-      .write(targets.depth)
-      .push(targets.visible.address)
-      .dispatchGroups((targets.size.x + 15) / 16, (targets.size.y + 15) / 16);
+  Pass store = frame.pass(kStage);
+  store.shader("raster/store_depth.comp").write(targets.depth).push(store.in(targets.visible)).dispatch(targets.size);
 }
 
 }  // namespace irad

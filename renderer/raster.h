@@ -3,16 +3,16 @@
 // corners' place in the picture.
 #pragma once
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 
 namespace irad {
 
-/// Where the first pass of a rasterization sets triangles aside for the second, opaque and masked ones apart; one
-/// rasterization after the other.
-uint32_t rasterQueuePieces(uint32_t triangles);  ///< of either kind; others are drawn in the first pass, slowly
+/// Where the first pass of a rasterization puts triangles for the second, opaque and masked ones apart. Rasterizations
+/// use it one after the other.
+uint32_t rasterQueuePieces(uint32_t triangles);  ///< per kind; the first pass draws further ones, slowly
 uint64_t rasterQueueBytes(uint32_t triangles);
-Buffer makeRasterQueue(const Device& device, Subsystem subsystem, uint32_t triangles);
+Buffer makeRasterQueue(const Device& device, SubsystemName subsystem, uint32_t triangles);
 
 /// One of the passes of a rasterization: the first or the second, of opaque or of masked triangles.
 struct RasterStep {
@@ -20,10 +20,10 @@ struct RasterStep {
   bool masked;  ///< what a material's alpha cuts out
 };
 /// All passes of `shader`, which accumulates into its target; of masked triangles only if there are any. Either kind's
-/// run side by side, as far as what `declare` says they read and write lets them. `body`: their dispatches, by
-/// rasterDispatch.
+/// run side by side, as far as what `declare` says they read and write lets them; it is given the address of the queue.
+/// `body`: their dispatches, by rasterDispatch.
 void rasterize(Frame& frame, const char* stage, std::string_view shader, const Buffer& queue, bool anyMasked,
-               const std::function<void(Pass&, RasterStep)>& declare,
+               const std::function<void(Pass&, RasterStep, uint64_t queued)>& declare,
                const std::function<void(Commands&, RasterStep)>& body);
 /// One of the `dispatches` of a pass, over this many triangles.
 void rasterDispatch(Commands& commands, RasterStep step, uint32_t triangles, uint32_t dispatches);

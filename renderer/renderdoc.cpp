@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad {
 

@@ -1,5 +1,6 @@
 #include "renderer/resolve.h"
 
+#include "shaders/shared/constants.h"
 #include "shaders/shared/passes.h"
 
 namespace irad {
@@ -13,26 +14,23 @@ void listPixels(Frame& frame, const SceneOnDevice& scene, Targets& targets) {
   fit(targets.listedPixels, "pixels by material", sizeof(glm::uvec2) * targets.size.x * targets.size.y);
 
   PixelListPush push{};
-  push.scene = scene.record.address;
-  push.visible = targets.visible.address;
-  push.lists = targets.pixelLists.address;
-  push.listed = targets.listedPixels.address;
   push.size = targets.size;
   push.materials = materials;
   const auto overPicture = [&](bool write) {
     Pass pass = frame.pass("RE Forward");
-    pass.shader("forward/list_pixels.comp")
-        .constant(0, write)
-        .read(scene.record, scene.triangleMaterials, targets.visible)
-        .write(targets.pixelLists);
-    if (write) pass.write(targets.listedPixels);
-    pass.push(push).run(
-        [&](Commands& commands) { commands.dispatchGroups((targets.size.x + 15) / 16, (targets.size.y + 15) / 16); });
+    push.scene = pass.in(scene.record);
+    push.visible = pass.in(targets.visible);
+    push.lists = pass.out(targets.pixelLists);
+    if (write) push.listed = pass.out(targets.listedPixels);
+    pass.shader("forward/list_pixels.comp").constant(CONSTANT_LIST_PIXELS, write).push(push).dispatch(targets.size);
   };
 
   frame.pass("RE Forward").fill(targets.pixelLists, 0);
   overPicture(/*write*/ false);
-  frame.pass("RE Forward").shader("forward/place_lists.comp").write(targets.pixelLists).push(push).dispatch(materials);
+  Pass place = frame.pass("RE Forward");
+  push.scene = push.visible = 0;
+  push.lists = place.out(targets.pixelLists);
+  place.shader("forward/place_lists.comp").push(push).dispatch(materials);
   overPicture(/*write*/ true);
 }
 

@@ -2,7 +2,7 @@
 // material at a time.
 #pragma once
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/targets.h"
 

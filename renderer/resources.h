@@ -1,12 +1,14 @@
 // Buffers and images: move-only handles that free themselves once the device has finished with them. Memory is
-// sub-allocated, named, and counted per subsystem (METHOD section 10); a heap's budget is checked before allocation.
+// sub-allocated, named, and counted per subsystem (docs/method.md 10); a heap's budget is checked before allocation.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renderer/barrier.h"
@@ -14,38 +16,57 @@
 
 namespace irad {
 
-enum class Subsystem { Scene, Shadow, Targets, Voxels, Field, Facets, Matrix, Solver, Volumes, Specular, Staging, Ui };
-const char* toString(Subsystem);
+/// Which part of the program a resource belongs to, by the name in the memory table and in messages.
+struct SubsystemName {
+  const char* text;
+  bool operator==(const SubsystemName& other) const { return std::string_view(text) == other.text; }
+};
+/// The renderer's. Layers above add theirs (gi/subsystems.h).
+namespace Subsystem {
+inline constexpr SubsystemName Scene{"scene"}, Shadow{"shadow"}, Targets{"targets"}, Staging{"staging"};
+}
 
 enum class Access { Device, Upload, Readback };  ///< Upload / Readback buffers are persistently mapped
+
+/// What passes know of a buffer: where it lies and how it was last used, and likewise of all buffers whose addresses
+/// its content holds (RecordMaker). Stays where it is when the buffer is moved.
+struct BufferPlace {
+  uint64_t address = 0;
+  ResourceState state;
+  std::vector<std::shared_ptr<BufferPlace>> holds;
+};
 
 class Buffer {
  public:
   Buffer() = default;
   /// Storage + transfer + device address (+ indirect). `bytes` of 0 allocates 16 so that an address always exists.
   /// Throws DeviceError naming the buffer, its subsystem, its size and what is free when memory does not suffice.
-  Buffer(const Device& device, std::string name, Subsystem subsystem, uint64_t bytes, Access access = Access::Device);
+  Buffer(const Device& device, std::string name, SubsystemName subsystem, uint64_t bytes,
+         Access access = Access::Device);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
   Buffer& operator=(Buffer&&) noexcept;
 
   explicit operator bool() const { return handle != VK_NULL_HANDLE; }
   VkBuffer handle = VK_NULL_HANDLE;
-  uint64_t address = 0;
   uint64_t bytes = 0;
   void* mapped = nullptr;
   std::string name;
-  mutable ResourceState state;  ///< last uses, for barrier derivation (renderer/barrier.h)
+  ResourceState& state() const { return place_->state; }  ///< last uses (renderer/barrier.h); not for empty buffers
 
  private:
   friend class Allocator;
+  // Addresses are given out only where their use is tracked: by Pass::in and the like, and by RecordMaker::of.
+  friend class Pass;
+  friend class RecordMaker;
+  std::shared_ptr<BufferPlace> place_;
   const Device* device_ = nullptr;
   uint64_t allocation_ = 0;
 };
 
 struct ImageDesc {
   std::string name;
-  Subsystem subsystem = Subsystem::Targets;
+  SubsystemName subsystem = Subsystem::Targets;
   VkFormat format = VK_FORMAT_UNDEFINED;
   uint32_t width = 1, height = 1, depth = 1;  ///< depth > 1, or volume = true: a 3D image
   uint32_t layers = 1, mips = 1;
@@ -84,7 +105,7 @@ class Image {
 /// One row of the memory table: measured by the allocator.
 struct MemoryRow {
   std::string name;
-  Subsystem subsystem;
+  SubsystemName subsystem;
   std::string format;  ///< "buffer" or the image's format and extent
   uint64_t bytes;
   uint64_t texelBytes = 0;  ///< what an image's extent and format come to
@@ -100,7 +121,7 @@ class Allocator {
   /// Bytes this process may use on the device-local heap: its size less a reserve, DeviceOptions::memoryBudget at most.
   uint64_t budget() const;
   /// Throws DeviceError "NAME (SUBSYSTEM) needs A MiB, B of C MiB are free" if `bytes` more would exceed the budget.
-  void check(Subsystem subsystem, const std::string& name, uint64_t bytes) const;
+  void check(SubsystemName subsystem, const std::string& name, uint64_t bytes) const;
   struct Impl;
 
  private:

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/embedded.h"
 
 namespace irad {
@@ -25,7 +25,7 @@ size_t distance(std::string_view a, std::string_view b) {
 }
 
 bool sameInterface(const ShaderModule& a, const ShaderModule& b) {
-  return a.pushBytes == b.pushBytes &&
+  return a.pushBytes == b.pushBytes && a.addressOffsets == b.addressOffsets &&
          std::equal(a.bindings.begin(), a.bindings.end(), b.bindings.begin(), b.bindings.end(),
                     [](const ShaderBinding& x, const ShaderBinding& y) { return x.sameAs(y); });
 }
@@ -72,10 +72,13 @@ ShaderReload ShaderLibrary::reload(const std::filesystem::path& sources) {
   ShaderReload result;
   size_t found = 0;
   for (const auto& [name, module] : modules_) {
-    if (!std::filesystem::exists(sources / name)) continue;
+    const auto embedded = std::ranges::find(embeddedShaders(), name, [](const EmbeddedShader& s) { return s.name; });
+    const bool added = embedded == embeddedShaders().end();
+    const std::string source = added ? name : embedded->source;
+    if (!std::filesystem::exists(sources / source)) continue;
     ++found;
     try {
-      ShaderModule compiled = reflect(name, compileGlsl(sources, name));
+      ShaderModule compiled = reflect(name, compileGlsl(sources, source, added ? "" : embedded->definition));
       if (withoutDebugInfo(compiled.spirv) == withoutDebugInfo(module.spirv)) continue;
       if (!sameInterface(compiled, module))
         throw WorkError(fmt::format("{}: its images or push constants have changed: build the program again", name));

@@ -18,7 +18,7 @@ struct ShaderBinding {
   bool storageImage = false;
   bool uniformBlock = false;  ///< neither: combined image sampler
   std::string name;
-  /// As pipelines see it: the name does not matter.
+  /// Equality as pipelines see it: the name does not matter.
   bool sameAs(const ShaderBinding& o) const {
     return set == o.set && binding == o.binding && count == o.count && storageImage == o.storageImage;
   }
@@ -31,7 +31,8 @@ struct ShaderModule {
   std::array<uint32_t, 3> localSize{1, 1, 1};
   /// The specialization constants that set localSize (local_size_x_id); UINT32_MAX: fixed.
   std::array<uint32_t, 3> localSizeId{UINT32_MAX, UINT32_MAX, UINT32_MAX};
-  uint32_t pushBytes = 0;  ///< size of the push-constant block
+  uint32_t pushBytes = 0;                ///< size of the push-constant block
+  std::vector<uint32_t> addressOffsets;  ///< where in it addresses lie, bytes, ascending
 };
 
 /// Struct layouts found in a module, for the layout test: struct name -> (member name, byte offset), total size.
@@ -64,9 +65,9 @@ class ShaderLibrary {
   void add(std::string name, std::vector<uint32_t> spirv);
   uint64_t generation() const { return generation_; }  ///< grows with every replacement; pipelines key on it
 
-  /// Recompiles every stage below `sources` (the shaders/ folder) that the library knows, and replaces all that have
-  /// changed or, after an error, none. A module whose images or push constants have changed is an error: the program
-  /// feeds it the old ones.
+  /// Recompiles every shader of the library whose source is below `sources` (the shaders/ folder), and replaces all
+  /// that have changed or, after an error, none. A module whose images or push constants have changed is an error: the
+  /// program feeds it the old ones.
   ShaderReload reload(const std::filesystem::path& sources);
 
  private:
@@ -74,7 +75,9 @@ class ShaderLibrary {
   uint64_t generation_ = 0;
 };
 
-/// Compiles one GLSL file (includes relative to `sources`); throws WorkError with glslang's message.
-std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const std::string& name);
+/// Compiles one GLSL file (includes relative to `sources`), with a definition "NAME=VALUE" where it is given; throws
+/// WorkError with glslang's message.
+std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const std::string& name,
+                                  std::string_view definition = {});
 
 }  // namespace irad

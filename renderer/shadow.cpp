@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/base/error.h"
 #include "renderer/depth_pass.h"
-#include "renderer/error.h"
 #include "renderer/raster.h"
 #include "shaders/shared/raster.h"
 
@@ -17,7 +17,7 @@ constexpr const char* kStage = "RE Shadow";
 /// Depth maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
 constexpr uint64_t kMostTexels = uint64_t{1} << 28;  // 1 GiB of D32
 
-/// One picture of the scene from a light: where it goes and how it projects.
+/// One picture of the scene from a light: its layer and its projection.
 struct Face {
   bool cube;
   int layer;
@@ -79,8 +79,8 @@ void fitPlanes(const Scene& scene, GpuLight& light) {
   light.shadowNear = std::min(static_cast<float>(std::max(farthest / 256.0, outside * 0.5)), 0.5f * light.shadowFar);
 }
 
-/// A sun's map encloses the vertices, tightly, in the light's own axes; a rim of 4 texels is left for the filter.
-void fitSun(const Scene& scene, GpuLight& light, uint32_t resolution) {
+/// A parallel map encloses the vertices, tightly, in the light's own axes; a rim of 4 texels is left for the filter.
+void fitParallel(const Scene& scene, GpuLight& light, uint32_t resolution) {
   const Basis basis = basisAbout(light.direction);
   glm::dvec3 lo(std::numeric_limits<double>::max()), hi(std::numeric_limits<double>::lowest());
   for (const glm::vec3& p : scene.positions) {
@@ -105,8 +105,8 @@ void fitSun(const Scene& scene, GpuLight& light, uint32_t resolution) {
                 glm::dvec4(-basis[2] / (2.0 * depth), 0.5 + centre.z / (2.0 * depth)), glm::dvec4(0, 0, 0, 1)});
 }
 
-/// A spot's map covers its outer cone and the filter's rim.
-void fitSpot(const Scene& scene, GpuLight& light, uint32_t resolution) {
+/// A cone's map covers its outer cone and the filter's rim.
+void fitCone(const Scene& scene, GpuLight& light, uint32_t resolution) {
   fitPlanes(scene, light);
   const double cosine = std::clamp(static_cast<double>(light.outerCos), 0.05, 0.99999);
   const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine * resolution / (resolution - 8.0);
@@ -171,12 +171,11 @@ void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& m
                  .queue = queue,
                  .alphaTest = alphaTest});
     if (face.cube) continue;
-    frame.pass(kStage)
-        .shader("raster/store_shadow.comp")
-        .read(flat)
+    Pass store = frame.pass(kStage);
+    store.shader("raster/store_shadow.comp")
         .write(map)
-        .push(StoreShadowPush{flat.address, face.layer, 0})
-        .dispatchGroups((map.desc.width + 15) / 16, (map.desc.height + 15) / 16);
+        .push(StoreShadowPush{store.in(flat), face.layer, 0})
+        .dispatch(glm::uvec2(map.desc.width, map.desc.height));
   }
   if (maps.cubes) frame.pass(kStage).copy(cubes, maps.cubes);
 }
@@ -185,7 +184,7 @@ void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& m
 
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs) {
-  // Give each light that shines its layers.
+  // Give layers to each light that shines.
   uint32_t flats = 0, cubes = 0;
   for (GpuLight& light : lights) {
     light.shadowLayer = -1;
@@ -218,10 +217,10 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   std::vector<Face> faces;
   for (GpuLight& light : lights) {
     if (light.shadowLayer < 0) continue;
-    if (light.type == LIGHT_SUN) {
-      fitSun(scene.scene, light, size);
+    if (lightKind(LightType{light.type}).map == LIGHT_MAP_PARALLEL) {
+      fitParallel(scene.scene, light, size);
     } else if (!lightUsesCube(light.type, light.outerCos)) {
-      fitSpot(scene.scene, light, size);
+      fitCone(scene.scene, light, size);
     } else {
       fitPlanes(scene.scene, light);
       light.shadowTexel = 2.0f / static_cast<float>(cubeSize);
@@ -235,7 +234,7 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
     faces.push_back({false, light.shadowLayer, light.shadowMatrix});
   }
 
-  // Draw. Every triangle casts, whichever side it shows; masked materials look at their textures.
+  // Draw. Every triangle casts a shadow, whichever side it shows; masked materials read their textures.
   std::vector<glm::mat4> matrices;
   for (const Face& face : faces) matrices.push_back(face.matrix);
   const Buffer projections =
@@ -270,24 +269,23 @@ void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn)
 }
 
 LightKinds kindsOf(std::span<const GpuLight> shining) {
-  LightKinds kinds{false, false, false};
-  for (const GpuLight& light : shining) {
-    kinds.sun |= light.type == LIGHT_SUN;
-    kinds.spot |= light.type == LIGHT_SPOT;
-    kinds.point |= light.type == LIGHT_POINT;
-  }
+  LightKinds kinds;
+  for (const GpuLight& light : shining) kinds[LightType{light.type}] = true;
   return kinds;
 }
 
 void specialize(Pass& pass, uint32_t first, const LightKinds& kinds, std::span<const GpuLight> shining) {
-  const bool wideSpot = std::any_of(shining.begin(), shining.end(), [](const GpuLight& light) {
-    return light.type == LIGHT_SPOT && lightUsesCube(light.type, light.outerCos);
+  const bool wideCone = std::any_of(shining.begin(), shining.end(), [](const GpuLight& light) {
+    return lightKind(LightType{light.type}).map == LIGHT_MAP_CONE && lightUsesCube(light.type, light.outerCos);
   });
-  pass.effect(first + LIGHT_SUN, kinds.sun)
-      .effect(first + LIGHT_POINT, kinds.point)
-      .effect(first + LIGHT_SPOT, kinds.spot)
-      .effect(first + LIGHT_FLAT_MAPS, kinds.sun || kinds.spot)
-      .effect(first + LIGHT_CUBE_MAPS, kinds.point || (kinds.spot && wideSpot));
+  bool flat = false, cube = false;
+  for (const LightKind& kind : lightKinds()) {
+    const bool shines = kinds[kind.type];
+    pass.effect(first + static_cast<uint32_t>(kind.type), shines);
+    flat |= shines && kind.map != LIGHT_MAP_CUBE;
+    cube |= shines && (kind.map == LIGHT_MAP_CUBE || (kind.map == LIGHT_MAP_CONE && wideCone));
+  }
+  pass.effect(first + LIGHT_FLAT_MAPS, flat).effect(first + LIGHT_CUBE_MAPS, cube);
 }
 
 }  // namespace irad

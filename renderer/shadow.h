@@ -1,8 +1,11 @@
-// Shadow maps: sun and spot lights in one 2D depth array, point lights in a cube array. Redrawn only when a light or
-// the geometry changes. The lookup (shaders/forward/shadow.glsl) is one function for shading and for the facet gather.
+// Shadow maps: suns and spots in one 2D depth array, points and wide spots in a cube array. Redrawn only when a light
+// or the geometry changes. The lookup (shaders/forward/shadow.glsl) is one function for pictures and for compute
+// passes that gather direct light.
 #pragma once
 
-#include "renderer/frame.h"
+#include <array>
+
+#include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 
 namespace irad {
@@ -26,14 +29,22 @@ struct ShadowNeeds {
 /// when the device has not the layers or the memory.
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs = {});
-/// Of the scene's own lights, which are uploaded again. They and their maps stay when it throws.
+/// The same for the scene's own lights, which are uploaded again. When it throws, they and their maps stay as they
+/// were.
 ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution, const ShadowNeeds& needs = {});
 /// Fills in what drawShadows has filled in for the same lights, of which only colours and intensities have changed.
 void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn);
 
-/// Types of light that shine.
+/// Kinds of light that shine, by LightType.
 struct LightKinds {
-  bool sun = true, spot = true, point = true;
+  std::array<bool, LIGHT_KINDS> shines{};
+  static constexpr LightKinds all() {
+    LightKinds kinds;
+    kinds.shines.fill(true);
+    return kinds;
+  }
+  bool& operator[](LightType type) { return shines.at(static_cast<size_t>(type)); }
+  bool operator[](LightType type) const { return shines.at(static_cast<size_t>(type)); }
 };
 LightKinds kindsOf(std::span<const GpuLight> shining);
 /// Sets the constants of shaders/forward/shadow.glsl, which begin at `first`, for a pass that sums up the lights

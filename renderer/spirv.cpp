@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/shaders.h"
 
 namespace irad {
@@ -87,6 +87,8 @@ struct Parsed {
 
   uint32_t size(uint32_t type, uint32_t matrixStride = 0) const;
   uint32_t structSize(uint32_t type) const;
+  /// Adds where the addresses lie in a `type` that begins at `at`.
+  void addresses(uint32_t type, uint32_t at, std::vector<uint32_t>& out) const;
 };
 
 std::string text(std::span<const uint32_t> words) {
@@ -212,6 +214,21 @@ uint32_t Parsed::structSize(uint32_t id) const {
   return end;
 }
 
+void Parsed::addresses(uint32_t id, uint32_t at, std::vector<uint32_t>& out) const {
+  const auto it = types.find(id);
+  if (it == types.end()) return;
+  const Type& t = it->second;
+  const auto decorated = ids.find(id);
+  if (t.op == OpTypePointer) out.push_back(at);
+  if (decorated == ids.end()) return;
+  if (t.op == OpTypeStruct)
+    for (size_t i = 0; i < t.operands.size() && i < decorated->second.members.size(); ++i)
+      addresses(t.operands[i], at + decorated->second.members[i].offset, out);
+  if (t.op == OpTypeArray)
+    for (uint32_t i = 0, stride = decorated->second.arrayStride; i < constants.at(t.operands[1]); ++i)
+      addresses(t.operands[0], at + i * stride, out);
+}
+
 ShaderBinding binding(const Parsed& p, const Variable& variable, const Id& id, const std::string& module) {
   ShaderBinding b;
   b.set = id.set;
@@ -240,9 +257,11 @@ ShaderModule reflect(std::string name, std::vector<uint32_t> spirv) {
   ShaderModule module;
   for (const Variable& variable : p.variables) {
     const auto id = p.ids.find(variable.id);
-    if (variable.storage == kPushConstant)
-      module.pushBytes = p.size(p.types.at(variable.pointerType).operands[1]);
-    else if (id != p.ids.end() && id->second.binding != kNone)
+    if (variable.storage == kPushConstant) {
+      const uint32_t block = p.types.at(variable.pointerType).operands[1];
+      module.pushBytes = p.size(block);
+      p.addresses(block, 0, module.addressOffsets);
+    } else if (id != p.ids.end() && id->second.binding != kNone)
       module.bindings.push_back(binding(p, variable, id->second, name));
   }
   std::sort(module.bindings.begin(), module.bindings.end(),

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/raster.h"
 #include "shaders/shared/passes.h"
 #include "shaders/shared/view.h"

@@ -1,12 +1,12 @@
 // What pictures are composed from, per pixel.
 #pragma once
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 
 namespace irad {
 
 /// Results of the forward pass, of traced reflections and of views. fp32 where light is held, so that emission from
-/// 1e-6 to 1e6 survives. Those that stand apart exist only where a pass writes them: an absent term is 0.
+/// 1e-6 to 1e6 survives. The second group exists only where a pass writes it: an absent term is 0.
 struct Targets {
   Targets() = default;
   Targets(Context& context, glm::uvec2 size);
@@ -24,8 +24,8 @@ struct Targets {
 
   Image f0;         ///< RGBA16F: specular reflectance at normal incidence; w: 1 = has a specular lobe
   Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
-  Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; before forward/indirect.comp the position
-  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive facets (F M), where a view asks
+  Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; before a pass looks it up, the position
+  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive surfaces, where a view asks
   Image seen;       ///< RGBA16F: how much of the emitters' light arrives, by channel, where pixels look for it; w = 0:
                     ///< unknown. No picture is composed from it
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
@@ -34,18 +34,19 @@ struct Targets {
                    ///< where nothing is
   Buffer rasterQueue;   ///< renderer/raster.h
   Buffer pixelLists;    ///< a PixelList per material and one more
-  Buffer listedPixels;  ///< what they are lists of: x | y << 16, triangle
+  Buffer listedPixels;  ///< the lists' entries: x | y << 16, triangle
 
-  Buffer glossy;  ///< pixels that trace specular rays (shaders/shared/passes.h); with `specular`, where that is listed
+  Buffer
+      glossy;  ///< pixels that trace specular rays (shaders/shared/indirect.h); with `specular`, where that is listed
 
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);
-  /// Makes one of the latter images, or gives it back once the device has finished with it.
+  /// Makes one of the images of the second group, or frees it once the device has finished with it.
   void fit(Context& context, Image Targets::*image, bool wanted);
   /// TARGET_* of shaders/shared/passes.h: those of them that exist.
   uint32_t present() const;
-  /// The image; an absent one's place is taken by another of its format, which the shader, told by present(), leaves
-  /// alone.
+  /// The image or, where it is absent, another of its format in its place, which the shader, told by present(), does
+  /// not touch.
   const Image& bound(Image Targets::*image) const;
 };
 

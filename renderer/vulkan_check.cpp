@@ -1,6 +1,6 @@
 #include "renderer/vulkan_check.h"
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 

@@ -6,7 +6,9 @@
 
 namespace irad {
 struct EmbeddedShader {
-  const char* name;  ///< path below shaders/, e.g. "gi/solve.comp"
+  const char* name;        ///< "gi/trace_rays.comp"
+  const char* source;      ///< path below shaders/; the name, but for variants
+  const char* definition;  ///< of a variant, "NAME=VALUE"; else ""
   std::span<const uint32_t> spirv;
 };
 std::span<const EmbeddedShader> embeddedShaders();

@@ -1,4 +1,5 @@
-// The hazard rule of renderer/barrier.h, case by case (Vulkan 1.3, chapter "Synchronization and Cache Control").
+// The hazard rule of renderer/barrier.h, case by case (Vulkan 1.3, chapter "Synchronization and Cache Control"); and
+// how many workgroups a pass dispatches.
 #include "renderer/barrier.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,9 @@
 #include <algorithm>
 #include <vector>
 
-namespace irad {
+#include "renderer/frame/workgroups.h"
+
+namespace irad::barrier_suite {
 namespace {
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
@@ -56,7 +59,7 @@ TEST(Barrier, ReadAfterRead) {
 TEST(Barrier, ReadAfterWriteMakesTheWriteVisible) {
   expectIs(dependency(after({kWrite}), kRead), kWrite, kRead);
   expectIs(dependency(after({kCopyWrite}), kFragmentRead), kCopyWrite, kFragmentRead);
-  // Reads of the writer's own pass are no part of what is made available.
+  // Reads of the writer's own pass need not be made available.
   expectIs(dependency(after({kReadWrite}), kRead), kWrite, kRead);
 }
 
@@ -96,7 +99,7 @@ TEST(Barrier, AtomicsThatCommuteNeedNothingBetweenThem) {
   expectIs(dependency(after({kCopyWrite}), kAccumulate), kCopyWrite, kAccumulate);
   expectNone(dependency(after({kCopyWrite, kAccumulate}), kAccumulate));
   expectNone(dependency(after({kCopyWrite, kAccumulate, kAccumulate}), kAccumulate));
-  // But with others: of other stages, plain ones, readers between.
+  // But with others there is one: with other stages, with plain writes, with readers in between.
   expectIs(dependency(after({kAccumulate}), {kFragment, kLoad | kStore, true}), kWrite,
            {kFragment, kLoad | kStore, true});
   expectIs(dependency(after({kAccumulate}), kReadWrite), kWrite, kReadWrite);
@@ -191,5 +194,25 @@ TEST(Barrier, TheModelNoticesAMissingBarrier) {
   EXPECT_FALSE(model.safe(kRead));
 }
 
+TEST(Workgroups, OfAPictureCoverItsEdges) {
+  const glm::uvec2 size(33, 16);
+  EXPECT_EQ(workgroupsFor(size, {8, 8, 1}), glm::uvec3(5, 2, 1));
+  EXPECT_EQ(workgroupsFor(size, {16, 4, 1}), glm::uvec3(3, 4, 1));
+  // One-dimensional workgroups take squares.
+  EXPECT_EQ(workgroupsFor(size, {64, 1, 1}), glm::uvec3(5, 2, 1));
+  EXPECT_EQ(workgroupsFor(size, {256, 1, 1}), glm::uvec3(3, 1, 1));
+  EXPECT_EQ(workgroupsFor(glm::uvec2(0, 5), {8, 8, 1}), glm::uvec3(0, 1, 1));
+  EXPECT_DEATH(workgroupsFor(size, {128, 1, 1}), "workgroups of 128 x 1 x 1");
+}
+
+TEST(Workgroups, OfManyInvocationsAreFolded) {
+  EXPECT_EQ(workgroupsFor(uint64_t{0}, {64, 1, 1}, 65535), glm::uvec3(0, 1, 1));
+  EXPECT_EQ(workgroupsFor(uint64_t{65}, {64, 1, 1}, 65535), glm::uvec3(2, 1, 1));
+  EXPECT_EQ(workgroupsFor(uint64_t{65536}, {1, 1, 1}, 65535), glm::uvec3(32768, 2, 1));
+  EXPECT_EQ(foldedWorkgroups(65535, 65535), glm::uvec3(65535, 1, 1));
+  EXPECT_EQ(foldedWorkgroups(3 * 65535 + 1, 65535), glm::uvec3(49152, 4, 1));
+  EXPECT_DEATH(workgroupsFor(uint64_t{64}, {8, 8, 1}, 65535), "workgroups of 8 x 8 x 1");
+}
+
 }  // namespace
-}  // namespace irad
+}  // namespace irad::barrier_suite

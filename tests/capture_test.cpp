@@ -2,10 +2,10 @@
 // whatever was shown before.
 #include "gi/picture.h"
 #include "gi/pipeline.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/support.h"
 
-namespace irad {
+namespace irad::capture_suite {
 namespace {
 
 class Capture : public test::GpuTest {
@@ -94,4 +94,4 @@ TEST_F(Capture, WhatGoesWrongLeavesTheLightAsItWas) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::capture_suite

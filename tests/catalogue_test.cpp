@@ -1,24 +1,30 @@
-// Every hard case of `irad check` on this device, under validation (HARD_CASES). ctest runs the long ones, shortened,
-// as `soak`, the others as `catalogue`; `irad check` without --quick runs them at full length.
+// The hard cases of `irad check` on this device, under validation (docs/stability.md): a sample of them, with `./test
+// --all` all of them, the soak shortened; `irad check` without --quick runs that at full length.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "gi/check/check.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::catalogue_suite {
 namespace {
+
+/// Those that take a few seconds, of several kinds; the others take minutes together, and `./test --all` runs them.
+constexpr std::string_view kSample[] = {"plates", "lights-off", "dark",      "tiny-emitter",
+                                        "flat",   "bar",        "encodings", "sampler"};
 
 class Catalogue : public GpuTest, public ::testing::WithParamInterface<CheckCase> {};
 
 TEST_P(Catalogue, HoldsItsMark) {
   const CheckCase& check = GetParam();
   if (check.run == nullptr) GTEST_SKIP() << check.name << ": " << check.pending;
+  if (std::ranges::find(kSample, check.name) == std::end(kSample)) IRAD_ONLY_WITH_ALL();
   Settings settings = defaultSettings(context().device.isCpu);
   applyCheckSizes(settings);
-  const CheckOptions options{.quick = true, .program = IRAD_BINARY, .scenes = {assets() / "box.glb"}};
+  const CheckOptions options{.quick = true, .program = iradProgram(), .scenes = {assets() / "box.glb"}};
   const CheckOutcome outcome = runCheck(context(), check, settings, options);
   EXPECT_EQ(outcome.error, "");
   for (const CheckFigure& figure : outcome.figures) {
@@ -50,6 +56,7 @@ TEST(CatalogueFrame, NamesAreUniqueAndDescribed) {
     for (const char* text : {check.setup, check.oracle, check.mark}) EXPECT_GT(std::string_view(text).size(), 0u);
     EXPECT_NE(check.run == nullptr, check.pending == nullptr) << check.name;
   }
+  for (const std::string_view sampled : kSample) EXPECT_TRUE(names.contains(std::string(sampled))) << sampled;
 }
 
 TEST(CatalogueFrame, FiguresAreJudgedByTheirMarks) {
@@ -82,4 +89,4 @@ TEST(CatalogueFrame, FiguresAreJudgedByTheirMarks) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::catalogue_suite

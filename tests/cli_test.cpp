@@ -1,11 +1,11 @@
-// The irad program from outside: exit statuses and messages of DESIGN.md, and the registries.
+// The irad program from outside: exit statuses and messages (docs/conventions.md), and the registries.
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support.h"
 
-namespace irad {
+namespace irad::cli_suite {
 namespace {
 
 using test::contains;
@@ -164,4 +164,4 @@ TEST(Cli, ValuesRoundTripThroughAFile) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::cli_suite

@@ -3,10 +3,11 @@
 #include <limits>
 
 #include "gi/compare.h"
+#include "gi/lighting.h"
 #include "tests/gi_fixture.h"
 #include "tests/scene_files.h"
 
-namespace irad::test {
+namespace irad::test::compare_suite {
 namespace {
 
 TEST(Metrics, AreWhatTheirNamesSay) {
@@ -87,4 +88,4 @@ TEST_F(CompareVoxels, OtherGridsAreMatchedByPosition) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::compare_suite

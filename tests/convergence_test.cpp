@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace irad {
+namespace irad::convergence_suite {
 namespace {
 
 std::vector<BoundSample> shrinking(double factor, uint64_t step, size_t count) {
@@ -42,4 +42,4 @@ TEST(Convergence, WhatDoesNotShrinkHasNoEnd) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::convergence_suite

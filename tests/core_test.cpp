@@ -1,11 +1,12 @@
 // The Vulkan core on the device at hand: transfers, passes with hazards, folding, raster, timers, memory, reload.
 #include <chrono>
 
-#include "renderer/error.h"
-#include "renderer/frame.h"
+#include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/record.h"
 #include "tests/test_shaders.h"
 
-namespace irad::test {
+namespace irad::test::core_suite {
 namespace {
 
 struct SquarePush {
@@ -18,6 +19,11 @@ class Core : public GpuTest {
   const Device& device() { return context().device; }
   Buffer values(const char* name, const std::vector<uint32_t>& v) {
     return makeBuffer<uint32_t>(context(), name, Subsystem::Staging, v);
+  }
+  /// to[i] = from[i]^2 + add.
+  static Pass square(Pass pass, const Buffer& from, const Buffer& to, uint32_t n, uint32_t add) {
+    pass.shader(shader("square.comp")).push(SquarePush{pass.in(from), pass.out(to), n, add});
+    return pass;
   }
 };
 
@@ -43,7 +49,8 @@ TEST_F(Core, UploadLargerThanAChunk) {
 TEST_F(Core, EmptyBufferHasAnAddress) {
   const Buffer buffer(device(), "empty", Subsystem::Staging, 0);
   EXPECT_EQ(buffer.bytes, 16u);
-  EXPECT_NE(buffer.address, 0u);
+  Frame frame = context().begin();
+  EXPECT_NE(frame.pass("Look").in(buffer), 0u);
 }
 
 TEST_F(Core, DispatchChainWithHazards) {
@@ -55,12 +62,7 @@ TEST_F(Core, DispatchChainWithHazards) {
   Frame frame = context().begin();
   for (int i = 0; i < 4; ++i) {
     const Buffer &from = i % 2 ? b : a, &to = i % 2 ? a : b;
-    frame.pass("Square")
-        .shader(shader("square.comp"))
-        .read(from)
-        .write(to)
-        .push(SquarePush{from.address, to.address, n, 1})
-        .dispatch(n);
+    square(frame.pass("Square"), from, to, n, 1).dispatch(n);
   }
   frame.submitAndWait();
   EXPECT_EQ(downloadAs<uint32_t>(context(), a), std::vector<uint32_t>(n, 677));
@@ -68,11 +70,101 @@ TEST_F(Core, DispatchChainWithHazards) {
   EXPECT_EQ(device().counters.dispatches - before, 4u);
 }
 
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+bool written(const Buffer& buffer) {
+  return buffer.state().lastWrite.stages != 0 && buffer.state().readsSince.stages == 0;
+}
+bool read(const Buffer& buffer) {
+  return (buffer.state().readsSince.stages & kCompute) != 0;
+}
+
+TEST_F(Core, PassesKeepTheHazardsOfTheAddressesThatTheyGive) {
+  const uint32_t n = 64;
+  const Buffer a = values("a", std::vector<uint32_t>(n, 3)), b = values("b", std::vector<uint32_t>(n, 0));
+  Frame frame = context().begin();
+  frame.pass("Fill").fill(a, 3);
+  EXPECT_TRUE(written(a));
+  square(frame.pass("Square"), a, b, n, 0).dispatch(n);
+  EXPECT_TRUE(read(a));
+  EXPECT_TRUE(written(b));
+  EXPECT_EQ(b.state().lastWrite.stages, kCompute);
+  EXPECT_FALSE(b.state().lastWrite.commutes);
+  // Atomics in any order; an offset moves the address, not the buffer.
+  Pass pass = frame.pass("Accumulate");
+  const uint64_t to = pass.accumulate(b), behind = pass.accumulate(b, 64);
+  EXPECT_EQ(behind, to + 64);
+  pass.shader(shader("square.comp")).push(SquarePush{pass.in(a), to, n, 0}).dispatch(n);
+  EXPECT_TRUE(b.state().lastWrite.commutes);
+  // What is read and written is written.
+  square(frame.pass("Square"), a, a, n, 0).dispatch(n);
+  EXPECT_TRUE(written(a));
+  EXPECT_EQ(frame.pass("None").inIfAny(Buffer()), 0u);
+  frame.submitAndWait();
+}
+
+TEST_F(Core, RecordsBringTheBuffersThatTheyHoldTheAddressesOf) {
+  const Buffer a = values("a", {1, 2, 3, 4}), out = values("out", {0, 0, 0, 0});
+  Buffer held = values("held", {5, 6, 7, 8});
+  RecordMaker inner(context(), "inner", Subsystem::Staging, 8);
+  const Buffer table = inner.make(inner.of(held));
+  RecordMaker maker(context(), "record", Subsystem::Staging, 24);
+  const std::array<uint64_t, 3> addresses{maker.of(a), maker.of(table), maker.own(8)};
+  const Buffer record = maker.make(addresses);
+  const Buffer moved = std::move(held);
+  Frame frame = context().begin();
+  frame.pass("Fill").fill(a, 1);
+  frame.pass("Fill").fill(moved, 2);
+  // Copying the record reads none of them.
+  frame.pass("Copy").copy(record, out, 16);
+  EXPECT_TRUE(written(a) && written(moved));
+  square(frame.pass("Square"), record, out, 4, 0).dispatch(4);
+  EXPECT_TRUE(read(record) && read(a) && read(table) && read(moved));
+  // A buffer that the shader writes and finds through the record.
+  Pass pass = frame.pass("Square");
+  pass.out(moved);
+  EXPECT_EQ(addresses[2], pass.in(record, 8));
+  square(pass, record, out, 4, 0).dispatch(4);
+  EXPECT_TRUE(written(moved));
+  frame.submitAndWait();
+}
+
+TEST_F(Core, RecordsHoldWhatTheyWereMadeOf) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const std::vector<uint32_t> words{1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  const auto bytes = std::as_bytes(std::span(words));
+  EXPECT_EQ(downloadAs<uint32_t>(context(), RecordMaker(context(), "span", Subsystem::Staging, 40).make(bytes)), words);
+  // A vector's elements, not the vector.
+  const std::vector<std::byte> copy(bytes.begin(), bytes.end());
+  EXPECT_EQ(downloadAs<uint32_t>(context(), RecordMaker(context(), "vector", Subsystem::Staging, 40).make(copy)),
+            words);
+  EXPECT_EQ(downloadAs<uint32_t>(context(), RecordMaker(context(), "value", Subsystem::Staging, 4).make(7u)),
+            std::vector<uint32_t>{7});
+  EXPECT_DEATH(RecordMaker(context(), "short", Subsystem::Staging, 48).make(copy),
+               "short: 40 bytes for a record of 48");
+}
+
+TEST_F(Core, AddressesOfOtherPassesAreRefused) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const Buffer a = values("a", std::vector<uint32_t>(64, 3)), b = values("b", std::vector<uint32_t>(64, 0));
+  const auto stale = [&] {
+    Frame frame = context().begin();
+    const uint64_t old = frame.pass("Before").in(a);
+    Pass pass = frame.pass("Square");
+    pass.shader(shader("square.comp")).push(SquarePush{old, pass.out(b), 64, 0}).dispatch(64);
+  };
+  EXPECT_DEATH(stale(), "the address at byte 0 of what is pushed is none that the pass Square gave");
+  const auto late = [&] {
+    Frame frame = context().begin();
+    Pass pass = square(frame.pass("Square"), a, b, 64, 0);
+    pass.run([&](Commands&) { pass.in(a); });
+  };
+  EXPECT_DEATH(late(), "a named after the pass was recorded");
+}
+
 TEST_F(Core, CountersCountWhatIsAskedFor) {
   const uint32_t n = 64;
   const Buffer a = values("a", std::vector<uint32_t>(n, 2)), b = values("b", std::vector<uint32_t>(n, 0));
   const Buffer groups = values("groups", {0, 1, 1});
-  const SquarePush push{a.address, b.address, n, 1};
   const auto asked = [&](const std::function<void(Frame&)>& record) {
     const Counters before = context().counters();
     Frame frame = context().begin();
@@ -80,25 +172,25 @@ TEST_F(Core, CountersCountWhatIsAskedFor) {
     frame.submitAndWait();
     return context().counters().since(before);
   };
-  const auto square = [&](Frame& frame, uint32_t constant) {
-    Pass pass = frame.pass("Square");
-    pass.shader(shader("square.comp")).constant(77, constant).read(a).write(b).push(push);
-    return pass;
+  static uint32_t repetition = 0;  // each needs pipelines of its own: a context keeps earlier ones
+  repetition += 2;
+  const auto squares = [&](Frame& frame, uint32_t constant) {
+    return square(frame.pass("Square"), a, b, n, 1).constant(77, repetition + constant);
   };
   // Transfers are work of another kind; an indirect dispatch counts though it finds no groups, no threads do not.
   const Counters work = asked([&](Frame& frame) {
     frame.pass("Fill").fill(b, 1);
-    square(frame, 0).dispatch(n);
-    square(frame, 0).dispatchIndirect(groups);
-    square(frame, 0).dispatch(0);
+    squares(frame, 0).dispatch(n);
+    squares(frame, 0).dispatchIndirect(groups);
+    squares(frame, 0).dispatch(0);
   });
   EXPECT_EQ(work.dispatches, 2u);
   EXPECT_EQ(work.draws, 0u);
   EXPECT_EQ(work.submissions, 1u);
   EXPECT_EQ(work.resources(), 0u);
   // A pipeline counts when it is compiled, once per set of constants.
-  EXPECT_EQ(asked([&](Frame& frame) { square(frame, 1).dispatch(n); }).pipelines, 1u);
-  EXPECT_EQ(asked([&](Frame& frame) { square(frame, 1).dispatch(n); }).pipelines, 0u);
+  EXPECT_EQ(asked([&](Frame& frame) { squares(frame, 1).dispatch(n); }).pipelines, 1u);
+  EXPECT_EQ(asked([&](Frame& frame) { squares(frame, 1).dispatch(n); }).pipelines, 0u);
   // Draws, and what is made.
   const Buffer vertices = makeBuffer<glm::vec4>(context(), "vertices", Subsystem::Staging,
                                                 std::vector<glm::vec4>{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}});
@@ -108,11 +200,10 @@ TEST_F(Core, CountersCountWhatIsAskedFor) {
                                  .width = 4,
                                  .height = 4,
                                  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT});
-    frame.pass("Draw")
-        .shaders({shader("triangle.vert"), shader("white.frag")})
-        .read(vertices)
+    Pass pass = frame.pass("Draw");
+    pass.shaders({shader("triangle.vert"), shader("white.frag")})
         .color(image, ClearColor{})
-        .push(vertices.address)
+        .push(pass.in(vertices))
         .draw(3);
   });
   EXPECT_EQ(drawn.draws, 1u);
@@ -127,13 +218,7 @@ TEST_F(Core, TimersAreSane) {
   gpu().timings.reset();
   const auto start = std::chrono::steady_clock::now();
   Frame frame = context().begin();
-  for (const char* stage : {"One", "Two", "Two"})
-    frame.pass(stage)
-        .shader(shader("square.comp"))
-        .read(a)
-        .write(b)
-        .push(SquarePush{a.address, b.address, n, 0})
-        .dispatch(n);
+  for (const char* stage : {"One", "Two", "Two"}) square(frame.pass(stage), a, b, n, 0).dispatch(n);
   frame.submitAndWait();
   const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   gpu().timings.endFrame(0, false, wall);
@@ -144,7 +229,7 @@ TEST_F(Core, TimersAreSane) {
   EXPECT_GT(stages[0].second, 0.0);
   EXPECT_GT(stages[1].second, 0.0);
   EXPECT_LE(stages[0].second + stages[1].second, wall);
-  // The device did little else, so that most of the wall clock is the passes' (n is large).
+  // The device did little else, so most of the wall clock time belongs to the passes (n is large).
   EXPECT_GT(stages[0].second + stages[1].second, 0.3 * wall);
 }
 
@@ -201,12 +286,8 @@ TEST_F(Core, FoldedDispatchHitsEveryIndexOnce) {
     const Buffer hits(device(), "hits", Subsystem::Staging, threads * 4ull);
     Frame frame = context().begin();
     frame.pass("Fill").fill(hits, 0);
-    frame.pass("Hit")
-        .shader(shader("hit.comp"))
-        .constant(0, size)
-        .write(hits)
-        .push(Push{hits.address, threads})
-        .dispatch(threads);
+    Pass pass = frame.pass("Hit");
+    pass.shader(shader("hit.comp")).constant(0, size).push(Push{pass.out(hits), threads}).dispatch(threads);
     frame.submitAndWait();
     EXPECT_TRUE(downloadAs<uint32_t>(context(), hits) == std::vector<uint32_t>(threads, 1)) << size << " " << threads;
   }
@@ -217,12 +298,7 @@ TEST_F(Core, IndirectDispatchReadsItsArguments) {
   const Buffer a = values("a", std::vector<uint32_t>(n, 5)), b = values("b", std::vector<uint32_t>(n, 0));
   const Buffer arguments = values("arguments", {9, 9, 9, 2, 1, 1});
   Frame frame = context().begin();
-  frame.pass("Square")
-      .shader(shader("square.comp"))
-      .read(a)
-      .write(b)
-      .push(SquarePush{a.address, b.address, n, 0})
-      .dispatchIndirect(arguments, 12);
+  square(frame.pass("Square"), a, b, n, 0).dispatchIndirect(arguments, 12);
   frame.submitAndWait();
   std::vector<uint32_t> expected(n, 0);
   std::fill_n(expected.begin(), 128, 25);  // two workgroups of 64
@@ -245,7 +321,7 @@ TEST_F(Core, FillCopyAndReadback) {
   }
   EXPECT_TRUE(seen.empty());  // deferred
   device().waitIdle();
-  context().begin().submitAndWait();  // whoever first notices
+  context().begin().submitAndWait();  // delivers what has finished
   EXPECT_EQ(seen, (std::vector<uint32_t>{7, 7, 0xabcdef01u, 0xabcdef01u}));
   EXPECT_EQ(downloadAs<uint32_t>(context(), b), std::vector<uint32_t>(100, 0));
 }
@@ -279,7 +355,7 @@ TEST_F(Core, NoGrowthOverManyFrames) {
     f.readback(a, 0, 64, [](auto) {});
     f.submit();
   };
-  // Four in flight at most, as here at first: a busy machine would otherwise let them pile up.
+  // At most four in flight, as here at first: on a busy machine they would otherwise pile up.
   const auto fourFrames = [&] {
     for (int i = 0; i < 4; ++i) frame();
     context().finish();
@@ -308,10 +384,11 @@ TEST_F(Core, DroppedFrameLeavesStatesTrue) {
 }
 
 TEST_F(Core, MemoryRowsAndBudget) {
+  constexpr SubsystemName kMatrix{"matrix"};  // as a layer above declares it
   Allocator& memory = device().memory();
-  const Buffer a(device(), "row of this test", Subsystem::Matrix, 5000);
+  const Buffer a(device(), "row of this test", kMatrix, 5000);
   const Image b(device(), {.name = "volume of this test",
-                           .subsystem = Subsystem::Volumes,
+                           .subsystem = Subsystem::Targets,
                            .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                            .width = 32,
                            .height = 32,
@@ -322,7 +399,7 @@ TEST_F(Core, MemoryRowsAndBudget) {
     EXPECT_LE(row.bytes, last);
     last = row.bytes;
     sum += row.bytes;
-    buffer |= row.name == "row of this test" && row.subsystem == Subsystem::Matrix && row.bytes >= 5000;
+    buffer |= row.name == "row of this test" && row.subsystem == kMatrix && row.bytes >= 5000;
     image |= row.name == "volume of this test" && row.format == "rgba16f 32x32x32" && row.bytes == b.bytes();
   }
   EXPECT_TRUE(buffer && image);
@@ -332,7 +409,7 @@ TEST_F(Core, MemoryRowsAndBudget) {
 
   const uint64_t used = memory.used(), allocations = device().counters.allocations;
   try {
-    const Buffer huge(device(), "a matrix too far", Subsystem::Matrix, memory.budget() + 1);
+    const Buffer huge(device(), "a matrix too far", kMatrix, memory.budget() + 1);
     FAIL() << "no refusal";
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("a matrix too far (matrix) needs"), std::string::npos) << error.what();
@@ -346,14 +423,13 @@ TEST_F(Core, MemoryRowsAndBudget) {
 TEST_F(Core, ConfusedBindingsAreReportedWithBothSides) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const Image image(device(), {.name = "target", .format = VK_FORMAT_R32_SFLOAT, .width = 8, .height = 8});
-  EXPECT_DEATH(context().begin().pass("Image").shader(shader("image.comp")).write(image).push(0).dispatchGroups(1),
+  EXPECT_DEATH(context().begin().pass("Image").shader(shader("image.comp")).write(image).push(0).dispatch(8),
                "names 1 images, image.comp declares 2");
-  EXPECT_DEATH(
-      context().begin().pass("Image").shader(shader("image.comp")).write(image, image).push(0).dispatchGroups(1),
-      "source is a sampler in image.comp, but the pass gives target as a storage image");
+  EXPECT_DEATH(context().begin().pass("Image").shader(shader("image.comp")).write(image, image).push(0).dispatch(8),
+               "source is a sampler in image.comp, but the pass gives target as a storage image");
   EXPECT_DEATH(context().begin().pass("Square").shader(shader("square.comp")).push(uint64_t{0}).dispatch(1),
                "8 bytes pushed, the shader's block has 24");
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::core_suite

@@ -1,11 +1,11 @@
 // Choosing devices, poisoned memory, and the proof that the validation filter can fail.
 #include <cmath>
 
-#include "renderer/error.h"
-#include "renderer/frame.h"
+#include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::device_suite {
 namespace {
 
 TEST(DeviceChoice, ByIndexAndByPartOfTheName) {
@@ -121,4 +121,4 @@ TEST(DeviceTeardown, IsSilent) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::device_suite

@@ -1,69 +1,26 @@
-// Each row of the effect plan on a device, in both directions: what calls for an effect flips, and it is there with the
-// next picture, with its passes, memory and shader code; it flips back, and they are gone, to the last byte.
+// Each row of the effect plan on a device. What calls for an effect flips: it is there with the next picture, with its
+// passes, memory and shader code; it flips back, and they are gone, to the last byte. Where the scene does not call for
+// it, forced on it gives the same bits.
 #include "shaders/shared/passes.h"
 #include "tests/effects_fixture.h"
 
-namespace irad::test {
+namespace irad::test::effect_rows_suite {
 namespace {
 
-/// How one effect is called for, and what it brings along.
-struct Row {
-  Effect effect;
-  std::function<Scene()> scene;
-  /// Calls for the effect, or no longer does.
-  std::function<void(Pipeline&, bool wanted)> flip;
-  const char* stage = nullptr;     ///< of its own
-  const char* memory = nullptr;    ///< a buffer or image of its own
-  const char* shader = nullptr;    ///< of its own
-  uint32_t constant = UINT32_MAX;  ///< of "RE Forward", in the key where the effect is off
-};
+constexpr View kViews[] = {VIEW_IRRADIANCE, VIEW_LIT,      VIEW_DIRECT_IRRADIANCE,
+                           VIEW_INDIRECT,   VIEW_SPECULAR, VIEW_NORMAL};
 
-Light lampAt(double x) {
-  return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = 3};
+Scene emptyRoom() {
+  return room(/*emits=*/false);
 }
-Light sun() {
-  return {
-      .name = "sun", .type = LightType::Sun, .direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f)), .intensity = 2};
+Scene lampRoom() {
+  return room(/*emits=*/true, {lamp(0.3)});
 }
-Light spot() {
-  return {.name = "spot",
-          .type = LightType::Spot,
-          .position = {0, 0.5, 0},
-          .intensity = 4,
-          .innerCos = 0.95f,
-          .outerCos = 0.85f};
-}
-
-/// A room with a small lamp, a floor with a normal map and a panel with holes; matt.
-Scene room(bool emits = true) {
-  SceneBuilder b;
-  const uint32_t wall = b.material(glm::vec3(0.6f, 0.5f, 0.4f)), floor = b.material(glm::vec3(0.5f)),
-                 lamp = b.material(glm::vec3(0.1f), emits ? glm::vec3(20) : glm::vec3(0)),
-                 panel = b.material(glm::vec3(0.4f), glm::vec3(0), /*doubleSided=*/true);
-  b.box({wall, wall, floor, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  b.quad(lamp, {-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2});
-  b.quad(panel, {-0.6, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.4, -0.2}, {-0.6, 0.4, -0.2});
-  b.camera({0.7, 0.3, 0.9}, {-0.2, -0.3, -0.6});
-  Scene scene = b.finish("room");
-  for (Material& m : scene.materials) m.lambertian = true;
-  const auto image = [&](bool srgb, std::vector<uint8_t> texels) {
-    scene.images.push_back({"two texels", 2, 1, srgb, std::move(texels)});
-    return static_cast<int>(scene.images.size()) - 1;
-  };
-  scene.materials[floor].normalTexture.image = image(false, {190, 128, 230, 255, 80, 150, 230, 255});
-  scene.materials[panel].baseColorTexture.image = image(true, {255, 255, 255, 255, 255, 255, 255, 0});
-  scene.materials[panel].alpha = AlphaMode::Mask;
-  for (size_t i = 0; i < scene.positions.size(); ++i)
-    scene.uv0[i] = 2.0f * glm::vec2(scene.positions[i].x, scene.positions[i].y + scene.positions[i].z);
-  return scene;
-}
-Scene litRoom() {
-  Scene scene = room();
-  scene.lights = {lampAt(0.3)};
-  return scene;
+Scene texturedRoom() {
+  return room(/*emits=*/true, {lamp(0.3)}, /*textured=*/true);
 }
 Scene glossyRoom() {
-  Scene scene = room(/*emits=*/false);
+  Scene scene = emptyRoom();
   scene.materials[0].lambertian = false;
   scene.materials[0].roughness = 0.2f;
   return scene;
@@ -73,142 +30,113 @@ Scene evenRoom() {
   return furnaceBox(0.5f);
 }
 
-auto lights(std::vector<Light> always, Light flipped) {
-  return [=](Pipeline& p, bool wanted) {
-    std::vector<Light> all = always;
-    if (wanted) all.push_back(flipped);
-    p.setLights(std::move(all));
-  };
+using Flip = std::array<Edit, 2>;  // the scene no longer calls for the effect; it does
+Flip flip(std::vector<Light> always, Light flipped) {
+  std::vector<Light> all = always;
+  all.push_back(std::move(flipped));
+  return {lights(std::move(always)), lights(std::move(all))};
 }
-/// Back on means as the scene calls for it.
-auto setting(const char* off, const char* on) {
-  return [=](Pipeline& p, bool wanted) {
-    Settings s = p.settings();
-    applySetting(s, wanted ? on : off);
-    p.set(s);
-  };
+/// Back to what the scene calls for.
+Flip flip(const std::string& name, const std::string& off = "off", const std::string& on = "auto") {
+  return {setting(name + "=" + off), setting(name + "=" + on)};
 }
 
+constexpr uint32_t kNone = UINT32_MAX;
+/// How one effect is called for, and what it brings along.
+struct Row {
+  Effect effect;
+  Scene (*scene)();
+  Flip flip;
+  const char *stage, *memory, *shader;  ///< of the effect alone: a stage, a buffer or image, a shader; "": none
+  uint32_t constant;                    ///< constant of "RE Forward", in the key where the effect is off
+};
+using E = Effect;
 const Row kRows[] = {
-    {.effect = Effect::emission,
-     .scene = litRoom,
-     .flip = setting("effects.emission=off", "effects.emission=auto"),
-     .stage = "GI Solve Emitters",
-     .memory = "emitted share F M",
-     .constant = FORWARD_EMISSION},
-    {.effect = Effect::emitterSampling,
-     .scene = litRoom,
-     .flip = setting("matrix.emitter_sampling=off", "matrix.emitter_sampling=on"),
-     .memory = "emitters' correction",
-     .shader = "gi/sample_emitters"},
-    {.effect = Effect::sun,
-     .scene = [] { return room(); },
-     .flip = lights({lampAt(0.3)}, sun()),
-     .memory = "shadow maps",
-     .constant = FORWARD_LIGHTS + LIGHT_SUN},
-    {.effect = Effect::point,
-     .scene = [] { return room(); },
-     .flip = lights({sun()}, lampAt(0.3)),
-     .memory = "shadow cubes",
-     .constant = FORWARD_LIGHTS + LIGHT_POINT},
-    {.effect = Effect::spot,
-     .scene = [] { return room(); },
-     .flip = lights({lampAt(0.3)}, spot()),
-     .memory = "shadow maps",
-     .constant = FORWARD_LIGHTS + LIGHT_SPOT},
-    {.effect = Effect::matrix,
-     .scene = [] { return room(/*emits=*/false); },
-     .flip = lights({}, lampAt(0.3)),
-     .stage = "GI BuildMatrix",
-     .memory = "indirect irradiance H",
-     .constant = FORWARD_INDIRECT},
-    {.effect = Effect::specular,
-     .scene = glossyRoom,
-     .flip = lights({}, lampAt(0.3)),
-     .stage = "RE Specular",
-     .memory = "specular radiance",
-     .constant = FORWARD_F0},
-    {.effect = Effect::secondFacet,
-     .scene = litRoom,
-     .flip = setting("effects.second_facet=off", "effects.second_facet=auto")},
-    {.effect = Effect::field,
-     .scene = litRoom,
-     .flip = setting("matrix.traversal=dda", "matrix.traversal=sdf"),
-     .stage = "GI SDF",
-     .memory = "chebyshev field"},
-    {.effect = Effect::alphaTest,
-     .scene = litRoom,
-     .flip = setting("effects.alpha_test=off", "effects.alpha_test=auto"),
-     .shader = "forward/depth_masked.frag"},
-    {.effect = Effect::normalMap,
-     .scene = litRoom,
-     .flip = setting("effects.normal_map=off", "effects.normal_map=auto"),
-     .constant = FORWARD_NORMAL_MAP},
-    {.effect = Effect::blur, .scene = evenRoom, .flip = lights({}, spot()), .memory = "blurred H"},
+    {E::emission, lampRoom, flip("effects.emission"), "GI Solve Emitters", "emitted share F M", "", FORWARD_EMISSION},
+    {E::emitterSampling, lampRoom, flip("matrix.emitter_sampling", "off", "on"), "", "emitters' correction",
+     "gi/sample_emitters", kNone},
+    {E::sun, emptyRoom, flip({lamp(0.3)}, sun()), "", "shadow maps", "", FORWARD_LIGHTS + LIGHT_SUN},
+    {E::point, emptyRoom, flip({sun()}, lamp(0.3)), "", "shadow cubes", "", FORWARD_LIGHTS + LIGHT_POINT},
+    {E::spot, emptyRoom, flip({lamp(0.3)}, spot()), "", "shadow maps", "", FORWARD_LIGHTS + LIGHT_SPOT},
+    {E::matrix, emptyRoom, flip({}, lamp(0.3)), "GI BuildMatrix", "indirect irradiance H", "", FORWARD_INDIRECT},
+    {E::specular, glossyRoom, flip({}, lamp(0.3)), "RE Specular", "specular radiance", "", FORWARD_F0},
+    {E::secondFacet, lampRoom, flip("effects.second_facet"), "", "", "", kNone},
+    {E::field, lampRoom, flip("matrix.traversal", "dda", "sdf"), "GI SDF", "chebyshev field", "", kNone},
+    {E::alphaTest, texturedRoom, flip("effects.alpha_test"), "", "", "forward/depth_masked.frag", kNone},
+    {E::normalMap, texturedRoom, flip("effects.normal_map"), "", "", "", FORWARD_NORMAL_MAP},
+    {E::blur, evenRoom, flip({}, spot()), "", "blurred H", "", kNone},
 };
 
 class Rows : public EffectsTest {
  protected:
   struct Shown {
-    std::vector<glm::vec4> picture;
-    Stages stages;
-    std::vector<PipelineUse> used;
-    uint64_t bytes = 0;         ///< but for staging, which is kept
-    bool secondFacets = false;  ///< voxels hold some
-    EffectRow row;
+    Pixels picture;
+    uint64_t bytes = 0;  ///< without staging, which is kept
   };
   static Settings settings() {
     Settings s = small();
     s.effects.blurNoise = 1e-2f;
     return s;
   }
-  /// One prepare and one picture.
-  Shown show(Pipeline& pipeline, Targets& targets, Effect effect) {
+  /// One prepare and one picture: with all that the effect brings where it is `wanted`, else with nothing of it.
+  Shown show(Pipeline& pipeline, Targets& targets, const Row& row, bool wanted) {
     context().finish();
     timings().reset();
     context().pipelinesUsed();
-    pipeline.darken();  // so that the light does not depend on that before
+    pipeline.darken();  // so that the light does not depend on what was there before
     pipeline.prepare();
-    Shown shown;
-    shown.picture = draw(pipeline, targets);
-    shown.stages = recorded();
-    shown.used = context().pipelinesUsed();
-    context().finish();
-    for (const MemoryRow& held : context().device.memory().rows())
-      if (held.subsystem != Subsystem::Staging) shown.bytes += held.bytes;
-    shown.secondFacets = pipeline.facets().count > pipeline.facets().solidVoxels;
-    shown.row = pipeline.plan().row(effect);
-    return shown;
-  }
-  void expect(const Row& row, const Shown& shown, bool wanted) {
-    EXPECT_EQ(shown.row.state == EffectState::on, wanted) << shown.row.reason;
-    EXPECT_FALSE(shown.row.reason.empty());
-    if (row.stage) {
-      EXPECT_EQ(any(shown.stages, row.stage), wanted) << row.stage;
-    }
-    if (row.memory) {
-      EXPECT_EQ(holds(row.memory), wanted) << row.memory;
+    Shown shown{.picture = draw(pipeline, targets)};
+    const Stages stages = recorded();
+    shown.bytes = bytesOf([](const MemoryRow& held) { return held.subsystem != Subsystem::Staging; });
+    const EffectRow now = pipeline.plan().row(row.effect);
+    SCOPED_TRACE(fmt::format("{} {}: {}", now.info().name, now.stateName(), now.reason));
+    EXPECT_EQ(now.state == EffectState::on, wanted);
+    EXPECT_FALSE(now.reason.empty());
+    EXPECT_EQ(*row.stage && any(stages, row.stage), *row.stage && wanted) << row.stage;
+    EXPECT_EQ(holds(row.memory), *row.memory && wanted) << row.memory;
+    if (row.effect == E::secondFacet) {
+      EXPECT_EQ(pipeline.facets().count > pipeline.facets().solidVoxels, wanted);
     }
     bool ran = false;
-    for (const PipelineUse& use : shown.used) {
-      for (const std::string& shader : use.shaders) ran |= row.shader && shader.starts_with(row.shader);
-      if (row.constant != UINT32_MAX && use.shaders.front() == "forward/forward.vert") {
-        // The key names what is left out: an effect that is on is the shader's own default.
-        const auto at = use.constants.find(row.constant);
-        if (row.effect != Effect::normalMap || use.constants.count(FORWARD_TEXTURED) == 0) {
-          EXPECT_EQ(at == use.constants.end(), wanted);
-        }
-        if (at != use.constants.end()) {
-          EXPECT_EQ(at->second, 0u);
-        }
-      }
+    for (const PipelineUse& use : context().pipelinesUsed()) {
+      for (const std::string& shader : use.shaders) ran |= *row.shader && shader.starts_with(row.shader);
+      // The key names what is left out: an effect that is on is the shader's own default.
+      if (row.constant == kNone || use.shaders.front() != "forward/forward.vert") continue;
+      const auto at = use.constants.find(row.constant);
+      const bool mayHaveIt = row.effect != E::normalMap || !use.constants.contains(FORWARD_TEXTURED);
+      EXPECT_TRUE(!mayHaveIt || (at == use.constants.end()) == wanted);
+      EXPECT_TRUE(at == use.constants.end() || at->second == 0);
     }
-    if (row.shader) {
-      EXPECT_EQ(ran, wanted) << row.shader;
-    }
-    if (row.effect == Effect::secondFacet) {
-      EXPECT_EQ(shown.secondFacets, wanted);
-    }
+    EXPECT_EQ(ran, wanted && *row.shader) << row.shader;
+    return shown;
+  }
+  /// With `force` applied, which is taken back, every view is as planned: the same bits, or H within `epsilon` of its
+  /// largest.
+  template <class Force>
+  void expectSame(Pipeline& pipeline, Targets& targets, Force&& force, float epsilon = 0) {
+    const auto pictures = [&] {
+      pipeline.darken();
+      pipeline.prepare();
+      std::vector<Pixels> out;
+      for (const View view : kViews) out.push_back(draw(pipeline, targets, view));
+      return out;
+    };
+    const Settings planned = pipeline.settings();
+    const std::vector<Pixels> before = pictures();
+    Settings forced = planned;
+    force(forced);
+    pipeline.set(forced);
+    const std::vector<Pixels> after = pictures();
+    const float allowed = epsilon * pipeline.lighting().report.largestH;
+    for (size_t i = 0; epsilon == 0 && i < before.size(); ++i) EXPECT_TRUE(same(before[i], after[i])) << kViews[i];
+    for (size_t i = 0; epsilon > 0 && i < before[0].size(); ++i) ASSERT_NEAR(before[0][i].x, after[0][i].x, allowed);
+    pipeline.set(planned);
+  }
+  void expectSameForcedOn(Pipeline& pipeline, Targets& targets, const EffectRow& row) {
+    SCOPED_TRACE(row.info().name);
+    if (const auto mode = row.info().mode)
+      expectSame(
+          pipeline, targets, [&](Settings& s) { s.effects.*mode = EffectMode::on; }, row.epsilon);
   }
 };
 
@@ -218,27 +146,23 @@ TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
   const Row& row = kRows[GetParam()];
   Pipeline pipeline(context(), row.scene(), settings());
   Targets targets(context(), {32, 24});
-  const auto flipped = [&](bool wanted) {
-    row.flip(pipeline, wanted);
-    return show(pipeline, targets, row.effect);
-  };
-  const Shown off = flipped(false);
-  expect(row, off, false);
-  const Shown on = flipped(true);
-  expect(row, on, true);
-  // The field saves time alone.
-  EXPECT_EQ(same(on.picture, off.picture), row.effect == Effect::field);
-  if (row.memory) {
-    EXPECT_GT(on.bytes, off.bytes);
-  }
-  const Shown offAgain = flipped(false);
-  expect(row, offAgain, false);
-  EXPECT_TRUE(same(offAgain.picture, off.picture));
-  EXPECT_EQ(offAgain.bytes, off.bytes);
-  const Shown onAgain = flipped(true);
-  expect(row, onAgain, true);
-  EXPECT_TRUE(same(onAgain.picture, on.picture));
-  EXPECT_EQ(onAgain.bytes, on.bytes);
+  std::array<Shown, 2> first;  // off, on
+  for (const bool again : {false, true})
+    for (const bool wanted : {false, true}) {
+      row.flip[wanted](pipeline);
+      Shown shown = show(pipeline, targets, row, wanted);
+      // The field only saves time.
+      EXPECT_EQ(wanted && same(shown.picture, first[0].picture), wanted && row.effect == E::field);
+      EXPECT_TRUE(!wanted || !*row.memory || shown.bytes > first[0].bytes);
+      EXPECT_TRUE(!again || same(shown.picture, first[wanted].picture));
+      EXPECT_TRUE(!again || shown.bytes == first[wanted].bytes);
+      first[wanted] = std::move(shown);
+    }
+  row.flip[false](pipeline);
+  pipeline.prepare();
+  // Not called for, rather than taken away by a setting.
+  if (forcedMode(pipeline.settings(), row.effect) == EffectMode::automatic)
+    expectSameForcedOn(pipeline, targets, pipeline.plan().row(row.effect));
 }
 
 INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
@@ -248,64 +172,86 @@ INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size
 });
 
 TEST_F(Rows, APlainRoomHasNoPartOfWhatItDoesNotCallFor) {
-  Scene scene = furnishedRoom();
-  for (Material& m : scene.materials) m.lambertian = true;
-  scene.lights = {lampAt(0.3)};
-  Pipeline pipeline(context(), std::move(scene), settings());
+  Pipeline pipeline(context(), room(/*emits=*/false, {lamp(0.3)}), settings());
   Targets targets(context(), {32, 24});
+  pipeline.prepare();
+  std::set<Effect> off;
   for (const Row& row : kRows) {
-    const Shown shown = show(pipeline, targets, row.effect);
-    if (shown.row.state == EffectState::off) expect(row, shown, false);
+    if (!pipeline.plan().off(row.effect)) continue;
+    off.insert(row.effect);
+    show(pipeline, targets, row, false);
+    EXPECT_FALSE(targets.specular);
+    EXPECT_FALSE(targets.glossy);
+    EXPECT_FALSE(pipeline.facets().hasEmission);
+    EXPECT_FALSE(pipeline.lighting().emitted);
+    expectSameForcedOn(pipeline, targets, pipeline.plan().row(row.effect));
+    EXPECT_EQ(holds("emitted share F M"), row.effect == E::emission);  // until the next prepare
   }
-  const EffectPlan plan = pipeline.plan();
-  for (const Effect e : {Effect::emission, Effect::emitterSampling, Effect::sun, Effect::spot, Effect::specular,
-                         Effect::alphaTest, Effect::normalMap})
-    EXPECT_TRUE(plan.off(e)) << effectInfo(e).name;
+  for (const E e : {E::emission, E::emitterSampling, E::sun, E::spot, E::specular, E::alphaTest, E::normalMap})
+    EXPECT_TRUE(off.contains(e)) << effectInfo(e).name;
+  EXPECT_EQ(pipeline.plan().row(E::specular).bytesNotAllocated, 32u * 24 * 20);
 }
 
-/// A lamp that is dragged about where its range ends at the room's wall.
-TEST_F(Rows, ALightThatWaversAtItsReachSwitchesOnce) {
-  Pipeline pipeline(context(), room(/*emits=*/false), settings());
+TEST_F(Rows, KindsOfLightThatAreNotThereAreLeftOutBitForBit) {
+  Pipeline pipeline(context(), room(/*emits=*/true), settings());
   Targets targets(context(), {32, 24});
-  // 16 voxels of 1/8: two of them wide is the trigger, four where it lets go.
-  const auto at = [&](double gap) {
-    Light lamp = lampAt(1 + gap);
-    lamp.position.y = 0;
-    lamp.range = 1;
-    pipeline.setLights({lamp});
-    pipeline.prepare();
-    return draw(pipeline, targets);
-  };
-  const std::vector<glm::vec4> dark = at(2);
-  EXPECT_TRUE(pipeline.plan().off(Effect::point));
-  at(1.2);
-  EXPECT_TRUE(pipeline.plan().on(Effect::point));
-  const uint64_t flips = pipeline.flips();
-  for (int i = 0; i < 6; ++i) {
-    EXPECT_TRUE(same(at(i % 2 == 0 ? 1.3 : 1.2), dark));
-    EXPECT_TRUE(holds("shadow cubes"));
-    EXPECT_TRUE(pipeline.matrix());
+  const Light narrow = spot(), wide = spot(0.17f);
+  const std::vector<Light> sets[]{
+      {narrow, wide, lamp(0.3)}, {sun(), lamp(0.3)}, {sun(), narrow, wide}, {sun()}, {narrow}, {wide}, {lamp(0.3)}, {}};
+  for (const std::vector<Light>& there : sets) {
+    SCOPED_TRACE(&there - sets);
+    pipeline.setLights(there);
+    expectSame(pipeline, targets,
+               [](Settings& s) { s.effects.sun = s.effects.point = s.effects.spot = EffectMode::on; });
   }
-  EXPECT_EQ(pipeline.flips(), flips);
-  at(2);
-  EXPECT_TRUE(pipeline.plan().off(Effect::point));
-  EXPECT_FALSE(holds("shadow cubes"));
 }
 
-/// The blur is watched, not tried, while lights move: where it shows nothing it stays off.
-TEST_F(Rows, TheBlurStaysAsItIsWhileLightsMove) {
-  for (const bool even : {true, false}) {
+/// Lamps that are dragged about: what is there after the first place stays, and what is not does not come.
+TEST_F(Rows, LightsThatMoveSwitchNothing) {
+  const std::vector<Light> places{lamp(0.2), lamp(0.1), lamp(-0.2), lamp(0.3)};
+  // Where its range ends at the room's wall. 16 voxels of 1/8: two of them wide is the trigger, four where it lets go.
+  const auto atReach = [](double gap) {
+    Light light = lamp(1 + gap);
+    light.position.y = 0;
+    light.range = 1;
+    return light;
+  };
+  const struct {
+    Effect effect;
+    Scene scene;
+    float blurNoise;
+    bool on;
+    const char* terms;
+    std::vector<Light> places;
+  } drags[]{{E::point,
+             emptyRoom(),
+             0.01f,
+             true,
+             "point on, has shadow cubes, has matrix",
+             {atReach(1.2), atReach(1.3), atReach(1.2), atReach(1.3)}},
+            {E::point,
+             emptyRoom(),
+             0.01f,
+             false,
+             "point off, no shadow cubes, no matrix",
+             {atReach(2), atReach(1.3), atReach(2), atReach(1.3)}},
+            // The blur is watched, not tried: where it shows nothing it stays off.
+            {E::blur, evenRoom(), 0.9f, false, "blur off, no blurred H", places},
+            {E::blur, lampRoom(), 1e-4f, true, "blur on, has blurred H", places},
+            // Lights do not change F M, nor what was found of its samples.
+            {E::emitterSampling, lampRoom(), 0.01f, true, "emitter-sampling on, has emitters' correction", places}};
+  for (const auto& drag : drags) {
     Settings s = settings();
-    s.effects.blurNoise = even ? 0.9f : 1e-4f;
-    Pipeline pipeline(context(), even ? evenRoom() : litRoom(), s);
-    pipeline.setLights({lampAt(0.2)});
-    pipeline.prepare();
-    EXPECT_EQ(pipeline.plan().on(Effect::blur), !even) << pipeline.plan().row(Effect::blur).reason;
-    const uint64_t flips = pipeline.flips();
-    for (const double x : {0.1, -0.2, 0.3, 0.1}) {
-      pipeline.setLights({lampAt(x)});
-      pipeline.prepare();
-      EXPECT_EQ(holds("blurred H"), !even);
+    s.effects.blurNoise = drag.blurNoise;
+    Pipeline pipeline(context(), drag.scene, s);
+    uint64_t flips = 0;
+    for (size_t i = 0; i < drag.places.size(); ++i) {
+      const auto drop = [&](Pipeline& p) {
+        p.setLights({drag.places[i]});
+        EXPECT_TRUE(i == 0 || p.plan().on(drag.effect) == drag.on);
+      };
+      walk(pipeline, {{drop, drag.terms, drag.effect == E::point ? '.' : ' '}});
+      if (i == 0) flips = pipeline.flips();
     }
     EXPECT_EQ(pipeline.flips(), flips);
   }
@@ -316,33 +262,17 @@ TEST_F(Rows, TheBlurIsMeasuredAlike) {
   const auto noise = [&](float epsilon) {
     Settings s = settings();
     s.effects.blurNoise = epsilon;
-    Pipeline pipeline(context(), litRoom(), s);
-    pipeline.prepare();
-    pipeline.setLights({lampAt(-0.1)});
-    pipeline.darken();
-    pipeline.prepare();
-    EXPECT_EQ(pipeline.plan().on(Effect::blur), epsilon < 0.5f);
-    return pipeline.traits().light.noise.value_or(-1);
+    const auto pipeline = prepared(lampRoom(), s);
+    pipeline->setLights({lamp(-0.1)});
+    pipeline->darken();
+    pipeline->prepare();
+    EXPECT_EQ(pipeline->plan().on(E::blur), epsilon < 0.5f);
+    return pipeline->traits().light.noise.value_or(-1);
   };
   const float with = noise(1e-4f), without = noise(0.99f);
   EXPECT_GT(with, 0);
   EXPECT_EQ(with, without);
 }
 
-/// Lights do not change F M, nor what was found of its samples.
-TEST_F(Rows, EmittersAreSampledOrNotWhateverLightsDo) {
-  Pipeline pipeline(context(), litRoom(), settings());
-  pipeline.prepare();
-  const EffectState state = pipeline.plan().row(Effect::emitterSampling).state;
-  const uint64_t flips = pipeline.flips();
-  for (const double x : {0.1, -0.2, 0.3}) {
-    pipeline.setLights({lampAt(x)});
-    EXPECT_EQ(pipeline.plan().row(Effect::emitterSampling).state, state);
-    pipeline.prepare();
-    EXPECT_EQ(pipeline.plan().row(Effect::emitterSampling).state, state);
-  }
-  EXPECT_EQ(pipeline.flips(), flips);
-}
-
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::effect_rows_suite

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <set>
+#include <sstream>
 
 #include "gi/pipeline.h"
 #include "tests/gi_fixture.h"
@@ -11,13 +12,85 @@
 namespace irad::test {
 
 using Stages = std::set<std::string>;
+using Pixels = std::vector<glm::vec4>;
+
+inline Light lamp(double x, float candela = 3) {
+  return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
+}
+inline Light sun() {
+  const glm::vec3 down = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
+  return {.name = "sun", .type = LightType::Sun, .direction = down, .intensity = 2};
+}
+/// 0.85: half an angle of 32 degrees; one of 0.17, 80 degrees, takes a shadow cube.
+inline Light spot(float outerCos = 0.85f) {
+  Light light{.name = "spot", .type = LightType::Spot, .position = {0, 0.5, 0}, .intensity = 4};
+  light.innerCos = 0.95f;
+  light.outerCos = outerCos;
+  return light;
+}
+
+/// A matt room with a panel and a small lamp; `textured`: the floor has a normal map and the panel holes.
+inline Scene room(bool emits, std::vector<Light> lights = {}, bool textured = false) {
+  irad::SceneBuilder b;
+  const uint32_t wall = b.material(glm::vec3(0.6f, 0.5f, 0.4f)), floor = b.material(glm::vec3(0.5f)),
+                 lamp = b.material(glm::vec3(0.1f), glm::vec3(emits ? 20 : 0)),
+                 panel = b.material(glm::vec3(0.4f), glm::vec3(0), /*doubleSided=*/true);
+  b.box({wall, wall, floor, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  b.quad(lamp, {-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2});
+  b.quad(panel, {-0.6, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.4, -0.2}, {-0.6, 0.4, -0.2});
+  b.camera({0.7, 0.3, 0.9}, {-0.2, -0.3, -0.6});
+  Scene scene = b.finish("room");
+  scene.lights = std::move(lights);
+  for (Material& m : scene.materials) m.lambertian = true;
+  if (textured) {
+    scene.images = {{"normals", 2, 1, /*srgb=*/false, {190, 128, 230, 255, 80, 150, 230, 255}},
+                    {"holes", 2, 1, /*srgb=*/true, {255, 255, 255, 255, 255, 255, 255, 0}}};
+    scene.materials[floor].normalTexture.image = 0;
+    scene.materials[panel].baseColorTexture.image = 1;
+    scene.materials[panel].alpha = AlphaMode::Mask;
+  }
+  for (size_t i = 0; i < scene.positions.size(); ++i)
+    scene.uv0[i] = 2.0f * glm::vec2(scene.positions[i].x, scene.positions[i].y + scene.positions[i].z);
+  return scene;
+}
+
+using Edit = std::function<void(Pipeline&)>;
+inline Edit lights(std::vector<Light> all) {
+  return [all = std::move(all)](Pipeline& p) { p.setLights(all); };
+}
+inline Edit setting(std::string assignment) {
+  return [assignment = std::move(assignment)](Pipeline& p) {
+    Settings s = p.settings();
+    applySetting(s, assignment);
+    p.set(s);
+  };
+}
 
 class EffectsTest : public GiTest {
  protected:
+  /// An edit of a pipeline, and what is there with the next prepare and picture.
+  struct Step {
+    Edit edit;           ///< none: nothing is due
+    std::string terms;   ///< for expect()
+    char picture = ' ';  ///< letters of a walk: the same one, the same bits, H too; '.': black; ' ': not compared
+    View view = VIEW_LIT;
+  };
+
   static Settings small() {
     Settings s = at(16, 32);
     s.light.shadowResolution = 128;
     return s;
+  }
+  static Scene litRoom() {
+    Scene scene = furnishedRoom();
+    scene.lights = {lamp(0)};
+    return scene;
+  }
+  std::unique_ptr<Pipeline> prepared(Scene scene, const Settings& settings = small()) {
+    timings().reset();
+    auto pipeline = std::make_unique<Pipeline>(context(), std::move(scene), settings);
+    pipeline->prepare();
+    return pipeline;
   }
   Timings& timings() { return context().timings; }
   /// Stages recorded since the last call.
@@ -28,40 +101,81 @@ class EffectsTest : public GiTest {
     return out;
   }
   static bool any(const Stages& stages, const std::string& prefix) {
-    return std::any_of(stages.begin(), stages.end(), [&](const std::string& s) { return s.starts_with(prefix); });
+    return std::ranges::any_of(stages, [&](const std::string& s) { return s.starts_with(prefix); });
   }
-  uint64_t bytes(std::initializer_list<Subsystem> subsystems) {
+  template <class Counts>
+  uint64_t bytesOf(Counts&& counts) {
     context().finish();
     uint64_t sum = 0;
-    for (const MemoryRow& row : context().device.memory().rows())
-      for (const Subsystem s : subsystems) sum += row.subsystem == s ? row.bytes : 0;
+    for (const MemoryRow& row : context().device.memory().rows()) sum += counts(row) ? row.bytes : 0;
     return sum;
   }
+  /// A buffer or image, or anything of a subsystem.
   bool holds(const std::string& name) {
-    context().finish();
-    for (const MemoryRow& row : context().device.memory().rows())
-      if (row.name == name) return true;
-    return false;
+    return bytesOf([&](const MemoryRow& row) { return row.name == name || row.subsystem.text == name; }) > 0;
   }
-  std::vector<glm::vec4> draw(Pipeline& pipeline, View view = VIEW_LIT, glm::uvec2 size = {32, 24}) {
+  /// Terms apart by commas: "+STAGE" was recorded, "-STAGE" not; "has MEMORY", "no MEMORY"; "EFFECT STATE".
+  void expect(const Pipeline& pipeline, const Stages& stages, const std::string& terms) {
+    std::istringstream in(terms);
+    for (std::string term; std::getline(in >> std::ws, term, ',');) {
+      SCOPED_TRACE(term);
+      const std::string what = term.substr(term.find_first_of(" +-") + 1);
+      if (term[0] == '+' || term[0] == '-') {
+        EXPECT_EQ(any(stages, what), term[0] == '+');
+      } else if (term.starts_with("has ") || term.starts_with("no ")) {
+        EXPECT_EQ(holds(what), term[0] == 'h');
+      } else {
+        const EffectPlan plan = pipeline.plan();
+        EXPECT_TRUE(std::ranges::any_of(plan.rows, [&](const EffectRow& row) {
+          return term == fmt::format("{} {}", row.info().name, row.stateName());
+        }));
+      }
+    }
+  }
+  /// Takes step after step. Returns the pictures by their letters.
+  std::map<char, Pixels> walk(Pipeline& pipeline, const std::vector<Step>& steps) {
+    std::map<char, Pixels> pictures;
+    std::map<char, std::vector<uint32_t>> irradiances;
+    for (const Step& step : steps) {
+      SCOPED_TRACE(fmt::format("step {}: {}", &step - steps.data(), step.terms));
+      if (step.edit) step.edit(pipeline);
+      pipeline.prepare();
+      EXPECT_NE(pipeline.asleep(), pipeline.plan().on(Effect::relight));
+      const Pixels picture = draw(pipeline, step.view);
+      expect(pipeline, recorded(), step.terms);
+      if (step.picture == ' ') continue;
+      if (step.picture == '.') {
+        EXPECT_TRUE(isBlack(picture));
+        continue;
+      }
+      std::vector<uint32_t> h;
+      if (pipeline.lighting()) h = downloadAs<uint32_t>(context(), pipeline.lighting().indirect);
+      for (const auto& [letter, before] : pictures)
+        EXPECT_EQ(same(before, picture) && irradiances[letter] == h, letter == step.picture) << letter;
+      pictures.emplace(step.picture, picture);
+      irradiances.emplace(step.picture, h);
+    }
+    return pictures;
+  }
+  Pixels draw(Pipeline& pipeline, View view = VIEW_LIT, glm::uvec2 size = {32, 24}) {
     Targets targets(context(), size);
     return draw(pipeline, targets, view);
   }
-  std::vector<glm::vec4> draw(Pipeline& pipeline, Targets& targets, View view = VIEW_LIT) {
+  Pixels draw(Pipeline& pipeline, Targets& targets, View view = VIEW_LIT) {
     Frame frame = context().begin();
     pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
     frame.submitAndWait();
     timings().endFrame(0, /*setup=*/false, 0);
     const std::vector<std::byte> raw = download(context(), targets.linear);
-    std::vector<glm::vec4> out(size_t{targets.size.x} * targets.size.y);
+    Pixels out(size_t{targets.size.x} * targets.size.y);
     std::memcpy(out.data(), raw.data(), raw.size());
     return out;
   }
-  static Light lamp(double x, float candela = 3) {
-    return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
-  }
-  static bool same(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+  static bool same(const Pixels& a, const Pixels& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)) == 0;
+  }
+  static bool isBlack(const Pixels& pixels) {
+    return std::ranges::all_of(pixels, [](const glm::vec4& p) { return glm::vec3(p) == glm::vec3(0); });
   }
 };
 

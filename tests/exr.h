@@ -14,7 +14,7 @@
 
 namespace irad::test {
 
-struct Picture {
+struct ExrPicture {
   uint32_t width = 0, height = 0;
   std::vector<glm::vec3> pixels;  ///< top row first
   glm::dvec3 mean() const {
@@ -25,7 +25,7 @@ struct Picture {
 };
 
 /// Channels LAYER.R, LAYER.G, LAYER.B of a multilayer file; an empty layer: the first three channels.
-inline Picture readExr(const std::filesystem::path& path, const std::string& layer = {}) {
+inline ExrPicture readExr(const std::filesystem::path& path, const std::string& layer = {}) {
   const auto in = OIIO::ImageInput::open(path.string());
   if (!in) throw std::runtime_error("cannot read " + path.string() + ": " + OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
@@ -37,7 +37,7 @@ inline Picture readExr(const std::filesystem::path& path, const std::string& lay
       channel[c] = spec.channelindex(layer + "." + "RGB"[c]);
       if (channel[c] < 0) throw std::runtime_error(path.string() + " has no layer " + layer);
     }
-  Picture out{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height), {}};
+  ExrPicture out{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height), {}};
   out.pixels.resize(static_cast<size_t>(spec.width) * spec.height);
   for (size_t i = 0; i < out.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) out.pixels[i][c] = all[i * spec.nchannels + channel[c]];
@@ -45,8 +45,8 @@ inline Picture readExr(const std::filesystem::path& path, const std::string& lay
 }
 
 /// renderer/metrics.h; where anything is not finite there is nothing to compare: all NaN.
-inline Metrics metrics(const Picture& a, const Picture& b) {
-  const auto four = [](const Picture& p) {
+inline Metrics metrics(const ExrPicture& a, const ExrPicture& b) {
+  const auto four = [](const ExrPicture& p) {
     std::vector<glm::vec4> out;
     for (const glm::vec3& c : p.pixels) out.emplace_back(c, 1);
     return out;

@@ -1,15 +1,19 @@
-// Prefix sum, Morton-ordered compaction, reverse map (METHOD section 4).
+// Prefix sum, Morton-ordered compaction, reverse map (docs/method.md 4).
 #include <algorithm>
 #include <numeric>
 
-#include "gi/stages.h"
-#include "renderer/error.h"
+#include "gi/facets.h"
+#include "gi/grid.h"
+#include "gi/scan.h"
+#include "gi/subsystems.h"
+#include "gi/voxelize.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/normals.h"
 #include "shaders/shared/voxelize.h"
 #include "tests/soup.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::facets_suite {
 namespace {
 
 class Facets : public GpuTest {};
@@ -79,7 +83,8 @@ TEST_F(Facets, MortonOrderAndReverseMap) {
         for (uint32_t other = firstFacet(entry); other < next; ++other) {
           const glm::vec3 before = decodeNormal(list.shape[other] & 0xFFFFu, NORMALS_OCT16);
           const float apart = std::abs(facetOffset(list.shape[next]) - facetOffset(list.shape[other]));
-          // Of smooth normals; the faces' own decide. Only third and fourth facets may face like another, elsewhere.
+          // These are smooth normals; the faces' own decide. Only third and fourth facets may face like another one, at
+          // another place.
           EXPECT_TRUE(glm::dot(before, normal) < ELSEWHERE_COSINE + 0.05f || (i > 1 && apart > 0.5f * SAME_LEVEL));
         }
       }
@@ -125,11 +130,12 @@ TEST_F(Facets, UploadedListHasItsReverseMap) {
   expected[voxelIndex({4, 4, 4}, grid.dims)] = facetEntryOf(2, 1);
   EXPECT_EQ(downloadAs<uint32_t>(context(), list.reverse), expected);
   const FacetArrays record = downloadAs<FacetArrays>(context(), list.record).at(0);
-  EXPECT_EQ(record.voxel, list.voxel.address);
-  EXPECT_EQ(record.reverse, list.reverse.address);
+  Frame frame = context().begin();
+  EXPECT_EQ(record.voxel, frame.pass("Look").in(list.voxel));
+  EXPECT_EQ(record.reverse, frame.pass("Look").in(list.reverse));
   EXPECT_EQ(record.count, 3u);
   EXPECT_EQ(record.hasEmission, 1u);
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::facets_suite

@@ -1,16 +1,20 @@
-// Distance fields against brute force (METHOD section 3).
+// Distance fields against brute force (docs/method.md 3).
 #include <cmath>
 #include <cstring>
 #include <random>
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/grid.h"
 #include "gi/oracle/fields.h"
-#include "gi/stages.h"
-#include "gi/view_fields.h"
+#include "gi/subsystems.h"
+#include "gi/thesis/jump_flood.h"
+#include "gi/views/fields.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/voxelize.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::field_suite {
 namespace {
 
 class FieldTest : public GpuTest {
@@ -206,4 +210,4 @@ TEST_F(FieldTest, ExactDistancesAreThoseOfBruteForce) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::field_suite

@@ -1,4 +1,5 @@
-// A file manager's half of drag and drop on X11 (the XDND protocol, version 5): drops files on a window as a user does.
+// A file manager's half of drag and drop on X11 (the XDND protocol, version 5): drops files on a window as a user does;
+// and a window manager's half of closing one.
 #pragma once
 
 #include <X11/Xatom.h>
@@ -25,6 +26,34 @@ inline std::string fileUri(const std::filesystem::path& path) {
   return uri;
 }
 
+/// The first visible window whose title holds `title`, a child of the root: there is no window manager. 0: none.
+inline Window windowTitled(Display* x, const std::string& title) {
+  Window found = 0, parent = 0, ignored = 0, *children = nullptr;
+  unsigned count = 0;
+  XQueryTree(x, DefaultRootWindow(x), &ignored, &parent, &children, &count);
+  for (unsigned i = 0; i < count && !found; ++i) {
+    XTextProperty name{};
+    if (!XGetTextProperty(x, children[i], &name, XA_WM_NAME) || !name.value) continue;
+    if (std::string_view(reinterpret_cast<char*>(name.value), name.nitems).find(title) != std::string_view::npos)
+      found = children[i];
+    XFree(name.value);
+  }
+  if (children) XFree(children);
+  return found;
+}
+
+/// What a window manager sends when the window's button for closing it is pressed (ICCCM 4.2.8.1).
+inline bool closeWindow(const std::string& display, const std::string& title) {
+  const std::unique_ptr<Display, int (*)(Display*)> x(XOpenDisplay(display.c_str()), XCloseDisplay);
+  const Window target = x ? windowTitled(x.get(), title) : 0;
+  if (!target) return false;
+  XEvent event{};
+  event.xclient = {ClientMessage, 0, True, x.get(), target, XInternAtom(x.get(), "WM_PROTOCOLS", False), 32, {}};
+  event.xclient.data.l[0] = static_cast<long>(XInternAtom(x.get(), "WM_DELETE_WINDOW", False));
+  event.xclient.data.l[1] = CurrentTime;
+  return XSendEvent(x.get(), target, False, NoEventMask, &event) != 0;
+}
+
 /// Drops `files` on the middle of the first visible window whose title holds `title`. False: no such window, or it does
 /// not take them within 10 s.
 inline bool dropFiles(const std::string& display, const std::string& title,
@@ -34,18 +63,7 @@ inline bool dropFiles(const std::string& display, const std::string& title,
   const Window root = DefaultRootWindow(x.get());
   const auto atom = [&](const char* name) { return XInternAtom(x.get(), name, False); };
 
-  // The window of that title, a child of the root: there is no window manager.
-  Window target = 0, parent = 0, ignored = 0, *children = nullptr;
-  unsigned count = 0;
-  XQueryTree(x.get(), root, &ignored, &parent, &children, &count);
-  for (unsigned i = 0; i < count && !target; ++i) {
-    XTextProperty name{};
-    if (!XGetTextProperty(x.get(), children[i], &name, XA_WM_NAME) || !name.value) continue;
-    if (std::string_view(reinterpret_cast<char*>(name.value), name.nitems).find(title) != std::string_view::npos)
-      target = children[i];
-    XFree(name.value);
-  }
-  if (children) XFree(children);
+  const Window target = windowTitled(x.get(), title);
   if (!target) return false;
   XWindowAttributes where;
   XGetWindowAttributes(x.get(), target, &where);

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "gi/views.h"
-#include "renderer/forward.h"
+#include "gi/indirect.h"
+#include "gi/specular.h"
+#include "gi/views/views.h"
 #include "tests/support.h"
 
 namespace irad::test {
@@ -128,7 +129,7 @@ struct Stage {
     const GpuCamera gpu = makeGpuCamera(scene, scene.cameras.at(cameraIndex), size);
     const Buffer camera = makeBuffer(context, "camera", Subsystem::Targets, std::span<const GpuCamera>(&gpu, 1));
     Frame frame = context.begin();
-    drawForward(frame, device, shadows, indirect, camera, settings.camera.gpu, targets, effects);
+    drawScene(frame, device, shadows, indirect, camera, settings.camera.gpu, targets, effects);
     traceSpecular(frame, inputs, camera, settings, targets);
     drawView(frame, view, inputs, camera, settings, targets);
     frame.submitAndWait();

@@ -7,10 +7,11 @@
 #include <iterator>
 #include <vector>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/fuzz/readers.h"
+#include "tests/support.h"
 
-namespace irad::fuzz {
+namespace irad::fuzz::fuzz_seeds_suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +25,7 @@ class FuzzSeeds : public ::testing::TestWithParam<Reader> {};
 
 TEST_P(FuzzSeeds, AreReadOrRefused) {
   size_t seeds = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(IRAD_SOURCE_DIR "/tests/fuzz/seeds") / GetParam().name)) {
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() / "tests/fuzz/seeds" / GetParam().name)) {
     const std::string name = entry.path().filename().string();
     std::ifstream in(entry.path(), std::ios::binary);
     const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), {});
@@ -51,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Readers, FuzzSeeds, ::testing::ValuesIn(kReaders),
                          [](const auto& row) { return std::string(row.param.name); });
 
 }  // namespace
-}  // namespace irad::fuzz
+}  // namespace irad::fuzz::fuzz_seeds_suite

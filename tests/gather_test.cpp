@@ -1,7 +1,9 @@
-// Direct light on the facets against closed forms (METHOD section 6, T 5.7).
+// Direct light on the facets against closed forms (docs/method.md 6, T 5.7).
+#include "gi/gather.h"
+#include "gi/lighting.h"
 #include "tests/gi_fixture.h"
 
-namespace irad::test {
+namespace irad::test::gather_suite {
 namespace {
 
 class Gather : public GiTest {
@@ -93,4 +95,4 @@ TEST_F(Gather, BacksAndShadowsStayDark) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::gather_suite

@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/field.h"
 #include "gi/host_matrix.h"
-#include "gi/stages.h"
+#include "gi/voxelize.h"
 #include "shaders/shared/normals.h"
 #include "tests/support.h"
 

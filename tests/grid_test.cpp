@@ -1,13 +1,14 @@
-// The voxel grid (METHOD section 2): dimensions, padding, centring, range errors, Morton codes.
+// The voxel grid (docs/method.md 2): dimensions, padding, centring, range errors, Morton codes.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "gi/stages.h"
-#include "renderer/error.h"
+#include "gi/grid.h"
+#include "gi/thesis/literal_grid.h"
+#include "renderer/base/error.h"
 
-namespace irad {
+namespace irad::grid_suite {
 namespace {
 
 glm::vec3 voxelCoordinates(const Grid& grid, glm::vec3 p) {
@@ -129,4 +130,4 @@ TEST(Grid, VoxelsPackAndIndexRoundTrip) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::grid_suite

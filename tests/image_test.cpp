@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "renderer/error.h"
-#include "renderer/frame.h"
+#include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "tests/test_shaders.h"
 
-namespace irad::test {
+namespace irad::test::image_suite {
 namespace {
 
 template <class T>
@@ -78,7 +78,7 @@ TEST_F(Images, SampleAndStore) {
       .write(target)
       .sample(source, sampler(device(), {}))
       .push(0)
-      .dispatchGroups(2, 2);
+      .dispatch(glm::uvec2(16));
   frame.submitAndWait();
   for (float& v : in) v *= 2;
   EXPECT_EQ(texels<float>(context(), target), in);
@@ -91,7 +91,7 @@ TEST_F(Images, AliasSharesTheTexels) {
                                .height = 1,
                                .aliasFormat = VK_FORMAT_R32_UINT});
   Frame frame = context().begin();
-  frame.pass("Alias").shader(shader("alias.comp")).writeAlias(image).dispatchGroups(1);
+  frame.pass("Alias").shader(shader("alias.comp")).writeAlias(image).dispatch(8);
   frame.submitAndWait();
   const std::vector<uint8_t> bytes = texels<uint8_t>(context(), image);
   for (uint8_t x = 0; x < 8; ++x) {
@@ -121,7 +121,7 @@ TEST_F(Images, EveryLevelIsUploaded) {
         .write(target)
         .sample(source, sampler(device(), {}))
         .push(lod)
-        .dispatchGroups(1);
+        .dispatch(glm::uvec2(size));
     frame.submitAndWait();
     const std::vector<float> level = texels<float>(context(), target);
     for (size_t i = 0; i < expected.size(); ++i) EXPECT_FLOAT_EQ(level[i] * 255 / 2, expected[i]);
@@ -151,11 +151,10 @@ TEST_F(Images, TriangleCoversItsPixelCentres) {
     const Buffer buffer = makeBuffer<glm::vec4>(context(), "vertices", Subsystem::Scene, vertices);
     const auto mode = static_cast<VkCullModeFlags>(cull);
     Frame frame = context().begin();
-    frame.pass("Raster")
-        .shaders({shader("triangle.vert"), shader("white.frag")})
-        .read(buffer)
+    Pass pass = frame.pass("Raster");
+    pass.shaders({shader("triangle.vert"), shader("white.frag")})
         .color(target, ClearColor{0, 0, 0, 0})
-        .push(buffer.address)
+        .push(pass.in(buffer))
         .run([&](Commands& commands) {
           commands.cull(mode);
           commands.draw(3);
@@ -174,14 +173,14 @@ TEST_F(Images, LoadKeepsAndBlendAdds) {
       device(), {.name = "sum", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = 64, .height = 64, .usage = kColor});
   const Buffer buffer = makeBuffer<glm::vec4>(context(), "vertices", Subsystem::Scene, corner(0.5f));
   Frame frame = context().begin();
-  for (int i = 0; i < 3; ++i)
-    frame.pass("Raster")
-        .shaders({shader("triangle.vert"), shader("white.frag")})
-        .read(buffer)
+  for (int i = 0; i < 3; ++i) {
+    Pass pass = frame.pass("Raster");
+    pass.shaders({shader("triangle.vert"), shader("white.frag")})
         .color(target, i == 0 ? std::optional(ClearColor{10, 0, 0, 0}) : std::nullopt)
         .additive()
-        .push(buffer.address)
+        .push(pass.in(buffer))
         .draw(3);
+  }
   frame.submitAndWait();
   const std::vector<float> pixels = texels<float>(context(), target);
   EXPECT_FLOAT_EQ(pixels[4 * 63 * 64], 13.0f);
@@ -197,27 +196,29 @@ TEST_F(Images, DepthLayersAndReadOnlyDepth) {
   const Buffer far = makeBuffer<glm::vec4>(context(), "far", Subsystem::Scene, corner(0.75f));
   Frame frame = context().begin();
   frame.pass("Clear").clear(depth, ClearColor{1, 0, 0, 0});
-  frame.pass("Depth").shader(shader("triangle.vert")).read(near).depth(depth, true, 1.0f, 0).push(near.address).draw(3);
-  frame.pass("Depth").shader(shader("triangle.vert")).read(far).depth(depth, true, 1.0f, 2).push(far.address).draw(3);
+  const auto draw = [&](const Buffer& triangle, int layer) {
+    Pass pass = frame.pass("Depth");
+    pass.shader(shader("triangle.vert")).depth(depth, true, 1.0f, layer).push(pass.in(triangle)).draw(3);
+  };
+  draw(near, 0);
+  draw(far, 2);
   // Against layer 0 (0.25) the far triangle is hidden; an equal one passes EQUAL.
-  frame.pass("Test")
-      .shaders({shader("triangle.vert"), shader("white.frag")})
-      .read(far)
+  Pass test = frame.pass("Test");
+  test.shaders({shader("triangle.vert"), shader("white.frag")})
       .color(target, ClearColor{})
       .depth(depth, false)
-      .push(far.address)
+      .push(test.in(far))
       .draw(3);
   frame.submitAndWait();
   std::vector<uint32_t> pixels = texels<uint32_t>(context(), target);
   EXPECT_EQ(std::count(pixels.begin(), pixels.end(), 0xFFFFFFFFu), 0);
   Frame second = context().begin();
-  second.pass("Test")
-      .shaders({shader("triangle.vert"), shader("white.frag")})
-      .read(near)
+  Pass equal = second.pass("Test");
+  equal.shaders({shader("triangle.vert"), shader("white.frag")})
       .color(target, ClearColor{})
       .depth(depth, false)
       .depthCompare(VK_COMPARE_OP_EQUAL)
-      .push(near.address)
+      .push(equal.in(near))
       .draw(3);
   second.submitAndWait();
   pixels = texels<uint32_t>(context(), target);
@@ -245,4 +246,4 @@ TEST_F(Images, ThrowingBodyClosesItsPass) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::image_suite

@@ -11,12 +11,12 @@
 #include <cstdlib>
 
 #include "gi/pipeline.h"
+#include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
-#include "renderer/output_file.h"
 #include "tests/exr.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::images_suite {
 namespace {
 
 constexpr uint32_t kSide = 96;  ///< pixels
@@ -42,17 +42,17 @@ struct Difference {
   }
 };
 
-Difference compare(const Picture& ours, const Picture& golden) {
-  const Picture black{golden.width, golden.height, std::vector<glm::vec3>(golden.pixels.size(), glm::vec3(0))};
+Difference compare(const ExrPicture& ours, const ExrPicture& golden) {
+  const ExrPicture black{golden.width, golden.height, std::vector<glm::vec3>(golden.pixels.size(), glm::vec3(0))};
   const Metrics difference = metrics(ours, golden), whole = metrics(golden, black);
   return {difference.rmse / whole.rmse, difference.relMse, difference.largest / whole.largest};
 }
 
 std::filesystem::path goldenPath(const std::string& name) {
-  return std::filesystem::path(IRAD_SOURCE_DIR) / "tests/golden" / (name + ".exr");
+  return sourceFolder() / "tests/golden" / (name + ".exr");
 }
 
-void writeHalf(const std::filesystem::path& path, const Picture& picture) {
+void writeHalf(const std::filesystem::path& path, const ExrPicture& picture) {
   makeFolder(path.parent_path());
   OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height), 3, OIIO::TypeDesc::HALF);
   spec.attribute("compression", "zip");
@@ -64,7 +64,7 @@ void writeHalf(const std::filesystem::path& path, const Picture& picture) {
 }
 
 /// For the eye: clamped, gamma 2.2; normals from -1..1.
-void writeShown(const std::filesystem::path& stem, const Picture& picture, bool normals) {
+void writeShown(const std::filesystem::path& stem, const ExrPicture& picture, bool normals) {
   std::vector<glm::u8vec4> bytes;
   for (const glm::vec3& p : picture.pixels) {
     const glm::vec3 shown = normals ? 0.5f + 0.5f * p : glm::pow(glm::clamp(p, 0.0f, 1.0f), glm::vec3(1 / 2.2f));
@@ -76,30 +76,39 @@ void writeShown(const std::filesystem::path& stem, const Picture& picture, bool 
 /// A scene under fixed settings, small enough for a CPU rasterizer.
 class Pictures {
  public:
-  Pictures(Context& context, const std::filesystem::path& scene, const std::function<void(Settings&)>& change = {})
-      : context_(context), pipeline_(context, loadScene(scene), settings(change)), targets_(context, {kSide, kSide}) {
-    pipeline_.prepare();
-    EXPECT_TRUE(pipeline_.asleep()) << "the solver did not reach its tolerance";
+  Pictures(Context& context, const std::filesystem::path& scene)
+      : context_(context), pipeline_(context, loadScene(scene), settings()), targets_(context, {kSide, kSide}) {
+    prepare();
+  }
+  /// Settings other than this one.
+  void set(const std::function<void(Settings&)>& change) {
+    Settings s = settings();
+    change(s);
+    pipeline_.set(s);
+    prepare();
   }
   const Scene& scene() const { return pipeline_.scene(); }
-  Picture draw(const char* view, size_t camera) {
+  ExrPicture draw(const char* view, size_t camera) {
     Frame frame = context_.begin();
     pipeline_.render(frame, scene().cameras.at(camera), findView(view).value(), targets_);
     frame.submitAndWait();
     const std::vector<std::byte> bytes = download(context_, targets_.linear);
-    Picture picture{kSide, kSide, std::vector<glm::vec3>(size_t{kSide} * kSide)};
+    ExrPicture picture{kSide, kSide, std::vector<glm::vec3>(size_t{kSide} * kSide)};
     for (size_t i = 0; i < picture.pixels.size(); ++i)
       std::memcpy(&picture.pixels[i], &bytes[i * sizeof(glm::vec4)], sizeof(glm::vec3));
     return picture;
   }
 
  private:
-  static Settings settings(const std::function<void(Settings&)>& change) {
+  void prepare() {
+    pipeline_.prepare();
+    EXPECT_TRUE(pipeline_.asleep()) << "the solver did not reach its tolerance";
+  }
+  static Settings settings() {
     Settings s = defaultSettings(/*cpuDevice=*/true);
     s.voxel.resolution = 48;
     s.matrix.gpu.rays = 64;
     s.light.shadowResolution = 1024;
-    if (change) change(s);
     return s;
   }
   Context& context_;
@@ -109,21 +118,27 @@ class Pictures {
 
 constexpr const char* kViews[] = {"lit", "no-gi", "indirect", "voxel-normal", "irradiance"};
 
-class Images : public GpuTest {
+class GoldenImages : public GpuTest {
  protected:
+  static void TearDownTestSuite() { box_.reset(); }
+  /// Prepared once for all tests.
+  Pictures& box() {
+    if (!box_) box_ = std::make_unique<Pictures>(context(), assets() / "box.glb");
+    return *box_;
+  }
   /// Every view of one camera against its golden picture, or makes these.
   void check(Pictures& pictures, size_t camera, const std::string& prefix) {
     const char* bless = std::getenv("IRAD_BLESS");
     for (const char* view : kViews) {
       const std::string name = prefix + "." + view;
-      const Picture ours = pictures.draw(view, camera);
+      const ExrPicture ours = pictures.draw(view, camera);
       if (bless && *bless == '1') {
         writeHalf(goldenPath(name), ours);
         std::printf("blessed %s\n", goldenPath(name).c_str());
         continue;
       }
       ASSERT_TRUE(std::filesystem::exists(goldenPath(name))) << goldenPath(name) << ": IRAD_BLESS=1 makes it";
-      const Picture golden = readExr(goldenPath(name));
+      const ExrPicture golden = readExr(goldenPath(name));
       ASSERT_EQ(glm::uvec2(golden.width, golden.height), glm::uvec2(kSide));
       const Difference d = compare(ours, golden);
       std::printf("%-24s %s\n", name.c_str(), d.text().c_str());
@@ -134,10 +149,10 @@ class Images : public GpuTest {
 
  private:
   /// Ours, golden and difference beside one another; their folder.
-  static std::filesystem::path leave(const std::string& name, const Picture& ours, const Picture& golden) {
-    const std::filesystem::path folder = std::filesystem::path(IRAD_BINARY).parent_path() / "test-results/images";
+  static std::filesystem::path leave(const std::string& name, const ExrPicture& ours, const ExrPicture& golden) {
+    const std::filesystem::path folder = buildFolder() / "test-results/images";
     makeFolder(folder);
-    Picture difference = ours;
+    ExrPicture difference = ours;
     for (size_t i = 0; i < ours.pixels.size(); ++i)
       difference.pixels[i] = 4.0f * glm::abs(ours.pixels[i] - golden.pixels[i]);
     const bool normals = name.ends_with("normal");
@@ -146,64 +161,62 @@ class Images : public GpuTest {
     writeShown(folder / (name + ".difference"), difference, /*normals=*/false);
     return folder;
   }
+
+  static inline std::unique_ptr<Pictures> box_;
 };
 
-TEST_F(Images, BoxFromBothCameras) {
-  Pictures box(context(), assets() / "box.glb");
+TEST_F(GoldenImages, BoxFromBothCameras) {
+  Pictures& box = this->box();
   ASSERT_EQ(box.scene().cameras.size(), 2u);
   for (size_t camera = 0; camera < 2; ++camera) check(box, camera, "box." + box.scene().cameras[camera].name);
 }
 
-TEST_F(Images, Sponza) {
+TEST_F(GoldenImages, Sponza) {
+  IRAD_ONLY_WITH_ALL();
   const auto shared = sharedScenes();
   if (!shared) GTEST_SKIP() << "../shared/scenes is absent: no pictures of Sponza";
   Pictures sponza(context(), *shared / "sponza/sponza_small_lit_m.glb");
   check(sponza, 0, "sponza");
 }
 
-TEST_F(Images, TheWholeWayTwiceGivesTheSameBits) {
-  std::vector<Picture> first;
-  for (int run = 0; run < 2; ++run) {
-    Pictures box(context(), assets() / "box.glb");
-    for (size_t v = 0; v < std::size(kViews); ++v) {
-      const Picture picture = box.draw(kViews[v], 1);
-      if (run == 0)
-        first.push_back(picture);
-      else
-        EXPECT_EQ(std::memcmp(picture.pixels.data(), first[v].pixels.data(), picture.pixels.size() * sizeof(glm::vec3)),
-                  0)
-            << kViews[v];
-    }
+TEST_F(GoldenImages, TheWholeWayTwiceGivesTheSameBits) {
+  std::vector<ExrPicture> first;
+  for (const char* view : kViews) first.push_back(box().draw(view, 1));
+  Pictures again(context(), assets() / "box.glb");
+  for (size_t v = 0; v < std::size(kViews); ++v) {
+    const ExrPicture picture = again.draw(kViews[v], 1);
+    EXPECT_EQ(std::memcmp(picture.pixels.data(), first[v].pixels.data(), picture.pixels.size() * sizeof(glm::vec3)), 0)
+        << kViews[v];
   }
 }
 
-TEST_F(Images, AChangedSettingIsSeen) {
+TEST_F(GoldenImages, AChangedSettingIsSeen) {
   // The comparison would tell each of these from the golden picture, by the view that shows it.
   struct Case {
     const char* what;
     const char* view;
     void (*change)(Settings&);
   };
-  Pictures box(context(), assets() / "box.glb");
+  Pictures changed(context(), assets() / "box.glb");
   for (const Case& c :
        {Case{"another seed", "irradiance", [](Settings& s) { s.matrix.gpu.seed += 1; }},
         Case{"another resolution", "voxel-normal", [](Settings& s) { s.voxel.resolution = 47; }},
         Case{"coarse normals", "voxel-normal", [](Settings& s) { s.voxel.normals = NormalEncoding::axis26; }},
         Case{"unfiltered light", "indirect", [](Settings& s) { s.sample.gpu.filter_ = FILTER_NEAREST; }},
         Case{"no reflections", "lit", [](Settings& s) { s.specular.mode = SpecularMode::off; }}}) {
-    Pictures changed(context(), assets() / "box.glb", c.change);
-    const Difference d = compare(changed.draw(c.view, 0), box.draw(c.view, 0));
+    changed.set(c.change);
+    const Difference d = compare(changed.draw(c.view, 0), box().draw(c.view, 0));
     std::printf("%-24s %s\n", c.what, d.text().c_str());
     EXPECT_FALSE(d.within(kTolerance)) << c.what << " passes for the same picture: " << d.text();
   }
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::images_suite
 
 #else
 
-TEST(Images, NotBuilt) {
+TEST(GoldenImages, NotBuilt) {
   GTEST_SKIP() << "built without IRAD_OIIO";
 }
 

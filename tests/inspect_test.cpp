@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/check/scenes.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/gi_fixture.h"
 
-namespace irad::test {
+namespace irad::test::inspect_suite {
 namespace {
 
 class Inspect : public GiTest {
@@ -45,7 +45,7 @@ TEST_F(Inspect, AFacetOfAFurnace) {
   ASSERT_TRUE(f.mesh);
   EXPECT_LT(f.mesh->faceError, 1e-3) << "axes are exact in oct16";
   EXPECT_LT(f.mesh->shadingError, 1e-3);
-  // H is F B with the B of the sweep before: they differ by what the last sweep changed, and by fp32's rounding.
+  // H is F B with the B of the sweep before: the two differ by what the last sweep changed, and by rounding.
   const double residual = pipeline_->lighting().report.residual;
   EXPECT_NEAR(f.row.contribution.x, f.irradiance.x, residual * f.row.sum + 1e-5);
   EXPECT_LE(f.residual, residual + 1e-5);
@@ -127,7 +127,7 @@ TEST_F(Inspect, LinksAreReciprocal) {
     EXPECT_NEAR(f.row.exchange, f.area * f.row.sum, 1e-9);
     worst = std::max(worst, std::abs(f.row.opposite / f.row.exchange - 1));
   }
-  // Each facet's sum back is of about 256 rays that happen to meet it: 1 / 16, over n of them.
+  // Each facet's sum back comes from about 256 rays that happen to meet it: a deviation of 1 / 16, over n of them.
   EXPECT_NEAR(opposite / exchange, 1, 3 / std::sqrt(256.0 * n));
   EXPECT_LT(worst, 6.0 / 16);
   EXPECT_GT(worst, 0);
@@ -169,11 +169,10 @@ TEST_F(Inspect, RaysEndWhereTheMatrixHasThem) {
       }
     }
     fmt::print("{}: {} rays, {} differ from the device, DDA and SDF part in {}, {:.1f} and {:.1f} cells a ray\n",
-               EnumNames<FieldMethod>::names[static_cast<size_t>(method)], rays, wrong, differing,
-               double(ddaCells) / rays, double(sdfCells) / rays);
+               nameOf(method), rays, wrong, differing, double(ddaCells) / rays, double(sdfCells) / rays);
     EXPECT_LE(wrong, rays / 500);
     EXPECT_LT(sdfCells, ddaCells);
-    // The Chebyshev field proves what it skips; T 5.2's bytes do not (METHOD section 3).
+    // The Chebyshev field proves what it skips; T 5.2's bytes do not (docs/method.md 3).
     if (method == FieldMethod::chebyshev) {
       EXPECT_LE(differing, rays / 1000);
     } else {
@@ -233,7 +232,7 @@ TEST_F(Inspect, SmoothNormalsAreToldFromFaces) {
       face = std::max(face, f.mesh->faceError);
       shading = std::max(shading, f.mesh->shadingError);
     }
-    EXPECT_LT(shading, 1.0) << "oct16: .95 degrees at most (METHOD section 2)";
+    EXPECT_LT(shading, 1.0) << "oct16: .95 degrees at most (docs/method.md 2)";
     EXPECT_GT(shading, 0.05);
     EXPECT_GT(face, 3);
     EXPECT_LT(face, 8);
@@ -331,4 +330,4 @@ TEST_F(Inspect, TakesOverWhatChanged) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::inspect_suite

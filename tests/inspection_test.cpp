@@ -1,5 +1,5 @@
-// The window's inspector without a window: picks by pixel, links followed and left, what a relight, a rebuild and
-// another scene leave of a pick.
+// The window's inspector without a window: picks by pixel, links followed and left, and what becomes of a pick after a
+// relight, a rebuild and another scene.
 #include "tests/gi_fixture.h"
 
 #if IRAD_UI
@@ -7,10 +7,10 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/quaternion.hpp>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "ui/session.h"
 
-namespace irad::test {
+namespace irad::test::inspection_suite {
 namespace {
 
 class InspectionTest : public GiTest {
@@ -121,7 +121,7 @@ TEST_F(InspectionTest, FollowsLinksAndGoesBack) {
   EXPECT_EQ(inspection().facet()->facet, first);
   EXPECT_TRUE(inspection().trail.empty());
 
-  // A ray beyond the last is the last; a second pick is compared with, not shown.
+  // A ray beyond the last is taken as the last; a second pick is compared with, not shown.
   inspection().traceRay = 1000;
   inspection().serve(*session_);
   ASSERT_TRUE(inspection().ray);
@@ -176,7 +176,7 @@ TEST_F(InspectionTest, ARebuildKeepsThePlaceAndAnotherSceneDropsIt) {
   EXPECT_LT(glm::distance(inspection().facet()->position, place), 1.0 / 16);
   EXPECT_NEAR(inspection().edge(), 1.0 / 24, 1e-3);
 
-  // While there is nothing sound to look at, requests are answered in words.
+  // While there is nothing valid to look at, requests are answered in words.
   session_->halted = true;
   EXPECT_FALSE(inspection().serve(*session_));
   EXPECT_TRUE(pick({32, 24}));
@@ -193,6 +193,6 @@ TEST_F(InspectionTest, ARebuildKeepsThePlaceAndAnotherSceneDropsIt) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::inspection_suite
 
 #endif

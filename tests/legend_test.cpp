@@ -12,7 +12,7 @@
 #include "tests/exr.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::legend_suite {
 namespace {
 
 TEST(Legend, SaysWhatTheColoursStandFor) {
@@ -94,7 +94,7 @@ TEST(Legend, RenderDrawsItIntoPicturesWithARangeOnly) {
   // The row that --inspect asks for: in the manifest, and in the picture, F being hits of 32 rays.
   const auto manifest = nlohmann::json::parse(with["manifest.json"]);
   EXPECT_GT(manifest["settings"]["view.facet"], 0);
-  const Picture row = readExr(folder.path / "with/matrix-row.exr");
+  const ExrPicture row = readExr(folder.path / "with/matrix-row.exr");
   float largest = 0;
   for (const glm::vec3& p : row.pixels) largest = std::max(largest, p.x);
   EXPECT_GT(largest, 0.5 / 32);
@@ -111,7 +111,7 @@ TEST(Legend, RenderDrawsItIntoPicturesWithARangeOnly) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::legend_suite
 
 #else
 

@@ -4,17 +4,19 @@
 
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 #include "gi/check/check.h"
 #include "gi/check/scenes.h"
 #include "gi/pipeline.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sidecar.h"
+#include "renderer/shadow.h"
 #include "tests/scene_files.h"
 #include "tests/virtual_screen.h"
 
-namespace irad::test {
+namespace irad::test::lights_suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,7 +31,7 @@ Settings small() {
   return s;
 }
 
-/// One of each type; no two alike in anything.
+/// One of each type; no two share a value.
 std::vector<Light> threeLights() {
   return {{.name = "sky",
            .direction = glm::normalize(glm::vec3(-0.3f, -0.5f, -1.0f)),
@@ -86,7 +88,7 @@ class Lights : public GpuTest {
 TEST_F(Lights, EditedOnesGiveThePictureOfASceneWithThem) {
   Pipeline pipeline(context(), room({lamp()}), small());
   pipeline.prepare();
-  // More of them, fewer, others, none: direct light to the bit.
+  // More lights, fewer, others, none: direct light is equal to the bit.
   for (const std::vector<Light>& lights :
        {threeLights(), {threeLights()[2]}, {lamp(2.0f), threeLights()[0]}, std::vector<Light>{}}) {
     pipeline.setLights(lights);
@@ -96,7 +98,7 @@ TEST_F(Lights, EditedOnesGiveThePictureOfASceneWithThem) {
     EXPECT_EQ(pipeline.scene().lights, lights);
     EXPECT_TRUE(draw(context(), pipeline, VIEW_DIRECT) == of(lights, VIEW_DIRECT)) << lights.size() << " lights";
   }
-  // Out of that dark the solver begins where a new scene's does: all light to the bit.
+  // From the dark the solver begins where a new scene's does: all light is equal to the bit.
   pipeline.setLights(threeLights());
   pipeline.prepare();
   const Pixels lit = draw(context(), pipeline, VIEW_LIT);
@@ -213,10 +215,40 @@ TEST(LightJson, KeepsEveryBit) {
     spot.innerCos = std::cos(degrees * std::numbers::pi_v<float> / 270.0f);
     lights.push_back(spot);
   }
-  // A point's direction and cone say nothing and are not kept.
+  // A point's direction and cone mean nothing and are not kept.
   const std::vector<Light> back = lightsFromJson(lightsToJson(lights));
   ASSERT_EQ(back.size(), lights.size());
   for (size_t i = 0; i < lights.size(); ++i) EXPECT_EQ(back[i], lights[i]) << i;
+}
+
+TEST(LightKinds, AreFoundByTypeNameAndGltfType) {
+  ASSERT_EQ(lightKinds().size(), LIGHT_KINDS);
+  for (const LightKind& kind : lightKinds()) {
+    EXPECT_EQ(&lightKind(kind.type), &kind) << kind.name;
+    EXPECT_EQ(findLightKind(kind.name), &kind);
+    EXPECT_EQ(findGltfLightKind(kind.gltf), &kind);
+    // What shaders go by says the same.
+    const auto number = static_cast<uint32_t>(kind.type);
+    for (const uint32_t trait : {LIGHT_DISTANT, LIGHT_DIRECTION, LIGHT_RANGE, LIGHT_CONE})
+      EXPECT_EQ(lightHas(number, trait), kind.has(trait)) << kind.name << ", " << trait;
+    EXPECT_EQ(lightUsesCube(number, /*outerCos=*/0.9f), kind.map == LIGHT_MAP_CUBE) << kind.name;
+    EXPECT_EQ(lightUsesCube(number, /*outerCos=*/0.1f), kind.map != LIGHT_MAP_PARALLEL) << kind.name;
+  }
+  EXPECT_EQ(findLightKind("sun")->type, LightType::Sun);
+  EXPECT_EQ(findGltfLightKind("directional")->type, LightType::Sun);
+  EXPECT_EQ(findLightKind("directional"), nullptr);
+  EXPECT_EQ(findGltfLightKind("sun"), nullptr);
+}
+
+TEST(LightKinds, ATypeThatNoneHasIsRefused) {
+  const auto wrong = static_cast<LightType>(LIGHT_KINDS);
+  EXPECT_FALSE(isLightKind(wrong));
+  EXPECT_DEATH((void)lightKind(wrong), "LIGHT_KINDS \\(3 vs 3\\)");
+  LightKinds kinds;
+  EXPECT_THROW(kinds[wrong] = true, std::out_of_range);
+  EXPECT_FALSE(lightHas(LIGHT_KINDS, ~0u));
+  EXPECT_FALSE(lightUsesCube(LIGHT_KINDS, 0));
+  EXPECT_EQ(unsound(Light{.name = "lamp", .type = wrong}), "light \"lamp\": its type 3 is no kind of light");
 }
 
 TEST(LightJson, WhatIsAbsentIsAsInTheGltfExtension) {
@@ -290,7 +322,7 @@ TEST_F(SidecarTest, LiesBesideTheSceneAndComesBackToTheBit) {
   EXPECT_TRUE(own.defaultLight && warns(own, "default sun"));
   EXPECT_FALSE(s.defaultLight || warns(s, "default sun"));
   EXPECT_EQ(loadScene(scene).lights, own.lights) << "taken without being asked for";
-  // What the command line brings goes before it.
+  // The command line comes before the sidecar.
   EXPECT_EQ(loadScene(scene, {.sidecar = true, .lights = std::vector<Light>{}}).lights.size(), 0u);
 }
 
@@ -397,8 +429,7 @@ TEST_F(SidecarCli, IsSaidIgnoredOnRequestAndReplayedWhateverBecomesOfIt) {
     EXPECT_EQ(slurp(folder.path / "again/manifest.json"), slurp(config));
     // So does the command line that it states.
     const std::string command = nlohmann::json::parse(slurp(config))["command"];
-    const std::string shell =
-        std::string(IRAD_BINARY) + command.substr(4) + " --out " + (folder.path / "shell").string();
+    const std::string shell = iradProgram() + command.substr(4) + " --out " + (folder.path / "shell").string();
     ASSERT_EQ(runProgram("/bin/sh", {"-c", shell}).status, 0) << shell;
     EXPECT_TRUE(picture("shell") == picture(name)) << name;
   }
@@ -411,4 +442,4 @@ TEST_F(SidecarCli, IsSaidIgnoredOnRequestAndReplayedWhateverBecomesOfIt) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::lights_suite

@@ -5,7 +5,7 @@
 
 #include "ui/link_filter.h"
 
-namespace irad {
+namespace irad::link_filter_suite {
 namespace {
 
 /// Voxel, hits, distance, B (grey).
@@ -62,7 +62,7 @@ TEST(LinkFilter, SaysWhatItCannotReadAndLetsThatPass) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::link_filter_suite
 
 #else
 

@@ -1,6 +1,17 @@
 // A scene lit by the whole method, stage by stage, without its pipeline.
 #pragma once
 
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/gather.h"
+#include "gi/gather_emitters.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/scatter.h"
+#include "gi/solve.h"
+#include "gi/subsystems.h"
+#include "gi/voxelize.h"
 #include "tests/forward_support.h"
 
 namespace irad::test {
@@ -26,6 +37,7 @@ struct Lit {
     Frame direct = context.begin();
     gather(direct, stage.device, stage.shadows, facets, light, settings);
     direct.submitAndWait();
+    gatherEmitters(context, facets, matrix, {}, settings, light);
     solve(context, facets, matrix, light, settings, settings.solver.maxSweeps);
     Frame frame = context.begin();
     scatter(frame, facets, light, settings);
@@ -52,7 +64,7 @@ struct Lit {
     in.shaded = &light.shaded();
     if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume : nullptr;
-    in.normalEncoding = static_cast<uint32_t>(facets.encoding);
+    in.normalEncoding = facets.encoding;
     in.sample = stage.settings.sample.gpu;
     return in;
   }

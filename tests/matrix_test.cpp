@@ -1,14 +1,21 @@
-// The form-factor matrix on the device: rows and sums against known answers (METHOD section 5, HARD_CASES).
+// The form-factor matrix on the device: rows and sums against known answers (docs/method.md 5, docs/stability.md).
 #include <algorithm>
 #include <map>
 #include <numbers>
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/grid.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"
-#include "renderer/error.h"
+#include "gi/solve.h"
+#include "gi/subsystems.h"
+#include "renderer/base/error.h"
 #include "tests/gi_fixture.h"
 
-namespace irad::test {
+namespace irad::test::matrix_suite {
 namespace {
 
 class Matrix : public GiTest {
@@ -110,7 +117,7 @@ TEST_F(Matrix, ClosedBox) {
       }
       expected /= points;
       EXPECT_NEAR(f, expected, 0.005 * expected) << "wall " << from << " to " << to;
-      // The whole walls' closed forms, which know nothing of shared edges: within a voxel's row of 64.
+      // The closed forms for whole walls, which do not share voxels along edges: within one row of 64 voxels.
       const double whole = to == (from ^ 1) ? formFactorParallelSquares(1) : formFactorPerpendicularSquares();
       EXPECT_NEAR(f, whole, (to == (from ^ 1) ? 0.01 : 1.0 / 64) * whole) << "wall " << from << " to " << to;
       if (to == (from ^ 1))
@@ -255,7 +262,8 @@ TEST_F(Matrix, TwoBuildsHaveTheSameBits) {
 }
 
 TEST_F(Matrix, ThesisRuleLosesLightInCorners) {
-  // METHOD section 5 saw .985 on average and .69 at the worst; the robust rule gives 1 for every row.
+  // With the thesis's rule .985 on average and .69 at the worst (docs/method.md 5); the robust rule gives 1 for every
+  // row.
   Settings settings = at(48, 64);
   settings.matrix.gpu.hitRule = HIT_RULE_THESIS;
   settings.voxel.facets = 1;  // with two the corners are complete
@@ -274,7 +282,7 @@ TEST_F(Matrix, ThesisRuleLosesLightInCorners) {
 
 TEST_F(Matrix, RowSumsOfTheBoxSceneAreShares) {
   const Settings settings = at(40, 64);
-  const World w = world(loadScene(std::filesystem::path(IRAD_SOURCE_DIR) / "assets/box.glb"), settings);
+  const World w = world(loadScene(sourceFolder() / "assets/box.glb"), settings);
   const FormFactors m = build(w, settings);
   double most = 0, mean = 0;
   for (const HostRow& r : hostRows(context(), m)) {
@@ -334,4 +342,4 @@ TEST_F(Matrix, LimitsAreSaidInWords) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::matrix_suite

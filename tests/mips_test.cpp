@@ -8,7 +8,7 @@
 
 #include "renderer/scene/srgb.h"
 
-namespace irad {
+namespace irad::mips_suite {
 namespace {
 
 double decode(double s) {
@@ -71,7 +71,7 @@ Exact exactImage(const SceneImage& image) {
   }
   return out;
 }
-/// Every texel weighs what of it lies in the texel below.
+/// Every texel has the weight of its part that lies in the texel below.
 Exact exactHalf(const Exact& above) {
   Exact out{std::max(above.width / 2, 1u), std::max(above.height / 2, 1u), {}};
   const double stepX = double(above.width) / out.width, stepY = double(above.height) / out.height;
@@ -109,4 +109,4 @@ TEST(Mips, EveryTexelIsTheMeanOfWhatItCoversRoundedOnce) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::mips_suite

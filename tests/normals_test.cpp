@@ -1,4 +1,4 @@
-// Normal encodings (METHOD section 2): known maxima and means of the error, exact axes, all codes.
+// Normal encodings (docs/method.md 2): known maxima and means of the error, exact axes, all codes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,14 +8,14 @@
 #include "shaders/shared/facets.h"
 #include "shaders/shared/normals.h"
 
-namespace irad {
+namespace irad::normals_suite {
 namespace {
 
 struct Known {
-  uint32_t encoding;
+  NormalEncoding encoding;
   const char* name;
   uint32_t codes;
-  double meanDegrees, maxDegrees;  // METHOD section 2, over 10^6 random normals
+  double meanDegrees, maxDegrees;  // docs/method.md 2, over 10^6 random normals
 };
 const Known kEncodings[] = {{NORMALS_AXIS6, "axis6", 6, 31.9, 54.7},
                             {NORMALS_AXIS26, "axis26", 26, 15.5, 27.6},
@@ -84,17 +84,17 @@ TEST(Normals, LatticeDirections) {
 }
 
 TEST(Normals, MinusZIsMinusZInOct8) {
-  // METHOD section 2: the remapped code 0 costs nothing, and no sign(0).
+  // docs/method.md 2: the remapped code 0 costs nothing, and no sign(0).
   const glm::vec3 minusZ(0, 0, -1);
   EXPECT_LT(degrees(decodeNormal(encodeNormal(minusZ, NORMALS_OCT8), NORMALS_OCT8), minusZ), 1e-3);
-  // The thesis's own arithmetic turns -Z around, and its code 1 for 0 costs 8.75 degrees or so.
+  // The thesis's own arithmetic turns -Z around, and its code 1 instead of 0 costs about 8.75 degrees.
   EXPECT_GT(degrees(decodeNormal(encodeOct8Literal(minusZ), NORMALS_OCT8), minusZ), 170.0);
   const glm::vec3 nearly = glm::normalize(glm::vec3(-1e-3f, -1e-3f, -1.0f));
   EXPECT_EQ(encodeOct8Literal(nearly), 1u);
   EXPECT_NEAR(degrees(decodeNormal(1u, NORMALS_OCT8), minusZ), 8.75, 0.3);
 }
 
-TEST(Facets, OffsetsAndAlbedoRoundTrip) {
+TEST(NormalsOfFacets, OffsetsAndAlbedoRoundTrip) {
   for (float offset = -1.0f; offset <= 1.0f; offset += 0.001f)
     ASSERT_NEAR(facetOffset(packFacetOffset(offset)), offset, 0.5f / 127 + 1e-6f);
   EXPECT_EQ(facetOffset(packFacetOffset(0)), 0.0f);
@@ -108,4 +108,4 @@ TEST(Facets, OffsetsAndAlbedoRoundTrip) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::normals_suite

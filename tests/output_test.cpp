@@ -14,16 +14,16 @@
 #include <iterator>
 #include <random>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
-#include "renderer/output_file.h"
 #include "tests/support.h"
 
 #ifdef IRAD_OIIO
 #include <OpenImageIO/imageio.h>
 #endif
 
-namespace irad {
+namespace irad::output_suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -278,7 +278,7 @@ TEST(ImageIo, TheSamePixelsGiveTheSameFile) {
   const glm::uvec2 size(64, 64);
   const std::vector<glm::vec4> pixels = ramp(size);
   const std::string first = slurp(writeLinear(folder.path / "a", size, pixels));
-  sleep(1);  // a date in the file would differ now
+  sleep(1);  // a date in the file would now differ
   EXPECT_TRUE(slurp(writeLinear(folder.path / "a", size, pixels)) == first);
   EXPECT_GT(first.size(), 1000u);
 }
@@ -302,4 +302,4 @@ TEST(ImageIo, AFullDiskIsAWorkErrorThatNamesTheFile) {
 #endif
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::output_suite

@@ -5,10 +5,12 @@
 #include <random>
 #include <string>
 
+#include "gi/pixel_emitters.h"
+#include "gi/subsystems.h"
 #include "shaders/shared/pixel_emitters.h"
 #include "tests/effects_fixture.h"
 
-namespace irad::test {
+namespace irad::test::pixel_emitters_suite {
 namespace {
 
 /// Lambert's formula for the part of a triangle above the horizon of a point at 0, in double precision.
@@ -140,7 +142,7 @@ TEST_F(PixelEmitters, ALampAboveAFloor) {
     }
   printf("lamp above a floor: largest relative error %.2g by pixels, %.2g by facets\n", worst, facetsWorst);
   EXPECT_LT(worst, 1e-4);
-  EXPECT_GT(facetsWorst, 1e-2);  // what it is for
+  EXPECT_GT(facetsWorst, 1e-2);  // that is what pixel emitters are for
 }
 
 TEST_F(PixelEmitters, ALampThatGoesOnBehindTheHorizon) {
@@ -242,6 +244,29 @@ TEST_F(PixelEmitters, OnlyTheEmittersShareOfHChanges) {
   EXPECT_GT(moved, 0.01f);
 }
 
+TEST_F(PixelEmitters, WhatHHoldsOfEmittersIsTakenOutByTheGainThatItWasSolvedWith) {
+  // At lambda .8 H holds .8 F M, also after nothing relights or the guard puts the old light back.
+  Settings s = settings();
+  s.solver.gpu.lambda = 0.8f;
+  const Scene scene = mixedRoom();
+  Pipeline pipeline(context(), scene, s);
+  const auto picture = [&] {
+    pipeline.prepare();
+    return EffectsTest::draw(pipeline, VIEW_IRRADIANCE);
+  };
+  const auto by = picture();
+  s.effects.relight = EffectMode::off;
+  s.solver.gpu.lambda = 0.5f;
+  pipeline.set(s);
+  EXPECT_TRUE(same(picture(), by)) << "no light was solved";
+  s.effects.relight = EffectMode::automatic;
+  s.solver.gpu.lambda = 2;
+  pipeline.set(s);
+  const auto restored = picture();
+  ASSERT_TRUE(pipeline.lighting().report.diverging);
+  EXPECT_TRUE(same(restored, by)) << "the light from before";
+}
+
 TEST_F(PixelEmitters, ComeAndGoWithTheSetting) {
   Pipeline pipeline(context(), lampAboveFloor(), settings(EmitterLookup::facets));
   const auto facets = draw(pipeline, above(2), VIEW_LIT);
@@ -325,4 +350,4 @@ TEST_F(PixelEmitters, TexturesAndMasksAreAveraged) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::pixel_emitters_suite

@@ -1,449 +1,313 @@
 // The effect plan: every row of it in both directions, on numbers alone.
 #include "gi/plan.h"
-#include "shaders/shared/pixel_emitters.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
-namespace irad {
+#include "shaders/shared/pixel_emitters.h"
+
+namespace irad::plan_suite {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using T = SceneTraits;
+using S = Settings;
 
 /// A grey room with a lamp, built and at rest.
-SceneTraits lit() {
-  SceneTraits t;
+T lit() {
+  T t;
   t.materials = {{.triangles = 10, .albedo = 0.5f}, {.triangles = 2, .emission = 3, .albedo = 0.5f}};
-  t.triangles = 12;
   t.build =
       BuildTraits{.voxels = 1000, .facets = 500, .solidVoxels = 400, .emitters = 5, .sampled = true, .matrix = true};
   t.light = {.due = Redo::Nothing, .settled = true, .bound = 1e-4f, .tolerance = 2e-4f, .noise = 0.1f};
   return t;
 }
-
-LightTraits light(LightType type, bool shines = true, bool reaches = true) {
-  return {.type = type, .shines = shines, .reaches = reaches, .nears = reaches};
-}
-
-Settings usual() {
+S usual() {
   return defaultSettings(/*cpuDevice=*/true);
 }
-
-EffectState stateOf(Effect effect, const SceneTraits& t, const Settings& s = usual()) {
-  return plan(t, s).row(effect).state;
+LightTraits light(LightType type, bool shines = true, bool reaches = true, bool nears = true) {
+  return {.type = type, .shines = shines, .reaches = reaches, .nears = nears};
 }
 
-constexpr EffectState kOn = EffectState::on, kOff = EffectState::off, kAsleep = EffectState::asleep;
+/// A row in words: "off, 22000 B: none of 1 material emits", "asleep, within 0.0005 of the largest H: error bound ...".
+std::string text(const EffectRow& row) {
+  return fmt::format("{}{}{}: {}", row.stateName(),
+                     row.threshold ? fmt::format(", within {:.3g} of {}", row.epsilon, row.of) : "",
+                     row.bytesNotAllocated > 0 ? fmt::format(", {} B", row.bytesNotAllocated) : "", row.reason);
+}
 
-TEST(Plan, RowsAreNamedAndExplained) {
-  const EffectPlan p = plan(lit(), usual());
-  std::set<std::string> names;
-  for (const EffectRow& row : p.rows) {
-    const EffectInfo& info = effectInfo(row.effect);
-    EXPECT_TRUE(names.insert(info.name).second) << info.name;
-    EXPECT_FALSE(row.reason.empty()) << info.name;
-    EXPECT_EQ(&p.row(row.effect), &row);
-    if (*info.setting) {
-      EXPECT_NO_THROW(settingValue(usual(), info.setting)) << info.setting;
-    }
+// Edits of the lit room `t` and the usual settings `s`.
+#define EDIT(...) [](T& t, S& s) { (void)t, (void)s, __VA_ARGS__; }
+constexpr auto none = [](T&, S&) {};
+constexpr auto unlit = EDIT(t.materials[1].emission = 0);
+constexpr auto dark = EDIT(unlit(t, s), t.build.reset());
+constexpr auto turnedDown = EDIT(unlit(t, s), t.lights = {light(LightType::Point, /*shines=*/false)});
+constexpr auto black = EDIT(t.materials[0].albedo = t.materials[1].albedo = 0);
+constexpr auto glossy = EDIT(t.materials[0].f0 = 0.04f, t.materials[0].leastRoughness = 0.3f);
+constexpr auto rough = EDIT(glossy(t, s), t.materials[0].leastRoughness = 0.9f);
+constexpr auto dda = EDIT(s.matrix.gpu.traversal = Traversal::dda);
+constexpr auto noMode = EDIT(glossy(t, s), s.specular.mode = SpecularMode::off);
+constexpr auto few = EDIT(t.build->emitters = 49, t.build->sampled = false);  // emitters, not tried yet or in vain
+constexpr auto byPixels = EDIT(s.sample.emitters = EmitterLookup::pixels);
+
+/// What an edit makes of an effect: its row in words, * for any.
+struct Case {
+  Effect effect;
+  void (*edit)(T& t, S& s);
+  const char* row;
+  bool pixelEmitters = false;
+};
+using E = Effect;
+constexpr uint32_t kMost = MAX_EMISSIVE_TRIANGLES;
+const Case kCases[]{
+    {E::emission, none, "on: 1 of 2 materials emits, 3 W/(m^2 sr) at most"},
+    {E::emission, EDIT(t.materials[1].triangles = 0), "off, 22000 B: none of 1 material emits"},
+    {E::emission, dark, "off: none of 2 materials emits"},
+    {E::emission, byPixels, "on: 1 of 2 materials emits, 3 W/(m^2 sr) at most; pixels look for 2 triangles", true},
+    {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost), "on: *; pixels look for 256 triangles", true},
+    {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost + 1), "on: *; 257 triangles, more than 256 *"},
+    {E::emission, EDIT(byPixels(t, s), s.sample.gpu.gated = 0),
+     "on: *; pixels cannot look for it, sample.gated = false*"},
+    {E::emission, EDIT(byPixels(t, s), s.effects.matrix = EffectMode::off), "on: * at most"},
+    {E::emission, EDIT(byPixels(t, s), s.effects.emission = EffectMode::off), "off, 22000 B: forced off: 1 of 2 *"},
+    {E::emission, EDIT(byPixels(t, s), unlit(t, s), s.effects.emission = EffectMode::on), "on: forced on: none of 2 *"},
+    {E::emitterSampling, none, "on, within 1 of the sum of F M: 5 of 500 facets emit; their samples bring 0 of what *"},
+    {E::emitterSampling, EDIT(few(t, s), t.build->emitters = 50), "off, within 0.05 * a tenth or more: *"},
+    {E::emitterSampling, EDIT(few(t, s), t.light.due = Redo::Gather), "on, within 0.05 *, less than a tenth"},
+    {E::emitterSampling, few, "off, within 1 of the sum of F M, 8000 B: 49 of 500 facets emit; their samples bring *"},
+    {E::emitterSampling, EDIT(few(t, s), t.build->sampledShare = 0.8f), "off, within 0.2 *their samples bring 0.8 *"},
+    // A light has moved: F M is what it was.
+    {E::emitterSampling, EDIT(few(t, s), t.build->sampledShare = 0.8f, t.light.due = Redo::Gather),
+     "off, within 0.2 *"},
+    {E::emitterSampling, EDIT(unlit(t, s), t.lights = {light(LightType::Sun)}), "off, 8000 B: nothing emits"},
+    {E::emitterSampling, dark, "off: nothing emits"},
+    {E::matrix, none, "on: light, and albedos of up to 0.5; 0 % of the rays escape"},
+    {E::matrix, EDIT(t.build->escaped = 0.125), "on: light, and albedos of up to 0.5; 12.5 % of the rays escape"},
+    {E::matrix, EDIT(t.build->escaped = 0.125, t.build->matrix = false), "on: light, and albedos of up to 0.5"},
+    {E::matrix, black, "off, 320000 B: light, but every albedo is 0: no surface shows H, and its views are black; 0 *"},
+    {E::matrix, EDIT(black(t, s), glossy(t, s)), "on: light, and albedos of up to 0; 0 % of the rays escape"},
+    {E::matrix, EDIT(black(t, s), noMode(t, s)), "off, 320000 B: light, but every albedo is 0: no surface shows H, *"},
+    {E::matrix, dark, "off: no light at all: H is 0 everywhere"},
+    {E::matrix, EDIT(dark(t, s), t.lights = {light(LightType::Point)}), "on: light, and albedos of up to 0.5"},
+    {E::matrix, turnedDown, "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
+    {E::matrix, EDIT(turnedDown(t, s), t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
+    {E::matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
+    {E::specular, none, "off: every material is Lambertian"},
+    {E::specular, glossy, "on: 1 of 2 materials smoother than 0.6: rays where F0 H is above 0.0001 of the largest H"},
+    {E::specular, EDIT(glossy(t, s), unlit(t, s)), "off: no light to reflect"},
+    {E::specular, noMode, "off: specular.mode = off"},
+    {E::specular, EDIT(noMode(t, s), s.effects.specular = EffectMode::on), "off: specular.mode = off"},
+    {E::specular, rough, "on: 1 of 2 materials reflect, all rougher than 0.6: no rays, H alone is reflected"},
+    {E::specular, dark, "off: every material is Lambertian"},
+    {E::secondFacet, none, "on: 100 of 400 solid voxels hold a second facet"},
+    {E::secondFacet, EDIT(t.build->facets = t.build->solidVoxels), "off, 4000 B: none of 400 solid voxels holds a *"},
+    {E::secondFacet, EDIT(t.build.reset()), "on: known once the scene is voxelized"},
+    {E::secondFacet, EDIT(t.build.reset(), t.facesOneWay = true), "off: all faces look one way: no voxel has two"},
+    {E::secondFacet, EDIT(s.voxel.facets = 1), "off, 4000 B: voxel.facets = 1"},
+    {E::field, none, "on: rays of the matrix skip by it"},
+    {E::field, dda, "off, 1000 B: no ray reads it; views make their own"},
+    {E::field, glossy, "on: rays of the matrix and specular rays skip by it"},
+    {E::field, EDIT(glossy(t, s), dda(t, s)), "on: specular rays skip by it"},
+    {E::field, EDIT(glossy(t, s), dda(t, s), s.specular.gpu.traversal = Traversal::dda), "off, 1000 B: no ray *"},
+    {E::field, EDIT(rough(t, s), dda(t, s)), "off, 1000 B: no ray reads it; views make their own"},
+    {E::field, turnedDown, "on: rays of the matrix skip by it"},
+    {E::field, dark, "off: no ray reads it; views make their own"},
+    {E::relight, none, "asleep, within 0.0005 of the largest H: error bound 0.0001 <= 0.0002 W/m^2"},
+    {E::relight, EDIT(t.light.settled = false, t.light.bound = 1), "on, *: error bound 1 > 0.0002 W/m^2"},
+    {E::relight, EDIT(t.light.due = Redo::Gather), "on, within 0.0005 of the largest H: gather is due"},
+    {E::relight, EDIT(t.light.due = Redo::Shade), "asleep, *: error bound 0.0001 <= *"},
+    {E::relight, EDIT(s.effects.relight = EffectMode::on), "on, *: forced on: error bound *"},
+    {E::relight, dark, "off: no indirect light"},
+    {E::rebuild, none, "asleep: geometry and build settings are as they were built"},
+    {E::rebuild, EDIT(t.light.due = Redo::Gather), "asleep: geometry and build settings are as they were built"},
+    {E::rebuild, EDIT(t.light.due = Redo::Matrix), "on: due from matrix on"},
+    {E::alphaTest, none, "off: none of 2 materials is cut out by its alpha"},
+    {E::alphaTest, EDIT(t.materials[0].alphaTest = true), "on: 1 of 2 materials is cut out by its alpha"},
+    {E::alphaTest, EDIT(t.materials[0].normalMap = true), "off: none of 2 materials is cut out by its alpha"},
+    {E::normalMap, none, "off: none of 2 materials has a normal map"},
+    {E::normalMap, EDIT(t.materials[0].normalMap = t.materials[1].normalMap = true), "on: 2 of 2 materials have *"},
+    {E::normalMap, EDIT(t.materials[0].alphaTest = true), "off: none of 2 materials has a normal map"},
+    {E::blur, none, "on, within 0.002 of the largest H: it changes H by 0.1 of the largest at most, > 0.002"},
+    {E::blur, EDIT(s.effects.blurNoise = 0.01f), "on, within 0.01 of *> 0.01"},
+    {E::blur, EDIT(t.light.noise = 0.001f), "off, *, 16000 B: it changes H by 0.001 *<= 0.002"},
+    {E::blur, EDIT(t.light.noise.reset()), "on, *: what it changes is known after a relight"},
+    {E::blur, EDIT(s.sample.gpu.filter_ = SampleFilter::linear), "off: sample.filter = linear"},
+    {E::blur, dark, "off: no indirect light"},
+    {E::redraw, none, "on: each picture that is asked for"},
+    {E::redraw, EDIT(t.redraw = false), "asleep: camera, scene, settings and light are as drawn"},
+    {E::redraw, EDIT(t.redraw = true), "on: camera, scene, settings or light have changed"},
+};
+
+TEST(Plan, EachRowFollowsWhatCallsForIt) {
+  for (const Case& c : kCases) {
+    T t = lit();
+    S s = usual();
+    c.edit(t, s);
+    const EffectPlan p = plan(t, s);
+    const std::string row = text(p.row(c.effect));
+    EXPECT_EQ(fnmatch(c.row, row.c_str(), 0), 0) << effectInfo(c.effect).name << " is " << row << "\nnot " << c.row;
+    EXPECT_EQ(p.pixelEmitters, c.pixelEmitters) << c.row;
+    EXPECT_EQ(obeyed(s, p).sample.emitters == EmitterLookup::pixels, c.pixelEmitters) << c.row;
   }
-  EXPECT_EQ(names.size(), kEffects);
 }
 
-TEST(Plan, EmissionIsCalledForByAnyEmissiveMaterialInUse) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::emission, t), kOn);
-  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::emission).reason, "1 of 2 materials emits, 3 W/(m^2 sr)"));
-  t.materials[1].triangles = 0;  // nothing has it
-  const EffectPlan without = plan(t, usual());
-  EXPECT_TRUE(without.off(Effect::emission));
-  EXPECT_EQ(without.row(Effect::emission).skip, Skip::exact);
-  EXPECT_EQ(without.row(Effect::emission).bytesNotAllocated, 500u * (12 + 16 + 16));
-}
-
-TEST(Plan, PixelsLookForEmittersWhereTheyCan) {
-  SceneTraits t = lit();
-  EXPECT_FALSE(plan(t, usual()).pixelEmitters);
-  Settings s = usual();
-  s.sample.emitters = EmitterLookup::pixels;
-  const auto reason = [&] { return plan(t, s).row(Effect::emission).reason; };
-  EXPECT_TRUE(plan(t, s).pixelEmitters);
-  EXPECT_TRUE(contains(reason(), fmt::format("pixels look for {} triangles", t.materials[1].triangles)));
-  EXPECT_EQ(obeyed(s, plan(t, s)).sample.emitters, EmitterLookup::pixels);
-  t.materials[1].triangles = MAX_EMISSIVE_TRIANGLES + 1;
-  EXPECT_FALSE(plan(t, s).pixelEmitters);
-  EXPECT_TRUE(contains(reason(), "257 triangles, more than 256"));
-  EXPECT_EQ(obeyed(s, plan(t, s)).sample.emitters, EmitterLookup::facets);
-  t.materials[1].triangles = MAX_EMISSIVE_TRIANGLES;
-  EXPECT_TRUE(plan(t, s).pixelEmitters);
-  s.sample.gpu.gated = 0;  // the thesis's volume
-  EXPECT_FALSE(plan(t, s).pixelEmitters);
-  EXPECT_TRUE(contains(reason(), "sample.gated = false"));
-  s.sample.gpu.gated = 1;
-  s.effects.matrix = EffectMode::off;
-  EXPECT_FALSE(plan(t, s).pixelEmitters);
-  s.effects.matrix = EffectMode::automatic;
-  s.effects.emission = EffectMode::off;
-  EXPECT_FALSE(plan(t, s).pixelEmitters);
-  s.effects.emission = EffectMode::on;
-  t.materials[1].emission = 0;  // of nothing
-  EXPECT_FALSE(plan(t, s).pixelEmitters);
+TEST(Plan, EveryKindOfLightIsAnEffect) {
+  EXPECT_EQ(effectOf(LightType::Sun), E::sun);
+  EXPECT_EQ(effectOf(LightType::Point), E::point);
+  EXPECT_EQ(effectOf(LightType::Spot), E::spot);
+  std::set<E> effects;
+  for (const LightKind& kind : lightKinds()) EXPECT_TRUE(effects.insert(effectOf(kind.type)).second) << kind.name;
 }
 
 TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
-  const std::pair<Effect, LightType> kinds[]{
-      {Effect::sun, LightType::Sun}, {Effect::point, LightType::Point}, {Effect::spot, LightType::Spot}};
-  for (const auto& [effect, type] : kinds) {
-    SceneTraits t = lit();
-    EXPECT_EQ(stateOf(effect, t), kOff);
+  for (const LightKind& kind : lightKinds()) {
+    const LightType type = kind.type;
+    const E effect = effectOf(type);
+    T t = lit();
+    const auto says = [&](bool on, const char* reason) {
+      const EffectPlan p = plan(t, usual());
+      for (const LightKind& k : lightKinds()) EXPECT_EQ(p.on(effectOf(k.type)), on && k.type == type);
+      EXPECT_NE(p.row(effect).reason.find(reason), std::string::npos) << p.row(effect).reason;
+      EXPECT_EQ(p.row(effect).bytesNotAllocated, on ? 0 : t.lights.size() * 4u * 2048 * 2048);
+    };
+    says(false, "no ");
     t.lights = {light(type)};
-    EXPECT_EQ(stateOf(effect, t), kOn);
-    for (const auto& [other, otherType] : kinds) {
-      if (other != effect) {
-        EXPECT_EQ(stateOf(other, t), kOff);
-      }
-    }
+    says(true, "1 of 1 ");
     t.lights = {light(type, /*shines=*/false)};
-    EXPECT_EQ(stateOf(effect, t), kOff);
-    EXPECT_TRUE(contains(plan(t, usual()).row(effect).reason, "none with an intensity"));
-    t.lights = {light(type, true, /*reaches=*/false)};
-    EXPECT_EQ(stateOf(effect, t), kOff);
-    EXPECT_TRUE(contains(plan(t, usual()).row(effect).reason, "none reaches the scene"));
-    EXPECT_EQ(plan(t, usual()).row(effect).bytesNotAllocated, 4u * 2048 * 2048);
+    says(false, ", none with an intensity");
+    t.lights = {light(type, true, /*reaches=*/false, /*nears=*/false)};
+    says(false, ": 1 with an intensity, none reaches the scene");
     t.lights.push_back(light(type));
-    EXPECT_EQ(stateOf(effect, t), kOn);
+    says(true, "1 of 2 ");
   }
 }
 
-TEST(Plan, MatrixIsCalledForByLightAndAlbedo) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOn);
-  // No albedo: nothing shows H.
-  for (MaterialTraits& m : t.materials) m.albedo = 0;
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOff);
-  // But for a lobe, which reflects it.
-  t.materials[0].f0 = 0.9f;
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOn);
-  Settings without = usual();
-  without.specular.mode = SpecularMode::off;
-  EXPECT_EQ(stateOf(Effect::matrix, t, without), kOff);
-  // No light.
-  t = lit();
-  t.materials[1].emission = 0;
-  t.build.reset();
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOff);
-  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::matrix).reason, "no light at all"));
-  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::emission).reason, "none of 2 materials emits"));
-  for (const Effect dark : {Effect::specular, Effect::emitterSampling, Effect::field, Effect::relight, Effect::blur})
-    EXPECT_EQ(stateOf(dark, t), kOff) << effectInfo(dark).name;
-  t.lights = {light(LightType::Point)};
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOn);
-}
-
-TEST(Plan, MatrixSaysHowManyRaysEscape) {
-  SceneTraits t = lit();
-  t.build->escaped = 0.125;
-  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::matrix).reason, "12.5 % of the rays escape"));
-  t.build->matrix = false;
-  EXPECT_FALSE(contains(plan(t, usual()).row(Effect::matrix).reason, "escape"));
-}
-
-TEST(Plan, MatrixIsKeptForLightsThatAreThere) {
-  SceneTraits t = lit();
-  t.materials[1].emission = 0;
-  t.lights = {light(LightType::Point, /*shines=*/false)};
-  EXPECT_EQ(stateOf(Effect::matrix, t), kAsleep);
-  EXPECT_EQ(plan(t, usual()).row(Effect::matrix).bytesNotAllocated, 0u);
-  EXPECT_EQ(stateOf(Effect::field, t), kOn);  // of the matrix that is kept
-  t.build->matrix = false;                    // never built
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOff);
-  t.build->matrix = true;
-  t.lights.clear();  // taken away
-  EXPECT_EQ(stateOf(Effect::matrix, t), kOff);
-}
-
-TEST(Plan, SpecularIsCalledForByALobeInTheLight) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::specular, t), kOff);
-  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::specular).reason, "Lambertian"));
-  t.materials[0].f0 = 0.04f;
-  t.materials[0].leastRoughness = 0.3f;
-  EXPECT_EQ(stateOf(Effect::specular, t), kOn);
-  t.materials[1].emission = 0;
-  EXPECT_EQ(stateOf(Effect::specular, t), kOff);
-  t.materials[1].emission = 1;
-  Settings s = usual();
-  s.specular.mode = SpecularMode::off;
-  EXPECT_EQ(stateOf(Effect::specular, t, s), kOff);
-  s.effects.specular = EffectMode::on;  // the mode says where; there is nowhere
-  EXPECT_EQ(stateOf(Effect::specular, t, s), kOff);
-  // Too rough for rays: H alone is reflected, and no ray needs the field.
-  s = usual();
-  s.matrix.gpu.traversal = TRAVERSAL_DDA;
-  EXPECT_EQ(stateOf(Effect::field, t, s), kOn);
-  t.materials[0].leastRoughness = 0.9f;
-  EXPECT_EQ(stateOf(Effect::specular, t, s), kOn);
-  EXPECT_TRUE(contains(plan(t, s).row(Effect::specular).reason, "no rays"));
-  EXPECT_EQ(stateOf(Effect::field, t, s), kOff);
-}
-
-TEST(Plan, EmittersAreSampledWhereTheyAreFew) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOn);
-  t.build->emitters = 50;
-  t.build->sampled = false;
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
-  EXPECT_EQ(plan(t, usual()).row(Effect::emitterSampling).skip, Skip::threshold);
-  t.build->emitters = 49;
-  t.light.due = Redo::Gather;  // not tried yet
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOn);
-  t.light.due = Redo::Nothing;  // tried: no ray met one
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
-  t.build->sampledShare = 0.8f;  // tried, and the sums did not agree
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
-  t.light.due = Redo::Gather;  // a light has moved: F M is what it was
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
-  t.materials[1].emission = 0;
-  t.lights = {light(LightType::Sun)};
-  EXPECT_EQ(stateOf(Effect::emitterSampling, t), kOff);
-  EXPECT_EQ(plan(t, usual()).row(Effect::emitterSampling).skip, Skip::exact);
-}
-
-TEST(Plan, SecondFacetUnlessThereIsNone) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::secondFacet, t), kOn);
-  EXPECT_TRUE(contains(plan(t, usual()).row(Effect::secondFacet).reason, "100 of 400 solid voxels"));
-  t.build->facets = t.build->solidVoxels;
-  EXPECT_EQ(stateOf(Effect::secondFacet, t), kOff);
-  EXPECT_EQ(plan(t, usual()).row(Effect::secondFacet).bytesNotAllocated, 4000u);
-  t.build.reset();
-  EXPECT_EQ(stateOf(Effect::secondFacet, t), kOn);
-  t.facesOneWay = true;
-  EXPECT_EQ(stateOf(Effect::secondFacet, t), kOff);
-  t = lit();
-  Settings one = usual();
-  one.voxel.facets = 1;
-  EXPECT_EQ(stateOf(Effect::secondFacet, t, one), kOff);
-}
-
-TEST(Plan, FieldIsCalledForByRaysThatReadIt) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::field, t), kOn);
-  Settings s = usual();
-  s.matrix.gpu.traversal = TRAVERSAL_DDA;
-  EXPECT_EQ(stateOf(Effect::field, t, s), kOff);  // Lambertian: no specular rays
-  EXPECT_EQ(plan(t, s).row(Effect::field).bytesNotAllocated, 1000u);
-  t.materials[0].f0 = 0.04f;
-  t.materials[0].leastRoughness = 0.1f;
-  EXPECT_EQ(stateOf(Effect::field, t, s), kOn);
-  s.specular.gpu.traversal = TRAVERSAL_DDA;
-  EXPECT_EQ(stateOf(Effect::field, t, s), kOff);
-}
-
-TEST(Plan, RelightAndRebuildSleepUntilTheyAreDue) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::relight, t), kAsleep);
-  EXPECT_EQ(plan(t, usual()).row(Effect::relight).reason, "error bound 0.0001 <= 0.0002 W/m^2");
-  EXPECT_EQ(stateOf(Effect::rebuild, t), kAsleep);
-  t.light.settled = false;
-  t.light.bound = 1;
-  EXPECT_EQ(stateOf(Effect::relight, t), kOn);
-  t.light.due = Redo::Gather;
-  EXPECT_EQ(stateOf(Effect::relight, t), kOn);
-  EXPECT_EQ(stateOf(Effect::rebuild, t), kAsleep);
-  t.light.due = Redo::Shade;
-  t.light.settled = true;
-  EXPECT_EQ(stateOf(Effect::relight, t), kAsleep);
-  t.light.due = Redo::Matrix;
-  EXPECT_EQ(stateOf(Effect::rebuild, t), kOn);
-  Settings s = usual();
-  t.light.due = Redo::Nothing;
-  s.effects.relight = EffectMode::on;
-  EXPECT_EQ(stateOf(Effect::relight, t, s), kOn);
-}
-
-TEST(Plan, MaterialFeatures) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::alphaTest, t), kOff);
-  EXPECT_EQ(stateOf(Effect::normalMap, t), kOff);
-  t.materials[0].alphaTest = true;
-  EXPECT_EQ(stateOf(Effect::alphaTest, t), kOn);
-  EXPECT_EQ(stateOf(Effect::normalMap, t), kOff);
-  t.materials[1].normalMap = true;
-  EXPECT_EQ(stateOf(Effect::normalMap, t), kOn);
-}
-
-TEST(Plan, BlurGoesOffBelowHalfItsTriggerAndOnAboveIt) {
-  SceneTraits t = lit();
-  Settings s = usual();
-  s.effects.blurNoise = 0.01f;
-  const auto at = [&](float noise, const EffectPlan& before) {
-    t.light.noise = noise;
-    return plan(t, s, &before);
-  };
-  const EffectPlan on = plan(t, s), off = at(0.001f, on);
-  EXPECT_TRUE(on.on(Effect::blur));
-  EXPECT_TRUE(off.off(Effect::blur));
-  EXPECT_EQ(off.row(Effect::blur).skip, Skip::threshold);
-  EXPECT_EQ(off.row(Effect::blur).epsilon, 0.01f);
-  EXPECT_TRUE(at(0.007f, on).on(Effect::blur));  // between half and all of it each stays as it was
-  EXPECT_TRUE(at(0.007f, off).off(Effect::blur));
-  EXPECT_TRUE(at(0.012f, off).on(Effect::blur));
-  EXPECT_TRUE(at(0.004f, on).off(Effect::blur));
-  t.light.noise.reset();  // of a light whose noise is not known
-  EXPECT_TRUE(plan(t, s, &off).on(Effect::blur));
-  s.sample.gpu.filter_ = FILTER_LINEAR;
-  EXPECT_TRUE(plan(t, s, &on).off(Effect::blur));
-}
-
-/// How often the effect goes on or off while `at(i)` makes the traits and settings of step i.
-int switches(Effect effect, EffectPlan before, const std::function<std::pair<SceneTraits, Settings>(int)>& at) {
-  int count = 0;
-  for (int i = 0; i < 20; ++i) {
-    const auto [traits, settings] = at(i);
-    const EffectPlan now = plan(traits, settings, &before);
-    count += now.on(effect) != before.on(effect);
-    before = now;
-  }
-  return count;
-}
-
-TEST(Plan, JitterAboutATriggerSwitchesAtMostOnce) {
-  SceneTraits t = lit();
-  Settings s = usual();
-  // Between the two bounds each state stays; where only the trigger's own side is touched, it settles there.
-  const std::pair<Effect, LightType> kinds[]{
-      {Effect::sun, LightType::Sun}, {Effect::point, LightType::Point}, {Effect::spot, LightType::Spot}};
-  for (const auto& [effect, type] : kinds) {
-    const auto jitter = [&, type = type](int i) {
-      t.lights = {light(type, true, /*reaches=*/i % 2 == 0)};
-      t.lights[0].nears = true;
-      return std::pair(t, s);
-    };
-    EXPECT_EQ(switches(effect, plan(lit(), s), jitter), 1) << effectInfo(effect).name;
-    // A light alone, that the matrix is there for.
-    SceneTraits dark = t;
-    dark.materials[1].emission = 0;
-    const auto alone = [&](int i) {
-      dark.lights = jitter(i).first.lights;
-      return std::pair(dark, s);
-    };
-    EXPECT_EQ(switches(Effect::matrix, plan(alone(0).first, s), alone), 0) << effectInfo(effect).name;
-    // Out of the wider bounds it goes.
-    t.lights[0].reaches = t.lights[0].nears = false;
-    const EffectPlan on = plan(jitter(0).first, s);
-    t.lights[0].reaches = t.lights[0].nears = false;
-    EXPECT_TRUE(plan(t, s, &on).off(effect));
-  }
-
-  t = lit();
-  s.effects.blurNoise = 0.01f;
-  const auto noise = [&](int i) {
-    t.light.noise = i % 2 == 0 ? 0.0099f : 0.0101f;
-    return std::pair(t, s);
-  };
-  EXPECT_EQ(switches(Effect::blur, plan(lit(), s), noise), 0);
-  t.light.noise = 0;
-  EXPECT_EQ(switches(Effect::blur, plan(t, s), noise), 1);
-
-  // The field that specular rays alone read, while their roughness limit is dragged.
-  t = lit();
-  t.materials[0].f0 = 0.04f;
-  t.materials[0].leastRoughness = 0.5f;
-  s.matrix.gpu.traversal = TRAVERSAL_DDA;
-  const auto limit = [&](int i) {
-    s.specular.gpu.maxRoughness = i % 2 == 0 ? 0.49f : 0.51f;
-    return std::pair(t, s);
-  };
-  s.specular.gpu.maxRoughness = 0.2f;
-  EXPECT_EQ(switches(Effect::field, plan(t, s), limit), 1);
-  const EffectPlan on = plan(t, s, nullptr);
-  s.specular.gpu.maxRoughness = 0.4f;
-  EXPECT_TRUE(plan(t, s, &on).off(Effect::field));
-}
-
-TEST(Plan, RedrawFollowsTheWindow) {
-  SceneTraits t = lit();
-  EXPECT_EQ(stateOf(Effect::redraw, t), kOn);
-  t.redraw = false;
-  EXPECT_EQ(stateOf(Effect::redraw, t), kAsleep);
-  t.redraw = true;
-  EXPECT_EQ(stateOf(Effect::redraw, t), kOn);
-}
-
-TEST(Plan, OverridesWinAndSaySo) {
-  for (const EffectRow& row : plan(lit(), usual()).rows) {
-    const EffectInfo& info = effectInfo(row.effect);
-    if (!std::string(info.setting).starts_with("effects.")) continue;
-    for (const char* value : {"on", "off"}) {
-      Settings s = usual();
-      applySetting(s, fmt::format("{}={}", info.setting, value));
-      SceneTraits t = lit();
-      t.materials[0].f0 = 0.04f;
-      t.lights.clear();
-      const EffectPlan p = plan(t, s);
-      EXPECT_EQ(p.row(row.effect).state, std::string(value) == "on" ? kOn : kOff) << info.setting;
-      EXPECT_EQ(p.row(row.effect).state != plan(t, usual()).row(row.effect).state,
-                p.row(row.effect).reason.starts_with("forced"))
-          << info.setting << ": " << p.row(row.effect).reason;
+TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
+  T t = lit();
+  S unforced = usual();
+  glossy(t, unforced);
+  const EffectPlan p = plan(t, unforced);
+  std::set<std::string> names;
+  for (const EffectRow& row : p.rows) {
+    const EffectInfo& info = row.info();
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(&p.row(row.effect), &row);
+    if (*info.setting) {
+      EXPECT_NO_THROW(findSetting(info.setting)) << info.setting;
+    }
+    EXPECT_EQ(info.mode != nullptr, std::string(info.setting).starts_with("effects."));
+    for (const EffectMode mode : {EffectMode::on, EffectMode::off}) {
+      if (!info.mode) continue;
+      S s = usual();
+      applySetting(s, fmt::format("{}={}", info.setting, mode == EffectMode::on ? "on" : "off"));
+      EXPECT_EQ(forcedMode(s, row.effect), mode) << info.setting;
+      const EffectRow forced = plan(t, s).row(row.effect);
+      EXPECT_EQ(forced.state, mode == EffectMode::on ? EffectState::on : EffectState::off) << info.setting;
+      EXPECT_EQ(forced.state != row.state, forced.reason.starts_with("forced")) << info.setting << forced.reason;
     }
   }
-  Settings all = usual();
+  EXPECT_EQ(names.size(), kEffects);
+  S all = usual();
   forceEffects(all, EffectMode::on);
-  SceneTraits dark;
-  dark.materials = {{.triangles = 1, .albedo = 0.5f}};
-  const EffectPlan p = plan(dark, all);
-  for (const EffectRow& row : p.rows)
-    if (std::string(effectInfo(row.effect).setting).starts_with("effects.")) {
-      EXPECT_EQ(row.state, kOn) << row.reason;
-    }
+  T unlitRoom;
+  unlitRoom.materials = {{.triangles = 1, .albedo = 0.5f}};
+  for (const EffectRow& row : plan(unlitRoom, all).rows)
+    EXPECT_TRUE(!row.info().mode || row.state == EffectState::on) << row.reason;
+}
+
+/// An effect that stays as it is between two triggers.
+struct Trigger {
+  Effect effect;
+  std::function<void(T&, S&)> start, out, between, in;
+};
+std::vector<Trigger> triggers() {
+  constexpr auto watched = EDIT(s.effects.blurNoise = 0.01f);
+  std::vector<Trigger> all{
+      {E::blur, watched, EDIT(t.light.noise = 0.001f), EDIT(t.light.noise = 0.007f), EDIT(t.light.noise = 0.1f)},
+      {E::blur, watched, EDIT(t.light.noise = 0.004f), EDIT(t.light.noise = 0.0099f), EDIT(t.light.noise = 0.0101f)},
+      {E::blur, watched, EDIT(s.sample.gpu.filter_ = SampleFilter::linear),
+       EDIT(s.sample.gpu.filter_ = SampleFilter::blur, t.light.noise = 0.007f), EDIT(t.light.noise.reset())},
+      // The field that specular rays alone read, while their roughness limit is dragged.
+      {E::field, EDIT(glossy(t, s), dda(t, s), t.materials[0].leastRoughness = 0.5f),
+       EDIT(s.specular.gpu.maxRoughness = 0.4f), EDIT(s.specular.gpu.maxRoughness = 0.49f),
+       EDIT(s.specular.gpu.maxRoughness = 0.51f)}};
+  for (const LightKind& kind : lightKinds()) {
+    const auto lights = [type = kind.type](bool reaches, bool nears) {
+      return [=](T& t, S&) { t.lights = {light(type, true, reaches, nears)}; };
+    };
+    const auto out = lights(false, false), between = lights(false, true), in = lights(true, true);
+    all.push_back({effectOf(kind.type), none, out, between, in});
+    all.push_back({E::matrix, unlit, out, between, in});  // a light alone, for which the matrix exists
+  }
+  return all;
+}
+
+TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
+  for (const Trigger& trigger : triggers()) {
+    T t = lit();
+    S s = usual();
+    trigger.start(t, s);
+    std::optional<EffectPlan> before;
+    const auto expect = [&](const auto& edit, bool on) {
+      edit(t, s);
+      before = plan(t, s, before ? &*before : nullptr);
+      EXPECT_EQ(before->on(trigger.effect), on)
+          << effectInfo(trigger.effect).name << before->row(trigger.effect).reason;
+    };
+    for (const auto& edit : {trigger.between, trigger.out, trigger.between}) expect(edit, false);
+    // Jitter switches it once.
+    for (int i = 0; i < 10; ++i)
+      for (const auto& edit : {trigger.in, trigger.between}) expect(edit, true);
+    for (const auto& edit : {trigger.out, trigger.between}) expect(edit, false);
+  }
 }
 
 TEST(Plan, ObeyedSettingsAreDecided) {
-  Settings s = usual();
+  S s = usual();
   s.effects.secondFacet = s.effects.blur = EffectMode::off;
-  const Settings o = obeyed(s, plan(lit(), s));
-  for (const SettingInfo& info : settingInfos(o))
-    if (info.kind == "choice" && std::string(info.meta.name).starts_with("effects.")) {
-      EXPECT_NE(info.value, "auto") << info.meta.name;
-    }
+  const S o = obeyed(s, plan(lit(), s));
+  for (const EffectRow& row : plan(lit(), s).rows)
+    EXPECT_TRUE(!row.info().mode || forcedMode(o, row.effect) != EffectMode::automatic) << row.info().name;
   EXPECT_EQ(o.specular.mode, SpecularMode::off);
   EXPECT_EQ(o.voxel.facets, 1u);
-  EXPECT_EQ(o.sample.gpu.filter_, FILTER_LINEAR);
-  EXPECT_EQ(obeyed(o, plan(lit(), o)).sample.gpu.filter_, FILTER_LINEAR);
-  // What no effect has a say in stays.
+  EXPECT_EQ(o.sample.gpu.filter_, SampleFilter::linear);
+  EXPECT_EQ(obeyed(o, plan(lit(), o)).sample.gpu.filter_, SampleFilter::linear);
+  // Settings that no effect decides stay.
   EXPECT_EQ(o.matrix.gpu.rays, s.matrix.gpu.rays);
 }
 
 TEST(Plan, ThesisForcesOnWhatItsStagesAlwaysDo) {
-  Settings thesis = usual();
+  S thesis = usual();
   applyPreset(thesis, "thesis");
-  SceneTraits t = lit();
-  t.materials[1].emission = 0;
-  t.build.reset();
+  T t = lit();
+  dark(t, thesis);
   const EffectPlan p = plan(t, thesis);
-  for (const Effect e : {Effect::emission, Effect::matrix, Effect::specular, Effect::field, Effect::blur})
-    EXPECT_TRUE(p.on(e)) << effectInfo(e).name;
-  EXPECT_TRUE(p.off(Effect::secondFacet));
+  for (const E e : {E::emission, E::matrix, E::specular, E::field, E::blur}) EXPECT_TRUE(p.on(e)) << effectInfo(e).name;
+  EXPECT_TRUE(p.off(E::secondFacet));
 }
 
 TEST(Plan, Json) {
-  const auto json = nlohmann::json::parse(planJson(plan(lit(), usual())));
+  const EffectPlan p = plan(lit(), usual());
+  const auto json = nlohmann::json::parse(planJson(p));
   ASSERT_EQ(json.size(), kEffects);
+  for (const EffectRow& row : p.rows) {
+    const auto& written = json[static_cast<size_t>(row.effect)];
+    EXPECT_EQ(written["effect"], row.info().name);
+    EXPECT_EQ(written["state"], row.stateName());
+    EXPECT_EQ(written["reason"], row.reason);
+    EXPECT_EQ(written["skip"], row.skipName());
+    EXPECT_FLOAT_EQ(written.value("epsilon", 0.0f), row.epsilon);
+    EXPECT_EQ(written.contains("epsilon"), row.threshold);
+    EXPECT_EQ(written["bytes_not_allocated"], row.bytesNotAllocated);
+  }
   EXPECT_EQ(json[0]["effect"], "emission");
   EXPECT_EQ(json[0]["state"], "on");
   EXPECT_EQ(json[0]["skip"], "exact");
-  for (const auto& row : json) {
-    EXPECT_TRUE(row["bytes_not_allocated"].is_number_unsigned());
-    EXPECT_EQ(row.contains("epsilon"), row["skip"] == "threshold");
-  }
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::plan_suite

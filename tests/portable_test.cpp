@@ -2,10 +2,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "exr.h"
+#include "tests/exr.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::portable_suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -15,13 +15,13 @@ class Portable : public testing::Test {
   void SetUp() override {
     if (!fs::exists(program_)) GTEST_SKIP() << program_ << " is not built: cmake --preset portable (./test does)";
   }
-  const fs::path program_ = fs::path(IRAD_SOURCE_DIR) / "build-portable" / "irad";
+  const fs::path program_ = sourceFolder() / "build-portable" / "irad";
 };
 
-Picture readPfm(const fs::path& path) {
+ExrPicture readPfm(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string magic;
-  Picture out;
+  ExrPicture out;
   double scale = 0;
   in >> magic >> out.width >> out.height >> scale;
   in.get();
@@ -53,16 +53,16 @@ TEST_F(Portable, RendersTheFullBuildsPictureFromItsCache) {
   const std::string cache = folder.path / "box.irscene", full = folder.path / "full", small = folder.path / "small";
   const RunResult exported = runIrad({"export", "box", "--cache", cache, "--out", full});
   ASSERT_EQ(exported.status, 0) << exported.err;
-  for (const auto& [program, out] : {std::pair{std::string(IRAD_BINARY), full}, std::pair{program_.string(), small}}) {
+  for (const auto& [program, out] : {std::pair{iradProgram(), full}, std::pair{program_.string(), small}}) {
     const RunResult run = runProgram(program, {"render", cache, "--view", "lit", "--size", "48x48", "--set",
                                                "voxel.resolution=24", "--set", "matrix.rays=32", "--out", out});
     ASSERT_EQ(run.status, 0) << program << ": " << run.err;
   }
-  const Picture a = readExr(fs::path(full) / "lit.exr"), b = readPfm(fs::path(small) / "lit.pfm");
+  const ExrPicture a = readExr(fs::path(full) / "lit.exr"), b = readPfm(fs::path(small) / "lit.pfm");
   ASSERT_EQ(a.pixels.size(), b.pixels.size());
   EXPECT_EQ(a.pixels, b.pixels) << "same device, same shaders, same bits";
   EXPECT_GT(a.mean().x, 0.01);
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::portable_suite

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <map>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/support.h"
 #include "ui/preferences.h"
 #include "ui/presets.h"
 
-namespace irad::test {
+namespace irad::test::preferences_suite {
 namespace {
 
 TEST(Preferences, ComeBackAsTheyWere) {
@@ -132,7 +132,7 @@ TEST(Layout, TilesTheWindowWhateverTheSizes) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::preferences_suite
 
 #else
 TEST(Preferences, NotBuilt) {

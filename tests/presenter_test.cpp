@@ -3,11 +3,11 @@
 
 #if IRAD_UI
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/presenter.h"
 #include "tests/virtual_screen.h"
 
-namespace irad::test {
+namespace irad::test::presenter_suite {
 namespace {
 
 /// Left half red, right half green.
@@ -100,7 +100,7 @@ TEST_F(PresenterTest, ShowsResizesAndCloses) {
   shown(larger, 200 * 300);
 }
 
-// What a display may answer and Xvfb never does, put in its driver's mouth. An answer is given once.
+// Answers that a display may give but Xvfb never does, injected into the driver. Each is given once.
 PFN_vkAcquireNextImageKHR driversAcquire;
 PFN_vkQueuePresentKHR driversPresent;
 PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR driversCapabilities;
@@ -157,7 +157,7 @@ TEST_F(MoodyDisplay, OutdatedAndLostSurfacesAreMadeAnew) {
       EXPECT_EQ(presenter_->rebuilds(), ++rebuilds);
       shown(picture, 160 * 200);
     }
-  // Lost again while it is made anew: this frame is skipped, the next one shown.
+  // The surface is lost again while it is being made: this frame is skipped, the next one shown.
   acquireAnswer = capabilitiesAnswer = VK_ERROR_SURFACE_LOST_KHR;
   EXPECT_FALSE(presenter_->acquire());
   show(picture, 3);
@@ -196,7 +196,7 @@ TEST(Presenter, NoDisplayIsAnErrorInWords) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::presenter_suite
 
 #else
 

@@ -1,5 +1,6 @@
 // The irad program under faults, from outside: no memory, a lost device, a full disk, a folder that may not be written,
-// a kill in the middle, files of newer programs. Exit statuses of DESIGN.md, errors in words, nothing half-written.
+// a kill in the middle, files of newer programs. Exit statuses as in docs/conventions.md, errors in words, nothing
+// half-written.
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
@@ -14,11 +15,11 @@
 #include <thread>
 
 #include "gi/check/process.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/scene.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::program_faults_suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,46 +117,54 @@ SmallDisk runOnSmallDisk(const fs::path& folder, int kib, std::vector<std::strin
       "mount -t tmpfs -o size={}k none \"$1\" || exit 99; copy=$2; disk=$1; shift 2; \"$@\"; status=$?; "
       "cp -r \"$disk/out\" \"$copy\" 2>/dev/null; exit $status",
       kib);
-  std::vector<std::string> words{"-m", "sh", "-c", script, "sh", disk.string(), copy.string(), IRAD_BINARY};
+  std::vector<std::string> words{"-m", "sh", "-c", script, "sh", disk.string(), copy.string(), iradProgram()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   SmallDisk run{runProgram("/usr/bin/unshare", words, 120), {}};
   run.files = contents(copy);
   return run;
 }
 
-TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholeFilesOnly) {
+using Arguments = std::function<std::vector<std::string>(const fs::path&)>;
+
+void fillDisks(const Arguments& arguments) {
   TemporaryFolder folder;
   int full = 0;
-  for (const bool exporting : {false, true}) {
-    const auto arguments = [&](const fs::path& out) { return exporting ? smallExport(out) : smallRender(out); };
-    const fs::path whole = folder.path / (exporting ? "export" : "render");
-    ASSERT_EQ(runIrad(arguments(whole)).status, 0);
-    const auto reference = contents(whole);
-    uint64_t bytes = 0;
-    for (const auto& [name, content] : reference) bytes += content.size();
-    for (const double share : {0.05, 0.4, 0.8, 1.5}) {
-      const int kib = std::max(4, static_cast<int>(share * static_cast<double>(bytes) / 1024));
-      const SmallDisk run = runOnSmallDisk(folder.path, kib, arguments(folder.path / "disk" / "out"));
-      if (run.result.status == 99 || contains(run.result.err, "unshare failed"))
-        GTEST_SKIP() << "no small disk can be mounted here: " << run.result.err;
-      EXPECT_EQ(run.result.status, share < 1 ? 1 : 0) << kib << " KiB\n" << run.result.err;
-      if (share < 1) {
-        ++full;
-        EXPECT_TRUE(contains(run.result.err, "No space left on device")) << run.result.err;
-        EXPECT_TRUE(contains(run.result.err, (folder.path / "disk" / "out").string())) << run.result.err;
-      }
-      EXPECT_EQ(run.files.contains("manifest.json"), share > 1) << kib << " KiB";
-      expectWhole(run.files, reference);
-      for (const auto& [name, content] : run.files) EXPECT_FALSE(isTemporary(name)) << name;
-      fs::remove_all(folder.path / fmt::format("copy{}", kib));
+  const fs::path whole = folder.path / "whole";
+  ASSERT_EQ(runIrad(arguments(whole)).status, 0);
+  const auto reference = contents(whole);
+  uint64_t bytes = 0;
+  for (const auto& [name, content] : reference) bytes += content.size();
+  for (const double share : {0.05, 0.4, 0.8, 1.5}) {
+    const int kib = std::max(4, static_cast<int>(share * static_cast<double>(bytes) / 1024));
+    const SmallDisk run = runOnSmallDisk(folder.path, kib, arguments(folder.path / "disk" / "out"));
+    if (run.result.status == 99 || contains(run.result.err, "unshare failed"))
+      GTEST_SKIP() << "no small disk can be mounted here: " << run.result.err;
+    EXPECT_EQ(run.result.status, share < 1 ? 1 : 0) << kib << " KiB\n" << run.result.err;
+    if (share < 1) {
+      ++full;
+      EXPECT_TRUE(contains(run.result.err, "No space left on device")) << run.result.err;
+      EXPECT_TRUE(contains(run.result.err, (folder.path / "disk" / "out").string())) << run.result.err;
     }
+    EXPECT_EQ(run.files.contains("manifest.json"), share > 1) << kib << " KiB";
+    expectWhole(run.files, reference);
+    for (const auto& [name, content] : run.files) EXPECT_FALSE(isTemporary(name)) << name;
+    fs::remove_all(folder.path / fmt::format("copy{}", kib));
   }
-  EXPECT_EQ(full, 6);
+  EXPECT_EQ(full, 3);
+}
+
+TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholePicturesOnly) {
+  fillDisks([](const fs::path& out) { return smallRender(out); });
+}
+
+TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholeArraysOnly) {
+  IRAD_ONLY_WITH_ALL();
+  fillDisks(smallExport);
 }
 
 TEST(ProgramFaults, AFileSizeLimitIsStatus1) {
   TemporaryFolder folder;
-  std::vector<std::string> words{"--fsize=20000", IRAD_BINARY};
+  std::vector<std::string> words{"--fsize=20000", iradProgram()};
   const auto arguments = smallExport(folder.path / "out");
   words.insert(words.end(), arguments.begin(), arguments.end());
   const RunResult result = runProgram("/usr/bin/prlimit", words, 120);
@@ -170,14 +179,14 @@ TEST(ProgramFaults, AFolderThatMayNotBeWrittenIsStatus1) {
   const fs::path locked = folder.path / "locked";
   fs::create_directory(locked);
   fs::permissions(locked, fs::perms(0555));
-  // The superuser may write anywhere: it becomes nobody first.
+  // The superuser may write anywhere, so the process becomes nobody first.
   const bool root = geteuid() == 0;
   const auto run = [&](const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{"--reuid=65534", "--regid=65534", "--clear-groups", IRAD_BINARY};
+    std::vector<std::string> words{"--reuid=65534", "--regid=65534", "--clear-groups", iradProgram()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return root ? runProgram("/usr/bin/setpriv", words, 120) : runIrad(arguments, 120);
   };
-  if (run({"--version"}).status != 0) GTEST_SKIP() << "another user cannot run " << IRAD_BINARY;
+  if (run({"--version"}).status != 0) GTEST_SKIP() << "another user cannot run " << iradProgram();
   for (const auto& arguments : {smallRender(locked), smallExport(locked), smallRender(locked / "sub")}) {
     const RunResult result = run(arguments);
     EXPECT_EQ(result.status, 1) << result.err;
@@ -189,7 +198,7 @@ TEST(ProgramFaults, AFolderThatMayNotBeWrittenIsStatus1) {
 
 /// Starts the program, and kills it with SIGKILL as soon as `now` holds; false: it ended before.
 bool killWhen(const std::vector<std::string>& arguments, const std::function<bool()>& now) {
-  Process process(IRAD_BINARY, arguments);
+  Process process(iradProgram(), arguments);
   while (!process.poll()) {
     if (now()) return process.kill() == 128 + SIGKILL;
     std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -199,7 +208,7 @@ bool killWhen(const std::vector<std::string>& arguments, const std::function<boo
 
 /// Killed once k files have their final names and a random moment has passed, for k = 0, step, 2 step...; the next run
 /// finds what is left.
-void killThroughout(size_t step, const std::function<std::vector<std::string>(const fs::path&)>& arguments) {
+void killThroughout(size_t step, const Arguments& arguments) {
   TemporaryFolder folder;
   const fs::path whole = folder.path / "whole", out = folder.path / "out";
   ASSERT_EQ(runIrad(arguments(whole)).status, 0);
@@ -240,6 +249,7 @@ void killThroughout(size_t step, const std::function<std::vector<std::string>(co
 }
 
 TEST(ProgramFaults, KilledWhileExportingLeavesWholeFilesOnly) {
+  IRAD_ONLY_WITH_ALL();
   killThroughout(2, smallExport);
 }
 
@@ -248,7 +258,7 @@ TEST(ProgramFaults, KilledWhileRenderingLeavesWholeFilesOnly) {
 }
 
 TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
-  // It vouched for files that are partly another run's now.
+  // The manifest vouched for files that now partly belong to another run.
   TemporaryFolder folder;
   ASSERT_EQ(runIrad(smallRender(folder.path)).status, 0);
   const RunResult failed = runIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=250"}));
@@ -283,7 +293,7 @@ TEST(NewerFiles, SettingsAndManifestsAreStatus3AndSayWhatIsUnknown) {
   EXPECT_EQ(run(R"({"format": "new"})").status, 3);
   EXPECT_EQ(run(R"({"format": -1})").status, 3);
 
-  // Of this format, and from before there was one.
+  // A file of this format, and one from before there was a format.
   EXPECT_EQ(run(R"({"format": 1, "voxel.resolution": 32})").status, 0);
   EXPECT_EQ(run(R"({"voxel.resolution": 32})").status, 0);
   EXPECT_EQ(run(R"({"settings": {"voxel.resolution": 32}})").status, 0);
@@ -308,4 +318,4 @@ TEST(NewerFiles, SceneCachesAreInputErrors) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::program_faults_suite

@@ -1,5 +1,5 @@
 // Against path tracing and closed forms: Cycles renders (diffuse only, same camera and lights) and the analytic scenes
-// of ../shared. N = 128, 256 rays, every material Lambertian.
+// of ../shared. N = 128, 256 rays (less for the analytic scenes), every material Lambertian.
 //
 // The Cornell box is compared twice. As glTF has it, with culled backs, with tests/references/cornell_one_sided.exr, in
 // which the lamp emits from its front alone. With every material double-sided, as Cycles has them, with
@@ -10,11 +10,11 @@
 
 #include <fstream>
 
-#include "exr.h"
 #include "gi/pipeline.h"
-#include "support.h"
+#include "tests/exr.h"
+#include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::reference_suite {
 namespace {
 
 class Reference : public GpuTest {
@@ -33,8 +33,8 @@ class Reference : public GpuTest {
     EmitterLookup emitters = EmitterLookup::facets;  ///< sample.emitters
   };
   /// The views' linear pixels for a scene, lit by its own lights, at the reference settings.
-  std::vector<Picture> render(const std::filesystem::path& scenePath, const Camera* camera, glm::uvec2 size,
-                              const std::vector<const char*>& viewNames, const Quality& quality) {
+  std::vector<ExrPicture> render(const std::filesystem::path& scenePath, const Camera* camera, glm::uvec2 size,
+                                 const std::vector<const char*>& viewNames, const Quality& quality) {
     Settings settings = defaultSettings(/*cpuDevice=*/true);
     settings.scene = {.lambertian = true, .doubleSided = quality.doubleSided};
     settings.voxel.resolution = quality.resolution;
@@ -50,14 +50,14 @@ class Reference : public GpuTest {
     EXPECT_EQ(pipeline.lighting().report.nonFinite, 0u);
     const uint32_t samples = quality.samples;
     Targets targets(context(), samples * size);
-    std::vector<Picture> out;
+    std::vector<ExrPicture> out;
     for (const char* name : viewNames) {
       Frame frame = context().begin();
       pipeline.render(frame, from, findView(name).value(), targets);
       frame.submitAndWait();
       const std::vector<std::byte> bytes = download(context(), targets.linear);
       const auto* texels = reinterpret_cast<const glm::vec4*>(bytes.data());
-      Picture picture{size.x, size.y, std::vector<glm::vec3>(size_t(size.x) * size.y, glm::vec3(0))};
+      ExrPicture picture{size.x, size.y, std::vector<glm::vec3>(size_t(size.x) * size.y, glm::vec3(0))};
       for (uint32_t y = 0; y < samples * size.y; ++y)
         for (uint32_t x = 0; x < samples * size.x; ++x)
           picture.pixels[size_t(y / samples) * size.x + x / samples] +=
@@ -74,11 +74,12 @@ class Reference : public GpuTest {
   /// irradiance / pi; ours are W/m^2).
   Ratios compare(const std::filesystem::path& reference, const std::filesystem::path& scene, const Camera* camera,
                  const Quality& quality) {
-    const Picture direct = readExr(reference, "ViewLayer.DiffDir"), bounced = readExr(reference, "ViewLayer.DiffInd");
+    const ExrPicture direct = readExr(reference, "ViewLayer.DiffDir"),
+                     bounced = readExr(reference, "ViewLayer.DiffInd");
     // H holds the emitters' first gather, which Cycles counts as direct: that view's D + F M is compared.
-    const std::vector<Picture> ours = render(scene, camera, {direct.width, direct.height},
-                                             {"direct-irradiance", "irradiance", "emitter-irradiance"}, quality);
-    Picture oursDirect = ours[0], oursBounced = ours[1];
+    const std::vector<ExrPicture> ours = render(scene, camera, {direct.width, direct.height},
+                                                {"direct-irradiance", "irradiance", "emitter-irradiance"}, quality);
+    ExrPicture oursDirect = ours[0], oursBounced = ours[1];
     for (size_t i = 0; i < oursDirect.pixels.size(); ++i) {
       oursBounced.pixels[i] = (ours[1].pixels[i] - ours[2].pixels[i]) / 3.14159265f;
       oursDirect.pixels[i] = ours[0].pixels[i] / 3.14159265f;
@@ -108,12 +109,14 @@ Camera lookFrom(glm::dvec3 eye, float yfovDegrees) {
 }
 
 TEST_F(Reference, CornellAgainstCycles) {
+  IRAD_ONLY_WITH_ALL();
   const Camera camera = lookFrom({0, 1, 3.4}, 40.0f);
-  expectMarks(compare(std::filesystem::path(IRAD_SOURCE_DIR) / "tests/references/cornell_one_sided.exr",
-                      *scenes_ / "variants/cornell_base.glb", &camera, {}));
+  expectMarks(compare(sourceFolder() / "tests/references/cornell_one_sided.exr", *scenes_ / "variants/cornell_base.glb",
+                      &camera, {}));
 }
 
 TEST_F(Reference, CornellWithATwoSidedLamp) {
+  IRAD_ONLY_WITH_ALL();
   const Camera camera = lookFrom({0, 1, 3.4}, 40.0f);
   // The strip of ceiling that is seen is one pixel high: like Cycles, several samples of a pixel. It is .6 voxel from
   // the lamp: pixels look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
@@ -123,12 +126,13 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {
+  IRAD_ONLY_WITH_ALL();
   expectMarks(
       compare(*scenes_ / "references/sponza_lit_diffuse.exr", *scenes_ / "sponza/sponza_small_lit_m.glb", nullptr, {}));
 }
 
 /// The largest radiance within a centred square of `half` pixels, and at the centre.
-glm::vec3 centre(const Picture& p) {
+glm::vec3 centre(const ExrPicture& p) {
   return p.pixels[(p.height / 2) * p.width + p.width / 2];
 }
 
@@ -138,8 +142,8 @@ TEST_F(Reference, DirectLightOnAPlane) {
     double radiance;
   };
   for (const Case c : {Case{"plane_sun", 0.79577}, Case{"plane_point", 1.98944}, Case{"plane_spot", 1.98944}}) {
-    const Picture direct = render(*scenes_ / "analytic" / (std::string(c.file) + ".glb"), nullptr, {65, 65}, {"direct"},
-                                  {.resolution = 32, .rays = 64})[0];
+    const ExrPicture direct = render(*scenes_ / "analytic" / (std::string(c.file) + ".glb"), nullptr, {65, 65},
+                                     {"direct"}, {.resolution = 32, .rays = 64})[0];
     float brightest = 0;
     for (const glm::vec3& p : direct.pixels) brightest = std::max(brightest, p.x);
     printf("%s: brightest %.5f, expected %.5f\n", c.file, brightest, c.radiance);
@@ -149,7 +153,8 @@ TEST_F(Reference, DirectLightOnAPlane) {
 
 TEST_F(Reference, FurnaceCube) {
   // Emission .5 x 4 = 2, rho .6: L = 2 / (1 - .6) = 5 everywhere.
-  const Picture lit = render(*scenes_ / "analytic/furnace_cube.glb", nullptr, {64, 64}, {"lit"}, {.resolution = 64})[0];
+  const ExrPicture lit =
+      render(*scenes_ / "analytic/furnace_cube.glb", nullptr, {64, 64}, {"lit"}, {.resolution = 32, .rays = 64})[0];
   const glm::dvec3 mean = lit.mean();
   printf("furnace_cube: mean %.4f, expected 5, centre %.4f\n", mean.x, centre(lit).x);
   EXPECT_NEAR(mean.x, 5.0, 0.05);
@@ -158,7 +163,7 @@ TEST_F(Reference, FurnaceCube) {
 
 TEST_F(Reference, IntegratingSphere) {
   // 10 cd inside a sphere of rho .7: L = 1.8568 everywhere (direct + indirect).
-  const Picture lit =
+  const ExrPicture lit =
       render(*scenes_ / "analytic/sphere_point.glb", nullptr, {64, 64}, {"lit"}, {.resolution = 64, .rays = 64})[0];
   const glm::dvec3 mean = lit.mean();
   printf("sphere_point: mean %.4f, expected 1.8568\n", mean.x);
@@ -166,4 +171,4 @@ TEST_F(Reference, IntegratingSphere) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::reference_suite

@@ -4,11 +4,11 @@
 
 #if IRAD_UI
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/renderdoc.h"
 #include "tests/support.h"
 
-namespace irad {
+namespace irad::renderdoc_suite {
 namespace {
 
 TEST(RenderDoc, CapturesWhatIsSubmittedAndNothingOfWhatFails) {
@@ -25,7 +25,7 @@ TEST(RenderDoc, CapturesWhatIsSubmittedAndNothingOfWhatFails) {
   Timings timings;
   Context context(*device, shaders, timings);
   const TemporaryFolder folder;
-  const Buffer buffer(*device, "buffer", Subsystem::Ui, 4096);
+  const Buffer buffer(*device, "buffer", Subsystem::Staging, 4096);
   const auto work = [&] {
     Frame frame = context.begin();
     frame.pass("GI Solve").fill(buffer, 7);
@@ -44,7 +44,7 @@ TEST(RenderDoc, CapturesWhatIsSubmittedAndNothingOfWhatFails) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::renderdoc_suite
 
 #else
 

@@ -6,10 +6,11 @@
 #include <random>
 #include <set>
 
+#include "gi/specular.h"
 #include "shaders/shared/passes.h"
 #include "tests/lit_stage.h"
 
-namespace irad::test {
+namespace irad::test::resolve_suite {
 namespace {
 
 constexpr glm::uvec2 kSize{160, 120};
@@ -41,7 +42,7 @@ int32_t addWaves(Scene& scene, glm::vec4 mean, glm::vec4 swing, bool srgb = fals
   return static_cast<int32_t>(scene.images.size()) - 1;
 }
 
-/// All that a triangle can carry: the five textures on two sets of coordinates, one of them transformed, vertex
+/// Everything that a triangle can carry: the five textures on two sets of coordinates, one of them transformed, vertex
 /// colours, a mask, both sides, no texture, emission, metal; triangles behind the viewer and many small ones. Whatever
 /// has a texture is wholly in the picture: lavapipe clips triangles to it and reads coarse mip levels along the cuts.
 Scene everything() {
@@ -197,6 +198,7 @@ TEST_F(Resolve, Box) {
 }
 
 TEST_F(Resolve, Sponza) {
+  IRAD_ONLY_WITH_ALL();
   const auto scenes = sharedScenes();
   if (!scenes) GTEST_SKIP() << "no shared scenes";
   Lit lit(context(), loadScene(*scenes / "sponza/sponza_small_lit_m.glb"), small());
@@ -216,7 +218,7 @@ TEST_F(Resolve, MoreLightsThanTheUniformBlockHolds) {
   scene.lights.resize(1);
   scene.lights[0].intensity = 0.05f;
   scene.lights.resize(UNIFORM_LIGHTS + 1, scene.lights[0]);
-  scene.lights.back().intensity = 3;  // the one that the block has no room for
+  scene.lights.back().intensity = 3;  // the one for which the block has no room
   Settings s = small();
   s.light.shadowResolution = 64;
   Lit lit(context(), std::move(scene), s);
@@ -224,7 +226,7 @@ TEST_F(Resolve, MoreLightsThanTheUniformBlockHolds) {
 }
 
 TEST_F(Resolve, LeavesAbsentTargetsAlone) {
-  // What takes an absent target's place is a target itself (Targets::bound).
+  // The image in an absent target's place is a target itself (Targets::bound).
   Lit lit(context(), everything(), small());
   const ForwardEffects none{.emission = false, .highlights = false, .indirect = false, .specular = false};
   same("no effects", draw(lit, 0, none, false), draw(lit, 0, none, true), 0.4);
@@ -342,4 +344,4 @@ TEST_F(Resolve, ReflectionsOfEveryPixelByItself) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::resolve_suite

@@ -7,7 +7,7 @@
 #include "shaders/shared/sampling.h"
 #include "shaders/shared/trace.h"
 
-namespace irad {
+namespace irad::sampling_suite {
 namespace {
 
 TEST(Sampling, CoordinatesAreInsideTheOpenInterval) {
@@ -107,4 +107,4 @@ TEST(Sampling, PointsOfAFacetLieOnItsPlaneInsideItsFootprint) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::sampling_suite

@@ -9,7 +9,7 @@
 
 #include "tests/scene_files.h"
 
-namespace irad::test {
+namespace irad::test::scene_corpus_suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,7 +145,7 @@ TEST_F(Corpus, HostileFilesLoadSanelyOrAreRefused) {
 }
 
 TEST_F(Corpus, MadeFilesAreRefusedUnlessTheyAreValidOrOnlyOdd) {
-  // Odd but loadable: made/WHY.tsv says "valid", or HARD_CASES asks for clamping, dropping or the pink image.
+  // Odd but loadable: made/WHY.tsv says "valid", or docs/stability.md asks for clamping, dropping or the pink image.
   const std::set<std::string> loadable = {"minmax_lie.glb",
                                           "scale_zero.glb",
                                           "points.glb",
@@ -228,7 +228,7 @@ bool same(const Face& a, const Face& b, double tolerance) {
   if (glm::length(a.color - b.color) > 0.01f ||
       glm::length(a.emission - b.emission) > 0.01f * (1.0f + glm::length(b.emission)))
     return false;
-  for (int turn = 0; turn < 3; ++turn) {  // winding counts, the first corner does not
+  for (int turn = 0; turn < 3; ++turn) {  // the winding matters, the first corner does not
     bool equal = true;
     for (int k = 0; k < 3; ++k) equal = equal && glm::length(a.corners[(k + turn) % 3] - b.corners[k]) < tolerance;
     if (equal) return true;
@@ -330,4 +330,4 @@ TEST_F(Corpus, AnalyticLightsAndCameras) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::scene_corpus_suite

@@ -3,11 +3,11 @@
 
 #if IRAD_UI
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/scene_files.h"
 #include "ui/scene_edits.h"
 
-namespace irad::test {
+namespace irad::test::scene_edits_suite {
 namespace {
 
 struct SceneEditsTest : ::testing::Test {
@@ -86,6 +86,26 @@ TEST_F(SceneEditsTest, SavesWhatDiffersFromTheSceneAndReverts) {
   EXPECT_TRUE(edits.modified());
 }
 
+TEST_F(SceneEditsTest, AreSavedElsewhereAndTakenFromThere) {
+  edits.begin(scene, "", "nowhere");
+  edits.add({.name = "lamp", .type = LightType::Point, .position = {1, 2, 3}});
+  edits.addBookmark(scene.cameras[0], "door");
+  EXPECT_THROW(edits.save(), WorkError);
+  const std::filesystem::path elsewhere = folder.path / "not/yet/there" / (std::string("lamps") + kSidecarExtension);
+  edits.saveAs(elsewhere);
+  EXPECT_FALSE(edits.modified());
+  EXPECT_EQ(edits.file(), elsewhere) << "save() writes there from then on";
+  const SceneEdits before = edits;
+  edits.begin(scene, "", "nowhere");
+  edits.take(readSidecar(elsewhere));
+  EXPECT_EQ(edits.lights, before.lights);
+  EXPECT_EQ(edits.bookmarks, before.bookmarks);
+  EXPECT_TRUE(edits.modified()) << "it is nobody's file here";
+  edits.take(Sidecar());
+  EXPECT_EQ(names(), (Names{"default sun"})) << "no lights in the sidecar: the scene's own";
+  EXPECT_FALSE(edits.modified());
+}
+
 TEST_F(SceneEditsTest, WhatCannotBeSavedStays) {
   edits.lights[0].intensity = 7;
   std::filesystem::create_directory(file);  // a file cannot take its place
@@ -102,7 +122,7 @@ TEST_F(SceneEditsTest, WhatCannotBeSavedStays) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::scene_edits_suite
 
 #else
 

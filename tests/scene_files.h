@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/scene.h"
 #include "tests/support.h"
 

@@ -1,8 +1,8 @@
 // The loader on small files with known answers.
-#include "renderer/scene/sha256.h"
+#include "renderer/base/sha256.h"
 #include "tests/scene_files.h"
 
-namespace irad::test {
+namespace irad::test::scene_suite {
 namespace {
 
 using nlohmann::json;
@@ -438,7 +438,7 @@ TEST_F(SceneLoading, CacheRoundTripAndDamage) {
     std::ofstream(damaged, std::ios::binary) << bytes.substr(0, length);
     EXPECT_THROW(loadScene(damaged), InputError) << length;
   }
-  // Any byte may be wrong: an error or a sound scene, never a crash.
+  // Any byte may be wrong: the result is an error or a sound scene, never a crash.
   for (size_t at = 0; at < bytes.size(); at += 3) {
     std::string bent = bytes;
     bent[at] = static_cast<char>(bent[at] ^ 0xFF);
@@ -462,4 +462,4 @@ TEST_F(SceneLoading, BuiltInBox) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::scene_suite

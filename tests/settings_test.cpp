@@ -11,10 +11,11 @@
 #include <set>
 
 #include "gi/sizes.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
+#include "tests/setting_values.h"
 
-namespace irad {
+namespace irad::settings_suite {
 namespace {
 
 std::string usageError(const std::function<void()>& act) {
@@ -31,56 +32,64 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Another allowed value of a setting than the one it has.
-std::string otherValue(const SettingInfo& info) {
-  if (info.kind == "switch") return info.value == "true" ? "false" : "true";
-  if (info.kind == "choice") return info.choices.at(info.value == info.choices[0] ? 1 : 0);
-  const double now = std::stod(info.value);
-  const double other = now == info.meta.min ? info.meta.max : info.meta.min;
-  return info.kind == "integer" ? fmt::format("{}", static_cast<uint64_t>(other)) : fmt::format("{}", other);
+bool isNumeric(const Setting& setting) {
+  return setting.kind == SettingKind::integer || setting.kind == SettingKind::number;
 }
 
 TEST(Settings, NamesAreUniqueGroupedAndDocumented) {
   std::set<std::string> names;
-  for (const SettingInfo& info : settingInfos(Settings{})) {
-    EXPECT_TRUE(names.insert(info.meta.name).second) << info.meta.name;
-    EXPECT_TRUE(contains(info.meta.name, ".")) << info.meta.name;
-    EXPECT_GT(std::string(info.meta.help).size(), 10u) << info.meta.name;
-    if (info.kind == "integer" || info.kind == "number") {
-      EXPECT_LT(info.meta.min, info.meta.max) << info.meta.name;
+  for (const Setting& setting : settingTable()) {
+    EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+    EXPECT_TRUE(contains(setting.name, ".")) << setting.name;
+    EXPECT_GT(std::string(setting.help).size(), 10u) << setting.name;
+    if (isNumeric(setting)) {
+      EXPECT_LT(setting.range.min, setting.range.max) << setting.name;
     }
   }
   EXPECT_GE(names.size(), 36u);
 }
 
+// Two rows of one member would be one setting with two names.
+TEST(Settings, EveryRowHasAMemberOfItsOwn) {
+  const Settings before;
+  for (const Setting& setting : settingTable()) {
+    Settings after;
+    setting.set(after, test::anotherValue(setting, before));
+    EXPECT_NE(before, after) << setting.name;
+    for (const Setting& other : settingTable())
+      EXPECT_EQ(other.get(before) == other.get(after), other.name != setting.name)
+          << setting.name << ", " << other.name;
+    setting.set(after, setting.get(before));
+    EXPECT_EQ(before, after) << setting.name;
+  }
+}
+
 TEST(Settings, DefaultsLieInTheirRanges) {
   for (const bool cpu : {false, true}) {
     Settings settings = defaultSettings(cpu);
-    for (const SettingInfo& info : settingInfos(settings))
-      EXPECT_NO_THROW(applySetting(settings, fmt::format("{}={}", info.meta.name, info.value))) << info.meta.name;
-    EXPECT_EQ(difference(settings, defaultSettings(cpu)), Redo::Nothing);
+    for (const Setting& setting : settingTable())
+      EXPECT_NO_THROW(applySetting(settings, fmt::format("{}={}", setting.name, setting.text(settings))))
+          << setting.name;
+    EXPECT_EQ(settings, defaultSettings(cpu));
   }
 }
 
 TEST(Settings, EverySettingRoundTripsThroughTextAndJson) {
-  for (const SettingInfo& info : settingInfos(Settings{})) {
-    SCOPED_TRACE(info.meta.name);
-    const std::string value = otherValue(info);
+  const Settings before;
+  for (const Setting& setting : settingTable()) {
+    SCOPED_TRACE(setting.name);
     Settings changed;
-    applySetting(changed, fmt::format("{}={}", info.meta.name, value));
-    EXPECT_NE(settingValue(changed, info.meta.name), info.value);
-    EXPECT_EQ(difference(Settings{}, changed), info.meta.redo);
+    setting.set(changed, test::anotherValue(setting, before));
+    EXPECT_NE(setting.text(changed), setting.text(before));
+    Settings named;
+    applySetting(named, fmt::format("{}={}", setting.name, setting.text(changed)));
+    EXPECT_EQ(named, changed);
 
     Settings again;
     settingsFromJson(again, settingsToJson(changed));
+    EXPECT_EQ(again, changed);  // nothing else moved
     EXPECT_EQ(settingsToJson(again), settingsToJson(changed));
-    EXPECT_EQ(settingValue(again, info.meta.name), settingValue(changed, info.meta.name));
-    // Nothing else moved.
-    const std::vector<SettingInfo> before = settingInfos(Settings{}), after = settingInfos(again);
-    for (size_t i = 0; i < before.size(); ++i) {
-      if (std::string(before[i].meta.name) == info.meta.name) continue;
-      EXPECT_EQ(before[i].value, after[i].value);
-    }
+    EXPECT_EQ(setting.text(again), setting.text(changed));
   }
 }
 
@@ -102,30 +111,31 @@ TEST(Settings, JsonHoldsPlainDecimals) {
 }
 
 TEST(Settings, RangeEndsAreAllowedAndBeyondIsNot) {
-  for (const SettingInfo& info : settingInfos(Settings{})) {
-    if (info.kind != "integer" && info.kind != "number") continue;
-    SCOPED_TRACE(info.meta.name);
+  for (const Setting& setting : settingTable()) {
+    if (!isNumeric(setting)) continue;
+    SCOPED_TRACE(setting.name);
+    const SettingRange& range = setting.range;
     Settings settings;
-    const auto set = [&](double value) { applySetting(settings, fmt::format("{}={}", info.meta.name, value)); };
-    EXPECT_NO_THROW(set(info.meta.min));
-    EXPECT_NO_THROW(set(info.meta.max));
-    const double beyond = info.kind == "integer" ? 1.0 : 0.01 * (info.meta.max - info.meta.min);
-    const std::string above = usageError([&] { set(info.meta.max + beyond); });
-    EXPECT_TRUE(contains(above, fmt::format("{}", info.meta.max))) << above;
-    EXPECT_TRUE(contains(above, info.meta.name)) << above;
-    const std::string below = usageError([&] { set(info.meta.min - beyond); });
-    EXPECT_TRUE(contains(below, info.meta.name)) << below;
+    const auto set = [&](double value) { applySetting(settings, fmt::format("{}={}", setting.name, value)); };
+    EXPECT_NO_THROW(set(range.min));
+    EXPECT_NO_THROW(set(range.max));
+    const double beyond = setting.kind == SettingKind::integer ? 1.0 : 0.01 * (range.max - range.min);
+    const std::string above = usageError([&] { set(range.max + beyond); });
+    EXPECT_TRUE(contains(above, fmt::format("{}", range.max))) << above;
+    EXPECT_TRUE(contains(above, setting.name)) << above;
+    const std::string below = usageError([&] { set(range.min - beyond); });
+    EXPECT_TRUE(contains(below, setting.name)) << below;
   }
 }
 
 TEST(Settings, BadValuesAreRefusedAndChangeNothing) {
   Settings settings;
-  const std::string before = settingsToJson(settings);
+  const Settings before = settings;
   for (const char* bad : {"solver.lambda=nan", "solver.lambda=inf", "matrix.rays=", "matrix.rays=12x",
                           "matrix.rays=1.5", "matrix.rays=-1", "matrix.rays=99999999999", "matrix.jitter=2",
                           "camera.pcf=2", "voxel.resolution", "=3", "", "matrix.hit_rule=0"})
     EXPECT_NE(usageError([&] { applySetting(settings, bad); }), "(no error)") << bad;
-  EXPECT_EQ(settingsToJson(settings), before);
+  EXPECT_EQ(settings, before);
   EXPECT_TRUE(contains(usageError([&] { applySetting(settings, "camera.pcf=4"); }), "1 | 3 | 5 taps"));
 }
 
@@ -139,40 +149,25 @@ TEST(Settings, UnknownNamesListNearMatches) {
   EXPECT_TRUE(contains(message("matrix.format=padd"), "did you mean padded"));
   EXPECT_TRUE(contains(message("voxel.normals=octo16"), "did you mean oct16"));
   EXPECT_TRUE(contains(message("sample.filter=zzz"), "nearest | linear | blur"));
-  EXPECT_TRUE(contains(usageError([&] { settingValue(settings, "solver.lamda"); }), "solver.lambda"));
+  EXPECT_TRUE(contains(usageError([&] { findSetting("solver.lamda"); }), "solver.lambda"));
 }
 
 TEST(Settings, JsonIsAllOrNothing) {
   Settings settings;
-  const std::string before = settingsToJson(settings);
+  const Settings before = settings;
   for (const char* bad : {R"({"matrix.rays": 7, "matrix.rayz": 8})", R"({"matrix.rays": 7, "voxel.resolution": 1e9})",
                           R"({"matrix.rays": [7]})", R"({"matrix.rays": null})", "[]", "{", ""})
     EXPECT_NE(usageError([&] { settingsFromJson(settings, bad); }), "(no error)") << bad;
-  EXPECT_EQ(settingsToJson(settings), before);
+  EXPECT_EQ(settings, before);
   settingsFromJson(settings, R"({"matrix.rays": 7})");
   EXPECT_EQ(settings.matrix.gpu.rays, 7u);
-}
-
-TEST(Settings, DifferenceIsTheFirstStageToRedo) {
-  Settings a, b;
-  EXPECT_EQ(difference(a, b), Redo::Nothing);
-  b.camera.exposureEv = 2;
-  EXPECT_EQ(difference(a, b), Redo::Nothing);
-  b.specular.gpu.rays = 9;
-  EXPECT_EQ(difference(a, b), Redo::Shade);
-  b.solver.gpu.lambda = 0.5f;
-  EXPECT_EQ(difference(a, b), Redo::Solve);
-  b.matrix.gpu.seed = 1;
-  EXPECT_EQ(difference(a, b), Redo::Matrix);
-  b.voxel.facets = 1;
-  EXPECT_EQ(difference(a, b), Redo::Voxels);
 }
 
 TEST(Presets, ThesisIsTable5OnEveryDevice) {
   for (const bool cpu : {false, true}) {
     Settings s = defaultSettings(cpu);
     applyPreset(s, "thesis", cpu);
-    const auto is = [&](const char* name, const char* value) { EXPECT_EQ(settingValue(s, name), value) << name; };
+    const auto is = [&](const char* name, const char* value) { EXPECT_EQ(findSetting(name).text(s), value) << name; };
     is("voxel.resolution", "256");
     is("matrix.rays", "384");
     is("voxel.normals", "axis26");
@@ -218,14 +213,14 @@ TEST(Presets, EachIsTheSameWhateverCameBeforeAndKeepsTheSeed) {
     applyPreset(direct, name, true);
     for (const std::string& other : presetNames()) applyPreset(detour, other, true);
     applyPreset(detour, name, true);
-    EXPECT_EQ(settingsToJson(direct), settingsToJson(detour)) << name;
+    EXPECT_EQ(direct, detour) << name;
     EXPECT_EQ(direct.matrix.gpu.seed, 42u);
-    for (const SettingInfo& info : settingInfos(direct))  // a preset stays within the ranges
-      EXPECT_NO_THROW(applySetting(direct, fmt::format("{}={}", info.meta.name, info.value)));
+    for (const Setting& setting : settingTable())  // a preset stays within the ranges
+      EXPECT_NO_THROW(applySetting(direct, fmt::format("{}={}", setting.name, setting.text(direct))));
   }
   Settings balanced = defaultSettings(true);
   applyPreset(balanced, "balanced", true);
-  EXPECT_EQ(difference(balanced, defaultSettings(true)), Redo::Nothing);
+  EXPECT_EQ(balanced, defaultSettings(true));
   EXPECT_TRUE(contains(usageError([] {
                          Settings s;
                          applyPreset(s, "thesys");
@@ -244,4 +239,4 @@ TEST(NearMatch, KnownDistances) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::settings_suite

@@ -1,14 +1,15 @@
 // SPIR-V reflection, run-time compilation and reload.
 #include <fstream>
 
-#include "renderer/error.h"
-#include "renderer/frame.h"
+#include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "shaders/embedded.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::shader_suite {
 namespace {
 
-const std::filesystem::path kRoot = IRAD_SOURCE_DIR;
+const std::filesystem::path kRoot = sourceFolder();
 
 std::vector<uint32_t> compileTest(const char* name) {
   return compileGlsl(kRoot / "shaders", (kRoot / "tests/shaders" / name).string());
@@ -21,6 +22,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 TEST(Reflection, LayoutBindingsAndWorkgroup) {
   const ShaderModule layout = reflect("layout.comp", compileTest("layout.comp"));
   EXPECT_EQ(layout.pushBytes, 80u);
+  EXPECT_EQ(layout.addressOffsets, std::vector<uint32_t>{16});
   EXPECT_EQ(layout.localSize[1], 2u);
   EXPECT_EQ(layout.localSizeId[0], 3u);
   EXPECT_EQ(layout.localSizeId[1], UINT32_MAX);
@@ -52,6 +54,24 @@ TEST(Reflection, LayoutBindingsAndWorkgroup) {
 TEST(Reflection, EveryEmbeddedShaderIsReadable) {
   const ShaderLibrary library;
   for (const std::string& name : library.names()) EXPECT_LE(library.get(name).pushBytes, 128u) << name;
+}
+
+TEST(Reflection, AddressesAreFoundWithinStructsToo) {
+  const ShaderLibrary library;
+  // The facets' six arrays, the field, the hits.
+  EXPECT_EQ(library.get("gi/trace_rays.comp").addressOffsets, (std::vector<uint32_t>{0, 8, 16, 24, 32, 40, 56, 64}));
+  EXPECT_EQ(library.get("raster/store_depth.comp").addressOffsets, std::vector<uint32_t>{0});
+}
+
+TEST(Reflection, NoShaderNeedsGeometryShaders) {
+  // A capability that the device feature grants; gl_Layer and gl_PrimitiveID in a fragment shader ask for it, too.
+  constexpr uint32_t kCapability = 17, kGeometry = 2;
+  const ShaderLibrary library;
+  for (const std::string& name : library.names()) {
+    const std::vector<uint32_t>& spirv = library.get(name).spirv;
+    for (size_t at = 5; at < spirv.size() && (spirv[at] & 0xFFFF) == kCapability; at += spirv[at] >> 16)
+      EXPECT_NE(spirv.at(at + 1), kGeometry) << name;
+  }
 }
 
 TEST(Reflection, UnknownShaderNamesNearOnes) {
@@ -105,7 +125,7 @@ TEST_F(Reload, BrokenShaderKeepsTheOldOnes) {
   const Image result(own.device, {.name = "result", .format = VK_FORMAT_R32_UINT});
   const auto run = [&](const char* name) {
     Frame frame = own.begin();
-    frame.pass("Run").shader(name).write(result).dispatchGroups(1);
+    frame.pass("Run").shader(name).write(result).dispatch(1);
     frame.submitAndWait();
     return static_cast<int>(download(own, result)[0]);
   };
@@ -130,7 +150,7 @@ TEST_F(Reload, BrokenShaderKeepsTheOldOnes) {
   EXPECT_EQ(run("t/a.comp"), 41);
   EXPECT_EQ(run("t/b.comp"), 42);
 
-  // Valid, but the program does not know of its second image.
+  // Valid, but with a second image that the program does not know.
   std::string moved = source("imageLoad(other, ivec2(0)).x");
   moved.insert(moved.find("layout(set"), "layout(set = 0, binding = 1, r32ui) uniform uimage2D other;\n");
   write(folder.path / "t/b.comp", moved);
@@ -150,5 +170,39 @@ TEST_F(Reload, BrokenShaderKeepsTheOldOnes) {
   EXPECT_NE(library.reload(folder.path / "nowhere").errors, "");
 }
 
+TEST(Variants, AreTheirSourceWithADefinitionMore) {
+  size_t variants = 0;
+  const ShaderLibrary library;
+  for (const EmbeddedShader& shader : embeddedShaders()) {
+    if (shader.definition == std::string_view()) continue;
+    ++variants;
+    const std::vector<uint32_t> compiled = compileGlsl(kRoot / "shaders", shader.source, shader.definition);
+    EXPECT_EQ(withoutDebugInfo(compiled), withoutDebugInfo(shader.spirv)) << shader.name;
+    EXPECT_NE(withoutDebugInfo(shader.spirv), withoutDebugInfo(library.get(shader.source).spirv)) << shader.name;
+  }
+  EXPECT_GT(variants, 0u);
+}
+
+TEST(Variants, AreReloadedWithTheirSource) {
+  const TemporaryFolder folder;
+  const std::string name = "gi/trace_rays.comp";
+  std::filesystem::copy(kRoot / "shaders", folder.path, std::filesystem::copy_options::recursive);
+  for (const EmbeddedShader& shader : embeddedShaders())
+    if (shader.source != name) std::filesystem::remove(folder.path / shader.source);
+  ShaderLibrary library;
+  ShaderReload reload = library.reload(folder.path);
+  EXPECT_EQ(reload.errors, "");
+  EXPECT_TRUE(reload.changed.empty());
+
+  std::ifstream in(folder.path / name);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string row = "p.firstRow + ray";
+  ASSERT_NE(text.find(row), std::string::npos);
+  write(folder.path / name, text.replace(text.find(row), row.size(), "1u + " + row));
+  reload = library.reload(folder.path);
+  EXPECT_EQ(reload.errors, "");
+  EXPECT_EQ(reload.changed, (std::vector<std::string>{name, "gi/trace_rays_jfa.comp"}));
+}
+
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::shader_suite

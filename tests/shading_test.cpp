@@ -9,7 +9,7 @@
 #include "shaders/shared/sampling.h"
 #include "tests/forward_support.h"
 
-namespace irad::test {
+namespace irad::test::shading_suite {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -43,7 +43,7 @@ TEST_F(Shading, ManyLightsAddUp) {
   settings.light.shadowResolution = 64;
   for (const uint32_t count : {UNIFORM_LIGHTS, UNIFORM_LIGHTS + 1}) {
     SceneBuilder b = floorScene();
-    // Uneven shares, the last light the strongest, so that a light read twice or left out shows.
+    // Uneven shares, the last light being the strongest, so that a light that is read twice or left out shows.
     const float unit = 10.0f / (count * (count + 1) / 2);
     for (uint32_t i = 1; i <= count; ++i) b.addLight(LightType::Sun, i * unit).direction = {0, -1, 0};
     Stage stage(context(), b.finish(), settings);
@@ -286,4 +286,4 @@ TEST_F(Shading, NormalMapTiltsTheNormal) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::shading_suite

@@ -5,7 +5,7 @@
 
 #include "tests/forward_support.h"
 
-namespace irad::test {
+namespace irad::test::shadow_suite {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -207,7 +207,7 @@ TEST_F(Shadow, LightsThatDoNotShineGetNoMapAndNoDraw) {
   EXPECT_EQ(device.shining.size(), 1u);
   EXPECT_EQ(drawn([](const GpuLight& l) { return l.type == LIGHT_POINT; }).draws, 6 * draws);
   EXPECT_EQ(drawn(hasIntensity).draws, 7 * draws);
-  // Nothing shines: nothing is drawn or made. The lights are all there, for the views, in their order.
+  // Nothing shines, so nothing is drawn or made. All lights are still there for the views, in their order.
   const Counters dark = drawn([](const GpuLight&) { return false; });
   EXPECT_EQ(dark.draws, 0u);
   EXPECT_EQ(dark.images, 0u);
@@ -218,4 +218,4 @@ TEST_F(Shadow, LightsThatDoNotShineGetNoMapAndNoDraw) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::shadow_suite

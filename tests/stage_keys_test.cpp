@@ -1,50 +1,47 @@
 // A stage is due where what it reads has changed by content, and only there.
 #include "gi/stage_keys.h"
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "gi/pipeline.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/effects_fixture.h"
+#include "tests/setting_values.h"
 
-namespace irad::test {
+namespace irad::test::stage_keys_suite {
 namespace {
-
-/// Another value of a setting, within its range.
-template <class Member>
-void change(Member&& member, const Meta& meta) {
-  const auto other = [&](auto value) {
-    return static_cast<double>(value) == meta.max ? static_cast<decltype(value)>(meta.min)
-                                                  : static_cast<decltype(value)>(meta.max);
-  };
-  if constexpr (requires { member.value; })
-    member.value = member.value == 0 ? 1 : 0;
-  else if constexpr (std::is_enum_v<std::remove_reference_t<Member>>)
-    member = static_cast<std::remove_reference_t<Member>>(member == std::remove_reference_t<Member>{} ? 1 : 0);
-  else if constexpr (std::is_same_v<std::remove_reference_t<Member>, bool>)
-    member = !member;
-  else
-    member = other(member);
-}
 
 TEST(StageKeys, EverySettingMakesItsStageDueAndNoEarlierOne) {
   const SceneContent content{1, 2};
   const Settings before = defaultSettings(/*cpuDevice=*/true);
-  size_t settings = 0;
-  Settings walk = before;
-  visit(walk, [&](auto&&, const Meta& which) {
-    ++settings;
+  for (const Setting& setting : settingTable()) {
     Settings after = before;
-    visit(after, [&](auto&& member, const Meta& meta) {
-      if (std::string_view(meta.name) == which.name) change(member, meta);
-    });
-    ASSERT_NE(settingValue(before, which.name), settingValue(after, which.name)) << which.name;
-    const Redo expected = which.redo < Redo::Shade ? which.redo : Redo::Nothing;
-    EXPECT_EQ(firstDifference(stageKeys(content, before), stageKeys(content, after)), expected) << which.name;
-  });
-  EXPECT_GT(settings, 50u);
+    setting.set(after, anotherValue(setting, before));
+    ASSERT_NE(before, after) << setting.name;
+    ASSERT_NE(setting.text(before), setting.text(after)) << setting.name;
+    const Redo expected = setting.redo < Redo::Shade ? setting.redo : Redo::Nothing;
+    EXPECT_EQ(firstDifference(stageKeys(content, before), stageKeys(content, after)), expected) << setting.name;
+    EXPECT_EQ(firstDifference(before, after), expected) << setting.name;
+  }
+  EXPECT_GT(settingTable().size(), 50u);
+}
+
+TEST(StageKeys, OfSeveralSettingsTheFirstStageIsDue) {
+  Settings a, b;
+  const auto first = [&] { return firstDifference(a, b); };
+  EXPECT_EQ(first(), Redo::Nothing);
+  EXPECT_EQ(a, b);
+  b.camera.exposureEv = 2;
+  EXPECT_EQ(first(), Redo::Nothing);
+  b.specular.gpu.rays = 9;
+  EXPECT_EQ(first(), Redo::Nothing) << "shading alone";
+  EXPECT_NE(a, b);
+  b.solver.gpu.lambda = 0.5f;
+  EXPECT_EQ(first(), Redo::Solve);
+  b.matrix.gpu.seed = 1;
+  EXPECT_EQ(first(), Redo::Matrix);
+  b.voxel.facets = 1;
+  EXPECT_EQ(first(), Redo::Voxels);
 }
 
 TEST(StageKeys, SurfacesAreWhatVoxelsAreMadeOfLightsWhatIsGathered) {
@@ -207,7 +204,7 @@ TEST_F(Dirty, ASceneReadAgainKeepsWhatItsSurfacesHaveMade) {
   EXPECT_FALSE(pipeline->asleep());
   pipeline->prepare();
   EXPECT_EQ(pipeline->revision().build, built);
-  // A moved vertex takes a pipeline of its own; this one stays, and so does what was read.
+  // A moved vertex needs a new pipeline; this one stays, and so does the scene that was read.
   Scene moved = room();
   moved.positions[0].y += 0.1f;
   EXPECT_FALSE(pipeline->adopt(moved));
@@ -226,7 +223,7 @@ TEST_F(Dirty, ARebuildThatWasCancelledOwesTheMatrixItGaveUp) {
   Settings other = settings_;
   other.voxel.resolution = 24;
   pipeline->set(other);
-  int rows = 0;  // reports of the matrix: the first comes before the old one is given up
+  int rows = 0;  // reports of the matrix build; the first comes before the old matrix is given up
   EXPECT_THROW(pipeline->prepare([&](const char* stage, float) {
     rows += std::string_view(stage) == "GI BuildMatrix" ? 1 : 0;
     return rows < 2;
@@ -241,4 +238,4 @@ TEST_F(Dirty, ARebuildThatWasCancelledOwesTheMatrixItGaveUp) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::stage_keys_suite

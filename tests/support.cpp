@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "gi/check/process.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad::test {
 Gpu& gpu() {
-  // Shared by the tests of a suite's process; the order of members is the reverse order of destruction.
+  // Shared by the tests of a suite's process. Members are destroyed in reverse order.
   static Gpu shared = [] {
     Gpu g;
     g.device = Device::create({.validate = true});
@@ -35,14 +35,32 @@ void GpuTest::TearDown() {
 std::optional<std::filesystem::path> sharedScenes() {
   const char* variable = std::getenv("IRAD_SHARED");
   const std::filesystem::path shared =
-      variable ? std::filesystem::path(variable) : std::filesystem::path(IRAD_SOURCE_DIR).parent_path() / "shared";
+      variable ? std::filesystem::path(variable) : sourceFolder().parent_path() / "shared";
   std::error_code ignored;
   if (!std::filesystem::is_directory(shared / "scenes", ignored)) return std::nullopt;
   return shared / "scenes";
 }
 
 std::filesystem::path assets() {
-  return std::filesystem::path(IRAD_SOURCE_DIR) / "assets";
+  return sourceFolder() / "assets";
+}
+
+// Paths of this machine stand on the command line of this file alone, so that a compiler cache serves the others from
+// any folder.
+std::filesystem::path sourceFolder() {
+  return IRAD_SOURCE_DIR;
+}
+
+std::string iradProgram() {
+  return IRAD_BINARY;
+}
+
+std::filesystem::path buildFolder() {
+  return std::filesystem::path(IRAD_BINARY).parent_path();
+}
+
+bool everything() {
+  return std::getenv("IRAD_TEST_ALL") != nullptr;
 }
 
 std::string slurp(const std::filesystem::path& path) {
@@ -63,7 +81,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSeconds) {
-  return runProgram(IRAD_BINARY, arguments, timeoutSeconds);
+  return runProgram(iradProgram(), arguments, timeoutSeconds);
 }
 
 RunResult runProgram(const std::string& program, const std::vector<std::string>& arguments, double timeoutSeconds) {

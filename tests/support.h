@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
-#include "renderer/frame.h"
-#include "renderer/temporary_folder.h"
+#include "renderer/base/temporary_folder.h"
+#include "renderer/frame/frame.h"
 
 namespace irad::test {
 
@@ -37,6 +37,15 @@ class GpuTest : public ::testing::Test {
 /// ../shared/scenes (or $IRAD_SHARED/scenes), nullopt where absent: GTEST_SKIP() << "..." then.
 std::optional<std::filesystem::path> sharedScenes();
 std::filesystem::path assets();
+std::filesystem::path sourceFolder();  ///< the checkout
+std::filesystem::path buildFolder();
+std::string iradProgram();  ///< the program's path
+
+/// Whether `./test --all` asked for what takes minutes: $IRAD_TEST_ALL is set.
+bool everything();
+/// For tests that take minutes where other tests are a quick sample of them.
+#define IRAD_ONLY_WITH_ALL() \
+  if (!::irad::test::everything()) GTEST_SKIP() << "takes long: ./test --all runs it"
 
 using irad::TemporaryFolder;
 

@@ -8,7 +8,7 @@ namespace irad::test {
 inline const char* shader(const char* name) {
   for (const std::string& known : gpu().shaders->names())
     if (known == name) return name;
-  const std::filesystem::path root = IRAD_SOURCE_DIR;
+  const std::filesystem::path root = sourceFolder();
   gpu().shaders->add(name, compileGlsl(root / "shaders", (root / "tests/shaders" / name).string()));
   return name;
 }

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "gi/ticks.h"
+#include "renderer/base/ticks.h"
 
-namespace irad {
+namespace irad::ticks_suite {
 namespace {
 
 void expectTicks(const std::vector<double>& got, const std::vector<double>& expected) {
@@ -30,4 +30,4 @@ TEST(Ticks, NoneWhereThereIsNoRange) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::ticks_suite

@@ -1,6 +1,6 @@
 // Statistics of timings: percentiles by nearest rank, sums per frame, the CSV of T Tables 6-10; recordings read back;
 // comparisons that find a change and pass over noise.
-#include "renderer/timings.h"
+#include "renderer/base/timings.h"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 #include <random>
 #include <sstream>
 
-#include "renderer/compare_timings.h"
-#include "renderer/csv.h"
-#include "renderer/error.h"
-#include "renderer/recording.h"
+#include "renderer/base/compare_timings.h"
+#include "renderer/base/csv.h"
+#include "renderer/base/error.h"
+#include "renderer/base/recording.h"
 #include "tests/support.h"
 
-namespace irad {
+namespace irad::timings_suite {
 namespace {
 
 TEST(Statistics, KnownAnswers) {
@@ -321,4 +321,4 @@ TEST(Comparison, PairsStagesOfOneKindAndWholeGroupsOfTheCommonestWork) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::timings_suite

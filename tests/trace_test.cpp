@@ -1,4 +1,4 @@
-// Rays on the device against the double-precision oracle (METHOD sections 3, 5); the traversals against each other are
+// Rays on the device against the double-precision oracle (docs/method.md 3, 5); the traversals against each other are
 // `irad check traversal`.
 #include <bit>
 #include <cmath>
@@ -8,9 +8,10 @@
 #include "gi/host_facets.h"
 #include "gi/ray_kernel.h"
 
+#include "gi/subsystems.h"
 #include "tests/gi_fixture.h"
 
-namespace irad::test {
+namespace irad::test::trace_suite {
 namespace {
 
 class Trace : public GiTest {
@@ -33,12 +34,12 @@ class Trace : public GiTest {
         found += got <= TRACE_LAST_FACET;
         if (got == expected.facet) continue;
         ++wrong;
-        // Only where the decision is too close for fp32: 1e-3 voxels over paths of up to 50.
+        // They may differ only where a decision is too close for fp32: 1e-3 voxels over paths of up to 50.
         EXPECT_LT(expected.margin, 1e-3) << "facet " << f << " ray " << k << ": met " << got << " instead of "
                                          << expected.facet << " at " << expected.t;
       }
-    fmt::print("rule {}: {} of {} rays differ from the oracle, {} met a facet\n", params.hitRule, wrong, met.size(),
-               found);
+    fmt::print("rule {}: {} of {} rays differ from the oracle, {} met a facet\n", nameOf(params.hitRule), wrong,
+               met.size(), found);
     EXPECT_LE(wrong, met.size() / 10000);
     EXPECT_GT(found, met.size() / 2);
     return met;
@@ -53,7 +54,7 @@ TEST_F(Trace, HitsEqualTheOracle) {
   MatrixParams params = settings.matrix.gpu;
   params.rays = 1 + 110000 / w.facets.count;
   params.traversal = TRAVERSAL_SDF;
-  for (const uint32_t rule : {HIT_RULE_ROBUST, HIT_RULE_THESIS}) {
+  for (const HitRule rule : {HIT_RULE_ROBUST, HIT_RULE_THESIS}) {
     params.hitRule = rule;
     ASSERT_GE(expectOracle(w, host, params).size(), 100000u);
   }
@@ -156,7 +157,7 @@ TEST_F(Trace, FacesEndAtConvexEdges) {
         invalid += hit == TRACE_INVALID;
         continue;
       }
-      // How much of the ray is within a voxel of the block, in its own axes.
+      // How much of the ray lies within a voxel of the block, in the block's own axes.
       const oracle::Ray ray = oracle::facetRay(host, f, k, params);
       const glm::dvec3 o = glm::transpose(turn) * (ray.origin - centre), d = glm::transpose(turn) * ray.direction;
       double enter = 0, leave = 1e9;
@@ -179,4 +180,4 @@ TEST_F(Trace, FacesEndAtConvexEdges) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::trace_suite

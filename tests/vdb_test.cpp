@@ -7,7 +7,7 @@
 #include "gi/export.h"
 #include "tests/support.h"
 
-namespace irad {
+namespace irad::vdb_suite {
 namespace {
 
 class Vdb : public ::testing::Test {
@@ -139,4 +139,4 @@ TEST_F(Vdb, VdbPrintReadsIt) {
 }
 
 }  // namespace
-}  // namespace irad
+}  // namespace irad::vdb_suite

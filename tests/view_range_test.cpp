@@ -1,12 +1,12 @@
 // How the values of a view with a range become colours: the range itself, the maps, the marks.
 #include <gtest/gtest.h>
 
-#include "gi/view_passes.h"
+#include "gi/views/passes.h"
 #include "shaders/shared/color_map.h"
 #include "shaders/shared/view.h"
 #include "tests/support.h"
 
-namespace irad::test {
+namespace irad::test::view_range_suite {
 namespace {
 
 constexpr glm::uvec2 kSize{50, 20};
@@ -36,7 +36,7 @@ class Ranges : public GpuTest {
     std::memcpy(shown.display.data(), display.data(), display.size());
     return shown;
   }
-  /// 1, 2, 3 ... in an order that is not theirs.
+  /// 1, 2, 3 ... shuffled.
   static std::vector<glm::vec4> ramp(float sign = 1) {
     std::vector<glm::vec4> values;
     for (uint32_t i = 0; i < kPixels; ++i)
@@ -97,7 +97,7 @@ TEST_F(Ranges, ManualIsTheUsersAndStandardTheViews) {
   shown = show(*viewInfo(VIEW_ROW_SUM), ramp(), settings);
   EXPECT_EQ(shown.range.low, 0);
   EXPECT_EQ(shown.range.high, 1);
-  EXPECT_EQ(show(scalar, ramp(), settings).range.high, 1000);  // depth has none of its own
+  EXPECT_EQ(show(scalar, ramp(), settings).range.high, 1000);  // depth has no range of its own
 }
 
 TEST_F(Ranges, SignedViewsAreEvenAboutZero) {
@@ -161,12 +161,12 @@ double lightness(const glm::vec3& c) {
 
 TEST(ColorMaps, LightnessIsEven) {
   // Equal steps of the value are equal steps of lightness, to what clamping to the gamut costs.
-  for (const uint32_t map : {COLOR_MAP_VIOLET_YELLOW, COLOR_MAP_HEAT, COLOR_MAP_GREY}) {
+  for (const ColorMap map : {COLOR_MAP_VIOLET_YELLOW, COLOR_MAP_HEAT, COLOR_MAP_GREY}) {
     const double low = lightness(colorMap(map, 0)), high = lightness(colorMap(map, 1));
-    EXPECT_GT(high - low, 0.6) << map;
+    EXPECT_GT(high - low, 0.6) << nameOf(map);
     for (int i = 1; i < 32; ++i)
       EXPECT_NEAR(lightness(colorMap(map, static_cast<float>(i) / 32)), low + (high - low) * i / 32, 0.03)
-          << map << ", " << i;
+          << nameOf(map) << ", " << i;
   }
   // The diverging one: the same to both sides, lightest at zero.
   for (int i = 0; i <= 16; ++i) {
@@ -200,4 +200,4 @@ TEST(Presets, LeaveTheViewAlone) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::view_range_suite

@@ -1,15 +1,17 @@
 // The registry of views and what each draws: composition, colour map, voxels, odd values.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <map>
 #include <numbers>
 #include <set>
 
+#include "gi/emitters.h"
 #include "gi/host_matrix.h"
 #include "shaders/shared/view.h"
 #include "tests/lit_stage.h"
 
-namespace irad::test {
+namespace irad::test::views_suite {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -53,6 +55,22 @@ TEST(ViewRegistry, EnumeratesWhatTheIssueAsksFor) {
                            "distance-chebyshev", "jfa-seeds", "jfa-error", "shadow-map", "error"})
     EXPECT_TRUE(findView(name)) << name;
   EXPECT_FALSE(findView("lot"));
+}
+
+TEST(ViewRegistry, EveryViewIsDrawnFromSomething) {
+  constexpr uint32_t kVolumes = FROM_FACETS | FROM_FACET_VALUES | FROM_MATRIX | FROM_ANY_FIELD;
+  for (const ViewInfo& info : views()) {
+    EXPECT_NE(info.from, 0u) << info.name;
+    // A volume is seen as a shape, but where it is held against a surface in the picture.
+    EXPECT_EQ(info.shape.has_value(), info.isFrom(kVolumes) && !info.isFrom(FROM_TARGETS)) << info.name;
+    EXPECT_EQ(resolveShape(info.view, ViewShape::automatic), info.shape) << info.name;
+    // One set of values per facet, one field, one of everything else.
+    for (const uint32_t only : {FROM_FACET_VALUES, FROM_ANY_FIELD})
+      EXPECT_LE(std::popcount(info.from & only), 1) << info.name;
+    // What qualifies another source stands beside it.
+    EXPECT_TRUE(!info.isFrom(FROM_EXACT) || info.isFrom(FROM_ANY_FIELD)) << info.name;
+    EXPECT_TRUE(!info.isFrom(FROM_EMITTED) || info.isFrom(FROM_TARGETS)) << info.name;
+  }
 }
 
 TEST_F(Views, UnknownIsMagenta) {
@@ -411,4 +429,4 @@ TEST_F(Views, TheErrorAgainstAPictureIsSignedAndRelative) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::views_suite

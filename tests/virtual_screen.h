@@ -27,15 +27,15 @@ inline void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// A program in a folder and an environment of its own, what it prints in a file there. It ends with the test, also one
-/// that is killed: the thread that starts it must be the one that lasts.
+/// A program in a folder and an environment of its own, what it prints in a file there. It ends with the test, even a
+/// test that is killed; therefore the thread that starts it must live as long.
 class Program {
  public:
   Program(const std::vector<std::string>& command, const std::filesystem::path& folder,
           const std::map<std::string, std::string>& environment)
       : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")),
         process_("/usr/bin/setpriv", throughEnv(command, folder, environment), log_, log_) {}
-  /// Asked first, so that a server removes its lock and socket.
+  /// Asked to end first, so that a server removes its lock and socket.
   ~Program() {
     if (!running()) return;
     kill(process_.pid(), SIGTERM);
@@ -61,8 +61,8 @@ class Program {
     fields >> user >> system;
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
-  /// Per thread how often it has run; nothing while one of them runs, or waits for a processor or a disk. Twice the
-  /// same: it slept from one to the other, however little of the machine it is given.
+  /// Per thread how often it has run; nothing while one of them runs, or waits for a processor or a disk. If it is the
+  /// same twice, the program slept in between, however busy the machine is.
   std::optional<std::string> asleep() const {
     std::string runs;
     for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process_.pid()))) {
@@ -143,11 +143,12 @@ class VirtualScreen {
   VirtualScreen(int width, int height) {
     int fds[2] = {};
     if (pipe(fds) != 0) throw std::runtime_error("pipe");
-    // -noreset: else it starts anew, and refuses connections meanwhile, whenever its last client leaves.
+    // -noreset: otherwise it restarts whenever its last client leaves, and refuses connections meanwhile. -r: a key
+    // that is held is one event.
     server_ =
         std::make_unique<Program>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
                                                            fmt::format("{}x{}x24", width, height), "-fbdir",
-                                                           folder_.path.string(), "-nolisten", "tcp", "-noreset"},
+                                                           folder_.path.string(), "-nolisten", "tcp", "-noreset", "-r"},
                                   folder_.path, std::map<std::string, std::string>{});
     close(fds[1]);
     // "N\n", written in two pieces: closing early would kill the server with SIGPIPE.
@@ -164,11 +165,10 @@ class VirtualScreen {
 
   const std::string& display() const { return display_; }
   const Program& server() const { return *server_; }
-  /// Keys, mouse and window, by xdotool's own words; a step later than a frame.
+  /// Keys, mouse and window, by xdotool's own words. They have reached the program's socket when it returns.
   void xdotool(const std::string& arguments) const {
     const std::string command = fmt::format("DISPLAY={} xdotool {}", display_, arguments);
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
-    pause(0.1);
   }
   void key(const std::string& name) const { xdotool("key --delay 40 " + name); }
 

@@ -1,12 +1,17 @@
 // Volumes as slices, cubes, projections and isosurfaces, seen from straight above: a pixel is a column of voxels.
 #include <gtest/gtest.h>
 
+#include "gi/facets.h"
+#include "gi/field.h"
 #include "gi/oracle/fields.h"
+#include "gi/subsystems.h"
+#include "gi/thesis/jump_flood.h"
+#include "gi/voxelize.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/voxelize.h"
 #include "tests/forward_support.h"
 
-namespace irad::test {
+namespace irad::test::volume_views_suite {
 namespace {
 
 /// A floor with a block on it.
@@ -150,7 +155,7 @@ TEST_F(VolumeViews, ASliceOfFacetsShowsTheSolidVoxelsAlone) {
 }
 
 TEST_F(VolumeViews, SlicesAcrossEveryAxisGoThroughTheMiddle) {
-  // Seen from above a slice across x or z is edge on: one column of it at most, and only that of the plane.
+  // Seen from above, a slice across x or z is edge-on: at most one column shows, that of the plane.
   FromAbove world(context());
   world.stage.settings.view.shape = ViewShape::slice;
   EXPECT_EQ(world.draw(VIEW_DISTANCE_CHEBYSHEV).linear,
@@ -252,4 +257,4 @@ TEST_F(VolumeViews, FieldsAreMadeOnceAndGivenUpWhenNothingShowsThem) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::volume_views_suite

@@ -1,4 +1,4 @@
-// What a solid voxel holds: the sides of walls and sheets, normals, offsets, albedo, emission, masks (METHOD section
+// What a solid voxel holds: the sides of walls and sheets, normals, offsets, albedo, emission, masks (docs/method.md
 // 2).
 #include <limits>
 #include <random>
@@ -7,7 +7,7 @@
 #include "shaders/shared/voxelize.h"
 #include "tests/voxels_fixture.h"
 
-namespace irad::test {
+namespace irad::test::voxel_facets_suite {
 namespace {
 
 using VoxelFacetsTest = VoxelsTest;
@@ -26,7 +26,7 @@ TEST_F(VoxelFacetsTest, ThinWallsKeepBothSidesInEitherOrder) {
       soup.quad(left, {x, -0.5f * n, -0.5f * n}, {0, 0, n}, {0, n, 0});               // faces -x
       soup.quad(right, {x + thickness, -0.5f * n, -0.5f * n}, {0, n, 0}, {0, 0, n});  // faces +x
       const Result result = run(soup.build(), with(n, 2));
-      // Away from the room's own corners, where perpendicular walls tie.
+      // Only facets away from the room's own corners, where perpendicular walls tie.
       const auto wall = [](std::vector<Facet> facets) {
         std::erase_if(facets, [](const Facet& f) {
           return f.voxel.x < 8 || f.voxel.x > 18 || f.voxel.y < 3 || f.voxel.y > 22 || f.voxel.z < 3 || f.voxel.z > 22;
@@ -56,7 +56,7 @@ TEST_F(VoxelFacetsTest, OrderOfTrianglesDecidesBetweenEqualsOnly) {
   for (int i = 0; i < 60; ++i) soup.triangle(white, random(), random(), random());
   const Result a = run(soup.build(), with(24, 2)), b = run(soup.build(true), with(24, 2));
   ASSERT_EQ(a.solid, b.solid);
-  // The best key is the same in both orders. Only its last bits, which decide between equals, name another triangle.
+  // The best key is the same in both orders; only its last bits, which decide between equals, name another triangle.
   uint32_t same = 0;
   for (uint32_t i = 0; i < a.grid.voxels; ++i) {
     if (!a.solid[i]) continue;
@@ -232,4 +232,4 @@ TEST_F(VoxelFacetsTest, AlphaMaskCutsAway) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::voxel_facets_suite

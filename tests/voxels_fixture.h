@@ -5,7 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "gi/stages.h"
+#include "gi/facets.h"
+#include "gi/voxelize.h"
 #include "shaders/shared/normals.h"
 #include "tests/soup.h"
 #include "tests/support.h"

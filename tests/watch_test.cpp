@@ -1,15 +1,24 @@
 // The numerical watch: wrong numbers put in at each stage are counted, traced to it and said; the energy balance; the
-// divergence guard (HARD_CASES: divergence, energy).
+// divergence guard (docs/stability.md: divergence, energy).
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/grid.h"
+#include "gi/gather_emitters.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/pipeline.h"
+#include "gi/solve.h"
+#include "gi/subsystems.h"
+#include "renderer/frame/record.h"
 #include "shaders/shared/energy.h"
 #include "tests/gi_fixture.h"
 #include "tests/scene_files.h"
 
-namespace irad::test {
+namespace irad::test::watch_suite {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
@@ -45,7 +54,8 @@ TEST_F(Watch, AWrongNumberIsTracedToItsStageAndFacet) {
     for (const auto& [value, word] : {std::pair{kNan, "NaN"}, {kInf, "infinite"}, {-1.0f, "negative"}}) {
       settings.solver.kernel = kernel;
       Lighting light = makeLighting(context(), w.facets, settings);
-      const auto run = [&] { return solve(context(), w.facets, m, light, settings, 1000, {&emitters, &w.field}); };
+      gatherEmitters(context(), w.facets, m, {&emitters, &w.field}, settings, light);
+      const auto run = [&] { return solve(context(), w.facets, m, light, settings, 1000); };
       const SolveReport good = run();
       ASSERT_TRUE(good.converged);
       ASSERT_FALSE(good.defect);
@@ -85,7 +95,7 @@ TEST_F(Watch, AWrongNumberIsTracedToItsStageAndFacet) {
       expect("GI BuildMatrix", "row sum of form factors");
       put(m.rowInfo, bad, rowInfo[bad]);
 
-      if (value < 0) continue;  // a correction below zero is none's fault; a negative B is replaced by the next sweep
+      if (value < 0) continue;  // a correction may be below zero; a negative B is replaced by the next sweep
       const auto emitted = downloadAs<glm::vec4>(context(), light.emitted),
                  correction = downloadAs<glm::vec4>(context(), light.correction);
       put(light.emitted, bad, glm::vec4(value));
@@ -99,7 +109,7 @@ TEST_F(Watch, AWrongNumberIsTracedToItsStageAndFacet) {
       const SolveReport spread = run();
       ASSERT_TRUE(spread.defect);
       EXPECT_STREQ(spread.defect->stage, "GI Solve");
-      // With its cause a defect goes: the next solve starts from the dark, as the first did.
+      // A defect goes with its cause: the next solve starts from the dark, as the first did.
       const SolveReport again = run();
       EXPECT_TRUE(again.converged);
       EXPECT_FALSE(again.defect);
@@ -133,7 +143,7 @@ TEST_F(Watch, PipelineSaysWhichStageFacetAndFrame) {
     pipeline.prepare();
     ++frame;
     EXPECT_TRUE(pipeline.findings().empty());
-    if (value < 0) continue;  // warm start from another light: the same within the tolerance
+    if (value < 0) continue;  // a warm start from another light is equal only within the tolerance
     EXPECT_EQ(bits(pipeline.lighting().indirect), before);
   }
 }
@@ -147,7 +157,7 @@ TEST(WatchedPicture, NamesCountsAndTheFirstPixel) {
   picture[5].z = kInf;
   picture[11] = {kNan, kInf, -1, 1};
   EXPECT_EQ(findBadPixels(picture, {4, 3}, true), "1 NaN, 1 infinite, 1 negative of 12 pixels, the first at 1, 1");
-  picture[0].w = kNan;  // no colour
+  picture[0].w = kNan;  // alpha, not a colour
   EXPECT_EQ(findBadPixels(picture, {4, 3}, false), "1 NaN, 1 infinite, 0 negative of 12 pixels, the first at 1, 1");
 }
 
@@ -216,7 +226,7 @@ TEST_F(Watch, EnergyInIsEnergyOut) {
   // The same bits again, whatever the order in which workgroups ran.
   const EnergyBalance again = balance(context(), facets, light);
   EXPECT_EQ(std::memcmp(&again, &energy, sizeof(energy)), 0);
-  // Light that is lost is seen: a quarter of H.
+  // Lost light is noticed: a quarter of H.
   auto less = h;
   for (glm::vec4& v : less) v *= 0.75f;
   upload(context(), light.indirect, std::as_bytes(std::span(less)));
@@ -228,7 +238,7 @@ TEST_F(Watch, EnergyInIsEnergyOut) {
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0].severity, Finding::Severity::Warning);
 
-  // An artistic gain has no balance.
+  // With an artistic gain there is no balance to check.
   settings.solver.gpu.lambda = 0.8f;
   pipeline.set(settings);
   pipeline.prepare();
@@ -284,6 +294,20 @@ TEST_F(Guard, DivergenceIsStoppedAndTheLightFromBeforeKept) {
     }
 }
 
+TEST_F(Guard, EdgesAreRemovedFromTheLightThatWasPutBack) {
+  Settings settings = gained(0.8f);
+  settings.sample.gpu.gated = 0;
+  settings.scatter.edgeRemoval = true;
+  Pipeline pipeline(context(), furnaceBox(0.9f), settings);
+  pipeline.prepare();
+  const std::vector<std::byte> before = download(context(), pipeline.lighting().volume);
+  settings.solver.gpu.lambda = 2;
+  pipeline.set(settings);
+  pipeline.prepare();
+  ASSERT_TRUE(pipeline.lighting().report.diverging);
+  EXPECT_EQ(download(context(), pipeline.lighting().volume), before);
+}
+
 TEST_F(Guard, GrowthThatEndsIsDampedAndConverges) {
   // A chain: facet i sees facet i - 1 alone, with gain 1.5. Nothing returns, so that the spectral radius is 0; but the
   // first facet's light grows along the chain, sweep after sweep.
@@ -307,10 +331,11 @@ TEST_F(Guard, GrowthThatEndsIsDampedAndConverges) {
   m.segments.push_back(makeBuffer(context(), "chain", Subsystem::Matrix, std::span<const uint32_t>(entries)));
   m.rowStart = makeBuffer(context(), "starts", Subsystem::Matrix, std::span<const uint32_t>(starts));
   m.rowInfo = makeBuffer(context(), "info", Subsystem::Matrix, std::span<const glm::uvec2>(info));
-  const Buffer segments =
-      makeBuffer(context(), "segments", Subsystem::Matrix, std::span<const uint64_t>(&m.segments[0].address, 1));
-  const MatrixArrays record{segments.address, m.rowStart.address, m.rowInfo.address, kFacets, 31, 8, 0};
-  m.record = makeBuffer(context(), "record", Subsystem::Matrix, std::span<const MatrixArrays>(&record, 1));
+  RecordMaker table(context(), "segments", Subsystem::Matrix, sizeof(uint64_t));
+  const Buffer segments = table.make(table.of(m.segments[0]));
+  RecordMaker record(context(), "record", Subsystem::Matrix, sizeof(MatrixArrays));
+  m.record =
+      record.make(MatrixArrays{record.of(segments), record.of(m.rowStart), record.of(m.rowInfo), kFacets, 31, 8, 0});
 
   Lighting light = makeLighting(context(), facets, settings);
   put(light.direct, 0, glm::vec4(1, 0, 0, 0));
@@ -333,7 +358,7 @@ TEST_F(Guard, GrowthThatEndsIsDampedAndConverges) {
 TEST(WatchedCommands, DivergenceEndsWithStatusOne) {
   const TemporaryFolder folder;
   const std::vector<std::string> quick{"--set", "voxel.resolution=24", "--set", "matrix.rays=32",
-                                       "--set", "solver.lambda=2"};
+                                       "--set", "solver.lambda=2",     "--set", "light.shadow_resolution=64"};
   const auto run = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), quick.begin(), quick.end());
     return runIrad(arguments);
@@ -397,4 +422,4 @@ TEST_F(Watch, FromTheDarkTheSameLightComesBack) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::watch_suite

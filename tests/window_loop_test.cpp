@@ -11,10 +11,11 @@
 #include <fstream>
 #include <set>
 
+#include "tests/controls.h"
 #include "tests/virtual_screen.h"
 #include "ui/window.h"
 
-namespace irad::test {
+namespace irad::test::window_loop_suite {
 namespace {
 
 std::atomic<bool> iconified = false;
@@ -28,7 +29,7 @@ double processSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Of the picture where neither panels nor messages are (window_fixture.h).
+/// The part of the picture where there are neither panels nor messages (window_fixture.h).
 ScreenPart viewport(const VirtualScreen& screen) {
   return screen.grab(400, 100, 500, 380);
 }
@@ -57,6 +58,7 @@ class WindowLoop : public ::testing::Test {
     options_.settings.voxel.resolution = 24;
     options_.settings.matrix.gpu.rays = 16;
     options_.preferences = folder_.path / "window.json";
+    options_.controls = folder_.path / "controls";
     std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
   }
   void TearDown() override {
@@ -65,16 +67,37 @@ class WindowLoop : public ::testing::Test {
     for (const std::string& message : device_->validationMessages()) ADD_FAILURE() << message;
   }
 
-  /// The window from its start until `user` has ended and pressed Esc.
-  void run(const std::function<void()>& user) {
+  /// The window from its start until `user` has ended and pressed Ctrl + Q.
+  void run(const std::function<void()>& user, bool discards = false) {
     std::thread thread([&] {
       screen_->xdotool("mousemove 360 510");  // out of the part looked at: the server draws its pointer
       EXPECT_TRUE(until([&] { return rests() && viewport(*screen_).deviation() > 0.02; })) << "no picture";
       user();
-      screen_->key("Escape");
+      screen_->key("ctrl+q");
+      if (discards) click("Unsaved changes/Discard");
     });
     EXPECT_NO_THROW(runWindow(*context_, options_));
     thread.join();
+  }
+  void click(const std::string& name) {
+    const auto find = [&] {
+      const std::vector<Control> all = readControls(options_.controls);
+      return std::find_if(all.begin(), all.end(), [&](const Control& c) { return c.name == name; }) != all.end();
+    };
+    EXPECT_TRUE(until(find)) << "no " << name;
+    const Control::Area at = findControl(readControls(options_.controls), name).area;
+    screen_->xdotool(fmt::format("mousemove {} {} sleep 0.2 mousedown 1 sleep 0.2 mouseup 1", at.x + at.width / 2,
+                                 at.y + at.height / 2));
+  }
+  /// Of the first setting in view.
+  std::string placeOfSetting() const {
+    for (const Control& c : readControls(options_.controls)) {
+      const int x = c.area.x + c.area.width / 2, y = c.area.y + c.area.height / 2;
+      if (c.name.starts_with("Settings/") && c.name.find('.') != std::string::npos && c.region.holds(x, y))
+        return fmt::format("{} {}", x, y);
+    }
+    ADD_FAILURE() << "no setting is in view";
+    return "360 510";
   }
   /// Nothing was asked of the device for a second, nor computed: on a busy machine a frame takes longer than that.
   bool rests() const {
@@ -103,8 +126,8 @@ class WindowLoop : public ::testing::Test {
 
 TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
   run([&] {
-    // Wherever the mouse lies: over the picture, over a setting with its tooltip, over a plot's.
-    for (const char* place : {"360 510", "200 380", "800 620"}) {
+    // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
+    for (const std::string& place : {std::string("360 510"), placeOfSetting(), std::string("800 620")}) {
       screen_->xdotool(fmt::format("mousemove {}", place));
       ASSERT_TRUE(until([&] { return rests(); })) << "mouse at " << place;
       const Counters before = context_->counters();
@@ -144,7 +167,7 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
 TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
   double from = 0, to = 0;
   ScreenPart first, moved;
-  run([&] {
+  const auto user = [&] {
     first = viewport(*screen_);
     from = timings_.now();
     // The handle of the Box's spot light, in the upper right of the picture.
@@ -154,7 +177,8 @@ TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
     EXPECT_TRUE(until([&] { return rests(); }));
     moved = viewport(*screen_);
     to = timings_.now();
-  });
+  };
+  run(user, /*discards=*/true);
   EXPECT_GT(moved.difference(first), 0.1) << "the light is not dragged";
   const std::set<std::string> stages = stagesBetween(from, to);
   for (const char* stage : {"RE Shadow", "GI Gather", "GI Solve", "GI Scatter"})
@@ -181,7 +205,7 @@ TEST_F(WindowLoop, SleepsWhileItHasNoArea) {
   run([&] {
     const ScreenPart first = viewport(*screen_);
 
-    // Another view is wanted while nothing can be drawn: no frame, and no spinning either.
+    // Another view is asked for while nothing can be drawn: no frame follows, and no busy waiting.
     iconified = true;
     screen_->key("2");
     pause(1);
@@ -190,7 +214,7 @@ TEST_F(WindowLoop, SleepsWhileItHasNoArea) {
     EXPECT_LE(processSeconds() - used, 0.1) << "seconds of processor time in 2 s without area";
     EXPECT_EQ(viewport(*screen_), first);
 
-    // It comes with the area, without any further event.
+    // The frame comes when there is an area again, without any further event.
     iconified = false;
     EXPECT_TRUE(until([&] { return viewport(*screen_).difference(first) > 0.05; }))
         << "nothing is drawn once there is area";
@@ -200,7 +224,7 @@ TEST_F(WindowLoop, SleepsWhileItHasNoArea) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::window_loop_suite
 
 #else
 

@@ -1,7 +1,7 @@
 // The window itself: keys and mouse, layout, size, scenes opened, what it refuses to show.
 #include "tests/window_fixture.h"
 
-namespace irad::test {
+namespace irad::test::window_suite {
 namespace {
 
 TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
@@ -47,8 +47,7 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }))
       << "C twice did not return to the first camera";
 
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0) << "status after Esc, with validation on";
+  quit();
 }
 
 TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
@@ -69,8 +68,7 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   key("F2");
   ASSERT_TRUE(settles(column, [&](const ScreenPart& p) { return p.difference(panels) < 0.05; }));
 
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowTest, SaysWhyAPictureIsBlack) {
@@ -86,18 +84,18 @@ TEST_F(WindowTest, SaysWhyAPictureIsBlack) {
       uint32_t{words.at(10, 10, 0)} << 16 | uint32_t{words.at(10, 10, 1)} << 8 | words.at(10, 10, 2);
   EXPECT_GT(words.count(background), 270 * 150 / 2);
 
-  // Not over a picture that is not of light; not once there is a light.
+  // The hint is not shown over a picture that is not of light, nor once there is a light.
   key("6");
   ASSERT_TRUE(settles(around, [](const ScreenPart& p) { return p.meanLuminance() > 0.1; })) << "no albedo";
   EXPECT_LT(middle().count(background), 270 * 150 / 10) << "albedo is no light";
   key("1");
   ASSERT_TRUE(settles(middle, text)) << "the words do not come back";
-  xdotool(
-      "mousemove 60 233 sleep 0.5 click 1 sleep 0.5 mousemove 104 259 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  click("Lights");
+  click("Lights/point");
+  away();
   ASSERT_TRUE(settles(around, [](const ScreenPart& p) { return p.meanLuminance() > 0.05; })) << "no light is added";
   EXPECT_LT(middle().count(background), 270 * 150 / 10) << "the words stay";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quitDiscarding();  // the light
 }
 
 TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {
@@ -105,19 +103,16 @@ TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart first = viewport();
-  // In the list behind the arrow of the first row, emissive facets: "off", and "auto" again.
-  const auto choose = [this](int y) {
-    xdotool(
-        fmt::format("mousemove 301 703 sleep 0.5 click 1 sleep 0.8 mousemove 305 {} sleep 0.5 click 1 sleep 0.5", y));
-    xdotool("mousemove 360 510");
-  };
-  choose(679);
+  // In the list behind the arrow of emissive facets: "off", and "auto" again.
+  ASSERT_TRUE(control("Effects/emission").area.bottom() <= 720) << "the effects are out of view";
+  choose("Effects/emission", "off");
+  away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.1; }))
       << "the lamp still shines";
-  choose(651);
+  choose("Effects/emission", "auto");
+  away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; })) << "not auto again";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
@@ -128,23 +123,22 @@ TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
   const auto background = [this] { return screen_->grab(10, 500, 250, 200).deviation() < 0.01; };
   ASSERT_FALSE(background());
   // The edge of the left column, and the headers of the settings and, below it then, of the effects.
-  xdotool("mousemove 332 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 280 300 sleep 0.5 mouseup 1");
+  drag("edge-left", -52);
   const auto black = [](const ScreenPart& p) { return p.count(0x000000) > 0.9 * 40 * 400; };
   ASSERT_TRUE(settles(left, black)) << "the edge cannot be dragged";
-  xdotool(
-      "mousemove 60 284 sleep 0.5 click 1 sleep 0.5 mousemove 60 311 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  click("Settings");
+  click("Effects");
+  away();
   ASSERT_TRUE(settles(left, [&](const ScreenPart&) { return background(); })) << "the settings and effects do not fold";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 
   start();
   ASSERT_TRUE(settles(left, black)) << "the column's width is forgotten";
   EXPECT_TRUE(background()) << "they are unfolded again";
-  // View, Reset the layout.
-  xdotool("mousemove 60 15 sleep 0.5 click 1 sleep 0.5 mousemove 80 95 sleep 0.5 click 1 sleep 0.5 mousemove 600 510");
+  choose("Menu/View", "Reset the layout");
+  xdotool("mousemove 600 510");
   ASSERT_TRUE(settles(left, [&](const ScreenPart& p) { return !black(p) && !background(); })) << "not reset";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
@@ -159,14 +153,11 @@ TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
   const ScreenPart before = viewport();
   key("o");
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(before) > 0.5; })) << "no dialog";
-  // ImGui looks at keys once per frame: they are held for longer than that.
-  xdotool("mousemove 640 500 sleep 0.8 click 1 sleep 0.8 type --delay 60 " + (folder_.path / "a.glb").string());
-  xdotool("keydown Return sleep 0.8 keyup Return");
+  enter("Open a scene/path", (folder_.path / "a.glb").string());
   ASSERT_TRUE(viewportSettles([&](const ScreenPart&) {
     return slurp(config / "irad/window.json").find("a.glb") != std::string::npos;
   })) << "the scene is not loaded, or not remembered";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowTest, FollowsItsSize) {
@@ -189,8 +180,7 @@ TEST_F(WindowTest, FollowsItsSize) {
   ASSERT_TRUE(viewportSettles(lit));
 
   xdotool("mousemove 360 510");
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowTest, SurvivesBeingUnmappedAndResizedInAHurry) {
@@ -210,8 +200,7 @@ TEST_F(WindowTest, SurvivesBeingUnmappedAndResizedInAHurry) {
     sizes += fmt::format(" search --name irad windowsize {} sleep 0.03", size);
   xdotool(sizes);
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; })) << "the picture did not come back";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowTest, ScreenshotOfTheWholeWindow) {
@@ -230,7 +219,7 @@ TEST_F(WindowTest, ScreenshotOfTheWholeWindow) {
 }
 
 TEST_F(WindowTest, RefusesWhatItCannotShow) {
-  window_ = std::make_unique<Program>(std::vector<std::string>{IRAD_BINARY, "view", "absent.glb"}, folder_.path,
+  window_ = std::make_unique<Program>(std::vector<std::string>{iradProgram(), "view", "absent.glb"}, folder_.path,
                                       screen_->environment());
   EXPECT_EQ(window_->wait(60), 3);
   EXPECT_NE(window_->log().find("absent.glb"), std::string::npos);
@@ -242,5 +231,48 @@ TEST_F(WindowTest, RefusesWhatItCannotShow) {
   EXPECT_NE(window_->log().find("the nearest solid voxel is"), std::string::npos) << window_->log();
 }
 
+TEST(Controls, AreFoundByNameOrTheNearOnesAreSaid) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "controls") << "10 20 30 40 0 0 300 700 1 0\tSettings/voxel.resolution\n"
+                                             "10 60 30 40 0 0 300 700 0 1\tSettings/voxel.facets\n"
+                                             "10 90 30 40 0 0 300 700 0 0\tLights/Save\n"
+                                             "10 99 30 40 0 0 300 700 0 0\tLights/Save\n";
+  const std::vector<Control> all = readControls(folder.path / "controls");
+  ASSERT_EQ(all.size(), 4u);
+  const Control resolution = findControl(all, "Settings/voxel.resolution");
+  EXPECT_EQ(resolution.area.x, 10);
+  EXPECT_EQ(resolution.area.bottom(), 60);
+  EXPECT_EQ(resolution.region.height, 700);
+  EXPECT_TRUE(resolution.on);
+  EXPECT_FALSE(resolution.disabled);
+  EXPECT_TRUE(findControl(all, "Settings/voxel.facets").disabled);
+  const auto refusal = [&](const char* name) {
+    try {
+      findControl(all, name);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(contains(refusal("Settings/voxel.resolutoin"), "near: Settings/voxel.resolution"));
+  EXPECT_TRUE(contains(refusal("Settings/q"), "in its place: Settings/voxel.resolution, Settings/voxel.facets"));
+  EXPECT_TRUE(contains(refusal("Lights/Save"), "two controls are called 'Lights/Save'"));
+}
+
+/// A control that is drawn through ui/imgui.h has a name that a test can click.
+TEST(WindowCode, DrawsItsControlsThroughTheHeaderThatNamesThem) {
+  const std::filesystem::path ui = sourceFolder() / "ui";
+  size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(ui)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || name == "imgui.h" || name == "controls.cpp" || name == "imgui_layer.cpp") continue;
+    const std::string text = slurp(entry.path());
+    EXPECT_FALSE(contains(text, "<imgui.h>")) << entry.path();
+    EXPECT_FALSE(contains(text, "::ImGui")) << entry.path();
+    ++files;
+  }
+  EXPECT_GT(files, 50u);
+}
+
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::window_suite

@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gi/views.h"
+#include "gi/views/views.h"
 #include "renderer/scene/sidecar.h"
 #include "tests/window_fixture.h"
 
-namespace irad::test {
+namespace irad::test::window_tools_suite {
 namespace {
 
 using WindowToolsTest = WindowTest;
@@ -53,8 +53,7 @@ TEST_F(WindowToolsTest, CapturesReplayToTheSameBits) {
   }
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
       << "saving changed the picture";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0) << window_->log();
+  quit();
 }
 
 TEST_F(WindowToolsTest, AManifestOpensWithItsViewAndCamera) {
@@ -67,14 +66,12 @@ TEST_F(WindowToolsTest, AManifestOpensWithItsViewAndCamera) {
   const ScreenPart flown = part();
   key("F12");
   ASSERT_TRUE(says("Saved Direct light to out/captures/box.001"));
-  key("Escape");
-  ASSERT_EQ(window_->wait(20), 0);
+  quit();
 
   start({"--config", (folder_.path / "out/captures/box.001/manifest.json").string()});
   xdotool("mousemove 360 510");
   EXPECT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == flown; }, 30));
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowToolsTest, CapturesThatCannotBeWrittenSayWhy) {
@@ -85,8 +82,7 @@ TEST_F(WindowToolsTest, CapturesThatCannotBeWrittenSayWhy) {
   key("F12");
   EXPECT_TRUE(says("cannot create folder " + (folder_.path / "taken").string())) << window_->log();
   EXPECT_EQ(slurp(folder_.path / "taken"), "a file");
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
@@ -98,15 +94,16 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   const auto right = [this] { return screen_->grab(690, 100, 240, 380); };
   const ScreenPart a = left(), alsoA = right();
   // Compare; then one facet per voxel on side B: the lamp's light is gone there, and only there.
-  xdotool("mousemove 1100 279 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  click("Compare/Compare with these settings");
+  away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart&) { return right() == alsoA; }))
       << "the same settings, two pictures";
-  xdotool(
-      "mousemove 205 615 sleep 0.5 click 1 sleep 0.8 mousemove 160 636 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  choose("Settings/voxel.facets", "1");
+  away();
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
-  // Saved are both, each with what draws it again.
+  // Both are saved, each with the manifest that draws it again.
   key("F12");
   ASSERT_TRUE(says("Saved Lit of both sides to out/captures/box.001"));
   std::map<std::string, std::string> saved[2];
@@ -120,18 +117,22 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
     for (const char* file : {"lit.png", "lit.exr"}) EXPECT_EQ(saved[side][file], contents(again)[file]) << folder;
   }
   EXPECT_NE(saved[0]["lit.exr"], saved[1]["lit.exr"]);
-  xdotool("mousemove 830 497 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");  // the message, which is in the way
+  while (has("messages/0/dismiss")) click("messages/0/dismiss");  // they are in the way
+  away();
   // A click takes the side that it is on: "edit A", then B, in the panel.
-  const auto edits = [this](int x) {
-    return settles([this, x] { return screen_->grab(x - 2, 277, 4, 4); },
-                   [](const ScreenPart& p) { return p.meanLuminance() > 0.4; }, 30);
+  const auto edits = [this](const char* side) {
+    rests();
+    return isOn(std::string("Compare/edit ") + side);
   };
-  EXPECT_TRUE(edits(1088));
-  xdotool("mousemove 500 440 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
-  EXPECT_TRUE(edits(1047)) << "a click on A";
-  xdotool("mousemove 800 400 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
-  EXPECT_TRUE(edits(1088)) << "a click on B";
-  xdotool("mousemove 960 300 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");  // beside the scene: lets go
+  EXPECT_TRUE(edits("B"));
+  press("500 440");
+  away();
+  EXPECT_TRUE(edits("A")) << "a click on A";
+  press("800 400");
+  away();
+  EXPECT_TRUE(edits("B")) << "a click on B";
+  press("960 300");  // beside the scene: lets go
+  away();
   // The split follows the mouse; X shows one side, then the other.
   xdotool("mousemove 666 300 sleep 0.5 mousedown 1 sleep 0.5 mousemove 950 300 sleep 0.5 mouseup 1 sleep 0.5");
   xdotool("mousemove 360 510");
@@ -140,23 +141,19 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == alsoA && left() == a; })) << "X does not show A";
   key("x");
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == b && left() != a; })) << "X does not show B";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
-  // With the other panels folded, the inspector's rows are where this test looks for them.
-  fold(R"(["View", "Compare", "Solver", "Memory"])");
+  fold(R"(["View", "Compare", "Solver", "Memory"])");  // the inspector fills its column
   start();
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart first = part();
   const auto panel = [this] { return screen_->grab(1010, 80, 250, 580); };
-  const auto click = [this](int x, int y, const char* key = "") {
-    const std::string down = *key ? fmt::format("keydown {} sleep 0.2", key) : "",
-                      up = *key ? fmt::format("keyup {} sleep 0.2", key) : "";
-    xdotool(fmt::format("mousemove {} {} sleep 0.3 {} mousedown 1 sleep 0.2 mouseup 1 sleep 0.2 {} mousemove 360 510",
-                        x, y, down, up));
+  const auto pick = [this](const char* place) {
+    press(place);
+    away();
   };
   const auto changes = [&](const ScreenPart& before) {
     return settles(panel, [&](const ScreenPart& p) { return p.difference(before) > 0.003; });
@@ -164,35 +161,34 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
 
   // A click on the floor draws the links of the facet there and fills the panel.
   const ScreenPart empty = panel();
-  click(665, 490);
+  pick("665 490");
   ASSERT_TRUE(changes(empty)) << "nothing is picked";
   const ScreenPart picked = part(), row = panel();
   EXPECT_GT(picked.difference(first), 0.005) << "no links are drawn";
   // Its column; a filter that no voxel passes; and off again.
-  click(1076, 472);
+  click("Inspector/Column");
+  away();
   ASSERT_TRUE(changes(row)) << "no column is shown";
   const ScreenPart column = panel();
-  // Return leaves the field: a window with a blinking cursor never rests.
-  const auto inFilter = [this](const std::string& keys) {
-    xdotool("mousemove 1130 536 sleep 0.5 click 1 sleep 0.5 " + keys);
-    xdotool("sleep 0.5 keydown Return sleep 0.5 keyup Return mousemove 360 510");
-  };
-  inFilter("type --delay 60 none");
+  enter("Inspector/filter", "none");
+  away();
   ASSERT_TRUE(changes(column)) << "the filter is not taken";
-  inFilter("key --delay 60 BackSpace BackSpace BackSpace BackSpace");
+  enter("Inspector/filter", "");
+  away();
   // Another facet's row beside it.
   const ScreenPart before = panel();
-  click(480, 130, "shift");
+  xdotool("keydown shift");
+  pick("480 130");
+  xdotool("keyup shift");
   ASSERT_TRUE(changes(before)) << "no comparison";
   // A drag turns the camera and picks nothing; a click beside the scene lets go.
-  click(345, 300);
+  pick("345 300");
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; })) << "not let go";
   EXPECT_EQ(panel(), empty);
   xdotool("mousemove 600 300 sleep 0.3 mousedown 1 sleep 0.2 mousemove 680 320 sleep 0.2 mouseup 1 mousemove 360 510");
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.05; }));
   EXPECT_EQ(panel(), empty) << "a drag picks";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
@@ -206,19 +202,26 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   const ScreenPart first = viewport();
 
   // "point": one ahead of the camera, in the middle of the picture.
-  xdotool("mousemove 104 101 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  click("Lights/point");
+  away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.3; })) << "nothing is added";
   const ScreenPart added = viewport();
   const auto drag = [&](int fromX, int fromY, int toX, int toY) {
-    xdotool(
-        fmt::format("mousemove {} {} sleep 0.5 mousedown 1 sleep 0.5 mousemove {} {} sleep 0.5 mousemove {} {} "
-                    "sleep 0.5 mouseup 1 sleep 0.5 mousemove 360 510",
-                    fromX, fromY, (fromX + toX) / 2, (fromY + toY) / 2, toX, toY));
+    for (const std::string& step : {fmt::format("mousemove {} {}", fromX, fromY), std::string("mousedown 1"),
+                                    fmt::format("mousemove {} {}", (fromX + toX) / 2, (fromY + toY) / 2),
+                                    fmt::format("mousemove {} {}", toX, toY), std::string("mouseup 1")}) {
+      xdotool(step);
+      rests();
+    }
+    away();
   };
   drag(665, 281, 565, 201);
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p != added; })) << "it is not dragged";
   EXPECT_FALSE(std::filesystem::exists(sidecar)) << "saved without being asked";
-  const auto save = [&] { xdotool("mousemove 30 384 sleep 0.5 click 1 sleep 0.5 mousemove 360 510"); };
+  const auto save = [&] {
+    click("Lights/Save");
+    away();
+  };
   save();
   ASSERT_TRUE(says("Saved lights and bookmarks to " + sidecar.string()));
   const Sidecar kept = readSidecar(sidecar);
@@ -246,28 +249,26 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   save();
   for (int i = 0; i < 100 && !std::filesystem::exists(sidecar); ++i) pause(0.1);
   EXPECT_GT(readSidecar(sidecar).lights->at(1).position.x, own.cameras[0].position.x);
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0) << "status after Esc, with validation on";
+  quit();
   EXPECT_EQ(sha256File(scene), sha) << "the scene's file was written to";
 
   start({}, scene);
   EXPECT_TRUE(says("lights of a.glb.irad.json"));
-  key("Escape");
+  key("ctrl+q");
   EXPECT_EQ(window_->wait(60), 0);
 }
 
 TEST_F(WindowToolsTest, TheMenuCapturesAFrameWithRenderDoc) {
-  environment_["LD_PRELOAD"] = RENDERDOC_STAND_IN;
+  environment_["LD_PRELOAD"] = (buildFolder() / "tests/renderdoc/librenderdoc.so").string();
   start();
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
-  // File, Capture a frame with RenderDoc.
-  xdotool("mousemove 22 15 sleep 0.5 click 1 sleep 0.5 mousemove 80 157 sleep 0.5 click 1 sleep 0.5 mousemove 360 510");
+  choose("Menu/File", "Capture a frame with RenderDoc");
+  away();
   EXPECT_TRUE(says("RenderDoc saved out/captures/box_capture.rdc")) << window_->log();
   EXPECT_EQ(slurp(folder_.path / "out/captures/box_capture.rdc"), "RDOC");
   ASSERT_TRUE(viewportSettles(lit)) << "no picture after the capture";
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 TEST_F(WindowToolsTest, RecordsFramesWhileItIsAskedTo) {
@@ -275,12 +276,9 @@ TEST_F(WindowToolsTest, RecordsFramesWhileItIsAskedTo) {
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
   // "Record" at the right end of the strip's tabs; the same button ends it.
-  const auto press = [this](int x, int y) {
-    xdotool(fmt::format("mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 sleep 0.3", x, y));
-  };
-  press(930, 552);
-  pause(2);
-  press(930, 552);
+  const std::string record = placeOf("Timings/record");
+  xdotool(fmt::format("mousemove {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 sleep 2 mousedown 1 sleep 0.3 mouseup 1",
+                      record));
   ASSERT_TRUE(says("Recorded ")) << window_->log();
   const auto files = contents(folder_.path / "out" / "recording.001");
   ASSERT_EQ(files.size(), 3u);
@@ -295,9 +293,8 @@ TEST_F(WindowToolsTest, RecordsFramesWhileItIsAskedTo) {
   // It sleeps again.
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
-  key("Escape");
-  EXPECT_EQ(window_->wait(20), 0);
+  quit();
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::window_tools_suite

@@ -5,12 +5,12 @@
 #include <map>
 
 #include "app/arguments.h"
-#include "renderer/json_extent.h"
+#include "renderer/base/json_extent.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/image_header.h"
 #include "tests/scene_files.h"
 
-namespace irad::test {
+namespace irad::test::wrong_input_suite {
 namespace {
 
 using nlohmann::json;
@@ -96,7 +96,7 @@ std::vector<uint8_t> pngHeader(uint32_t width, uint32_t height, uint8_t depth, u
 }
 
 TEST(ImageHeader, StatesSizeAndCostByFormat) {
-  const std::filesystem::path seeds = IRAD_SOURCE_DIR "/tests/fuzz/seeds/image";
+  const std::filesystem::path seeds = sourceFolder() / "tests/fuzz/seeds/image";
   const std::map<std::string, std::tuple<std::string, uint32_t, uint32_t>> want{
       {"grey.png", {"png", 5, 3}},  {"rgba.png", {"png", 7, 3}},   {"grey.jpg", {"jpeg", 9, 5}},
       {"rgb.jpg", {"jpeg", 17, 9}}, {"rgb.webp", {"webp", 4, 12}}, {"rgba.webp", {"webp", 8, 12}}};
@@ -204,4 +204,4 @@ TEST(SceneCache, UnsoundScenesAreRefused) {
 }
 
 }  // namespace
-}  // namespace irad::test
+}  // namespace irad::test::wrong_input_suite

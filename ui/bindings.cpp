@@ -25,7 +25,10 @@ std::span<const Binding> bindings() {
       {GLFW_KEY_F5, Action::ReloadShaders, "F5", "compile the shaders again"},
       {GLFW_KEY_F12, Action::CaptureAll, "Shift + F12", "save all views", /*shift=*/true},
       {GLFW_KEY_F12, Action::Capture, "F12", "save this view: PNG, EXR, manifest"},
-      {GLFW_KEY_ESCAPE, Action::Quit, "Esc", "quit"},
+      {GLFW_KEY_ESCAPE, Action::Close, "Esc",
+       "close what is on top: a list or menu, a dialog, the help, work in\n"
+       "progress, the inspected facet, the chosen light, the comparison"},
+      {GLFW_KEY_Q, Action::Quit, "Ctrl + Q", "quit; what is unsaved is asked for", /*shift=*/false, /*control=*/true},
   };
   return table;
 }

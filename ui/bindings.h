@@ -5,14 +5,27 @@
 
 namespace irad {
 
-enum class Action { None, Help, HideUi, ReloadShaders, Capture, CaptureAll, Pause, Quit, NextCamera, Open, Flicker };
+enum class Action {
+  None,
+  Help,
+  HideUi,
+  ReloadShaders,
+  Capture,
+  CaptureAll,
+  Pause,
+  Close,
+  Quit,
+  NextCamera,
+  Open,
+  Flicker
+};
 
 struct Binding {
   int key;  ///< GLFW key; 0: listed in the help only
   Action action;
   const char* keys;
   const char* does;
-  bool shift = false;  ///< only with Shift; listed before the row of the same key without
+  bool shift = false, control = false;  ///< only with it; listed before the row of the same key without
 };
 std::span<const Binding> bindings();
 

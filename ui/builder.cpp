@@ -7,24 +7,23 @@
 #include <utility>
 
 #include "gi/check/check.h"
-#include "renderer/error.h"
-#include "ui/no_light.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 namespace {
 
 constexpr const char* kCancelled = "cancelled";
 
-/// Every setting as a number, to see whether anything was edited.
-std::vector<double> values(Settings settings) {
-  std::vector<double> out;
-  visit(settings, [&](auto&& member, const Meta&) {
-    if constexpr (requires { member.value; })
-      out.push_back(member.value);
-    else
-      out.push_back(static_cast<double>(member));
-  });
-  return out;
+std::vector<std::string> noLight(const EffectPlan& plan) {
+  std::vector<Effect> sources;
+  for (const LightKind& kind : lightKinds()) sources.push_back(effectOf(kind.type));
+  sources.push_back(Effect::emission);
+  std::vector<std::string> reasons;
+  for (const Effect source : sources) {
+    if (plan.on(source)) return {};
+    reasons.push_back(plan.row(source).reason);
+  }
+  return reasons;
 }
 
 }  // namespace
@@ -53,7 +52,8 @@ void Builder::load(const std::filesystem::path& path) {
       return session_.note(
           fmt::format("{}: its surfaces are as they were, and so is what was made of them", path.filename().string()));
     }
-    auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited);
+    ExpectedIrradiance expected = expectedIrradiance(scene);
+    auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited, std::move(expected));
     giveReference(*pipeline);
     prepare(session_, *pipeline);
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
@@ -64,7 +64,6 @@ void Builder::load(const std::filesystem::path& path) {
     session_.pipeline = std::move(pipeline);
     session_.load.lights.reset();
     session_.beginEdits(again && unsaved);
-    session_.applied = values(session_.pipeline->settings());
     loaded_ = session_.pipeline->settings().scene;
     session_.halted = false;
     if (!again) session_.useSceneCamera(0);
@@ -79,7 +78,7 @@ void Builder::load(const std::filesystem::path& path) {
   session_.work.reset();
 }
 
-/// Another reading of the scene that is shown: of the same surfaces voxels and matrix are kept.
+/// The scene that is shown, read again: where its surfaces are the same, voxels and matrix are kept.
 bool Builder::adopt(const Scene& scene) {
   for (Side* side : session_.sides()) {
     Scene reading = scene;
@@ -96,7 +95,7 @@ bool Builder::stale() const {
   return stale_ || (session_.pipeline && session_.edits.lights != session_.pipeline->scene().lights);
 }
 
-/// Lights are those of both sides. What is wrong with them is said, and they are again what they were.
+/// Both sides have the same lights. What is wrong with them is reported, and they go back to what they were.
 void Builder::applyLights() {
   const std::vector<Light> before = session_.pipeline->scene().lights;
   for (Side* side : session_.sides()) {
@@ -134,18 +133,17 @@ void Builder::apply(bool held) {
   if (!session_.pipeline) return;
   applyLights();
   Pipeline& pipeline = *session_.pipeline;
-  if (values(session_.edited) != session_.applied) {
+  if (session_.edited != pipeline.settings()) {
     const bool reload = session_.edited.scene != loaded_;
     const Redo redo = reload ? Redo::Voxels : pipeline.due(session_.edited);
     session_.next = redo;
     if (redo < Redo::Shade && (shownNext_ != redo || held)) return;
     session_.next = Redo::Nothing;
     if (reload) {
-      session_.openScene = pipeline.scene().path;
+      session_.leave({Leaving::What::OpenScene, pipeline.scene().path});
       return;
     }
     pipeline.set(session_.edited);
-    session_.applied = values(session_.edited);
     session_.viewDirty = true;
     session_.halted = false;
     if (redo < Redo::Scatter) session_.woke();
@@ -161,14 +159,13 @@ void Builder::apply(bool held) {
   if (session_.comparison && !session_.halted) follow();
 }
 
-/// The other side of a comparison has settings of its own, but the seed and the lights are both sides'.
+/// The other side of a comparison has settings of its own; seed and lights belong to both.
 void Builder::follow() {
   Side& other = session_.comparison->other;
   if (session_.comparison->sameSeed) other.edited.matrix.gpu.seed = session_.edited.matrix.gpu.seed;
   other.edited.view = session_.edited.view;  // both are shown the same way
-  if (values(other.edited) != other.applied) {
+  if (other.edited != other.pipeline->settings()) {
     other.pipeline->set(other.edited);
-    other.applied = values(other.edited);
     other.woke();
     session_.viewDirty = true;
   }
@@ -181,10 +178,11 @@ void Builder::compare() {
   try {
     Side other;
     other.edited = session_.edited;
-    other.pipeline = std::make_unique<Pipeline>(context_, session_.pipeline->scene(), session_.edited);
+    other.saved = session_.saved;
+    const Scene& scene = session_.pipeline->scene();
+    other.pipeline = std::make_unique<Pipeline>(context_, scene, session_.edited, expectedIrradiance(scene));
     giveReference(*other.pipeline);
     prepare(other, *other.pipeline);
-    other.applied = values(other.edited);
     session_.comparison.emplace().other = std::move(other);
     session_.swapSides();
   } catch (const Error& error) {
@@ -242,7 +240,7 @@ bool Builder::progress(const char* stage, float fraction) {
   return !session_.work->cancel;
 }
 
-/// What given-up work has measured is no frame's time.
+/// The times of work that was given up belong to no frame.
 void Builder::forgetTimes() {
   context_.finish();
   context_.timings.forget();

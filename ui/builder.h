@@ -19,19 +19,19 @@ class Builder {
   /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded; throws what went
   /// wrong. Of the scene that is shown, read again, it takes lights and cameras alone where the surfaces are the same.
   void load(const std::filesystem::path& path);
-  /// Takes another reference picture, for every side; what is wrong with the file is said, and the old one stays.
+  /// Takes another reference picture, for every side; where the file is wrong that is reported, and the old one stays.
   void openReference(const std::filesystem::path& path);
   /// Hands edits to the pipeline, redoes what they call for, and lets the solver go on until it sleeps. What will be
-  /// redone is on screen for a frame before it starts, and waits for as long as the mouse `holds` the widget.
+  /// redone is shown for a frame before it starts, and waits as long as the mouse `holds` the widget.
   void apply(bool held);
   /// Begins a comparison: the session's side, with all that it has, becomes A, and a second pipeline of the same scene
-  /// and settings B, which is edited from now on. What goes wrong is said, and there is no comparison.
+  /// and settings B, which is edited from now on. A failure is reported, and there is no comparison.
   void compare();
   /// Compiles what has changed in the folder, and has everything redone that a changed shader had a part in.
   void reloadShaders(const std::filesystem::path& folder);
   /// H = 0: the solver starts from the dark.
   void darken();
-  /// The frame that was just drawn announced what is next.
+  /// The frame just drawn has announced what comes next.
   void announced() { shownNext_ = session_.next; }
   /// Something is to be redone though no setting changed.
   bool stale() const;
@@ -51,7 +51,7 @@ class Builder {
   Session& session_;
   std::function<void()> breathe_;
   SceneSettings loaded_;            ///< as the scene that is shown was read
-  bool stale_ = false;              ///< shaders have changed that made what the pipeline holds
+  bool stale_ = false;              ///< shaders that made the pipeline's products have changed
   Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced
 };
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "gi/picture.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
-#include "renderer/output_file.h"
 
 namespace irad {
 namespace {
@@ -46,7 +46,7 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
   writeFile(folder / "manifest.json", manifest.toJson());
 }
 
-/// Returns the folder; throws what went wrong. Of two sides that are compared each has a folder in it.
+/// Returns the folder; throws on failure. In a comparison each side has a folder of its own in it.
 std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen, const std::filesystem::path& parent,
                            const Program& program, const Progress& progress) {
   OutputFolder folder(parent / session.pipeline->scene().path.stem());
@@ -71,6 +71,7 @@ void saveCapture(Session& session, bool allViews, const std::filesystem::path& p
     if (allViews || view.view == session.view) chosen.push_back(view);
   try {
     const std::filesystem::path folder = save(session, chosen, parent, program, progress);
+    for (const Side* side : session.sides()) session.settingsSaved(side->pipeline->settings());  // the manifest's
     session.note(fmt::format("Saved {}{} to {}", allViews ? fmt::format("{} views", chosen.size()) : chosen[0].label,
                              session.comparison ? " of both sides" : "", folder.string()));
   } catch (const Error& error) {

@@ -11,7 +11,7 @@ namespace irad {
 /// Makes a new folder `parent`/SCENE.NNN of the view shown, or of all: VIEW.png as shown, VIEW.exr linear, at the
 /// viewport's size, and the manifest.json from which `irad render --config` makes the same bits. The pictures are drawn
 /// from light that is solved as it does (Pipeline::solvedAfresh). In a comparison the folders a and b in it hold all
-/// that of either side. Says where they are, or what went wrong: then there is no folder.
+/// that of either side. Reports where they are, or what went wrong; then there is no folder.
 void saveCapture(Session& session, bool allViews, const std::filesystem::path& parent, const Program& program,
                  const Progress& progress);
 

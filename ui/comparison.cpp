@@ -1,7 +1,5 @@
 #include "ui/comparison.h"
 
-#include "renderer/error.h"
-
 namespace irad {
 namespace {
 
@@ -23,15 +21,6 @@ void measureComparison(Context& context, Session& session) {
   comparison.result =
       Comparison::Result{.picture = measure(linearPixels(context, b.targets), linearPixels(context, a.targets)),
                          .voxels = compareVoxels(irradiance(*b.pipeline), irradiance(*a.pipeline))};
-}
-
-std::vector<SettingDifference> differences(const Settings& a, const Settings& b) {
-  std::vector<SettingDifference> out;
-  const std::vector<SettingInfo> of = settingInfos(a), against = settingInfos(b);
-  IRAD_CHECK_OP(of.size(), ==, against.size());
-  for (size_t i = 0; i < of.size(); ++i)
-    if (of[i].value != against[i].value) out.push_back({of[i].meta.name, of[i].value, against[i].value});
-  return out;
 }
 
 }  // namespace irad

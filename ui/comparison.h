@@ -1,9 +1,6 @@
 // Two sides of the same scene, in numbers.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "ui/session.h"
 
 namespace irad {
@@ -11,10 +8,5 @@ namespace irad {
 /// Fills session.comparison->result once both sides are asleep and drawn. Reads pictures and light back: once per
 /// change.
 void measureComparison(Context& context, Session& session);
-
-struct SettingDifference {
-  std::string name, a, b;
-};
-std::vector<SettingDifference> differences(const Settings& a, const Settings& b);
 
 }  // namespace irad

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/ui.h"
 #include "ui/theme.h"
 
@@ -101,8 +101,8 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
   if (!vertices.empty()) std::memcpy(vertices_.mapped, vertices.data(), vertices.size() * sizeof(ImDrawVert));
   if (!indices.empty()) std::memcpy(indices_.mapped, indices.data(), indices.size() * sizeof(uint32_t));
 
-  // Where a run of draws with one image begins, a pass begins: no descriptor indexing (ENVIRONMENT: no bindless), and
-  // no branch over images, each of which a CPU rasterizer would sample.
+  // Where a run of draws with one image begins, a pass begins: there is no descriptor indexing on Mesa's CPU driver,
+  // and a branch over images would have it sample each of them.
   const glm::vec2 size(static_cast<float>(target.desc.width), static_cast<float>(target.desc.height));
   const VkSampler linear = sampler(context_.device, {.u = Wrap::Clamp, .v = Wrap::Clamp, .mips = false});
   const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
@@ -114,8 +114,8 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
     pass.shaders({"ui/imgui.vert", "ui/imgui.frag"})
         .color(target, std::exchange(clear, std::nullopt))
         .alphaBlend()
-        .read(vertices_, indices_)
         .sample(*textures_.at(texture), linear);
+    const uint64_t vertexArray = pass.in(vertices_), indexArray = pass.in(indices_);
     pass.run([&](Commands& commands) {
       for (size_t i = begin; i < end; ++i) {
         const Range& range = ranges[i];
@@ -124,7 +124,7 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
         if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
         const glm::uvec2 corner(low), extent(high - low);
         commands.scissor(corner.x, corner.y, extent.x, extent.y);
-        commands.push(UiDraw{vertices_.address, indices_.address, 2.0f / size, texture == 0 ? 0.0f : 1.0f});
+        commands.push(UiDraw{vertexArray, indexArray, 2.0f / size, texture == 0 ? 0.0f : 1.0f});
         commands.draw(range.count, range.first);
       }
     });

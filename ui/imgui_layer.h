@@ -5,11 +5,15 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 
 struct GLFWwindow;
 
 namespace irad {
+
+namespace Subsystem {
+inline constexpr SubsystemName Ui{"ui"};
+}
 
 class ImGuiLayer {
  public:

@@ -43,11 +43,13 @@ Input& of(GLFWwindow* window) {
 
 void Input::key(int key, int action, int modifiers) {
   event_ = true;
-  if (action == GLFW_PRESS) presses_.push_back({key, (modifiers & GLFW_MOD_SHIFT) != 0});
+  if (action == GLFW_PRESS)
+    presses_.push_back({key, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
   const double now = glfwGetTime();
   for (Held& held : held_) {
     if (held.key != key) continue;
-    if (action == GLFW_PRESS) held.since = now;
+    const bool quits = key == GLFW_KEY_Q && (modifiers & GLFW_MOD_CONTROL) != 0;
+    if (action == GLFW_PRESS && !quits) held.since = now;
     if (action == GLFW_RELEASE && held.since >= 0) {
       held.held += std::max(now - held.since, held.held > 0 ? 0.0 : kShortestTap);
       held.since = -1;

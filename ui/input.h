@@ -1,4 +1,4 @@
-// Events of the window that are not ImGui's: key presses, flying keys with the time they were held, dropped files.
+// Events of the window that ImGui does not take: key presses, flying keys with the time they were held, dropped files.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ class Input {
 
   bool takeEvent();  ///< anything happened since the last call
   struct Press {
-    int key;     ///< GLFW's
-    bool shift;  ///< was held
+    int key;              ///< GLFW's
+    bool shift, control;  ///< was held
   };
   std::vector<Press> takePresses();  ///< since the last call
   std::vector<std::filesystem::path> takeDrops();

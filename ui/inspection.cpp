@@ -5,13 +5,13 @@
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "ui/session.h"
 
 namespace irad {
 namespace {
 
-constexpr size_t kSamples = 400;  ///< of H that are remembered
+constexpr size_t kSamples = 400;  ///< samples of H that are remembered
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void Inspection::open(Session& session, const glm::uvec3& at) {
   ++serial;
 }
 
-/// Of the picture as it is shown: by the cell in a slice, the first cube on the way, or the surface in the pixel.
+/// Picks from the picture as it is shown: the cell of a slice, the first cube on the way, or the surface in the pixel.
 std::optional<Inspector::SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
   const Targets& targets = session.targets;
   const GpuCamera camera = makeGpuCamera(session.pipeline->scene(), session.shown, targets.size);
@@ -71,7 +71,7 @@ std::optional<Inspector::SliceCell> Inspection::under(Session& session, const gl
   };
   const glm::dvec3 start = at(0), direction = glm::normalize(at(1) - start);
   if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
-    if (*shape != SHAPE_SLICE) return cell(inspector_->facetAlong(start, direction));
+    if (*shape != ViewShape::slice) return cell(inspector_->facetAlong(start, direction));
     const glm::dvec3 forward(session.shown.orientation * glm::vec3(0, 0, -1));
     return inspector_->inSlice(start, direction, forward, session.edited.view);
   }
@@ -123,7 +123,7 @@ void Inspection::serveRequests(Session& session) {
   if (std::exchange(wantReplay, false) && facet()) {
     replay = replaySolve(session.context, *session.pipeline, {facet()->facet});
     session.context.finish();
-    session.context.timings.forget();  // its sweeps are no frame's
+    session.context.timings.forget();  // its sweeps belong to no frame
   }
 }
 

@@ -43,7 +43,7 @@ class Inspection {
   struct Pick {
     glm::uvec2 pixel;
     bool compare;
-    bool other = false;  ///< of the side that is not edited: it is from then on
+    bool other = false;  ///< a voxel of the side that is not edited, which is edited from then on
   };
   std::optional<Pick> pick;
   std::optional<uint32_t> follow;    ///< a facet

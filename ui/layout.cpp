@@ -1,10 +1,9 @@
 #include "ui/layout.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "ui/imgui.h"
 #include "ui/overlay.h"
 
 namespace irad {
@@ -22,7 +21,7 @@ Layout layout(glm::uvec2 window, float scale, bool hidden, const PanelSizes& siz
     l.viewport = {{0, 0}, size};
     return l;
   }
-  // The user's size; else a share of the window within readable bounds, and never more than a third.
+  // The user's size, else a share of the window within readable bounds; never more than a third.
   const auto extent = [&](float wanted, float least, float whole, float share, float low, float high) {
     const float chosen =
         wanted > 0 ? std::max(wanted, least) * scale : std::clamp(whole * share, low * scale, high * scale);
@@ -68,7 +67,7 @@ void dragEdges(const Layout& layout, float scale, PanelSizes& sizes) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     beginTile(edge.name, edge.where, /*filled=*/false, /*scrolls=*/false);
     ImGui::PopStyleVar(3);
-    ImGui::InvisibleButton("##grip", {edge.where.size.x, edge.where.size.y});
+    ImGui::InvisibleButton(edge.name, {edge.where.size.x, edge.where.size.y});
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
       ImGui::SetMouseCursor(edge.upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);

@@ -1,14 +1,14 @@
 // The hue and saturation of a light for the eye, at full brightness.
 #pragma once
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <glm/gtc/color_space.hpp>
 
+#include "ui/imgui.h"
+
 namespace irad {
 
-/// Of a linear colour, sRGB-encoded as the window image is.
+/// The hue of a linear colour, sRGB-encoded as the window image is.
 inline ImU32 displayColor(const glm::vec3& linear) {
   const glm::vec3 c = glm::convertLinearToSRGB(linear / std::max({linear.x, linear.y, linear.z, 1e-6f}));
   return ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1});

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "renderer/near_match.h"
+#include "renderer/base/near_match.h"
 #include "shaders/shared/emitters.h"
 
 namespace irad {

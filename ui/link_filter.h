@@ -13,13 +13,13 @@ namespace irad {
 /// What a link has that tables show, sort and filter by. F B and B are luminances, W/m^2; dist in m; back is the
 /// exchange the other way round over its own.
 enum class LinkQuantity { voxel, x, y, z, hits, dist, FB, F, B, back, facet };
-/// Of `voxel` a number that grows with z, then y, then x.
+/// `voxel` as a number that grows with z, then y, then x.
 double quantityOf(const Link& link, LinkQuantity quantity);
 std::string voxelText(const Link& link);  ///< "12 3 40"
 
 /// Terms between commas. NAME OP NUMBER ("hits>=3", "dist < 10", "B>.1"; names of LinkQuantity, OP one of < <= > >= =
-/// !=) must hold, all of them. Of the others a link's "x y z" contains one at least, and none of those that begin with
-/// "-".
+/// !=) must hold, all of them. Of the other terms, a link's "x y z" must contain one at least, and none of those that
+/// begin with "-".
 class LinkFilter {
  public:
   LinkFilter() = default;  ///< passes everything

@@ -1,12 +1,11 @@
 #include "ui/link_table.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -62,7 +61,7 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
     filter_ = LinkFilter(typed_);
     filtered_ = true;
   }
-  if (!ImGui::IsItemActive()) helpTooltip(LinkFilter::help());  // who types looks at the table
+  if (!ImGui::IsItemActive()) helpTooltip(LinkFilter::help());  // while typing, people look at the table
   for (const std::string& error : filter_.errors()) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextColored(theme::error, "%s", error.c_str());

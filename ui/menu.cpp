@@ -1,10 +1,10 @@
 #include "ui/menu.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
+#include "ui/imgui.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -39,11 +39,11 @@ void drawFile(Session& session) {
   actionItem(session, "Open\u2026", Action::Open);
   if (ImGui::BeginMenu("Open recent", !session.preferences.recent.empty())) {
     for (const std::filesystem::path& path : session.preferences.recent)
-      if (ImGui::MenuItem(path.string().c_str())) session.openScene = path;
+      if (ImGui::MenuItem(path.string().c_str())) session.open(path);
     ImGui::EndMenu();
   }
   if (ImGui::MenuItem("Load again", nullptr, false, session.pipeline != nullptr))
-    session.openScene = session.pipeline->scene().path;
+    session.open(session.pipeline->scene().path);
   ImGui::Separator();
   if (ImGui::MenuItem("Save lights and bookmarks", nullptr, false, session.edits.modified())) session.saveEdits();
   actionItem(session, "Save this view", Action::Capture, false, session.built.has_value());
@@ -87,7 +87,7 @@ void drawSolver(Session& session) {
 
 void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  // As high as the bar. Menus that open have their own padding.
+  // As high as the bar; open menus have a padding of their own.
   const ImVec2 high{style.FramePadding.x, std::max((where.size.y - ImGui::GetFontSize()) * 0.5f, 0.0f)};
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, high);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(style.WindowPadding.x, 0));
@@ -98,6 +98,7 @@ void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
   const bool shown = ImGui::BeginMenuBar();
   ImGui::PopStyleVar();
   if (shown) {
+    ImGui::PushID("Menu");
     const auto menu = [&](const char* name, auto&& draw) {
       if (!ImGui::BeginMenu(name)) return;
       draw();
@@ -125,6 +126,7 @@ void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
     ImGui::PushStyleColor(ImGuiCol_Text, state.color);
     clippedText(state.text, stateWidth + 1);
     ImGui::PopStyleColor();
+    ImGui::PopID();
     ImGui::EndMenuBar();
   }
   endTile();

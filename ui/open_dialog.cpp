@@ -1,12 +1,11 @@
 #include "ui/open_dialog.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <tuple>
 
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -71,8 +70,7 @@ void OpenDialog::drawEntries(Session& session) {
 }
 
 void OpenDialog::draw(Session& session) {
-  if (!session.showOpen) return;
-  if (!ImGui::IsPopupOpen(kTitle)) {
+  if (session.showOpen && !ImGui::IsPopupOpen(kTitle)) {
     ImGui::OpenPopup(kTitle);
     std::error_code ignored;
     const bool fromFile = session.pipeline && std::filesystem::exists(session.pipeline->scene().path, ignored);
@@ -100,9 +98,9 @@ void OpenDialog::draw(Session& session) {
     ImGui::TextColored(theme::error, "%s", error_.c_str());
     ImGui::PopTextWrapPos();
   }
-  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) session.showOpen = false;
+  if (ImGui::Button("Cancel")) session.showOpen = false;
   if (!session.showOpen) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  ImGui::EndPopupModal();
 }
 
 }  // namespace irad

@@ -11,7 +11,7 @@ namespace irad {
 
 class OpenDialog {
  public:
-  /// Shown while session.showOpen; a choice becomes session.openScene.
+  /// Shown while session.showOpen; a choice is for session.open().
   void draw(Session& session);
 
  private:

@@ -1,11 +1,11 @@
 #include "ui/overlay.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
 #include "ui/bindings.h"
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -64,6 +64,7 @@ void drawMessages(Session& session, const Rect& viewport) {
   floatAt(viewport, {0, 1}, em);
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, viewport.size.y});
   ImGui::Begin("##messages", nullptr, kFloating & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::PushID("messages");
   std::optional<size_t> dismissed;
   for (size_t i = 0; i < session.messages.size(); ++i) {
     const Message& message = session.messages[i];
@@ -80,10 +81,11 @@ void drawMessages(Session& session, const Rect& viewport) {
     ImGui::PopTextWrapPos();
     const float bottom = ImGui::GetCursorPosY();
     ImGui::SetCursorPos({start + row - button, top});
-    if (ImGui::Button("\u00D7", {button, button})) dismissed = i;
+    if (ImGui::Button("\u00D7###dismiss", {button, button})) dismissed = i;
     ImGui::SetCursorPosY(std::max(bottom, ImGui::GetCursorPosY()));
     ImGui::PopID();
   }
+  ImGui::PopID();
   ImGui::End();
   if (dismissed) session.messages.erase(session.messages.begin() + static_cast<ptrdiff_t>(*dismissed));
 }
@@ -95,6 +97,7 @@ void drawProgress(Session& session, const Rect& viewport) {
   floatAt(viewport, {0.5f, 0.5f}, em);
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, viewport.size.y});
   ImGui::Begin("##progress", nullptr, kFloating);
+  ImGui::PushID("progress");
   pushHeadingFont();
   clippedText(session.work->what, ImGui::GetContentRegionAvail().x);
   ImGui::PopFont();
@@ -104,7 +107,9 @@ void drawProgress(Session& session, const Rect& viewport) {
   ImGui::ProgressBar(session.work->fraction,
                      {ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x, 0}, percent.c_str());
   ImGui::SameLine();
-  if (ImGui::Button(session.work->cancel ? "\u2026" : "Cancel", {button, 0})) session.work->cancel = true;
+  if (ImGui::Button(session.work->cancel ? "\u2026###cancel" : "Cancel###cancel", {button, 0}))
+    session.work->cancel = true;
+  ImGui::PopID();
   ImGui::End();
 }
 

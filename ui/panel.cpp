@@ -1,7 +1,6 @@
 #include "ui/panel.h"
 
-#include <imgui.h>
-
+#include "ui/imgui.h"
 #include "ui/menu.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
@@ -45,9 +44,10 @@ void drawPanels(Session& session, const Panels& panels, const Layout& layout) {
     beginTile(tile.name, tile.where);
     for (const auto& panel : panels) {
       if (panel->region() != tile.region) continue;
-      ImGui::PushID(panel->title());
       // The strip is low: its table begins at once.
-      if (tile.region == Region::Bottom || drawHeader(panel->title(), session.preferences.folded)) panel->draw(session);
+      if (tile.region != Region::Bottom && !drawHeader(panel->title(), session.preferences.folded)) continue;
+      ImGui::PushID(panel->title());
+      panel->draw(session);
       ImGui::PopID();
     }
     endTile();

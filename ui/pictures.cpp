@@ -32,7 +32,7 @@ void readRange(Session& session, Frame& frame) {
 
 void drawPictures(Session& session, Frame& frame) {
   session.shown = session.camera.camera();
-  // Both sides of a comparison by one range: the same colour is the same value.
+  // Both sides of a comparison share one range: the same colour is the same value.
   const Buffer* range = nullptr;
   for (Side* side : session.sides()) {
     side->pipeline->render(frame, session.shown, session.view, side->targets, range);

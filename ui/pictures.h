@@ -5,8 +5,8 @@
 
 namespace irad {
 
-/// Of the session's view from its camera: every side's, and the difference where that is shown. Afterwards nothing
-/// about the view is dirty; the range that it was drawn with comes back with the frame.
+/// Draws the session's view from its camera, for every side, and the difference where that is shown. Afterwards nothing
+/// of the view is dirty; the range that it was drawn with comes back with the frame.
 void drawPictures(Session& session, Frame& frame);
 
 }  // namespace irad

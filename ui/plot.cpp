@@ -1,14 +1,14 @@
 #include "ui/plot.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "gi/ticks.h"
+#include "renderer/base/ticks.h"
+#include "ui/imgui.h"
 #include "ui/theme.h"
 
 namespace irad {
@@ -89,7 +89,7 @@ void read(size_t at, std::span<const PlotLine> lines, const PlotAxes& axes) {
   for (const PlotLine& line : lines)
     if (!std::isnan(line.y[at]))
       text.emplace_back(line.color, fmt::format("{}  {}", axes.yText(line.y[at]), line.name));
-  // Sized by hand: by itself it has the size that the text before needed, and would cut a longer one.
+  // Sized by hand: otherwise it keeps the size of the text before, and cuts a longer one.
   const ImGuiStyle& style = ImGui::GetStyle();
   ImVec2 size{0, static_cast<float>(text.size()) * ImGui::GetTextLineHeightWithSpacing() - style.ItemSpacing.y};
   for (const auto& [color, row] : text) size.x = std::max(size.x, ImGui::CalcTextSize(row.c_str()).x);

@@ -21,7 +21,7 @@ struct PlotAxes {
   std::function<std::string(float)> xText;  ///< at both ends, and in the reading
   std::function<std::string(float)> yText;  ///< ticks and values, with their unit
   std::optional<float> mark;                ///< a dashed line across
-  size_t bridge = 1;                        ///< values so many places apart are joined, whatever is between
+  size_t bridge = 1;                        ///< values at most this many places apart are joined by a line
 };
 
 /// Draws into the next `size` pixels. Where the mouse is over it, its nearest x is marked and read in a tooltip, and

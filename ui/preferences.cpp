@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "renderer/error.h"
-#include "renderer/json_reader.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
+#include "renderer/base/output_file.h"
 #include "ui/setting_rows.h"
 
 namespace irad {
@@ -68,7 +68,7 @@ std::filesystem::path preferencesFile() {
   const auto folder = [](const char* variable) {
     const char* value = std::getenv(variable);
     const std::filesystem::path path = value ? value : "";
-    return path.is_absolute() ? path : std::filesystem::path();  // the specification: relative ones are ignored
+    return path.is_absolute() ? path : std::filesystem::path();  // relative: ignored, as specified
   };
   if (const auto config = folder("XDG_CONFIG_HOME"); !config.empty()) return config / "irad" / "window.json";
   if (const auto home = folder("HOME"); !home.empty()) return home / ".config" / "irad" / "window.json";

@@ -29,7 +29,7 @@ struct Preferences {
 /// environment names no such folder.
 std::filesystem::path preferencesFile();
 
-/// Those of a first start where there is no such file. InputError names file, member and value.
+/// The preferences of a first start where there is no such file. InputError names file, member and value.
 Preferences readPreferences(const std::filesystem::path& file);
 /// Makes the folder; WorkError where that or the file cannot be written.
 void writePreferences(const std::filesystem::path& file, const Preferences& preferences);

@@ -6,8 +6,8 @@
 #include <cctype>
 
 #include "gi/manifest.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad {
 

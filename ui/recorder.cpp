@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "gi/memory_report.h"
-#include "renderer/error.h"
-#include "renderer/output_file.h"
-#include "renderer/recording.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
+#include "renderer/base/recording.h"
 #include "ui/session.h"
 
 namespace irad {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/compare_timings.h"
+#include "renderer/base/compare_timings.h"
 
 namespace irad {
 

@@ -1,8 +1,8 @@
 #include "ui/recording_comparison.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad {
 
@@ -84,7 +85,7 @@ void SceneEdits::rename(size_t bookmark, const std::string& name) {
   if (!name.empty() && freeName(name, cameraNames()) == name) bookmarks.at(bookmark).name = name;
 }
 
-/// Lights that are the file's own are left to it: it may yet change.
+/// Lights that are the file's own are not saved: the file may yet change.
 Sidecar SceneEdits::current() const {
   Sidecar sidecar;
   if (lights != fileLights_) sidecar.lights = lights;
@@ -103,6 +104,21 @@ void SceneEdits::save() {
   Sidecar sidecar = current();
   writeSidecar(file_, sidecar);
   saved_ = std::move(sidecar);
+}
+
+void SceneEdits::saveAs(const std::filesystem::path& file) {
+  Sidecar sidecar = current();
+  if (file.has_parent_path()) makeFolder(file.parent_path());
+  writeSidecar(file, sidecar);
+  saved_ = std::move(sidecar);
+  file_ = file;
+}
+
+void SceneEdits::take(Sidecar sidecar) {
+  lights = std::move(sidecar.lights).value_or(fileLights_);
+  bookmarks = std::move(sidecar.bookmarks);
+  selected = -1;
+  removed_.clear();
 }
 
 void SceneEdits::revert() {

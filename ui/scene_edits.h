@@ -23,7 +23,7 @@ class SceneEdits {
 
   /// Begins with what the scene came with. `file`: where save() writes; empty where `reason` says why nowhere.
   void begin(const Scene& scene, std::filesystem::path file, std::string reason);
-  /// The same file, loaded again: edits stay, of what it holds and of its cameras.
+  /// The same file, loaded again: edits of its lights and cameras stay.
   void again(const Scene& scene);
 
   Light* light();  ///< the selected one; null: none
@@ -39,12 +39,16 @@ class SceneEdits {
   /// Nothing happens where the name is empty or taken.
   void rename(size_t bookmark, const std::string& name);
 
-  bool modified() const;                                                    ///< since it was loaded or saved
+  bool modified() const;                                                    ///< changed since it was loaded or saved
   bool kept() const { return saved_.lights || !saved_.bookmarks.empty(); }  ///< the file holds something
   const std::filesystem::path& file() const { return file_; }
   const std::string& whyNowhere() const { return reason_; }
   /// Writes the sidecar; WorkError where that fails or there is nowhere to write: the edits stay as they are.
   void save();
+  /// The same in a place of the user's choice, which is save()'s from then on.
+  void saveAs(const std::filesystem::path& file);
+  /// Lights and bookmarks of another sidecar in place of these; nothing is saved.
+  void take(Sidecar sidecar);
   void revert();  ///< to what was saved
 
  private:
@@ -56,7 +60,7 @@ class SceneEdits {
   Sidecar saved_;
   std::filesystem::path file_;
   std::string reason_;
-  std::vector<std::pair<size_t, Light>> removed_;  ///< and where they stood, the last one at the end
+  std::vector<std::pair<size_t, Light>> removed_;  ///< and where they were in the list, the last one at the end
 };
 
 }  // namespace irad

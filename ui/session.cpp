@@ -6,13 +6,15 @@
 #include <utility>
 
 #include "gi/check/check.h"
-#include "renderer/error.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "ui/widgets.h"
 
 namespace irad {
 
 void Session::say(Message::Kind kind, std::string text) {
   constexpr size_t most = 4;
-  fmt::print(stderr, "irad: {}\n", text);
+  tell("irad: {}\n", text);
   std::erase_if(messages, [&](const Message& m) { return m.text == text; });
   messages.push_back({kind, std::move(text)});
   if (messages.size() > most) messages.erase(messages.begin());
@@ -35,7 +37,7 @@ void Session::beginEdits(bool kept) {
     nowhere =
         fmt::format("{} was opened without its sidecar, which saving would replace.", scene.path.filename().string());
   edits.begin(scene, nowhere.empty() ? sidecarPath(scene.path) : std::filesystem::path(), nowhere);
-  if (!scene.sidecar.empty()) fmt::print(stderr, "irad: {}\n", sidecarNote(scene));
+  if (!scene.sidecar.empty()) tell("irad: {}\n", sidecarNote(scene));
 }
 
 std::vector<Camera> Session::cameras() const {
@@ -74,7 +76,79 @@ void Session::useSceneCamera(int index) {
 void Session::open(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   const bool picture = extension == ".exr" || extension == ".hdr" || extension == ".pfm";
-  (picture ? openReference : openScene) = path;
+  if (picture)
+    openReference = path;
+  else
+    leave(
+        {path.filename().string().ends_with(kSidecarExtension) ? Leaving::What::OpenSidecar : Leaving::What::OpenScene,
+         path});
+}
+
+void Session::openSidecar(const std::filesystem::path& path) {
+  try {
+    edits.take(readSidecar(path));
+    note(fmt::format("Lights and bookmarks are those of {}", path.filename().string()));
+  } catch (const Error& e) {
+    error(e.what());
+  }
+}
+
+void Session::settingsSaved(const Settings& as) {
+  for (Side* side : sides())
+    if (sameSettings(side->edited, as)) side->saved = side->edited;
+}
+
+void Session::leave(Leaving what) {
+  if (asking) return;  // one thing at a time
+  if (!unsavedBefore(*this, what).any()) return leaveNow(what);
+  showOpen = false;
+  asking = std::move(what);
+}
+
+void Session::leaveNow(const Leaving& what) {
+  const Leaving going = what;
+  asking.reset();
+  switch (going.what) {
+    case Leaving::What::Quit:
+      quit = true;
+      if (work) work->cancel = true;
+      break;
+    case Leaving::What::OpenScene:
+      openScene = going.path;
+      break;
+    case Leaving::What::OpenSidecar:
+      openSidecar(going.path);
+      break;
+    case Leaving::What::EndComparison:
+      compare = false;
+      break;
+  }
+}
+
+/// Where a setting about how the scene is read asked to load it again, it goes back to what it was.
+void Session::stay() {
+  const Leaving stayed = *std::exchange(asking, std::nullopt);
+  if (stayed.what == Leaving::What::OpenScene && pipeline && pipeline->scene().path == stayed.path)
+    edited.scene = pipeline->settings().scene;
+}
+
+void Session::closeTopmost() {
+  if (asking)
+    stay();
+  else if (showOpen)
+    showOpen = false;
+  else if (closePopup())
+    return;
+  else if (showHelp)
+    showHelp = false;
+  else if (work)
+    work->cancel = true;
+  else if (inspection.voxel)
+    inspection.clear = true;
+  else if (edits.selected >= 0)
+    edits.selected = -1;
+  else if (comparison)
+    leave({Leaving::What::EndComparison});
 }
 
 void Session::act(Action action) {
@@ -105,16 +179,18 @@ void Session::act(Action action) {
     case Action::Flicker:
       if (comparison) {
         using Show = Comparison::Show;
-        if (showsDifference()) viewDirty = true;  // for the range of its own
+        if (showsDifference()) viewDirty = true;  // the difference has a range of its own
         comparison->show = comparison->show == Show::A ? Show::B : Show::A;
       }
       break;
     case Action::Open:
       showOpen = true;
       break;
+    case Action::Close:
+      closeTopmost();
+      break;
     case Action::Quit:
-      quit = true;
-      if (work) work->cancel = true;
+      leave({Leaving::What::Quit});
       break;
   }
 }
@@ -139,7 +215,7 @@ std::string stagesFrom(Redo first, const char* arrow) {
   std::string text;
   for (auto stage = static_cast<uint32_t>(first); stage < static_cast<uint32_t>(Redo::Nothing); ++stage) {
     if (!text.empty()) text += std::string(" ") + arrow + " ";
-    text += EnumNames<Redo>::names[stage];
+    text += nameOf(static_cast<Redo>(stage));
   }
   return text;
 }

@@ -13,7 +13,7 @@
 #include "gi/compare.h"
 #include "gi/picture.h"
 #include "gi/pipeline.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/view.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
@@ -22,6 +22,7 @@
 #include "ui/presets.h"
 #include "ui/recorder.h"
 #include "ui/scene_edits.h"
+#include "ui/unsaved.h"
 
 namespace irad {
 
@@ -47,7 +48,7 @@ struct Built {
   double edge = 0;  ///< of a voxel
   SolveReport solve;
   std::vector<Finding> findings;     ///< of the numerical watch, errors first
-  std::vector<std::string> noLight;  ///< why there is none (ui/no_light.h); none: there is
+  std::vector<std::string> noLight;  ///< why none of the kinds of light is on, by the plan; empty: one is
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 
@@ -62,13 +63,13 @@ struct Side {
   std::unique_ptr<Pipeline> pipeline;  ///< null: no scene yet
   std::optional<Built> built;          ///< set once the pipeline has something to show
   Settings edited;                     ///< as the widgets show them; the loop hands them to the pipeline
-  std::vector<double> applied;         ///< every setting that the pipeline has, as a number
+  Settings saved;                      ///< those that can be had again (docs/conventions.md, "What is unsaved")
   Targets targets;
   std::deque<SolveSample> solves;  ///< since the solver last woke
   uint64_t sweepsSinceWake = 0;
 
   bool asleep() const { return built && pipeline->asleep(); }
-  void woke();  ///< the solver begins anew: its plots too
+  void woke();  ///< the solver begins anew, and so do its plots
 };
 
 /// A second side of the same scene, drawn from the same camera.
@@ -83,7 +84,7 @@ struct Comparison {
     Metrics picture;      ///< of B's linear picture against A's
     VoxelMetrics voxels;  ///< of B's H against A's
   };
-  /// Whether at this share of the viewport's width the side shows that is not edited.
+  /// Whether the side that is not edited shows at this share of the viewport's width.
   bool showsOther(float share) const {
     if (show == Show::Difference) return false;
     const bool a = show == Show::A || (show == Show::Split && share < split);
@@ -108,12 +109,13 @@ struct Session : Side {
   int sceneCamera = 0;             ///< index into cameras(): which `camera` began as
   Camera shown;                    ///< of the picture in targets
   bool viewDirty = true;           ///< the picture must be rendered again
-  View rangeView = 0;              ///< of which `range` is
+  View rangeView = 0;              ///< the view that `range` belongs to
   bool rangeOfDifference = false;  ///< of B less A
   std::optional<ViewRange> range;  ///< that the picture in targets was drawn with; none until it has come back
 
   bool underRenderDoc = false;  ///< captureFrame can be served
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
+  std::optional<Leaving> asking;  ///< Save, Discard or Cancel before this
   Preferences preferences;
   Presets presets;
   std::optional<Work> work;
@@ -133,7 +135,7 @@ struct Session : Side {
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
   Inspection inspection;
 
-  // Requests.
+  // Requests; those that may lose work come from leave().
   std::optional<std::filesystem::path> openScene, openReference;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;        ///< begin or end a comparison
@@ -143,16 +145,25 @@ struct Session : Side {
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void act(Action action);  ///< what its key does
-  /// Of a scene that was loaded: edits begin with what it came with, or are `kept`.
+  /// After a scene was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
-  std::vector<Camera> cameras() const;           ///< the scene's, then the bookmarks
-  void startAt(const Camera& from);              ///< the window's camera
-  void useSceneCamera(int index);                ///< of cameras()
-  void open(const std::filesystem::path& path);  ///< a scene, or a reference picture, by its extension
-  void saveEdits();                              ///< says what became of it
+  std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
+  void startAt(const Camera& from);     ///< the window's camera
+  void useSceneCamera(int index);       ///< of cameras()
+  /// A scene, a sidecar, or a reference picture, by its extension. It may be asked first.
+  void open(const std::filesystem::path& path);
+  void saveEdits();                        ///< reports what became of it
+  void settingsSaved(const Settings& as);  ///< the sides that have these
+
+  void leave(Leaving what);            ///< at once, or after it was asked what becomes of what is unsaved
+  void leaveNow(const Leaving& what);  ///< whatever is unsaved
+  void stay();                         ///< the answer was Cancel
+  bool dialogOpen() const { return showOpen || asking; }  ///< one that takes mouse and keys
 
  private:
   void say(Message::Kind kind, std::string text);
+  void closeTopmost();
+  void openSidecar(const std::filesystem::path& path);
 };
 
 /// Its name, or its number where it has none.

@@ -1,4 +1,4 @@
-// Rows of settings, generated from visit().
+// Rows of settings, generated from their table.
 #pragma once
 
 #include <set>

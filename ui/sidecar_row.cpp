@@ -1,9 +1,9 @@
 #include "ui/sidecar_row.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 

@@ -1,12 +1,11 @@
 #include "ui/theme.h"
 
-#include <imgui.h>
-
 #include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "renderer/image_io.h"
+#include "ui/imgui.h"
 
 namespace irad {
 namespace theme {

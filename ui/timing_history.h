@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/timings.h"
+#include "renderer/base/timings.h"
 
 namespace irad {
 

@@ -1,10 +1,9 @@
 #include "ui/viewport.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "ui/imgui.h"
 #include "ui/imgui_layer.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
@@ -61,14 +60,14 @@ Viewport::Viewport() {
 #undef IRAD_MAKE_OVERLAY
 }
 
-/// Of the invisible button over the picture, which has just been submitted.
+/// The mouse on the invisible button over the picture, which has just been submitted.
 PictureMouse Viewport::mouse() {
   const ImGuiIO& io = ImGui::GetIO();
   PictureMouse m;
   m.position = {io.MousePos.x, io.MousePos.y};
   m.hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   m.pressed = ImGui::IsItemActivated() && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  // What the mouse moved before it was pressed is no drag, also where a slow frame sees both at once.
+  // Movement before the button was pressed is no drag, also where a slow frame sees both at once.
   if (!ImGui::IsItemActivated()) m.delta = {io.MouseDelta.x, io.MouseDelta.y};
   if (m.pressed) moved_ = false;
   moved_ = moved_ || ImGui::IsMouseDragging(ImGuiMouseButton_Left);
@@ -81,7 +80,7 @@ PictureMouse Viewport::mouse() {
 
 namespace {
 
-/// The picture; of two that are compared A's left and B's right part, or one of them.
+/// The picture; in a comparison A's left and B's right part, or one of the two.
 void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
   if (!session.comparison) {
     if (!session.targets.display) return;
@@ -150,7 +149,7 @@ void Viewport::draw(Session& session, ImGuiLayer& layer, const Rect& where) {
   ImGui::PopStyleVar(2);
   const ImVec2 size{std::max(where.size.x, 1.0f), std::max(where.size.y, 1.0f)};
   drawPictures(session, layer, size);
-  ImGui::InvisibleButton("##look", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  ImGui::InvisibleButton("##viewport", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
   PictureMouse m = mouse();
 

@@ -42,7 +42,7 @@ struct PictureMouse {
   glm::vec2 delta{0};     ///< since the last frame, screen
   bool hovered = false;   ///< it is over the picture and over no panel, or a button pressed there is held
   bool pressed = false;   ///< the left button went down
-  bool dragged = false;   ///< it is held and has moved since by more than a hand's tremble
+  bool dragged = false;   ///< it is held and has moved since by more than a hand trembles
   bool clicked = false;   ///< it came up without having been dragged
   bool shift = false, control = false;
 };

@@ -1,10 +1,11 @@
 #include "ui/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
+#include "ui/imgui.h"
 #include "ui/session.h"
 #include "ui/theme.h"
 
@@ -35,6 +36,12 @@ void helpTooltip(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+bool closePopup() {
+  if (ImGui::GetCurrentContext()->OpenPopupStack.empty()) return false;
+  ImGui::ClosePopupToLevel(0, /*restore_focus_to_window_under_popup=*/true);
+  return true;
 }
 
 void keepFolded(std::set<std::string>& folded, const std::string& title, bool open) {

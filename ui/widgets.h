@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gi/number_text.h"
+#include "renderer/base/number_text.h"
 
 namespace irad {
 
@@ -25,6 +25,10 @@ void fieldLabel(const char* label, const std::string& help = {});
 /// Keeps in `folded` the titles of what is not open.
 void keepFolded(std::set<std::string>& folded, const std::string& title, bool open);
 
+/// Closes the list, or the menu with those that it opened (the mouse over one would open it again); false: there is
+/// none.
+bool closePopup();
+
 void helpTooltip(const std::string& text);
 /// Text that ends in an ellipsis where the width does not suffice.
 std::string clipped(const std::string& text, float width);
@@ -37,7 +41,7 @@ void rightText(const std::string& text);
 /// share what the numbers leave. True: end it with ImGui::EndTable().
 bool beginNumberTable(const char* id, const std::vector<const char*>& columns, const std::vector<size_t>& words);
 
-/// When to derive anew what is costly: four times a second while frames follow each other, and in the last of them.
+/// When to recompute what is costly: four times a second while frames follow each other, and in the last of them.
 class Refresh {
  public:
   bool due(const Session& session);

@@ -2,21 +2,21 @@
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
-#include <imgui.h>
 #include <time.h>
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
-#include "renderer/error.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 #include "renderer/presenter.h"
 #include "renderer/renderdoc.h"
 #include "ui/bindings.h"
 #include "ui/builder.h"
 #include "ui/capture.h"
 #include "ui/comparison.h"
+#include "ui/imgui.h"
 #include "ui/imgui_layer.h"
 #include "ui/input.h"
 #include "ui/open_dialog.h"
@@ -24,6 +24,7 @@
 #include "ui/panel.h"
 #include "ui/pictures.h"
 #include "ui/theme.h"
+#include "ui/unsaved_dialog.h"
 #include "ui/viewport.h"
 
 namespace irad {
@@ -34,7 +35,7 @@ constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames whi
 constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
 constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
 
-/// CPU time of this thread, ms: what drivers and other programs do meanwhile does not count.
+/// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
 double threadMilliseconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -70,9 +71,11 @@ class Window {
   Presenter presenter_;
   Input input_;
   ImGuiLayer layer_;
+  std::optional<Controls> controls_;  ///< asked for by a test
   Builder builder_;
   Viewport viewport_;
   OpenDialog openDialog_;
+  UnsavedDialog unsavedDialog_;
   Panels panels_ = makePanels();
   std::optional<RenderDoc> renderDoc_ = RenderDoc::find();
   Image image_;          ///< the whole window
@@ -84,7 +87,7 @@ class Window {
   Clock::time_point lastDraw_;
   Preferences saved_;         ///< as the file has them
   bool compiling_ = false;    ///< the context has variants to compile
-  bool toldUnsaved_ = false;  ///< that it cannot be written
+  bool toldUnsaved_ = false;  ///< the user was told that it cannot be written
 };
 
 Window::Window(Context& context, const WindowOptions& options)
@@ -94,10 +97,11 @@ Window::Window(Context& context, const WindowOptions& options)
       presenter_("irad", static_cast<int>(options.size.x), static_cast<int>(options.size.y)),
       input_(presenter_.window()),
       layer_(context, presenter_.window()),
-      builder_(context, session_, [this] { breathe(); }) {
+      builder_(context, session_, [this] { breathe(); }),
+      unsavedDialog_(options.captures) {
   presenter_.attach(context);
   context.bridgeVariants(true);
-  session_.edited = options.settings;
+  session_.edited = session_.saved = options.settings;
   session_.defaults = options.defaults;
   session_.view = options.view;
   session_.reference = options.reference;
@@ -105,6 +109,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.builtIn = options.builtIn;
   session_.underRenderDoc = renderDoc_.has_value();
   session_.presets = options.presets;
+  if (!options.controls.empty()) controls_.emplace(options.controls);
   readPreferences();
 }
 
@@ -118,7 +123,7 @@ void Window::readPreferences() {
   saved_ = session_.preferences;
 }
 
-/// Once per change, and not while the mouse is making it. A folder that cannot be written into is told of once.
+/// Once per change, and not while the mouse is making it. A folder that cannot be written into is reported once.
 void Window::savePreferences() {
   if (options_.preferences.empty() || session_.preferences == saved_ || ImGui::IsAnyItemActive()) return;
   saved_ = session_.preferences;
@@ -143,7 +148,7 @@ void Window::run() {
     session_.useSceneCamera(static_cast<int>(named - cameras.begin()));
   }
   if (options_.inspect && session_.pipeline) session_.inspection.open(session_, *options_.inspect);
-  while (!session_.quit && !glfwWindowShouldClose(presenter_.window())) {
+  while (!session_.quit) {
     wait();
     takeKeys();
     try {
@@ -171,7 +176,7 @@ bool Window::measured() {
   return options_.uiMilliseconds->size() >= options_.measuredFrames;
 }
 
-/// Something is to be done that needs no frame.
+/// There is something to do that needs no frame.
 bool Window::working() const {
   return session_.work || session_.openScene || session_.openReference || session_.capture || session_.captureAll ||
          session_.captureFrame || session_.reloadShaders || session_.rebuild || session_.compare ||
@@ -180,14 +185,17 @@ bool Window::working() const {
 }
 
 bool Window::settled() const {
-  return !working() && !session_.viewDirty && session_.next == Redo::Nothing && context_.variantsCompiling() == 0;
+  // What waits for a slider to be let go, or for a number to be typed to its end, takes an event to go on.
+  const bool due = session_.next != Redo::Nothing && !ImGui::IsAnyItemActive();
+  return !working() && !session_.viewDirty && !due && context_.variantsCompiling() == 0;
 }
 
-/// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor. What
-/// wakes it and is none (the display answering a presentation) lets it sleep again.
+/// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor.
+/// Wake-ups that bring none (the display answering a presentation) let it sleep again.
 void Window::wait() {
   const bool hidden = !visible_ && !working();
-  const bool idle = settled() && framesLeft_ <= 0 && !input_.flying() && options_.exitAfter == 0;
+  const bool typing = ImGui::GetIO().WantTextInput || session_.dialogOpen();  // keys that are held fly nowhere
+  const bool idle = settled() && framesLeft_ <= 0 && (typing || !input_.flying()) && options_.exitAfter == 0;
   const bool blinks = idle && ImGui::GetIO().WantTextInput;  // the text cursor
   if (hidden)
     glfwWaitEventsTimeout(kHiddenInterval);
@@ -204,13 +212,20 @@ void Window::wait() {
 }
 
 void Window::takeKeys() {
+  if (glfwWindowShouldClose(presenter_.window())) {
+    glfwSetWindowShouldClose(presenter_.window(), GLFW_FALSE);
+    session_.leave({Leaving::What::Quit});
+    framesLeft_ = kFramesPerEvent;  // for the question
+  }
   for (const std::filesystem::path& path : input_.takeDrops()) session_.open(path);
   const std::vector<Input::Press> presses = input_.takePresses();
   if (ImGui::GetIO().WantTextInput) return;
   for (const Input::Press& press : presses) {
     const std::span<const Binding> all = bindings();
-    const auto binding = std::find_if(
-        all.begin(), all.end(), [&](const Binding& b) { return b.key == press.key && (press.shift || !b.shift); });
+    const auto binding = std::find_if(all.begin(), all.end(), [&](const Binding& b) {
+      return b.key == press.key && (press.shift || !b.shift) && (press.control || !b.control);
+    });
+    if (session_.dialogOpen() && press.key != GLFW_KEY_ESCAPE) continue;
     if (binding != all.end()) session_.act(binding->action);
     const auto number = static_cast<size_t>(press.key - GLFW_KEY_1);
     if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_9 && number < views().size()) {
@@ -241,9 +256,9 @@ void Window::takeRequests() {
 void Window::frame() {
   builder_.apply(/*held=*/ImGui::IsAnyItemActive());
   if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
-  fly();  // first: on a slow machine the keys of a flight and the one that saves come together
+  fly();  // first: on a slow machine the keys of a flight and the key that saves arrive together
   capture();
-  // What stood in for the variants that have come may have shown an effect that is switched off.
+  // The pipelines that stood in until the variants came may have shown an effect that is switched off.
   const bool compiling = context_.variantsCompiling() > 0;
   if (std::exchange(compiling_, compiling) && !compiling) session_.viewDirty = true;
   if (framesLeft_ > 0 || !settled() || options_.exitAfter > 0) drawFrame();
@@ -262,14 +277,14 @@ void Window::captureFrame() {
   }
 }
 
-/// What was asked for is saved once the light is done, unless nothing goes on.
+/// Captures that were asked for are saved once the light is done, unless the solver is stopped.
 void Window::capture() {
   if (!session_.capture && !session_.captureAll) return;
   if (session_.pipeline && !session_.allAsleep() && !session_.paused && !session_.halted) return;
   session_.work = Work{.what = session_.captureAll ? "Saving all views" : "Saving the view"};
   const bool all = std::exchange(session_.captureAll, false);
   session_.capture = false;
-  // Files hold what the settings say: no pipeline stands in for another.
+  // Files hold exactly what the settings say: no pipeline may stand in for another.
   struct Exact {
     Context& context;
     explicit Exact(Context& c) : context(c) { context.bridgeVariants(false); }
@@ -310,13 +325,12 @@ void Window::breathe() {
   if (Clock::now() - std::max(lastDraw_, session_.work->began) < kBusyInterval) return;
   glfwPollEvents();
   takeKeys();
-  if (glfwWindowShouldClose(presenter_.window())) session_.work->cancel = session_.quit = true;
   drawFrame();
 }
 
 void Window::fly() {
   const glm::vec3 seconds = input_.takeMovement();
-  if (ImGui::GetIO().WantTextInput || seconds == glm::vec3(0.0f)) return;
+  if (ImGui::GetIO().WantTextInput || session_.dialogOpen() || seconds == glm::vec3(0.0f)) return;
   session_.camera.move(seconds, input_.shift() ? 4.0f : input_.control() ? 0.25f : 1.0f);
   session_.viewDirty = true;
 }
@@ -356,7 +370,7 @@ void Window::drawFrame() {
       }
   double uiBegan = threadMilliseconds();
   layer_.beginFrame();
-  // First: of windows that focus does not raise, ImGui keeps those on top that were there before.
+  // Drawn first: among windows that focus does not raise, ImGui keeps the order in which they were drawn.
   if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
   viewport_.draw(session_, layer_, where.viewport);
   if (!session_.hideUi) drawPanels(session_, panels_, where);
@@ -365,10 +379,11 @@ void Window::drawFrame() {
   drawProgress(session_, where.viewport);
   drawHelp(session_, where.viewport);
   openDialog_.draw(session_);
+  unsavedDialog_.draw(session_);
   builder_.announced();
   double uiMs = threadMilliseconds() - uiBegan;
 
-  // Frames of the progress bar stay out of the timings: the rebuild's own passes are being summed there.
+  // Frames of the progress bar stay out of the timings, where the rebuild's own passes are being summed.
   Frame frame = busy ? context_.beginUntimed() : context_.begin(frameIndex_);
   if (!busy) frame.sampled(frameIndex_++, lastDraw_);
   if (!busy && session_.built && session_.viewDirty) {
@@ -379,6 +394,7 @@ void Window::drawFrame() {
   layer_.draw(frame, image_);
   uiMs += threadMilliseconds() - uiBegan;
   if (measuring_) options_.uiMilliseconds->push_back(uiMs);
+  if (controls_) controls_->write();
   presenter_.present(frame, image_);
   --framesLeft_;
 }

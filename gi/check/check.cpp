@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "gi/check/cases.h"
-#include "renderer/error.h"
-#include "renderer/near_match.h"
+#include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
 
 namespace irad {
 namespace {
@@ -50,8 +50,12 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   scene.path = path;
   scene.fileLights = scene.lights;
   if (options.lights) replaceLights(scene, *options.lights);
-  scene.expectedIrradiance = check.expected;
   return scene;
+}
+
+ExpectedIrradiance expectedIrradiance(const Scene& scene) {
+  if (!isCheckScene(scene.path)) return {};
+  return findCheckCase(scene.path.native().substr(kScheme.size())).expected;
 }
 
 bool CheckOutcome::passed() const {

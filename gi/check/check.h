@@ -20,7 +20,7 @@ struct CheckCase {
   void (*run)(CheckRun&) = nullptr;  ///< none: pending
   /// What `irad view check:NAME` opens; none where the case has no scene (a sampler, an encoding).
   Scene (*scene)() = nullptr;
-  /// What Scene::expectedIrradiance of `scene` is; none where the oracle does not give it.
+  /// What H should be in `scene`; none where the oracle does not give it.
   glm::dvec3 (*expected)(const glm::dvec3& position, const glm::dvec3& normal) = nullptr;
   const char* pending = nullptr;  ///< why it cannot be run yet
   bool soak = false;              ///< long: CheckRun::quick shortens it
@@ -35,14 +35,16 @@ const CheckCase& findCheckCase(std::string_view name);
 bool isCheckScene(const std::filesystem::path& path);
 /// loadScene, or the scene of a case, which has no sidecar. UsageError where a case has none.
 Scene openScene(const std::filesystem::path& path, const LoadOptions& options = {});
+/// What is known about a scene that openScene made; empty: nothing.
+ExpectedIrradiance expectedIrradiance(const Scene& scene);
 
 struct CheckOutcome {
   std::vector<CheckFigure> figures;
   std::string error;  ///< the case threw: what
   double milliseconds = 0;
   bool passed() const;
-  /// The figure that the case's line shows: of the judged ones that with the greatest strain, and where several have it
-  /// the one that strains `beside` most. Null: none.
+  /// The figure that the case's line shows: the judged one with the greatest strain or, where several share it, the one
+  /// that strains `beside` most. Null: there is none.
   const CheckFigure* decisive(const CheckOutcome* beside = nullptr) const;
   const CheckFigure* find(const std::string& figure) const;
 };
@@ -51,7 +53,7 @@ CheckOutcome runCheck(Context& context, const CheckCase& check, const Settings& 
 
 /// N = 64, 384 rays: the least at which the marks hold.
 void applyCheckSizes(Settings& settings);
-/// The thesis's mode with the sizes and the seed of `settings`, whose figures stand beside.
+/// The thesis's mode with the sizes and the seed of `settings`; its figures are shown beside ours.
 Settings thesisBeside(const Settings& settings);
 
 }  // namespace irad

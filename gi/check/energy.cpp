@@ -127,7 +127,7 @@ void superpositionCase(CheckRun& run) {
   settings.solver.tolerance = 1e-6f;
   const auto pipeline = run.prepare(litRoom(/*open=*/true, /*sun=*/false), settings);
   const HostFacets facets = run.facets(*pipeline);
-  // Two lamps given as direct light, the emission taken away by its own answer.
+  // Two lamps, given as direct light. What the scene's own emission brings is solved alone and subtracted.
   std::vector<glm::vec3> first, second, both;
   for (const glm::dvec3& n : facets.normal) {
     first.emplace_back(std::max(0.0, n.y), std::max(0.0, n.y), 0);

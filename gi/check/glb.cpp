@@ -6,9 +6,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "renderer/error.h"
-#include "renderer/output_file.h"
-#include "renderer/temporary_folder.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
+#include "renderer/base/temporary_folder.h"
 
 namespace irad {
 namespace {
@@ -54,13 +54,11 @@ Json toJson(const Material& m) {
 }
 
 Json toJson(const Light& light) {
-  constexpr const char* kTypes[] = {"directional", "point", "spot"};
-  Json out = {{"name", light.name},
-              {"type", kTypes[static_cast<size_t>(light.type)]},
-              {"color", numbers(light.color)},
-              {"intensity", light.intensity}};
+  const LightKind& kind = lightKind(light.type);
+  Json out = {
+      {"name", light.name}, {"type", kind.gltf}, {"color", numbers(light.color)}, {"intensity", light.intensity}};
   if (light.range > 0) out["range"] = light.range;
-  if (light.type == LightType::Spot)
+  if (kind.has(LIGHT_CONE))
     out["spot"] = {{"innerConeAngle", std::acos(light.innerCos)}, {"outerConeAngle", std::acos(light.outerCos)}};
   return out;
 }

@@ -6,7 +6,8 @@
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
-#include "renderer/error.h"
+#include "gi/matrix.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 namespace {

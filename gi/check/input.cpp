@@ -33,7 +33,7 @@ Scene stillScene() {
   return stillLife().finish("still life");
 }
 
-/// With triangles that have no area or next to none, of a glaring material, and the ball and the floor twice.
+/// Adds triangles of a glaring material that have no area or next to none, and the ball and the floor a second time.
 Scene degenerateScene() {
   SceneBuilder b = stillLife();
   const uint32_t white = 0, glossy = 4, glaring = b.material(glm::vec3(0.9f), glm::vec3(100, 0, 0));
@@ -59,7 +59,7 @@ void degenerateCase(CheckRun& run) {
 
 constexpr uint32_t kNonFinite = 5, kZeroNormals = 7;
 
-/// A scene whose first normals are zero, with glaring triangles that have vertices nowhere.
+/// A scene whose first normals are zero, with glaring triangles whose vertices are not finite.
 Scene damagedScene() {
   Scene scene = stillScene();
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
@@ -79,7 +79,7 @@ Scene damagedScene() {
   return scene;
 }
 
-/// The number with which a warning that says `what` begins; 0: there is none.
+/// The number at the start of the warning that says `what`; 0: there is no such warning.
 double reported(const Scene& scene, const std::string& what) {
   for (const std::string& warning : scene.warnings)
     if (const size_t at = warning.find(what); at != std::string::npos) {
@@ -109,7 +109,7 @@ void nanInputCase(CheckRun& run) {
 
 // ---- flat and bar ----
 
-/// What must hold of anything: it has facets, and light and pictures that are numbers.
+/// What must hold for every scene: it has facets, and its light and pictures are finite.
 std::unique_ptr<Pipeline> runs(CheckRun& run, const std::string& name, Scene scene) {
   auto pipeline = run.prepare(std::move(scene));
   run.require(name + ": has facets", pipeline->facets().count > 0);

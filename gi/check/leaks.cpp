@@ -44,7 +44,7 @@ Scene rowOfRooms(float thickness) {
 }
 
 enum class Side { lit, dark, hidden };
-/// Of a facet: which kind of room it belongs to; hidden inside a wall.
+/// Which kind of room a facet belongs to; hidden: it lies inside a wall.
 Side sideOf(float thickness, const glm::dvec3& position, const glm::dvec3& normal) {
   const double x = position.x + 0.1 * normal.x;  // in front of a wall's face
   int room = 0;

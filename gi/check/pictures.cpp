@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 
@@ -15,7 +15,7 @@ Scene scaled(Scene scene, float s) {
   for (Light& light : scene.lights) {
     light.position *= s;
     light.range *= s;
-    if (light.type != LightType::Sun) light.intensity *= s * s;
+    if (!lightKind(light.type).has(LIGHT_DISTANT)) light.intensity *= s * s;
   }
   for (Camera& camera : scene.cameras) {
     camera.position *= s;

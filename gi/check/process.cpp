@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 extern char** environ;
 

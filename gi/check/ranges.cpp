@@ -1,5 +1,5 @@
-// The same picture whatever the light's strength, the scene's size, its axes and its place; and light from where rays
-// seldom go.
+// The same picture whatever the light's strength, the scene's size, its axes and its place; and a lamp that few rays
+// meet.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "gi/check/glb.h"
 #include "gi/check/pictures.h"
 #include "gi/check/scenes.h"
+#include "gi/grid.h"
 
 namespace irad {
 namespace {
@@ -33,7 +34,8 @@ void emissionRangeCase(CheckRun& run) {
 
 constexpr float kTinyExitance = 1e4f;  ///< W/m^2
 
-/// One face of a voxel of a cube of edge 2: from its floor a ten-thousandth of what there is to be seen (64 voxels).
+/// A lamp the size of one voxel's face, in a cube of edge 2 of 64 voxels: it fills a ten-thousandth of what the floor
+/// sees.
 std::array<glm::dvec3, 4> tinyLamp(uint32_t resolution) {
   const Grid grid = makeGrid(glm::vec3(-1), glm::vec3(1), resolution);
   const double x = grid.dims.x / 2, z = grid.dims.z / 2, y = std::floor(0.875 * resolution) + 1.5;

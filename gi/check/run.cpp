@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 namespace {
@@ -64,7 +64,7 @@ void CheckRun::info(std::string name, double value) {
 }
 
 std::unique_ptr<Pipeline> CheckRun::prepare(Scene scene, const Settings& chosen) const {
-  // Cases read the matrix and the light itself, and put light of their own in: they are there whatever the scene has.
+  // Cases read matrix and light, and put in light of their own: both are built whatever the scene holds.
   Settings whole = chosen;
   whole.effects.matrix = whole.effects.field = EffectMode::on;
   auto pipeline = std::make_unique<Pipeline>(context, std::move(scene), whole);

@@ -52,12 +52,12 @@ class CheckRun {
   /// |value - expected| <= tolerance.
   void near(std::string name, double value, double expected, double tolerance);
   void atMost(std::string name, double value, double limit);
-  /// `ideal`: the value that strains nothing, above the limit.
+  /// `ideal`: the value, above the limit, at which the strain is 0.
   void atLeast(std::string name, double value, double limit, double ideal = 1);
-  /// `differing` things are to be none.
+  /// Expects `differing` to be 0.
   void none(std::string name, uint64_t differing);
   void require(std::string name, bool holds) { near(std::move(name), holds ? 1 : 0, 1, 0); }
-  /// Printed beside, not judged.
+  /// Printed with the others, not judged.
   void info(std::string name, double value);
 
   // ---- The pipeline ----
@@ -90,7 +90,7 @@ uint64_t countDiffering(const Picture& a, const Picture& b);
 struct Spread {
   double mean = 0, least = 0, most = 0, deviation = 0, percentile1 = 0;
 };
-/// Of the red channel; none of no values.
+/// Of the red channel; nothing where there are no values.
 Spread spread(const std::vector<glm::vec3>& values);
 
 }  // namespace irad

@@ -8,11 +8,15 @@
 #include <glm/gtc/packing.hpp>
 #include <random>
 
-#include "gi/angle.h"
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/field.h"
 #include "gi/ray_kernel.h"
-#include "renderer/error.h"
+#include "gi/subsystems.h"
+#include "gi/voxelize.h"
+#include "renderer/base/angle.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/check.h"
 #include "shaders/shared/normals.h"
 
@@ -21,22 +25,24 @@ namespace {
 
 constexpr const char* kStage = "Check";
 
-/// Runs a kernel, a thread for each of `count` elements of `in`.
-template <class Push, class... Out>
-void runOver(Context& context, const char* shader, uint32_t count, const Push& push, const Buffer& in,
-             const Out&... out) {
+/// Runs a kernel over `count` elements. `push` makes its push constants for the pass.
+template <class Push>
+void runOver(Context& context, const char* shader, uint32_t count, const Push& push) {
   Frame frame = context.begin();
-  frame.pass(kStage).shader(shader).read(in).write(out...).push(push).dispatch(count);
+  Pass pass = frame.pass(kStage);
+  pass.shader(shader).push(push(pass)).dispatch(count);
   frame.submitAndWait();
 }
 
 // ---- encodings ----
 
-std::vector<glm::vec4> roundTrip(Context& context, const std::vector<glm::vec4>& normals, uint32_t encoding) {
+std::vector<glm::vec4> roundTrip(Context& context, const std::vector<glm::vec4>& normals, NormalEncoding encoding) {
   const Buffer in = makeBuffer<glm::vec4>(context, "normals", Subsystem::Staging, normals);
   const Buffer out(context.device, "decoded normals", Subsystem::Staging, 16 * normals.size());
   const auto count = static_cast<uint32_t>(normals.size());
-  runOver(context, "check/encode.comp", count, EncodePush{in.address, out.address, count, encoding}, in, out);
+  runOver(context, "check/encode.comp", count, [&](Pass& pass) {
+    return EncodePush{pass.in(in), pass.out(out), count, encoding};
+  });
   return downloadAs<glm::vec4>(context, out);
 }
 
@@ -53,9 +59,9 @@ std::vector<glm::vec4> latticeDirections() {
 
 void encodingsCase(CheckRun& run) {
   struct Known {
-    uint32_t encoding;
+    NormalEncoding encoding;
     const char* name;
-    double most;         ///< degrees; METHOD section 2 to half its last digit
+    double most;         ///< degrees; docs/method.md 2 to half its last digit
     bool axes, corners;  ///< the lattice's axes are exact; all 26 are
   };
   constexpr size_t kLattice = 26, kAxes = 6;
@@ -65,9 +71,10 @@ void encodingsCase(CheckRun& run) {
   std::normal_distribution<float> gauss;
   while (normals.size() < kLattice + 1'000'000)
     normals.emplace_back(glm::normalize(glm::vec3(gauss(engine), gauss(engine), gauss(engine))), 0.0f);
-  for (const Known& known :
-       {Known{NORMALS_AXIS6, "axis6", 54.75, true, false}, Known{NORMALS_AXIS26, "axis26", 27.65, true, true},
-        Known{NORMALS_OCT8, "oct8", 15.85, false, false}, Known{NORMALS_OCT16, "oct16", 1, true, false}}) {
+  for (const Known& known : {Known{NormalEncoding::axis6, "axis6", 54.75, true, false},
+                             Known{NormalEncoding::axis26, "axis26", 27.65, true, true},
+                             Known{NormalEncoding::oct8, "oct8", 15.85, false, false},
+                             Known{NormalEncoding::oct16, "oct16", 1, true, false}}) {
     const std::vector<glm::vec4> back = roundTrip(run.context, normals, known.encoding);
     double most = 0, sum = 0;
     uint64_t axes = 0, corners = 0, bad = 0;
@@ -98,7 +105,9 @@ Samples sample(Context& context, const std::vector<glm::uvec4>& points, const gl
   const Buffer u(context.device, "coordinates", Subsystem::Staging, 16 * points.size());
   const Buffer d(context.device, "directions", Subsystem::Staging, 16 * points.size());
   const auto count = static_cast<uint32_t>(points.size());
-  runOver(context, "check/sample.comp", count, SamplePush{in.address, u.address, d.address, normal, count}, in, u, d);
+  runOver(context, "check/sample.comp", count, [&](Pass& pass) {
+    return SamplePush{pass.in(in), pass.out(u), pass.out(d), normal, count};
+  });
   return {downloadAs<glm::vec4>(context, u), downloadAs<glm::vec4>(context, d)};
 }
 
@@ -187,8 +196,7 @@ void traversalCase(CheckRun& run) {
   MatrixParams params = settings.matrix.gpu;
   params.rays = 1 + 1'000'000 / facets.count;
   const auto hits = [&](uint32_t method) {
-    const RayKernel kernel{method, params.hitRule, static_cast<uint32_t>(facets.encoding), facets,
-                           method == TRACE_JFA ? jfa : chebyshev};
+    const RayKernel kernel{method, params.hitRule, facets.encoding, facets, method == TRACE_JFA ? jfa : chebyshev};
     const Buffer met(run.context.device, "hits", Subsystem::Matrix, 4ull * facets.count * params.rays);
     Frame frame = run.context.begin();
     traceRows(frame, kernel, params, 0, facets.count, met);

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace irad {
 
@@ -77,7 +77,7 @@ void SceneBuilder::zone(uint32_t material, glm::vec3 centre, float radius, bool 
     for (uint32_t i = 0; i < sectors; ++i) {
       std::array<glm::vec3, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};  // outward
       if (inward) std::swap(q[1], q[3]);
-      // Of the squares at the poles one half has no area.
+      // At the poles one half of each square has no area.
       const bool top = j == 0, bottom = j + 1 == rings;
       if (inward ? !bottom : !top) triangle(material, q[0], q[1], q[2]);
       if (inward ? !top : !bottom) triangle(material, q[0], q[2], q[3]);
@@ -112,7 +112,7 @@ Scene SceneBuilder::finish(std::string name) {
     for (size_t i = 0; i < corners_[m].size(); i += 3) {
       const glm::vec3 &a = corners_[m][i], &b = corners_[m][i + 1], &c = corners_[m][i + 2];
       const glm::vec3 cross = glm::cross(b - a, c - a);
-      const bool area = glm::dot(cross, cross) > 0;  // without it any will do
+      const bool area = glm::dot(cross, cross) > 0;  // without one any frame will do
       const glm::vec3 n = area ? glm::normalize(cross) : glm::vec3(0, 0, 1);
       const glm::vec3 t = area ? glm::normalize(b - a) : glm::vec3(1, 0, 0);
       for (const glm::vec3& p : {a, b, c}) {

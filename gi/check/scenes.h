@@ -1,4 +1,5 @@
-// Small scenes whose light is known in closed form (HARD_CASES), built in code: for `irad check` and the test suites.
+// Small scenes whose light is known in closed form (docs/stability.md), built in code: for `irad check` and the test
+// suites.
 #pragma once
 
 #include <array>

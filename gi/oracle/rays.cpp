@@ -45,7 +45,7 @@ struct Walk {
     std::sort(t.begin(), t.end());
     return t;
   }
-  /// On from a cell of the grid.
+  /// Goes on from a cell of the grid.
   void next() {
     const float empty = passage.field ? passage.field->voxels[voxelIndex(glm::uvec3(cell), facets.grid.dims)] : 0.0f;
     if (empty > 0 && passage.field->euclidean) {
@@ -181,7 +181,7 @@ Hit traceRobust(const Facets& facets, const Ray& ray, const Passage& passage) {
   Walk walk(facets, ray, passage);
   uint32_t passed = TRACE_ESCAPED;
   double passedAt = 0;
-  // Every comparison leaves its margin.
+  // Every comparison records its margin.
   const auto less = [&hit](double a, double b) {
     hit.margin = std::min(hit.margin, std::abs(a - b));
     return a < b;
@@ -198,8 +198,8 @@ Hit traceRobust(const Facets& facets, const Ray& ray, const Passage& passage) {
     Met front, back;
     uint32_t around = 0;
     const std::vector<uint32_t> here = facetsAt(facets, walk.cell);
-    // How far the extension of a face around is taken beyond the planes recorded here, at which it ends: its middle
-    // does not lie beyond them.
+    // How far the extension of a neighbour's face reaches beyond the planes recorded here. It ends at these, since its
+    // middle does not lie beyond them.
     const auto overrun = [&](uint32_t f, double t) {
       double beyond = 0;
       for (const uint32_t mine : here) {
@@ -223,7 +223,7 @@ Hit traceRobust(const Facets& facets, const Ray& ray, const Passage& passage) {
                              less(std::min(rise(f), start), TRACE_ON_PLANE);
       if (less(slope, 0) && !startsBehind(facets, ray, f, less) && !otherSide) {
         const double slack = recorded ? TRACE_PLANE + facetJoint(facets.shape[f]) : TRACE_ON_PLANE;
-        // Of a ray that starts on both planes: a little ahead, which tells the side.
+        // Where a ray starts on both planes, a point a little ahead tells the side.
         const double at = std::min(std::max({cross, double{TRACE_PLANE}, walk.enter}), walk.leave);
         const double beyond = recorded ? 0 : overrun(f, at);
         if (!less(std::min(slack, double{TRACE_PLANE}), leave) && !less(enter, -slack) &&
@@ -290,18 +290,18 @@ Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParam
   const glm::vec3 direction = toWorld(cosineDirection(hammersley(k, params.rays, glm::uvec2(shifts))), n);
   const glm::uvec3 voxel = unpackVoxel(facets.voxel[facet]);
   const glm::vec3 origin =
-      params.hitRule == HIT_RULE_THESIS
+      params.hitRule == HitRule::thesis
           ? glm::vec3(voxel) + 0.5f + n
           : facetPoint(voxel, n, facetOffset(facets.shape[facet]), facetJitter(k, glm::uvec2(shifts.z, shifts.w)));
   return {dvec3(origin), dvec3(direction), dvec3(n), facet};
 }
 
-Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule, const Passage& passage) {
-  return hitRule == HIT_RULE_THESIS ? traceThesis(facets, ray, passage) : traceRobust(facets, ray, passage);
+Hit trace(const Facets& facets, const Ray& ray, HitRule hitRule, const Passage& passage) {
+  return hitRule == HitRule::thesis ? traceThesis(facets, ray, passage) : traceRobust(facets, ray, passage);
 }
 
 std::optional<glm::uvec3> firstSolid(const Facets& facets, const Ray& ray) {
-  // Into the grid: a little beyond where the last of the axes enters it.
+  // Enters the grid: a little beyond the point where the last of the axes enters it.
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (int a = 0; a < 3; ++a) {
     if (ray.direction[a] == 0) continue;

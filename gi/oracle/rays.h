@@ -7,6 +7,7 @@
 
 #include "shaders/shared/facets.h"
 #include "shaders/shared/gi_params.h"
+#include "shaders/shared/normals.h"
 #include "shaders/shared/grid.h"
 
 namespace irad::oracle {
@@ -14,7 +15,7 @@ namespace irad::oracle {
 /// A facet list on the host.
 struct Facets {
   Grid grid;
-  uint32_t encoding = 3;
+  NormalEncoding encoding = NormalEncoding::oct16;
   std::vector<uint32_t> voxel, shape, reverse, around;
   glm::dvec3 normal(uint32_t facet) const;
   /// The point of the plane nearest to the voxel's centre, voxel units.
@@ -52,7 +53,7 @@ struct Passage {
   };
   std::vector<Step>* steps = nullptr;  ///< if wanted: every cell entered, in order; the last may be outside of the grid
 };
-Hit trace(const Facets& facets, const Ray& ray, uint32_t hitRule, const Passage& passage = {});
+Hit trace(const Facets& facets, const Ray& ray, HitRule hitRule, const Passage& passage = {});
 
 /// The first voxel with a facet along a ray from anywhere.
 std::optional<glm::uvec3> firstSolid(const Facets& facets, const Ray& ray);

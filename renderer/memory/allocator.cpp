@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/error.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
 #include "renderer/memory/allocator_impl.h"
 #include "renderer/vulkan_check.h"
 
@@ -44,7 +45,7 @@ Allocator::Impl::Impl(const Device& device) : device(device) {
 
 Allocator::Impl::~Impl() {
   for (const auto& [id, allocation] : live)
-    fmt::print(stderr, "irad: {} ({} bytes) outlives its device\n", allocation.row.name, allocation.bytes);
+    tell("irad: {} ({} bytes) outlives its device\n", allocation.row.name, allocation.bytes);
   for (const auto& block : blocks) vkFreeMemory(device.handle, block->memory, nullptr);
   vkDestroyCommandPool(device.handle, pool, nullptr);
 }
@@ -129,7 +130,7 @@ Allocator::Impl::Place Allocator::Impl::allocate(const VkMemoryRequirements& nee
   if (deviceLocal) check(row.subsystem, row.name, needs.size);
   if (needs.size > device.maxAllocation)
     throw DeviceError(fmt::format("{} ({}) needs {} in one piece; the device allocates at most {} at once", row.name,
-                                  toString(row.subsystem), amount(needs.size), amount(device.maxAllocation)));
+                                  row.subsystem.text, amount(needs.size), amount(device.maxAllocation)));
 
   // Small resources share blocks; a resource of more than half a block gets its own.
   Block* block = nullptr;
@@ -152,7 +153,7 @@ Allocator::Impl::Place Allocator::Impl::allocate(const VkMemoryRequirements& nee
     if (!block && !refused && deviceLocal) checkRoom(row.subsystem, row.name, needs.size, deviceTaken);
     if (!block)
       throw DeviceError(fmt::format("{} ({}) needs {}: the device is out of memory ({} are in use)", row.name,
-                                    toString(row.subsystem), amount(needs.size), amount(used)));
+                                    row.subsystem.text, amount(needs.size), amount(used)));
     IRAD_CHECK(fit(*block, needs.size, 1, offset), "{} bytes in a dedicated block", needs.size);
   }
 
@@ -222,15 +223,15 @@ uint64_t Allocator::Impl::heapBudget() const {
   return std::min(usable, static_cast<uint64_t>(budget.heapBudget[deviceHeap]));
 }
 
-void Allocator::Impl::check(Subsystem subsystem, const std::string& name, uint64_t bytes) const {
+void Allocator::Impl::check(SubsystemName subsystem, const std::string& name, uint64_t bytes) const {
   checkRoom(subsystem, name, bytes, deviceUsed);
 }
 
-void Allocator::Impl::checkRoom(Subsystem subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const {
+void Allocator::Impl::checkRoom(SubsystemName subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const {
   const uint64_t all = budget();
   const uint64_t free = all > gone ? all - gone : 0;
   if (bytes > free)
-    throw DeviceError(fmt::format("{} ({}) needs {}, {} of {} are free", name, toString(subsystem), amount(bytes),
+    throw DeviceError(fmt::format("{} ({}) needs {}, {} of {} are free", name, subsystem.text, amount(bytes),
                                   amount(free), amount(all)));
 }
 
@@ -278,7 +279,7 @@ uint64_t Allocator::peak() const {
 uint64_t Allocator::budget() const {
   return impl_->budget();
 }
-void Allocator::check(Subsystem subsystem, const std::string& name, uint64_t bytes) const {
+void Allocator::check(SubsystemName subsystem, const std::string& name, uint64_t bytes) const {
   const std::lock_guard lock(impl_->mutex);
   impl_->check(subsystem, name, bytes);
 }

@@ -41,7 +41,7 @@ struct Allocator::Impl {
   void free(uint64_t id);
   uint64_t bytes(uint64_t id) const;
   uint64_t budget() const;
-  void check(Subsystem subsystem, const std::string& name, uint64_t bytes) const;
+  void check(SubsystemName subsystem, const std::string& name, uint64_t bytes) const;
 
   /// DeviceOptions::poison: runs `record` on the device and waits.
   void runNow(const std::function<void(VkCommandBuffer)>& record);
@@ -63,7 +63,7 @@ struct Allocator::Impl {
   uint32_t chooseType(uint32_t allowed, Access access, const std::string& name) const;
   Block* newBlock(uint32_t type, uint64_t size, bool images, bool dedicated, const std::string& name);
   uint64_t heapBudget() const;
-  void checkRoom(Subsystem subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const;
+  void checkRoom(SubsystemName subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const;
   bool fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset);
 };
 

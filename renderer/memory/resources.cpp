@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/format.h"
 #include "renderer/memory/allocator_impl.h"
 #include "renderer/vulkan_check.h"
@@ -46,7 +46,7 @@ void fullBarrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags ima
   vkCmdPipelineBarrier2(commands, &info);
 }
 
-/// Move assignment, given the members as a tuple of references. What `to` held goes now, not with `from`.
+/// Move assignment, given the members as a tuple of references. What `to` held is freed now, not with `from`.
 template <class Resource, class Members>
 Resource& take(Resource& to, Resource& from, Members members) noexcept {
   if (&to == &from) return to;
@@ -59,41 +59,11 @@ Resource& take(Resource& to, Resource& from, Members members) noexcept {
 
 }  // namespace
 
-const char* toString(Subsystem subsystem) {
-  switch (subsystem) {
-    case Subsystem::Scene:
-      return "scene";
-    case Subsystem::Shadow:
-      return "shadow";
-    case Subsystem::Targets:
-      return "targets";
-    case Subsystem::Voxels:
-      return "voxels";
-    case Subsystem::Field:
-      return "field";
-    case Subsystem::Facets:
-      return "facets";
-    case Subsystem::Matrix:
-      return "matrix";
-    case Subsystem::Solver:
-      return "solver";
-    case Subsystem::Volumes:
-      return "volumes";
-    case Subsystem::Specular:
-      return "specular";
-    case Subsystem::Staging:
-      return "staging";
-    case Subsystem::Ui:
-      return "ui";
-  }
-  return "?";
-}
-
 // --- Buffer ---
 
 // The constructors delegate, so that what they have made so far is destroyed when a later step throws.
 
-Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsystem, uint64_t size, Access access)
+Buffer::Buffer(const Device& device, std::string resourceName, SubsystemName subsystem, uint64_t size, Access access)
     : Buffer() {
   bytes = size == 0 ? 16 : size;
   name = std::move(resourceName);
@@ -115,7 +85,8 @@ Buffer::Buffer(const Device& device, std::string resourceName, Subsystem subsyst
   if (access != Access::Device) mapped = place.mapped;
   vkCheck(vkBindBufferMemory(device.handle, handle, place.memory, place.offset), "binding buffer memory");
   const VkBufferDeviceAddressInfo addressInfo{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .buffer = handle};
-  address = vkGetBufferDeviceAddress(device.handle, &addressInfo);
+  place_ = std::make_shared<BufferPlace>();
+  place_->address = vkGetBufferDeviceAddress(device.handle, &addressInfo);
   device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle), name);
 
   if (!device.options.poison) return;
@@ -143,7 +114,7 @@ Buffer::Buffer(Buffer&& other) noexcept {
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
   return take(*this, other, [](Buffer& b) {
-    return std::tie(b.handle, b.address, b.bytes, b.mapped, b.name, b.state, b.device_, b.allocation_);
+    return std::tie(b.handle, b.bytes, b.mapped, b.name, b.place_, b.device_, b.allocation_);
   });
 }
 
@@ -165,7 +136,7 @@ std::string describe(const ImageDesc& d) {
   return text;
 }
 
-/// Of all layers and mips.
+/// All layers and mips.
 uint64_t countTexels(const ImageDesc& d) {
   uint64_t texels = 0;
   for (uint32_t mip = 0; mip < d.mips; ++mip)

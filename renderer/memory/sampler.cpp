@@ -26,7 +26,7 @@ VkSampler sampler(const Device& device, const SamplerDesc& desc) {
   const std::lock_guard lock(device.impl_->samplerMutex);
   for (const auto& [known, sampler] : device.impl_->samplers)
     if (known == desc) return sampler;
-  // A nearest filter asked for is a nearest filter given.
+  // Anisotropic filtering replaces the filters asked for, so it is used only where all of them are linear.
   const bool anisotropic = desc.anisotropic && device.anisotropy && desc.linearMag && desc.linearMin && !desc.compare;
   const VkSamplerCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "renderer/error.h"
-#include "renderer/json_reader.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 
 namespace irad {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Looks from `position` at `target` with `up` upwards.
 glm::quat lookAt(const JsonObject& json, glm::dvec3 position, glm::dvec3 target, glm::dvec3 up) {
@@ -22,7 +20,7 @@ glm::quat lookAt(const JsonObject& json, glm::dvec3 position, glm::dvec3 target,
 }  // namespace
 
 std::string cameraToJson(const Camera& camera) {
-  Json json;
+  OrderedJson json;
   json["name"] = camera.name;
   json["position"] = {camera.position.x, camera.position.y, camera.position.z};
   json["orientation"] = {jsonNumber(camera.orientation.x), jsonNumber(camera.orientation.y),
@@ -34,11 +32,11 @@ std::string cameraToJson(const Camera& camera) {
   if (camera.aspect > 0) json["aspect"] = jsonNumber(camera.aspect);
   json["znear"] = jsonNumber(camera.znear);
   if (camera.zfar > 0) json["zfar"] = jsonNumber(camera.zfar);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 Camera cameraFromJson(std::string_view text, const std::string& label) {
-  const Json parsed = parseJson(text, label);
+  const OrderedJson parsed = parseJson(text, label);
   const JsonObject json(parsed, label,
                         {"name", "position", "orientation", "target", "up", "yfov", "ymag", "aspect", "znear", "zfar"});
   Camera camera;
@@ -75,7 +73,7 @@ Camera cameraFromJson(std::string_view text, const std::string& label) {
 }
 
 std::vector<Camera> camerasFromJson(std::string_view text, const std::string& label) {
-  const Json json = parseJson(text, label);
+  const OrderedJson json = parseJson(text, label);
   if (!json.is_array()) throw UsageError(label + ": expected an array of cameras");
   std::vector<Camera> cameras;
   for (size_t i = 0; i < json.size(); ++i)

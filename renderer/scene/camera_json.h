@@ -14,7 +14,7 @@ namespace irad {
 std::string cameraToJson(const Camera& camera);
 /// UsageError "LABEL: FIELD: ...".
 Camera cameraFromJson(std::string_view json, const std::string& label = "camera");
-/// Of an array: "LABEL[2]: FIELD: ...".
+/// For an array: "LABEL[2]: FIELD: ...".
 std::vector<Camera> camerasFromJson(std::string_view json, const std::string& label);
 
 }  // namespace irad

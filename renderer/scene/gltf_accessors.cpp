@@ -43,7 +43,7 @@ uint32_t elementSize(const tinygltf::Accessor& a) {
   }
 }
 
-/// What of the last element must exist: the padding after its last column need not.
+/// Bytes of the last element that must exist: the padding after its last column need not.
 uint32_t lastElementSize(const tinygltf::Accessor& a) {
   const uint32_t size = componentSize(a.componentType);
   if (a.type == TINYGLTF_TYPE_MAT2) return elementSize(a) / 2 + 2 * size;

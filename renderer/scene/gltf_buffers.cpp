@@ -7,8 +7,6 @@
 namespace irad::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
 int hexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;

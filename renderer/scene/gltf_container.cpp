@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "renderer/json_extent.h"
+#include "renderer/base/json_extent.h"
 #include "renderer/scene/gltf_document.h"
 
 namespace irad::gltf {

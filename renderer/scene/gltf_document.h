@@ -15,12 +15,13 @@
 #include <string>
 #include <vector>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/image_header.h"
 #include "renderer/scene/scene.h"
 
 namespace irad::gltf {
 
+using Json = nlohmann::json;
 using Bytes = std::vector<uint8_t>;
 using ByteSpan = std::span<const uint8_t>;
 
@@ -47,7 +48,7 @@ struct Document {
   ByteSpan bin;   ///< the BIN chunk of a .glb
   bool hasBin = false;
 
-  std::unique_ptr<nlohmann::json> root;
+  std::unique_ptr<Json> root;
   tinygltf::Model model;  ///< without buffers, images and animations
   std::vector<Bytes> owned;
   std::vector<ByteSpan> buffers;

@@ -10,8 +10,6 @@
 namespace irad::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
 struct Job {
   std::string name, problem;
   Bytes data;
@@ -20,7 +18,7 @@ struct Job {
   SceneImage image;
 };
 
-/// Memory for decoding, shared by the threads: who needs more than is left waits for the others.
+/// Memory for decoding, shared by the threads: a thread that needs more than is left waits for the others.
 class Scratch {
  public:
   void take(uint64_t bytes) {

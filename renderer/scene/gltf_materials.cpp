@@ -91,7 +91,7 @@ class MaterialReader {
     return desc;
   }
 
-  /// One entry per (image, colour space): an image used as colour and as data is decoded into two.
+  /// One entry per (image, colour space): an image used both as colour and as data is decoded twice.
   int request(int source, bool srgb, const std::string& user) {
     for (size_t i = 0; i < requests_.size(); ++i)
       if (source >= 0 && requests_[i].source == source && requests_[i].srgb == srgb) return static_cast<int>(i);

@@ -22,8 +22,6 @@
 namespace irad::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
 const std::set<std::string>& readExtensions() {
   static const std::set<std::string> names = {"KHR_lights_punctual",
                                               "KHR_materials_emissive_strength",
@@ -53,7 +51,7 @@ void parseModel(Document& doc) {
   Json json = *doc.root;
   for (const char* name : {"buffers", "images", "animations"}) json.erase(name);
   strip(json);
-  // Bounds may lie or be infinite; the data itself is measured.
+  // The file's bounds may be wrong or infinite; the data itself is measured.
   if (json.contains("accessors"))
     for (Json& accessor : json.at("accessors"))
       if (accessor.is_object()) accessor.erase("min"), accessor.erase("max");
@@ -68,7 +66,7 @@ void parseModel(Document& doc) {
       }
     }
   tinygltf::TinyGLTF reader;
-  // It has no reason to open files; should it find one, it gets none.
+  // tinygltf has no reason to open files; if it tries, it gets none.
   tinygltf::FsCallbacks none{};
   none.FileExists = [](const std::string&, void*) { return false; };
   none.ExpandFilePath = [](const std::string&, void*) { return std::string(); };
@@ -93,7 +91,7 @@ void parseModel(Document& doc) {
     while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
     doc.fail("glTF", error.empty() ? "tinygltf refuses it" : error);
   }
-  // It must have kept every object, or our indices would point elsewhere.
+  // tinygltf must have kept every object, or our indices would point elsewhere.
   const auto same = [&](const char* name, size_t size) {
     const size_t want = doc.root->contains(name) ? doc.root->at(name).size() : 0;
     if (want != size) doc.fail(name, fmt::format("{} objects in the file, {} understood", want, size));

@@ -75,7 +75,9 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   const std::string where = fmt::format("lights[{}]", index);
   Light light;
   light.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("light {}", index);
-  light.type = in.type == "directional" ? LightType::Sun : in.type == "point" ? LightType::Point : LightType::Spot;
+  const LightKind* kind = findGltfLightKind(in.type);
+  IRAD_CHECK(kind != nullptr, "gltf_precheck has let \"{}\" pass", in.type);
+  light.type = kind->type;
   light.position = place(doc, node, world);
   light.direction = glm::vec3(-orthonormal(world)[2]);
   const auto limited = [&](double value, const char* what) {
@@ -87,8 +89,8 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   for (size_t c = 0; c < in.color.size() && c < 3; ++c)
     light.color[static_cast<int>(c)] = limited(in.color[c], "color");
   light.intensity = limited(in.intensity, "intensity");
-  light.range = light.type == LightType::Sun ? 0.0f : static_cast<float>(in.range);
-  if (light.type == LightType::Spot) {
+  light.range = kind->has(LIGHT_RANGE) ? static_cast<float>(in.range) : 0.0f;
+  if (kind->has(LIGHT_CONE)) {
     light.innerCos = static_cast<float>(std::cos(in.spot.innerConeAngle));
     light.outerCos = static_cast<float>(std::cos(in.spot.outerConeAngle));
   }

@@ -10,8 +10,6 @@
 namespace irad::gltf {
 namespace {
 
-using Json = nlohmann::json;
-
 enum class Kind { Object, Array, String, Bool, UInt, Number, Numbers, Index, Indices, IndexMap };
 struct Rule {
   std::string path;  ///< segments by '/', "[]": every element
@@ -300,7 +298,7 @@ void checkNodeTree(const Document& doc) {
       parent[c] = static_cast<int64_t>(i);
     }
   }
-  // Colour the paths to the root: a node met again on the path that is being walked closes a cycle.
+  // Mark the path to the root: a node met again on the path being walked closes a cycle.
   std::vector<uint32_t> visited(nodes.size(), 0);
   for (size_t i = 0; i < nodes.size(); ++i) {
     const uint32_t mark = static_cast<uint32_t>(i + 1);
@@ -324,16 +322,26 @@ void checkNodeTree(const Document& doc) {
   }
 }
 
+/// "directional, point or spot"
+std::string knownLightTypes() {
+  std::string out;
+  const std::span<const LightKind> kinds = lightKinds();
+  for (size_t i = 0; i < kinds.size(); ++i)
+    out += fmt::format("{}{}", i == 0 ? "" : i + 1 < kinds.size() ? ", " : " or ", kinds[i].gltf);
+  return out;
+}
+
 void checkLightsAndCameras(const Document& doc) {
   const Json::json_pointer lightsPath("/extensions/KHR_lights_punctual/lights");
   if (doc.root->contains(lightsPath)) {
     const Json& lights = doc.root->at(lightsPath);
     for (size_t i = 0; i < lights.size(); ++i) {
       const std::string where = fmt::format("lights[{}]", i), type = lights[i].at("type").get<std::string>();
-      if (type != "directional" && type != "point" && type != "spot")
-        doc.fail(where + ".type", fmt::format("\"{}\" is not directional, point or spot", type.substr(0, 40)));
-      if (type != "spot") continue;
-      if (!lights[i].contains("spot")) doc.fail(where, "a spot light without \"spot\"");
+      const LightKind* kind = findGltfLightKind(type);
+      if (kind == nullptr)
+        doc.fail(where + ".type", fmt::format("\"{}\" is not {}", type.substr(0, 40), knownLightTypes()));
+      if (!kind->has(LIGHT_CONE)) continue;
+      if (!lights[i].contains("spot")) doc.fail(where, fmt::format("a {} without \"spot\"", kind->one));
       const Json& spot = lights[i].at("spot");
       const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", 0.7853981633974483);
       if (!(inner < outer))

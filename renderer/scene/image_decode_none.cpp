@@ -1,4 +1,4 @@
-// Without OpenImageIO no image format is read: scenes come as .irscene caches, whose images are decoded already.
+// Without OpenImageIO no image format can be read: scenes come as .irscene caches with decoded images.
 #include "renderer/scene/gltf_document.h"
 
 #ifndef IRAD_OIIO

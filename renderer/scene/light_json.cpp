@@ -4,32 +4,28 @@
 
 #include <array>
 
-#include "renderer/error.h"
-#include "renderer/json_reader.h"
-#include "renderer/near_match.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
+#include "renderer/base/near_match.h"
 
 namespace irad {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-const std::vector<std::string> types{"sun", "point", "spot"};  // in the order of LightType
-
-Json vector(const glm::vec3& v) {
+OrderedJson vector(const glm::vec3& v) {
   return {jsonNumber(v.x), jsonNumber(v.y), jsonNumber(v.z)};
 }
 
-Json toJson(const Light& light) {
-  const bool aimed = light.type != LightType::Point;
-  Json json;
+OrderedJson toJson(const Light& light) {
+  const LightKind& kind = lightKind(light.type);
+  OrderedJson json;
   json["name"] = light.name;
-  json["type"] = types.at(static_cast<size_t>(light.type));
+  json["type"] = kind.name;
   json["position"] = {light.position.x, light.position.y, light.position.z};
-  if (aimed) json["direction"] = vector(light.direction);
+  if (kind.has(LIGHT_DIRECTION)) json["direction"] = vector(light.direction);
   json["color"] = vector(light.color);
   json["intensity"] = jsonNumber(light.intensity);
   if (light.range > 0) json["range"] = jsonNumber(light.range);
-  if (light.type == LightType::Spot) {
+  if (kind.has(LIGHT_CONE)) {
     // In double precision the way there and back ends at the same float.
     json["innerConeAngle"] = std::acos(static_cast<double>(light.innerCos));
     json["outerConeAngle"] = std::acos(static_cast<double>(light.outerCos));
@@ -37,11 +33,12 @@ Json toJson(const Light& light) {
   return json;
 }
 
-LightType type(const JsonObject& json) {
+const LightKind& kindOf(const JsonObject& json) {
   const std::string name = json.text("type");
-  const auto found = std::find(types.begin(), types.end(), name);
-  if (found == types.end()) json.refuse("type", fmt::format("unknown '{}'{}", name, suggestion(name, types)));
-  return static_cast<LightType>(found - types.begin());
+  if (const LightKind* kind = findLightKind(name)) return *kind;
+  std::vector<std::string> known;
+  for (const LightKind& kind : lightKinds()) known.emplace_back(kind.name);
+  json.refuse("type", fmt::format("unknown '{}'{}", name, suggestion(name, known)));
 }
 
 /// Unit vectors keep their bits.
@@ -57,25 +54,26 @@ float coneCosine(const JsonObject& json, const char* member, double otherwise) {
   return static_cast<float>(std::cos(json.has(member) ? json.number(member) : otherwise));
 }
 
-Light fromJson(const Json& parsed, const std::string& label) {
+Light fromJson(const OrderedJson& parsed, const std::string& label) {
   const JsonObject json(
       parsed, label,
       {"name", "type", "position", "direction", "color", "intensity", "range", "innerConeAngle", "outerConeAngle"});
   Light light;
-  light.type = type(json);
+  const LightKind& kind = kindOf(json);
+  light.type = kind.type;
   if (json.has("name")) light.name = json.text("name");
   const auto belongs = [&](const char* member, bool to) {
     if (!to && json.has(member)) json.refuse(member, fmt::format("a {} has none", json.text("type")));
     return json.has(member);
   };
-  const bool sun = light.type == LightType::Sun, spot = light.type == LightType::Spot;
-  if (!sun || json.has("position")) light.position = json.vector<3>("position");
-  if (belongs("direction", sun || spot) || sun || spot) light.direction = direction(json);
+  const bool aimed = kind.has(LIGHT_DIRECTION), cone = kind.has(LIGHT_CONE);
+  if (!kind.has(LIGHT_DISTANT) || json.has("position")) light.position = json.vector<3>("position");
+  if (belongs("direction", aimed) || aimed) light.direction = direction(json);
   if (json.has("color")) light.color = glm::vec3(json.vector<3>("color"));
   if (json.has("intensity")) light.intensity = static_cast<float>(json.number("intensity"));
-  if (belongs("range", !sun)) light.range = json.positive("range");
-  belongs("innerConeAngle", spot), belongs("outerConeAngle", spot);
-  if (spot) {
+  if (belongs("range", kind.has(LIGHT_RANGE))) light.range = json.positive("range");
+  belongs("innerConeAngle", cone), belongs("outerConeAngle", cone);
+  if (cone) {
     constexpr double pi = 3.14159265358979323846;
     light.innerCos = coneCosine(json, "innerConeAngle", 0);
     light.outerCos = coneCosine(json, "outerConeAngle", pi / 4);
@@ -90,13 +88,13 @@ Light fromJson(const Json& parsed, const std::string& label) {
 }  // namespace
 
 std::string lightsToJson(const std::vector<Light>& lights) {
-  Json json = Json::array();
+  OrderedJson json = OrderedJson::array();
   for (const Light& light : lights) json.push_back(toJson(light));
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& label) {
-  const Json json = parseJson(text, label);
+  const OrderedJson json = parseJson(text, label);
   if (!json.is_array()) throw UsageError(label + ": expected an array of lights");
   std::vector<Light> lights;
   for (size_t i = 0; i < json.size(); ++i) lights.push_back(fromJson(json[i], fmt::format("{}[{}]", label, i)));

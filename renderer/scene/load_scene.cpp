@@ -2,8 +2,8 @@
 #include <future>
 #include <new>
 
+#include "renderer/base/sha256.h"
 #include "renderer/scene/gltf_document.h"
-#include "renderer/scene/sha256.h"
 #include "renderer/scene/sidecar.h"
 
 namespace irad {

@@ -15,11 +15,11 @@ struct Taps {
   std::array<float, 3> share;
 };
 
-/// Of halves rounded down: two texels and a piece of a third at most.
+/// At most two texels and a part of a third, since halves are rounded down.
 std::vector<Taps> tapsOf(uint32_t above, uint32_t size) {
   std::vector<Taps> taps(size);
   for (uint32_t i = 0; i < size; ++i) {
-    // In units of 1 / size of a texel above everything is whole.
+    // In units of 1 / size of a texel of the level above, all numbers are whole.
     const uint64_t begin = uint64_t{i} * above, end = begin + above;
     Taps& t = taps[i];
     t.first = static_cast<uint32_t>(begin / size);
@@ -38,7 +38,7 @@ struct Level {
   std::vector<glm::vec4> texels;  ///< linear
 };
 
-/// `texel(i)`: of the level above, linear, row by row.
+/// `texel(i)`: texel i of the level above, linear, row by row.
 template <class Texel>
 Level half(uint32_t width, uint32_t height, const Texel& texel) {
   Level out{std::max(width / 2, 1u), std::max(height / 2, 1u), {}};

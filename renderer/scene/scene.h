@@ -15,11 +15,12 @@
 #include <string>
 #include <vector>
 
+#include "renderer/base/limits.h"
 #include "renderer/resources.h"
+#include "renderer/scene/light_kind.h"
 
 namespace irad {
 
-constexpr double kMaxCoordinate = 1e15;       ///< of world positions, either sign: squares and their sums fit into fp32
 constexpr double kMaxLightOrEmission = 1e12;  ///< of intensities, colours and emitted radiance
 
 /// A decoded image, RGBA, 8 bits per channel, top row first. `srgb` is decided by use (base colour, emissive: yes).
@@ -52,17 +53,15 @@ struct Material {
   TextureUse baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
 };
 
-enum class LightType : uint32_t { Sun, Point, Spot };
-
 struct Light {
   std::string name;
   LightType type = LightType::Sun;
-  glm::dvec3 position{0.0};                       ///< world; point and spot
-  glm::vec3 direction{0.0f, -1.0f, 0.0f};         ///< unit, the way the light shines; sun and spot
+  glm::dvec3 position{0.0};                       ///< world
+  glm::vec3 direction{0.0f, -1.0f, 0.0f};         ///< unit, the way the light shines
   glm::vec3 color{1.0f};                          ///< linear
-  float intensity = 1.0f;                         ///< sun: lux; point, spot: candela
+  float intensity = 1.0f;                         ///< distant ones: lux; the others: candela
   float range = 0.0f;                             ///< 0: unlimited
-  float innerCos = 1.0f, outerCos = 0.70710678f;  ///< spot: cosines of the half-angles
+  float innerCos = 1.0f, outerCos = 0.70710678f;  ///< of a cone: cosines of the half-angles
   bool operator==(const Light&) const = default;
 };
 
@@ -106,10 +105,6 @@ struct Scene {
   std::vector<Camera> bookmarks;  ///< further cameras, the sidecar's
   std::filesystem::path sidecar;  ///< that lights and bookmarks come from; empty: none
 
-  /// Where it is known (check scenes): the indirect irradiance H, W/m^2, at a local point of a surface with this
-  /// normal.
-  std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)> expectedIrradiance;
-
   std::vector<std::string> warnings;  ///< in words, each once
   bool defaultCamera = false, defaultLight = false;
 
@@ -141,10 +136,10 @@ void replaceLights(Scene& scene, std::vector<Light> lights);
 /// A scene with all images decoded, for machines without image decoders. Little-endian, versioned, written atomically.
 void writeSceneCache(const Scene& scene, const std::filesystem::path& path);
 
-/// What is wrong with a scene, in words; empty where it is sound: arrays of one length, indices inside them, numbers
-/// finite and in range, directions unit. loadScene returns sound scenes only.
+/// What is wrong with a scene, in words; empty where it is sound, that is: arrays of one length, indices inside them,
+/// numbers finite and in range, directions unit. loadScene returns sound scenes only.
 std::string unsound(const Scene& scene);
-/// The same of a light: "light "lamp": its intensity -1 is not from 0 to 1e+12".
+/// The same for a light: "light "lamp": its intensity -1 is not from 0 to 1e+12".
 std::string unsound(const Light& light);
 
 /// SHA-256 of a file as 64 hex digits; throws InputError when it cannot be read.

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <type_traits>
 
-#include "renderer/output_file.h"
+#include "renderer/base/output_file.h"
+#include "renderer/base/sha256.h"
 #include "renderer/scene/gltf_document.h"
-#include "renderer/scene/sha256.h"
 
 namespace irad {
 namespace {
@@ -136,7 +136,8 @@ void transferScene(Io& io, Ops ops, S& s) {
   io.list(s.materials, [&](auto& m) { transferMaterial(io, ops, m); });
   io.list(s.images, [&](auto& i) { io(i.name), io(i.width), io(i.height), ops.choice(i.srgb, 2), io.array(i.rgba); });
   io.list(s.lights, [&](auto& l) {
-    io(l.name), ops.choice(l.type, 3), io(l.position), io(l.direction), io(l.color), io(l.intensity), io(l.range);
+    io(l.name), ops.choice(l.type, LIGHT_KINDS), io(l.position), io(l.direction), io(l.color), io(l.intensity),
+        io(l.range);
     io(l.innerCos), io(l.outerCos);
   });
   io.list(s.cameras, [&](auto& c) {

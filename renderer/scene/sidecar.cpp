@@ -4,9 +4,9 @@
 
 #include <set>
 
-#include "renderer/error.h"
-#include "renderer/json_reader.h"
-#include "renderer/output_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
+#include "renderer/base/output_file.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 
@@ -14,12 +14,10 @@ namespace irad {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Comes first: a newer program's other members are no slips.
-void checkFormat(const Json& json, const std::string& file) {
+/// Checked first: unknown members written by a newer program are no mistakes.
+void checkFormat(const OrderedJson& json, const std::string& file) {
   if (!json.is_object() || !json.contains("format")) throw UsageError(file + ": format is missing");
-  const Json& format = json["format"];
+  const OrderedJson& format = json["format"];
   if (!format.is_number_unsigned() || format.get<uint64_t>() < 1)
     throw UsageError(fmt::format("{}: format: expected a whole number from 1, not {}", file, format.dump()));
   if (format.get<uint64_t>() > kSidecarFormat)
@@ -27,7 +25,7 @@ void checkFormat(const Json& json, const std::string& file) {
                                  file, format.get<uint64_t>(), kSidecarFormat));
 }
 
-Sidecar parse(const Json& parsed, const std::string& file) {
+Sidecar parse(const OrderedJson& parsed, const std::string& file) {
   checkFormat(parsed, file);
   const JsonObject json(parsed, file, {"format", "scene_sha256", "lights", "cameras"});
   Sidecar sidecar;
@@ -53,7 +51,7 @@ std::vector<Camera> allCameras(const Scene& scene) {
 
 fs::path sidecarPath(const fs::path& scene) {
   fs::path path = scene;
-  path += ".irad.json";
+  path += kSidecarExtension;
   return path;
 }
 
@@ -66,12 +64,12 @@ Sidecar readSidecar(const fs::path& path) {
 }
 
 void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
-  Json json;
+  OrderedJson json;
   json["format"] = kSidecarFormat;
   if (!sidecar.sceneSha256.empty()) json["scene_sha256"] = sidecar.sceneSha256;
-  if (sidecar.lights) json["lights"] = Json::parse(lightsToJson(*sidecar.lights));
-  json["cameras"] = Json::array();
-  for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
+  if (sidecar.lights) json["lights"] = OrderedJson::parse(lightsToJson(*sidecar.lights));
+  json["cameras"] = OrderedJson::array();
+  for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(OrderedJson::parse(cameraToJson(camera)));
   writeFile(path, json.dump(2) + "\n");
 }
 

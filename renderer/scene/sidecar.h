@@ -21,6 +21,9 @@ struct Sidecar {
   bool operator==(const Sidecar&) const = default;
 };
 
+/// The ending of sidecars' names.
+constexpr const char* kSidecarExtension = ".irad.json";
+
 /// Beside the scene file.
 std::filesystem::path sidecarPath(const std::filesystem::path& scene);
 /// InputError names file, object and value; also where a newer program wrote it.

@@ -14,7 +14,7 @@ double decode(double s) {
 
 struct Tables {
   std::array<float, 256> linear;
-  std::array<float, 257> from;  ///< the least light of a code, and what none reaches
+  std::array<float, 257> from;  ///< the least light of each code; the last is beyond all of them
   /// The code of light i / kSteps, from which to look upwards: codes are 1.2 steps apart at least.
   static constexpr int kSteps = 4096;
   std::array<uint8_t, kSteps + 1> start;

@@ -1,4 +1,5 @@
-// The sRGB transfer function of 8-bit texels, IEC 61966-2-1, to the last bit: no processor's own roots and powers.
+// The sRGB transfer function of 8-bit texels, IEC 61966-2-1, to the last bit: without the processor's own roots and
+// powers.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@ namespace irad {
 
 /// The light that a code stands for, 0..1.
 float linearFromSrgb(uint8_t code);
-/// The code nearest to a light of 0..1 on sRGB's scale; what lies outside is taken for the end.
+/// The code nearest to a light of 0..1 on sRGB's scale; light outside of it gets the nearest end's code.
 uint8_t srgbFromLinear(float light);
 
 }  // namespace irad

@@ -105,6 +105,8 @@ std::string ofCameras(const Scene& s) {
 std::string unsound(const Light& light) {
   const auto is = [&](const auto& what) { return fmt::format("light \"{}\": {}", light.name, what); };
   const auto list = [](const auto& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); };
+  if (!isLightKind(light.type))
+    return is(fmt::format("its type {} is no kind of light", static_cast<uint32_t>(light.type)));
   if (!position(light.position)) return is(fmt::format("its position {} is out of range", list(light.position)));
   if (!unit(light.direction)) return is(fmt::format("its direction {} is not unit", list(light.direction)));
   if (!within(light.color, 0.0, kMaxLightOrEmission))

@@ -1,11 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "RE Forward": the targets that are there are zero where the depth prepass left nothing. Clears of whole targets would
-// go through the raster units, which are few on some devices.
+// "RE Forward": the targets that are there are zero where the depth prepass left nothing. Clearing whole targets would
+// go through the raster units, of which some devices have few.
+#include "shared/constants.h"
 #include "shared/passes.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint TARGETS = TARGETS_ALL;  ///< those that are there
+layout(constant_id = CONSTANT_TARGETS) const uint TARGETS = TARGETS_ALL;  ///< those that are there
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D geometricTarget;

@@ -1,4 +1,4 @@
-// Where what a camera shows lies and from where it is seen, local space.
+// Where the points that a camera shows lie, and from where they are seen, in local space.
 #include "shared/scene_gpu.h"
 
 /// Distance along the view direction.

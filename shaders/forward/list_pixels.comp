@@ -4,12 +4,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "shared/constants.h"
 #include "shared/passes.h"
 
 const uint INVOCATIONS = 256u;
 const uint NONE = 0xFFFFFFFFu;
 layout(local_size_x = INVOCATIONS) in;
-layout(constant_id = 0) const bool WRITE = false;
+layout(constant_id = CONSTANT_LIST_PIXELS) const bool WRITE = false;
 layout(push_constant, scalar) uniform PushBlock {
   PixelListPush push;
 };
@@ -39,7 +40,7 @@ void main() {
   if (all(lessThan(pixel, push.size))) triangle = push.visible.at[pixel.y * push.size.x + pixel.x].x;
   uint slot, rank;
   if (triangle != NONE) {
-    // One of the subgroup's materials after the other: few atomics, each for all of its pixels.
+    // The subgroup's materials one after the other: few atomics, each for all pixels of a material.
     uint material = push.scene.at[0].triangleMaterials.at[triangle];
     for (;;) {
       if (material != subgroupBroadcastFirst(material)) continue;

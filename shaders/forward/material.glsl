@@ -18,9 +18,8 @@ vec2 textureUv(GpuMaterial m, uint i, vec4 uv) {
   return vec2(dot(m.uvRow[2u * i], p), dot(m.uvRow[2u * i + 1u], p));
 }
 
-/// Of `uv` to the pixels on the right and below. For stages without derivatives; and for fragments because a driver
-/// takes those of what textureUv makes of `m` from pixels beside the triangle, too, for which lavapipe reads zeros from
-/// memory.
+/// Differences of `uv` to the pixels on the right and below. Kernels have no derivatives; and in fragments a driver
+/// would also derive textureUv's result from pixels beside the triangle, for which lavapipe reads zeros from memory.
 vec4 uvDx, uvDy;
 vec2 uvDifference(GpuMaterial m, uint i, vec4 d) {
   vec2 set = (m.uvSets & (1u << i)) != 0u ? d.zw : d.xy;

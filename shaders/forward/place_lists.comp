@@ -1,5 +1,5 @@
-// "RE Forward" by kernels: each material's list gets its place, behind those that came before, and its dispatch
-// arguments. `end` is its beginning until the pixels are written.
+// "RE Forward" by kernels: each material's list gets its place, after the lists before it, and its dispatch arguments.
+// `end` is its beginning until the pixels are written.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/passes.h"

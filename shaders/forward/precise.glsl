@@ -1,7 +1,7 @@
-// Products whose order and rounding are as written in every variant of a shader. Built-in ones are the driver's to fuse,
-// and it may choose anew once a branch beside them is specialized away: leaving out an effect that a scene has not must
-// change no bit of the others. What is fed to them has to be `precise` where it is computed: that does not pass through
-// a call.
+// Products whose order and rounding are as written in every variant of a shader. A driver may fuse the built-in ones,
+// and may decide otherwise once a branch beside them is specialized away; but leaving out an effect that a scene does
+// not have must not change a bit of the others. Their arguments have to be `precise` where they are computed: the
+// qualifier does not pass through a call.
 #ifndef IRAD_FORWARD_PRECISE_GLSL
 #define IRAD_FORWARD_PRECISE_GLSL
 

@@ -1,6 +1,5 @@
-// "RE Forward": surface and direct light at a visible point, and with IRAD_VOLUME the thesis's indirect lookup;
-// without, what forward/indirect.comp needs for the lookup in the facets. For the fragment stage (forward/fragment.glsl)
-// and for the kernel (forward/resolve.glsl).
+// "RE Forward": surface and direct light at a visible point, and what a later pass needs to look indirect light up. For
+// the fragment stage (forward/forward.frag) and for the kernel (forward/resolve.comp).
 #define IRAD_LIGHT_CONSTANTS FORWARD_LIGHTS
 #define IRAD_TEXTURED TEXTURED
 #include "shared/passes.h"
@@ -13,7 +12,6 @@ layout(constant_id = FORWARD_INDIRECT) const bool INDIRECT = true;
 layout(constant_id = FORWARD_PCF) const uint PCF = 3u;
 layout(constant_id = FORWARD_MANY_LIGHTS) const bool MANY_LIGHTS = true;
 
-#include "forward/indirect.glsl"
 #include "forward/material.glsl"
 #include "forward/shadow.glsl"
 #include "shared/ggx.h"
@@ -21,7 +19,7 @@ layout(constant_id = FORWARD_MANY_LIGHTS) const bool MANY_LIGHTS = true;
 layout(push_constant, scalar) uniform PushBlock {
   ForwardPush push;
 };
-layout(set = 0, binding = IRAD_LIGHTS_BINDING, scalar) uniform LightsBlock {
+layout(set = 0, binding = 2, scalar) uniform LightsBlock {
   GpuLight lights[UNIFORM_LIGHTS];
 };
 
@@ -38,13 +36,11 @@ struct Interpolants {
 
 /// Per target (renderer/targets.h); what the constants leave out is not set.
 struct Shaded {
-  vec4 normal, geometric, albedo, f0, direct, highlight, indirect;
-#ifndef IRAD_VOLUME
-  vec4 lookup;  ///< the normal with which forward/indirect.comp looks facets up
-#endif
+  vec4 normal, geometric, albedo, f0, direct, highlight;
+  vec4 position, lookup;  ///< where indirect light is looked up, local space, and the normal for that; w = 1
 };
 
-/// The triangle's own normal, towards the viewer. One without area takes the vertices'.
+/// The triangle's own normal, towards the viewer; a triangle without area takes the vertices'.
 vec3 orientedFace(Interpolants v, vec3 view) {
   precise vec3 n = dot(v.faceNormal, v.faceNormal) > 0.0 ? preciseNormalize(v.faceNormal) : normalize(v.normal);
   return dot(n, view) < 0.0 ? -n : n;
@@ -62,7 +58,7 @@ vec3 mappedNormal(GpuMaterial m, Interpolants v, vec3 n) {
 }
 
 Shaded shade(Interpolants v) {
-  GpuMaterial m;  // what only textures need stays in memory
+  GpuMaterial m;  // members that only textures need stay in memory
   if (TEXTURED) m = push.materials.at[push.material];
   m.baseColor = push.baseColor;
   m.emission = push.emission;
@@ -99,7 +95,7 @@ Shaded shade(Interpolants v) {
   if (EMISSION && TEXTURED && (m.flags & MATERIAL_EMISSIVE_TEXTURE) != 0u)
     emission *= IRAD_TEXEL(emissiveTexture, m, TEXTURE_EMISSIVE, v.uv).rgb;
 
-  // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (METHOD section 1: D).
+  // Direct light: irradiance for the diffuse part, outgoing radiance for the lobe (docs/method.md 1: D).
   float nv = max(dot(n, view), 1e-3);
   float alpha = max(roughness * roughness, GGX_LEAST_ALPHA);
   precise vec3 direct = vec3(0.0);
@@ -113,8 +109,8 @@ Shaded shade(Interpolants v) {
     float nl = preciseDot(n, l);
     vec3 e = nl > 0.0 ? lightIntensity(light, v.local) * nl : vec3(0.0);
     if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
-    // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The facet
-    // gather knows its planes less well and takes all of it.)
+    // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The gather
+    // of direct light, gi/gather.comp, which knows its planes less well, takes the whole lift.)
     float bias = hasCubeMap(light) ? push.shadowBias : 0.5 * push.shadowBias;
     e *= shadowVisibility(light, v.local, face, bias, PCF);
     direct += e;
@@ -133,13 +129,7 @@ Shaded shade(Interpolants v) {
   o.direct = vec4(direct, 1.0);
   if (HIGHLIGHTS || EMISSION) o.highlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
   if (!INDIRECT) return o;
-#ifdef IRAD_VOLUME
-  Grid grid = push.grid.at[0];
-  vec3 p = (v.local - grid.origin) * grid.inverseEdge;
-  o.indirect = vec4(volumeIndirect(grid, push.sampling, p, lookup), 1.0);
-#else
-  o.indirect = vec4(v.local, 1.0);
+  o.position = vec4(v.local, 1.0);
   o.lookup = vec4(lookup, 1.0);
-#endif
   return o;
 }

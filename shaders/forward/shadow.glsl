@@ -1,6 +1,6 @@
-// Light from the analytic lights and its visibility through the shadow maps: one definition for shading and for the
-// facet gather. The including shader binds the maps; by default they are set 0, bindings 0 and 1. Specialization constants
-// leave out the lights that a scene does not have, from the number IRAD_LIGHT_CONSTANTS on.
+// Light from the analytic lights and its visibility through the shadow maps: one definition for shading and for
+// passes that gather direct light. The including shader binds the maps; by default they are set 0, bindings 0 and 1.
+// Specialization constants leave out the lights that a scene does not have, from the number IRAD_LIGHT_CONSTANTS on.
 #ifndef IRAD_FORWARD_SHADOW_GLSL
 #define IRAD_FORWARD_SHADOW_GLSL
 #include "forward/precise.glsl"
@@ -19,30 +19,42 @@
 #ifndef IRAD_LIGHT_CONSTANTS
 #define IRAD_LIGHT_CONSTANTS 0u
 #endif
-layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_SUN) const bool SUNS = true;
-layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_POINT) const bool POINTS = true;
-layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_SPOT) const bool SPOTS = true;
+#define IRAD_LIGHT_SHINES(constant, number, id, effect, gltf, name, one, many, map, traits) \
+  layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_##constant) const bool SHINES_##constant = true;
+IRAD_LIGHT_KINDS(IRAD_LIGHT_SHINES)
+#undef IRAD_LIGHT_SHINES
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_FLAT_MAPS) const bool FLAT_MAPS = true;
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_CUBE_MAPS) const bool CUBE_MAPS = true;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArray shadowFlat;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
 
-bool anyLight() { return SUNS || POINTS || SPOTS; }
-bool isSun(GpuLight light) { return SUNS && (!(POINTS || SPOTS) || light.type == LIGHT_SUN); }
-bool isSpot(GpuLight light) { return SPOTS && (!(SUNS || POINTS) || light.type == LIGHT_SPOT); }
+/// How many kinds shine.
+uint shiningKinds() {
+#define IRAD_LIGHT_SHINES(constant, number, id, effect, gltf, name, one, many, map, traits) +(SHINES_##constant ? 1u : 0u)
+  return 0u IRAD_LIGHT_KINDS(IRAD_LIGHT_SHINES);
+#undef IRAD_LIGHT_SHINES
+}
+bool anyLight() { return shiningKinds() > 0u; }
+/// Whether a light that shines has any of these traits; where one kind alone shines it need not be looked at.
+bool lightHas(GpuLight light, uint wanted) {
+#define IRAD_LIGHT_HAS(constant, number, id, effect, gltf, name, one, many, map, traits) \
+  || (((traits) & wanted) != 0u && SHINES_##constant && (shiningKinds() == 1u || light.type == LIGHT_##constant))
+  return false IRAD_LIGHT_KINDS(IRAD_LIGHT_HAS);
+#undef IRAD_LIGHT_HAS
+}
 bool hasCubeMap(GpuLight light) {
   return CUBE_MAPS && (!FLAT_MAPS || lightUsesCube(light.type, light.outerCos));
 }
 
 /// Unit vector from `position` towards the light.
 vec3 lightDirection(GpuLight light, vec3 position) {
-  return isSun(light) ? -light.direction : preciseNormalize(light.position - position);
+  return lightHas(light, LIGHT_DISTANT) ? -light.direction : preciseNormalize(light.position - position);
 }
 
-/// Light that reaches `position` on a surface facing it, W/m^2: lux for a sun, I / d^2 times KHR_lights_punctual's range
-/// window for the others, times the squared angular ramp of a spot. Shadows apart.
+/// Light that reaches `position` on a surface facing it, W/m^2: lux for a distant one, I / d^2 times KHR_lights_punctual's range
+/// window for the others, times the squared angular ramp of a cone. Shadows apart.
 vec3 lightIntensity(GpuLight light, vec3 position) {
-  if (isSun(light)) return light.intensity;
+  if (lightHas(light, LIGHT_DISTANT)) return light.intensity;
   vec3 toLight = light.position - position;
   float d2 = preciseDot(toLight, toLight);
   if (!(d2 > 0.0)) return vec3(0.0);
@@ -51,7 +63,7 @@ vec3 lightIntensity(GpuLight light, vec3 position) {
     float r2 = d2 / (light.range * light.range);
     attenuation *= clamp(1.0 - r2 * r2, 0.0, 1.0);
   }
-  if (isSpot(light)) {
+  if (lightHas(light, LIGHT_CONE)) {
     float c = preciseDot(light.direction, -toLight) * inversesqrt(d2);
     float ramp = light.innerCos > light.outerCos
                      ? clamp((c - light.outerCos) / (light.innerCos - light.outerCos), 0.0, 1.0)
@@ -126,7 +138,7 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
   vec3 v = major == a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
   float texel = light.shadowTexel * major;
   float height = preciseDot(n, d);
-  // Weights as in the flat maps, texel by texel: of a sampler's the last of eight bits shows.
+  // Weights as in the flat maps, texel by texel: a sampler's weights have eight bits, and the last of them shows.
   precise vec2 at = (vec2(dot(u, d), dot(v, d)) / major * 0.5 + 0.5) * float(textureSize(shadowCubes, 0).x);
   vec2 first = floor(at - 0.5 * float(pcf));
   vec2 f = at - 0.5 * float(pcf) - first;
@@ -162,7 +174,7 @@ float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float bi
   float cosine = preciseDot(normal, lightDirection(light, localPosition));
   float along = preciseDot(normal, light.direction);
   precise float texel = light.shadowTexel;
-  if (isSpot(light)) texel *= preciseDot(localPosition - light.position, light.direction);
+  if (lightHas(light, LIGHT_CONE)) texel *= preciseDot(localPosition - light.position, light.direction);
   precise float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * texel;
   return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift, texel, pcf);
 }

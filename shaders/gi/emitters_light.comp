@@ -39,10 +39,10 @@ void main() {
         seen += facing * facing * clamp(2.0 - plane / SAME_SURFACE, 0.0, 1.0) * share.w * vec4(share.rgb, 1.0);
       }
     }
-    if (seen.w == 0.0) return;  // voxels do not know: the facets' is kept
+    if (seen.w == 0.0) return;  // voxels do not know: the facets' value is kept
     light *= seen.rgb / seen.w;
   }
   vec4 indirect = imageLoad(indirectTarget, pixel);
-  imageStore(indirectTarget, pixel, indirect + vec4(push.lambda * (light - imageLoad(emittedTarget, pixel).rgb), 0.0));
+  imageStore(indirectTarget, pixel, indirect + vec4(push.gain * (light - imageLoad(emittedTarget, pixel).rgb), 0.0));
   imageStore(emittedTarget, pixel, vec4(light, 1.0));
 }

@@ -10,14 +10,15 @@
 
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D seenTarget;  ///< w = 0: unknown
 
-/// What a ray meets at most this far before its end is the emitter itself, if it emits: voxels know a lamp's shape no
-/// better. Voxels, as the next two.
+/// An emissive face that a ray meets at most this far before its end is the emitter itself: voxels do not know a lamp's
+/// shape any better. In voxels, as are the next two.
 const float OWN_DEPTH = 1.0;
-/// A face met nearer than this, or a sheet: the point lies in a corner, or a sheet's edge, as voxels have it.
+/// A face, or a sheet, met nearer than this: as far as voxels know the point lies in a corner, or in the edge of a
+/// sheet.
 const float NEAR_FACE = 0.1, NEAR_SHEET = 1.0;
 
-/// Whether `facet`, of a sheet, is met in a voxel that has the point's surface, too: which of the two ends there at the
-/// other is not known.
+/// Whether `facet`, part of a sheet, is met in a voxel that also has the point's surface: it is unknown then which of
+/// the two ends at the other.
 bool endsAtOwnPlane(TraceWorld world, uint facet, vec3 p, vec3 face) {
   vec3 voxel = vec3(unpackVoxel(world.facets.voxel.at[facet]));
   uint entry = world.facets.reverse.at[traceIndex(voxel, world.dims)];

@@ -2,11 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI Solve Energy": the light that enters, is absorbed and escapes, summed over some facets per invocation. No atomics,
 // so that the sums are the same bits in every run; the host adds them up in double.
+#include "shared/constants.h"
 #include "shared/energy.h"
 #include "shared/normals.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
+layout(constant_id = CONSTANT_NORMALS) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { EnergyPush p; };
 
 void main() {

@@ -2,12 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI CompactList", last step: which facets share their voxel with surfaces that only the voxels around record, and how
 // far around a facet there is nothing but its own plane.
+#include "shared/constants.h"
 #include "shared/grid.h"
 #include "shared/normals.h"
 #include "shared/trace.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
+layout(constant_id = CONSTANT_NORMALS) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { FacetCornersPush p; };
 
 const int SEARCH = 3;      // voxels
@@ -23,8 +24,8 @@ void main() {
   vec3 normal = decodeNormal(code, NORMALS);
   vec3 point = normal * facetOffset(shape);  // of the own plane, from the voxel's centre
   ivec3 voxel = ivec3(unpackVoxel(f.voxel.at[facet]));
-  // Of more than two slots one is free: all faces that cross the voxel's middle are recorded (gi/voxelize.comp), and
-  // those around that look against this one end before it.
+  // Where one of more than two slots is free, all faces that cross the voxel's middle are recorded (gi/voxelize.comp),
+  // and neighbouring faces that look against this one end before it.
   bool complete = p.slots > 2u && facetsOf(f.reverse.at[voxelIndex(uvec3(voxel), p.dims)]) < p.slots;
   uint around = 0u;
   float joint = 0.0f;
@@ -35,7 +36,7 @@ void main() {
   float keptRise[4];
   float keptSum[4];
   bool keptSelf[4];
-  bool keptBefore[4];  // a voxel wholly in front of the own plane has it: they do not end where they meet
+  bool keptBefore[4];  // a voxel wholly in front of the own plane has it: the two do not end where they meet
   uint keptCode[4];
   float keptDistance[4];
   int other_ = SEARCH + 1;  // distance of the nearest face of another plane
@@ -46,7 +47,7 @@ void main() {
       ivec3 step_ = ivec3(i % width, (i / width) % width, i / (width * width)) - radius;
       ivec3 away = abs(step_);
       ivec3 at = voxel + step_;
-      if (max(away.x, max(away.y, away.z)) != radius) continue;  // of the shell alone
+      if (max(away.x, max(away.y, away.z)) != radius) continue;  // only voxels of this shell
       if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(p.dims)))) continue;
       uint entry = f.reverse.at[voxelIndex(uvec3(at), p.dims)];
       if (entry == NO_FACET) continue;
@@ -102,7 +103,7 @@ void main() {
     around |= 1u << keptPlace[k];
     if (meets) convex |= 1u << keptPlace[k];
   }
-  // Places that hold more than that face are left out: which of them would end the own plane is not told.
+  // Places that hold more than that face are left out: nothing says which face would end the own plane.
   uint flags = 0u;
   uint listed = around;
   for (uint n = 0u; n < 5u && listed != 0u; ++n) {

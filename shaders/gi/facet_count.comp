@@ -1,4 +1,4 @@
-// Facet list, step 1 (METHOD section 4): facets per block of 64 voxels in Morton order.
+// Facet list, step 1 (docs/method.md 4): facets per block of 64 voxels in Morton order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "facet_block.glsl"

@@ -1,5 +1,5 @@
-// Where lookups of light find the facets around a surface, and which of those walls hide from it (METHOD section 7):
-// the floor beyond a wall, or beneath it, says nothing of the floor before it.
+// Where lookups of light find the facets around a surface, and which of those walls hide from it (docs/method.md 7):
+// the floor beyond a wall, or beneath it, says nothing about the floor in front.
 #ifndef IRAD_FACET_MAP_GLSL
 #define IRAD_FACET_MAP_GLSL
 #include "shared/facets.h"
@@ -7,7 +7,7 @@
 #include "shared/normals.h"
 #include "shared/trace.h"
 
-/// By value: what is read through uniform pointers is read once for all lanes.
+/// Held by value: data behind uniform pointers is read once for all lanes.
 struct FacetMap {
   UintArray shape, reverse, around;  ///< of FacetArrays
   uvec3 dims;
@@ -40,7 +40,7 @@ bool hiddenVoxel(Receiver r, vec3 centre) {
 }
 
 /// The receiver at `p` on a surface with normal `n`, seen from the direction `viewer`. Its walls are the faces of the
-/// voxel in front of it: of the two sides of a sheet that which it is seen before.
+/// voxel in front of it; of a sheet's two sides, the one that it is seen in front of.
 Receiver receiverAt(FacetMap map, vec3 p, vec3 n, vec3 viewer) {
   Receiver r = Receiver(p, n, vec4(0.0f), vec4(0.0f));
   vec3 centre = floor(p + 0.5f * n) + 0.5f;
@@ -50,7 +50,7 @@ Receiver receiverAt(FacetMap map, vec3 p, vec3 n, vec3 viewer) {
   for (uint i = 0u; i < facetsOf(entry); ++i) {
     uint shape = map.shape.at[firstFacet(entry) + i];
     vec3 facing = decodeNormal(shape & 0xFFFFu, map.encoding);
-    // At a wall's foot the plane's code cannot tell the side: a little towards the viewer.
+    // At a wall's foot the plane's code cannot tell the side, so a point a little towards the viewer is taken.
     float distance_ = dot(facing, p + TRACE_PLANE * viewer - centre) - facetOffset(shape);
     if (abs(dot(facing, n)) >= WALL_COSINE || distance_ < -TRACE_PLANE) continue;
     vec4 wall = vec4(facing, allBehind(facing) - facetOffset(shape) - dot(facing, centre));

@@ -1,9 +1,9 @@
-// Attributes of the facets (METHOD sections 1-2): normal, plane offset, albedo = base colour x (1 - metallic) clamped to
+// Attributes of the facets (docs/method.md 1-2): normal, plane offset, albedo = base colour x (1 - metallic) clamped to
 // [0, .98], emitted exitance. One dispatch per textured material, whose set 1 is bound, and one for all facets that sample
 // no texture.
 #include "shared/normals.h"
-#include "voxel_triangle.glsl"
-#include "voxel_material.glsl"
+#include "gi/voxel_triangle.glsl"
+#include "gi/voxel_material.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ShadeFacetsPush push; };
 

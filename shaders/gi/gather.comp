@@ -1,7 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI Gather" (METHOD section 6, T 5.7): direct irradiance D of every facet from the sun, spot and point lights, averaged
-// over points of the facet's plane within its cell, through the shadow maps and the very functions that shading uses.
+// "GI Gather" (docs/method.md 6, T 5.7): direct irradiance D of every facet from the sun, spot and point lights,
+// averaged over points of the facet's plane within its cell, through the shadow maps and the very functions that
+// shading uses.
+#include "shared/constants.h"
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/shadow.glsl"
@@ -10,7 +12,7 @@
 #include "shared/trace.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
+layout(constant_id = CONSTANT_NORMALS) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { GatherPush p; };
 
 // The facet's plane may lie this far below bumps of the surface inside its voxel: shadow lookups start above them.

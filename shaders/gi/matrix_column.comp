@@ -1,10 +1,11 @@
 // A column of the matrix: the hits of every row on one facet. One invocation per row.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
 #include "shared/solve.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
+layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
 layout(push_constant, scalar) uniform Push { MatrixColumnPush p; };
 
 #include "gi/matrix_row.glsl"

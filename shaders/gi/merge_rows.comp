@@ -2,10 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI BuildMatrix", kernel 2: one workgroup per row. Bitonic sort (Batcher 1968) of the columns met in shared memory,
 // then equal columns become one entry column | hits << columnBits. Integers only: the order is the same on every device.
+#include "shared/constants.h"
 #include "shared/matrix_build.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint SORTED = 128u;  ///< power of two >= rays
+layout(local_size_x_id = CONSTANT_MERGE_WORKGROUP) in;
+layout(constant_id = CONSTANT_SORTED) const uint SORTED = 128u;  ///< power of two >= rays
 layout(push_constant, scalar) uniform Push { MergeRowsPush p; };
 
 shared uint column[SORTED];
@@ -13,7 +14,7 @@ shared uint heads[gl_WorkGroupSize.x];
 shared uint escapedShared, invalidShared;
 
 void main() {
-  uint row = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+  uint row = irad_workgroup();
   if (row >= p.rows) return;
   uint me = gl_LocalInvocationID.x;
   uint width = gl_WorkGroupSize.x;

@@ -1,3 +1,74 @@
+// "GI Solve Emitters": F M of every facet by samples of the emitters in place of its rays (docs/method.md 5, after
+// T 5.6's low-probability high-energy paths). A lamp that fills a hundredth of the hemisphere is met by one ray in a
+// hundred; samples drawn in proportion to power all go there. Only the first gather is replaced: the solver adds the
+// difference to F B, in which M cancels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/sample_emitters.glsl"
+#include "shared/constants.h"
+#include "shared/sampling.h"
+#include "shared/solve.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
+layout(push_constant, scalar) uniform Push { SampleEmittersPush p; };
+
+#include "gi/emitter_point.glsl"
+#include "gi/matrix_row.glsl"
+#include "gi/trace.glsl"
+
+bool near(uvec3 a, uvec3 b) {
+  vec3 d = vec3(a) - vec3(b);
+  return dot(d, d) < EMITTERS_NEAR * EMITTERS_NEAR;
+}
+
+/// F M of the nearby emitters among the row's entries.
+vec3 nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
+  Row r = openRow(m, row);
+  vec3 sum = vec3(0.0f);
+  for (uint i = 0u; i < r.count; ++i) {
+    RowEntry e = rowEntry(r, m.columnBits, i);
+    vec3 exitance = f.emission.at[e.column];
+    if (exitance != vec3(0.0f) && near(voxel, unpackVoxel(f.voxel.at[e.column]))) sum += e.weight * exitance;
+  }
+  return sum * r.weight;
+}
+
+void main() {
+  uint facet = irad_index();
+  FacetArrays f = p.facets.at[0];
+  if (facet >= f.count) return;
+  EmitterTable table = p.emitters.at[0];
+  TraceWorld world = TraceWorld(f, p.chebyshev, p.dims, p.jfaMax);
+  uint packedVoxel = f.voxel.at[facet];
+  uvec3 voxel = unpackVoxel(packedVoxel);
+  uint shape = f.shape.at[facet];
+  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+  uvec4 shifts = rayShifts(packedVoxel, p.seed ^ 0x5A3D9E71u, 1u);
+
+  // E = 1/n sum of M cos cos' / (pi r^2) / density, the density of points being luminance(M) / power.
+  vec3 sum = vec3(0.0f);
+  uint valid = p.samples;
+  for (uint k = 0u; k < p.samples; ++k) {
+    uint emitter;
+    vec3 point, facing;
+    uvec2 u = shifts.xy + uvec2((2u * k + 1u) * (0x80000000u / p.samples), reverseBits(k));
+    if (!emitterPoint(table, f, TRACE_NORMALS, u, emitter, point, facing)) continue;
+    if (near(voxel, unpackVoxel(f.voxel.at[emitter]))) continue;
+    vec3 origin = facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
+    vec3 way = point - origin;
+    float reach = length(way);
+    vec3 direction = way / reach;
+    float cosines = max(dot(normal, direction), 0.0f) * max(-dot(facing, direction), 0.0f);
+    if (cosines == 0.0f) continue;
+    TraceHit hit = traceFacetRay(world, origin, direction, normal, voxel, facet, shape);
+    if (hit.facet == TRACE_INVALID) --valid;
+    if (hit.facet > TRACE_LAST_FACET) continue;
+    vec3 exitance = f.emission.at[emitter];
+    bool reached = hit.facet == emitter ||
+                   (f.emission.at[hit.facet] != vec3(0.0f) && abs(hit.t - reach) * -dot(facing, direction) < TRACE_JOINT);
+    if (reached) sum += exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
+  }
+  vec3 light = nearEmitters(f, p.matrix.at[0], facet, voxel) + sum / float(max(valid, 1u));
+  p.correction.at[facet] = vec4(light - p.emitted.at[facet].xyz, 0.0f);
+  p.emitted.at[facet] = vec4(light, 0.0f);
+}

@@ -11,7 +11,7 @@ const uint PER_THREAD = SCAN_BLOCK / 64u;
 shared uint sums[64];
 
 void main() {
-  uint block = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+  uint block = irad_workgroup();
   uint thread = gl_LocalInvocationIndex;
   uint first = block * SCAN_BLOCK + thread * PER_THREAD;
   uint end = min(first + PER_THREAD, push.count);

@@ -1,21 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (METHOD section 7). Averages over the
-// facets of the 3 x 3 x 3 voxels around that face the same way and lie in the same plane, with tent weights, so that
-// neither a room behind the wall nor the next step of a stair comes in; nor the floor beyond a wall that stands on it.
+// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (docs/method.md 7). Averages over
+// the facets of the 3 x 3 x 3 voxels around that face the same way and lie in the same plane, with tent weights, so
+// that neither a room behind the wall nor the next step of a stair comes in; nor the floor beyond a wall that stands on
+// it.
 #include "gi/facet_map.glsl"
+#include "shared/constants.h"
 #include "shared/solve.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint NORMALS = NORMALS_OCT16;
-layout(constant_id = 1) const bool EMITTED = true;  ///< F M too
-layout(constant_id = 2) const bool STORES = true;   ///< false: what it would change is measured alone
+layout(constant_id = CONSTANT_NORMALS) const uint NORMALS = NORMALS_OCT16;
+layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;  ///< F M too
+layout(constant_id = CONSTANT_SCATTER_STORES) const bool STORES = true;   ///< false: it only measures the change
 layout(push_constant, scalar) uniform Push { ScatterFacetsPush p; };
 
 const float FACING = 0.5f;  // least cosine between the normals
 const float LEVEL = 0.5f;   // voxels: farthest that a parallel face on the same level is from the own plane
 
-/// The same of a face `chord` away that turns from the own one: a curved surface leaves the plane.
+/// The same for a face `chord` away that is turned against the own one: a curved surface leaves the plane.
 float level(float facing, vec3 chord) {
   return LEVEL + sqrt(max(0.0f, 1.0f - facing * facing)) * length(chord);
 }

@@ -1,12 +1,13 @@
-// One Jacobi sweep (METHOD section 1): H = F B, then B' = lambda (M + rho (D + H)), relaxed by omega. What the three
+// One Jacobi sweep (docs/method.md 1): H = F B, then B' = lambda (M + rho (D + H)), relaxed by omega. What the three
 // kernels share: reading a row's entries, and what follows a row's sum.
 #ifndef IRAD_SOLVE_GLSL
 #define IRAD_SOLVE_GLSL
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/constants.h"
 #include "shared/solve.h"
 
-layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
-layout(constant_id = 1) const uint WORK = SOLVE_WATCH;
+layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
+layout(constant_id = CONSTANT_SOLVE_WORK) const uint WORK = SOLVE_WATCH;
 layout(push_constant, scalar) uniform Push { SolvePush p; };
 
 #ifdef IRAD_SOLVE_IMAGES
@@ -56,8 +57,8 @@ Watch finishRow(uint row, vec4 sum) {
   if (f.hasEmission != 0u) source += f.emission.at[row];
   vec3 h = sum.xyz;
   // The emitters' share of the row's rays replaced by that of the samples; below 0 by rounding alone.
-  if (p.corrected != 0u) {
-    h += p.correction.at[row].xyz;
+  if (p.correctionGain != 0.0f) {
+    h += p.correctionGain * p.correction.at[row].xyz;
     h = mix(h, vec3(0.0f), lessThan(h, vec3(0.0f)));  // max() could hide a NaN
   }
   h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
@@ -73,7 +74,7 @@ Watch finishRow(uint row, vec4 sum) {
     w.nan = trues(isnan(now));
     w.nonFinite = w.nan + trues(isinf(now));
     w.negative = trues(lessThan(min(min(source, h), now), vec3(0.0f))) + uint(sum.w < 0.0f);
-    // A maximum with NaN may be either; what is not finite is counted and left out.
+    // A maximum with NaN may be either operand, so what is not finite is counted and left out.
     if (w.nonFinite == 0u) {
       w.delta = largest(abs(now - old));
       w.h = largest(abs(h));

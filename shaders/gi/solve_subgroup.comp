@@ -7,7 +7,7 @@ layout(local_size_x = 128) in;
 
 void main() {
   MatrixArrays m = p.matrix.at[0];
-  uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+  uint group = irad_workgroup();
   uint subgroups = gl_NumWorkGroups.x * gl_NumWorkGroups.y * gl_NumSubgroups;
   Watch w = NOTHING;
   for (uint row = group * gl_NumSubgroups + gl_SubgroupID; row < m.rows; row += subgroups) {

@@ -1,14 +1,14 @@
-// Rays through the voxel grid, shared by the matrix build, specular tracing and brute force (METHOD sections 3, 5, 8).
-// Everything is in voxel units: cell c spans [c, c + 1).
+// Rays through the voxel grid, shared by the matrix build, emitter samples and specular tracing (docs/method.md 3, 5,
+// 8). Everything is in voxel units: cell c spans [c, c + 1).
 //
 //   TraceWorld world = TraceWorld(facetRecord.at[0], chebyshev, dims, jfaMax);
 //   TraceHit hit = traceRay(world, origin, direction, normal);
 //
 // `normal` is the geometric normal of the surface that the ray leaves (unit; direction . normal > 0 expected).
 // hit.facet is a facet index, or one of TRACE_ESCAPED, TRACE_BLOCKED, TRACE_INVALID; hit.t the distance in voxels. The
-// includer specializes constant 0 (traversal), 1 (hit rule), 2 (normal encoding). TRACE_JFA needs `#define
-// TRACE_JFA_TEXTURE name` of a sampler3D declared before the include; without it that value behaves as
-// TRACE_DDA_REVERSE. `#define TRACE_AHEAD n` lets cell-by-cell walks load n cells at once, for kernels in which few rays
+// traversal, the hit rule and the encoding of normals are specialization constants. TRACE_JFA needs the variant of a
+// shader that has TRACE_JFA_BINDING, where the distance volume is bound (shaders/CMakeLists.txt); without, that value
+// behaves as TRACE_DDA_REVERSE. `#define TRACE_AHEAD n` lets cell-by-cell walks load n cells at once, for kernels in which few rays
 // wait for them.
 //
 // Hit rule `robust`: the ray is met by facet planes, not by cells. A facet's plane is taken inside its own cell; a ray
@@ -19,16 +19,17 @@
 #define IRAD_TRACE_GLSL
 #extension GL_EXT_control_flow_attributes : require
 
+#include "shared/constants.h"
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/grid.h"
 #include "shared/normals.h"
 #include "shared/trace.h"
 
-layout(constant_id = 0) const uint TRACE_METHOD = TRACE_DDA_REVERSE;
-layout(constant_id = 1) const uint TRACE_HIT_RULE = HIT_RULE_ROBUST;
-layout(constant_id = 2) const uint TRACE_NORMALS = NORMALS_OCT16;
-layout(constant_id = 4) const bool TRACE_MANY = true;  ///< a voxel may have more than two facets
+layout(constant_id = CONSTANT_TRACE_METHOD) const uint TRACE_METHOD = TRACE_DDA_REVERSE;
+layout(constant_id = CONSTANT_TRACE_HIT_RULE) const uint TRACE_HIT_RULE = HIT_RULE_ROBUST;
+layout(constant_id = CONSTANT_NORMALS) const uint TRACE_NORMALS = NORMALS_OCT16;
+layout(constant_id = CONSTANT_TRACE_MANY) const bool TRACE_MANY = true;  ///< a voxel may have more than two facets
 
 struct TraceWorld {
   FacetArrays facets;
@@ -96,22 +97,13 @@ float traceClearance(TraceWorld world, vec3 cell) {
   return world.facets.reverse.at[index] == NO_FACET ? 1.0f : 0.0f;
 }
 
+#ifdef TRACE_JFA_BINDING
+#include "thesis/trace_jfa.glsl"  // its traceToSolid
+#else
 /// Walks to the next solid cell, the present one included. False: left the grid.
 bool traceToSolid(TraceWorld world, inout TraceWalk w, inout uint steps) {
-#ifdef TRACE_JFA_TEXTURE
-  // T 5.2: a sphere of the stored distance is stepped over. Its UNORM8 value and the distance being one between cell
-  // centres make rays tunnel and end elsewhere; METHOD section 3 gives the figures. This is the thesis's behaviour.
-  while (traceInside(w, world.dims)) {
-    float d = texelFetch(TRACE_JFA_TEXTURE, ivec3(w.cell), 0).r * world.jfaMax;
-    if (d <= 0.0f) return true;
-    ++steps;
-    w.t += d;
-    w.cell = floor(w.origin + w.t * w.direction);
-  }
-  return false;
-#else
 #ifdef TRACE_AHEAD
-  // Cell by cell the way is known before what lies on it: so many cells are asked at once.
+  // In a cell-by-cell walk the next cells are known before their contents, so several are read at once.
   while (TRACE_METHOD != TRACE_SKIP && traceInside(w, world.dims)) {
     vec3 cell[TRACE_AHEAD];
     float t[TRACE_AHEAD], clearance[TRACE_AHEAD];
@@ -141,8 +133,8 @@ bool traceToSolid(TraceWorld world, inout TraceWalk w, inout uint steps) {
     traceAdvance(w, k);
   }
   return false;
-#endif
 }
+#endif
 
 struct TracePlane {
   vec3 normal;
@@ -201,7 +193,7 @@ bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing
       uint shape = world.facets.shape.at[other];
       vec3 facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
       bool own = dot(facing, normal) >= TRACE_OWN_NORMAL;
-      while (own) {  // all but one
+      while (own) {  // the facets before it are in the own plane
         shape = world.facets.shape.at[++other];
         facing = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
         own = TRACE_MANY && dot(facing, normal) >= TRACE_OWN_NORMAL;
@@ -215,7 +207,8 @@ bool cutOff(TraceWorld world, vec3 cell, uint around, vec3 normal, vec3 crossing
 
 /// A face's own cell is asked first. Where FACET_CORNER says so and none of its faces was met, those of cells around
 /// (FacetArrays::around) are asked whether their planes, extended, cross this cell. `clear`: how far around the
-/// origin's cell there is only the own plane. `ownMiddle`: of the facet that the ray leaves, else the origin.
+/// origin's cell there is only the own plane. `ownMiddle`: the middle of the facet that the ray leaves, else the
+/// origin.
 TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMiddle, uint clear) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   uint passed = TRACE_ESCAPED;  // last face passed closely in front of, for rays that slip through a joint
@@ -229,10 +222,10 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
     uint left = facetsOf(entry);
     vec3 at = w.cell;
     bool recorded = true;  // in this cell; later: in those around
-    uint ask = 0u;         // cells around that may know of more
+    uint ask = 0u;         // neighbouring cells that may know of more faces
     float nearest = 1e30f;
     uint met = TRACE_ESCAPED;
-    float back = 1e30f;  // the same of the faces met from behind
+    float back = 1e30f;  // the same for faces met from behind
     uint backMet = TRACE_ESCAPED;
     vec2 backPlane = vec2(0.0f);
     vec4 planes[4] = vec4[4](vec4(0.0f), vec4(0.0f), vec4(0.0f), vec4(0.0f));  // of the recorded faces
@@ -264,8 +257,8 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
         }
         // A face that looks back at this one, but does not stand clearly in front of it, is the own sheet's other side.
         bool otherSide = alike < -TRACE_OWN_NORMAL && min(rise, p.start) < TRACE_ON_PLANE;
-        // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface. One
-        // that is crossed after it is left to the next cell, or ends before.
+        // A plane crossed before this cell, by more than the surface's joints gape, was passed beside the surface. A
+        // plane crossed after this cell is left to the next cell, or ends before it.
         bool front = p.slope < 0.0f && !behind && !otherSide;
         float slack = recorded ? TRACE_PLANE + facetJoint(shape) : TRACE_ON_PLANE;
         bool crosses = front ? leaveS <= min(slack, TRACE_PLANE) && enterS >= -slack
@@ -273,7 +266,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
                                    leaveS > TRACE_ON_PLANE && cross < back;
         float beyond = 0.0f;
         if (crosses) {
-          // Of a ray that starts on both planes: a little ahead, which tells the side.
+          // Where a ray starts on both planes, a point a little ahead tells the side.
           vec3 crossing = w.origin + clamp(max(cross, TRACE_PLANE), w.t, leave) * w.direction;
           if (!recorded) {
             beyond = max(overrun(planes[0], middle, crossing), overrun(planes[1], middle, crossing));
@@ -283,7 +276,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
           crosses = recorded ? !cutOff(world, at, around, p.normal, crossing) : beyond <= TRACE_ON_PLANE;
         }
         if (crosses && front) {
-          // Of two extensions of one plane, on both sides of a wall, that which needs not pass the wall.
+          // Of two extensions of one plane, on both sides of a wall, prefer the one that does not pass the wall.
           cross += max(beyond, 0.0f);
           if (cross < nearest) {
             nearest = cross;
@@ -336,29 +329,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
   return hit;
 }
 
-TraceHit traceThesis(TraceWorld world, TraceWalk w) {
-  TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
-  while (traceToSolid(world, w, hit.steps)) {
-    uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
-    uint facet = firstFacet(entry);
-    float slope = dot(decodeNormal(world.facets.shape.at[facet] & 0xFFFFu, TRACE_NORMALS), w.direction);
-    for (uint i = firstFacet(entry) + 1u; i < firstFacet(entry) + facetsOf(entry); ++i) {
-      float other = dot(decodeNormal(world.facets.shape.at[i] & 0xFFFFu, TRACE_NORMALS), w.direction);
-      if (other < slope) {
-        slope = other;
-        facet = i;
-      }
-    }
-    if (slope < 0.0f) {
-      hit.facet = facet;
-      hit.t = w.t;
-      break;
-    }
-    traceAdvance(w, 1.0f);
-    ++hit.steps;
-  }
-  return hit;
-}
+#include "thesis/trace_hit.glsl"  // traceThesis
 
 TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
   TraceWalk w = traceStart(origin, direction);

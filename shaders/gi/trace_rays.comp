@@ -1,3 +1,29 @@
+// "GI BuildMatrix", kernel 1: one invocation per ray of a chunk of rows. Writes what each ray met.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/trace_rays.glsl"
+#include "shared/trace.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { TraceRaysPush p; };
+
+#include "gi/trace.glsl"
+
+void main() {
+  uint ray = irad_index();
+  if (ray >= p.rows * p.rays) return;
+  uint row = p.firstRow + ray / p.rays;
+  uint k = ray % p.rays;
+  FacetArrays facets = p.facets;
+  uint packedVoxel = facets.voxel.at[row];
+  uint shape = facets.shape.at[row];
+  uvec3 voxel = unpackVoxel(packedVoxel);
+  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+  uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
+  vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), normal);
+  // T 5.6 starts one voxel along the normal from the centre; docs/method.md 5 on the facet itself.
+  vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS
+                    ? vec3(voxel) + 0.5f + normal
+                    : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
+  TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
+  p.hits.at[ray] = traceFacetRay(world, origin, direction, normal, voxel, row, shape).facet;
+}

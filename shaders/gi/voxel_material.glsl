@@ -1,7 +1,8 @@
 // Material lookups of the voxelizers: base colour, alpha, metalness, emission at a point of a triangle, filtered over the
 // texels that one voxel covers. Set 1 is the material's.
-// A pipeline for geometry that samples none leaves the lookups out (constant 0): they are most of what there is to compile.
-layout(constant_id = 0) const uint SAMPLES_TEXTURES = 1u;
+// A pipeline for geometry that samples none leaves the lookups out: they are most of what there is to compile.
+#include "shared/constants.h"
+layout(constant_id = CONSTANT_SAMPLES_TEXTURES) const uint SAMPLES_TEXTURES = 1u;
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
 layout(set = 1, binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 4) uniform sampler2D emissiveTexture;

@@ -38,7 +38,7 @@ VoxelTriangle loadTriangle(SceneArray scenes, GridArray grids, uint triangle) {
 
 bool degenerate(VoxelTriangle t) { return t.normal == vec3(0.0); }
 
-/// Where the winner of a voxel's first facet faces, for the second; not normalized.
+/// The direction in which the winner of a voxel's first facet faces; for the second facet, not normalized.
 vec3 winnerFacing(SceneArray scenes, GridArray grids, uint key) {
   vec3 normal = loadTriangle(scenes, grids, keyTriangle(key)).normal;
   return keyBack(key) ? -normal : normal;

@@ -1,7 +1,7 @@
-// Conservative voxelization, step 2 (METHOD section 2): one invocation per tile of columns along the triangle's dominant
-// axis. A cell is covered when the triangle has a point in it: an edge test in the projection and the plane's depth range
-// over the column reject early (Schwarz and Seidel 2010, "Fast Parallel Surface and Solid Voxelization on GPUs"), clipping
-// decides and gives the area by which the key is ordered.
+// Conservative voxelization, step 2 (docs/method.md 2): one invocation per tile of columns along the triangle's
+// dominant axis. A cell is covered when the triangle has a point in it: an edge test in the projection and the plane's
+// depth range over the column reject early (Schwarz and Seidel 2010, "Fast Parallel Surface and Solid Voxelization on
+// GPUs"), clipping decides and gives the area by which the key is ordered.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
@@ -91,7 +91,7 @@ void main() {
         float area = 0.0;
         if (!crosses) {
           if (cosine >= OPPOSED_COSINE || push.slot > 1u) continue;
-          // Where there is room for them, a sheet before a surface that crosses the middle is there with both its sides,
+          // Where there is room, a sheet in front of a surface that crosses the middle is recorded with both its sides
           // or not at all.
           if (push.slots > 2u && sheet && (winner & KEY_MIDDLE) != 0u && keyTriangle(winner) != triangle) continue;
           if (oneCell) {

@@ -3,8 +3,8 @@
 #define IRAD_RASTER_CORNER_WEIGHTS_GLSL
 
 /// Perspective-correct, sum 1: clip-space corners relative to the point are as areas (Olano and Greer 1997, "Triangle
-/// Scan Conversion Using 2D Homogeneous Coordinates"), so that nothing is divided by a w that may be 0 or below. Of a
-/// triangle seen edge-on the first corner.
+/// Scan Conversion Using 2D Homogeneous Coordinates"), so that nothing is divided by a w that may be 0 or below. For a
+/// triangle seen edge-on, the first corner.
 vec3 cornerWeights(vec4 c[3], vec2 ndc) {
   vec2 p[3];
   for (int i = 0; i < 3; ++i) p[i] = c[i].xy - ndc * c[i].w;
@@ -13,13 +13,13 @@ vec3 cornerWeights(vec4 c[3], vec2 ndc) {
   return sum != 0.0 ? w / sum : vec3(1.0, 0.0, 0.0);
 }
 
-/// Of the whole picture, y up.
+/// A pixel's centre in the clip space of the whole picture, y up.
 vec2 pixelCentre(ivec2 pixel, uvec2 size) {
   return (vec2(pixel) + 0.5) / vec2(size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
 }
 
-/// Of a point that is the triangle's but for rounding and the snapping of corners, from which slivers would
-/// extrapolate.
+/// Weights of a point that belongs to the triangle up to rounding and the snapping of corners, which slivers would
+/// otherwise extrapolate from.
 vec3 weightsWithin(vec3 w) {
   w = max(w, 0.0);
   return w / (w.x + w.y + w.z);

@@ -155,7 +155,7 @@ RasterRests restsOf(RasterJob job) {
   return RasterRests(uint64_t(piecesOf(job)) + RASTER_PIECE_BYTES * uint64_t(job.pieces));
 }
 
-/// False: there is no place left. One atomic per counter and subgroup: they queue up at the counter.
+/// False: there is no place left. One atomic per counter and subgroup, since atomics queue up at the counter.
 bool setAside(RasterJob job, RasterPiece p, uint tiles) {
   uvec4 here = subgroupBallot(true);
   uint place;
@@ -209,7 +209,7 @@ void drawTriangle(RasterJob job, uint triangle) {
       vec4 from = polygon[i], to = polygon[i + 1 < corners ? i + 1 : 0];
       float f = clipDistance(from, plane), t = clipDistance(to, plane);
       if (f >= 0.0) clipped[kept++] = from;
-      // From the inner corner, so that two triangles get the same point of the edge between them.
+      // Measured from the inner corner, so that two triangles get the same point on their common edge.
       if ((f >= 0.0) != (t >= 0.0)) clipped[kept++] = f >= 0.0 ? mix(from, to, f / (f - t)) : mix(to, from, t / (t - f));
     }
     corners = kept;
@@ -231,7 +231,8 @@ void drawTile(RasterJob job, RasterPiece p, uint tile, uint lane) {
   scan(p, box, ivec2(lane & 7u, lane >> 3), ivec2(8, RASTER_LANES / 8u));
 }
 
-/// The piece that tile `tile` of the row of all but first tiles belongs to: the last that starts at or before it.
+/// The piece that tile `tile`, counted over all tiles but the pieces' first ones, belongs to: the last piece that
+/// starts at or before it.
 RasterRest restAt(RasterRests rests, uint count, uint tile) {
   uint found = 0u;
   while (count - found > 1u) {

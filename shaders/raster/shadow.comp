@@ -6,7 +6,7 @@
 void rasterPixel(uint triangle, ivec2 pixel, float depth) {
   uint place = uint(pixel.y) * push.size.x + uint(pixel.x);
   uint bits = floatBitsToUint(depth);
-  // A look pays only where it spares textures: nobody waits for the atomics.
+  // Reading first pays only where it saves texture reads: nobody waits for the atomics.
   if (MASKED && (push.target.at[place] >= bits || cutOut(pixel))) return;
   atomicMax(push.target.at[place], bits);
 }

@@ -6,7 +6,8 @@
 void rasterPixel(uint triangle, ivec2 pixel, float depth) {
   uint place = uint(pixel.y) * push.size.x + uint(pixel.x);
   uint bits = floatBitsToUint(depth);
-  // A look, at the depth alone, which one load reads whole, pays only where it spares textures: atomics nobody waits for.
+  // Reading the depth first (one load reads it whole) pays only where it saves texture reads: nobody waits for the
+  // atomics.
   if (MASKED && (push.target.at[2u * place + 1u] < bits || cutOut(pixel))) return;
   atomicMin(VisibleArray(push.target).at[place], pack64(uvec2(triangle, bits)));
 }

@@ -1,7 +1,7 @@
 // Push constants of what `irad check` asks the device of shared functions (shaders/check).
 #ifndef IRAD_SHARED_CHECK_H
 #define IRAD_SHARED_CHECK_H
-#include "shared/types.h"
+#include "shared/normals.h"
 IRAD_BEGIN
 
 /// check/encode.comp: normals there and back.
@@ -9,7 +9,7 @@ struct EncodePush {
   Vec4Array normals;
   Vec4Array decoded;
   uint count;
-  uint encoding;
+  IRAD_AS(NormalEncoding) encoding;
 };
 
 /// check/sample.comp: one point of each of many sets, and the direction it gives.

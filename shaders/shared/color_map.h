@@ -1,14 +1,20 @@
 // Colour maps of scalar views, and the display's transfer function: pictures and their legends use the same.
 #ifndef IRAD_SHARED_COLOR_MAP_H
 #define IRAD_SHARED_COLOR_MAP_H
-#include "shared/types.h"
+#include "shared/enumeration.h"
 IRAD_BEGIN
 
-// view.color_map; the last is that of signed views.
-IRAD_CONST uint COLOR_MAP_VIOLET_YELLOW = 0u;
-IRAD_CONST uint COLOR_MAP_HEAT = 1u;
-IRAD_CONST uint COLOR_MAP_GREY = 2u;
-IRAD_CONST uint COLOR_MAP_BLUE_RED = 3u;
+// clang-format off
+#define IRAD_COLOR_MAPS(X, E) \
+  X(E, violetYellow, "violet-yellow", COLOR_MAP_VIOLET_YELLOW, 0) \
+  X(E, heat,         "heat",          COLOR_MAP_HEAT,          1) \
+  X(E, grey,         "grey",          COLOR_MAP_GREY,          2)
+IRAD_SHARED_ENUM(ColorMap, IRAD_COLOR_MAPS)
+// clang-format on
+/// The map of signed views, after those that can be chosen.
+#define IRAD_COLOR_MAP_COUNT(E, id, text, constant, number) +1u
+IRAD_CONST IRAD_AS(ColorMap) COLOR_MAP_BLUE_RED = IRAD_AS(ColorMap)(IRAD_COLOR_MAPS(IRAD_COLOR_MAP_COUNT, ColorMap));
+#undef IRAD_COLOR_MAP_COUNT
 
 /// IEC 61966-2-1.
 IRAD_FN float encodeSrgb(float c) {
@@ -33,7 +39,7 @@ IRAD_FN vec3 fromOklch(float lightness, float chroma, float hue) {
 
 /// Colour of t in 0..1, linear sRGB. Lightness rises evenly in OKLab, so that equal steps look equal and grey prints keep
 /// their order; that of the diverging map falls evenly to both sides of t = 1/2.
-IRAD_FN vec3 colorMap(uint map, float t) {
+IRAD_FN vec3 colorMap(IRAD_AS(ColorMap) map, float t) {
   t = clamp(t, 0.0f, 1.0f);
   float arch = sin(IRAD_PI * t);
   if (map == COLOR_MAP_GREY) return fromOklch(0.15f + 0.80f * t, 0.0f, 0.0f);

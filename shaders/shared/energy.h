@@ -1,4 +1,5 @@
-// Where the light of a solve comes from and goes to: the energy balance of the numerical watch (HARD_CASES, `energy`).
+// Where the light of a solve comes from and goes to: the energy balance of the numerical watch (docs/stability.md,
+// `energy`).
 #ifndef IRAD_SHARED_ENERGY_H
 #define IRAD_SHARED_ENERGY_H
 #include "shared/facets.h"
@@ -14,8 +15,9 @@ IRAD_FN float squareBelow(float p, float q, float t) {
   return p / q * (0.5f * (c1 * c1 - c0 * c0) + max(x1 - 1.0f, 0.0f) - max(x0 - 1.0f, 0.0f));
 }
 
-/// Area of a facet's plane inside its voxel, voxels^2. `offset`: facetOffset. A facet's plane is inside its voxel, which
-/// decides for walls in the voxel's very face: their offset's code, or the last bit of their normal, may put them outside.
+/// Area of a facet's plane inside its voxel, voxels^2. `offset`: facetOffset. A facet's plane counts as inside its
+/// voxel. This matters for walls that lie exactly in a voxel's face: the offset's code, or the last bit of the normal,
+/// may put them outside.
 IRAD_FN float facetArea(vec3 normal, float offset) {
   vec3 a = abs(normal);
   float m = max(a.x, max(a.y, a.z)), q = min(a.x, min(a.y, a.z));

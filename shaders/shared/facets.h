@@ -1,5 +1,5 @@
-// The facet list (METHOD sections 2-4): structure of arrays, Morton order of voxels, the two facets of a voxel adjacent.
-// The reverse map leads from a voxel to its facets.
+// The facet list (docs/method.md 2-4): structure of arrays, Morton order of voxels, the facets of a voxel next to each
+// other. The reverse map leads from a voxel to its facets.
 #ifndef IRAD_SHARED_FACETS_H
 #define IRAD_SHARED_FACETS_H
 #include "shared/types.h"
@@ -12,7 +12,7 @@ IRAD_CONST uint MAX_FACETS = (1u << 30) - 1u;
 IRAD_CONST uint MAX_VOXEL_FACETS = 4u;
 IRAD_FN uint facetEntryOf(uint first, uint facets) { return first | ((facets - 1u) << 30); }
 IRAD_FN uint firstFacet(uint entry) { return entry & MAX_FACETS; }
-/// Of an entry that is not NO_FACET.
+/// For an entry that is not NO_FACET.
 IRAD_FN uint facetsOf(uint entry) { return (entry >> 30) + 1u; }
 /// Two faces of a voxel are opposed, the two sides of something thin, where n . n' is below this.
 IRAD_CONST float OPPOSED_COSINE = -0.25f;
@@ -20,9 +20,9 @@ IRAD_CONST float OPPOSED_COSINE = -0.25f;
 /// Facet word `shape`: bits 0-15 normal code (encoding of voxel.normals), bits 16-23 signed plane offset: distance of
 /// the surface from the voxel's centre along the normal, in 1/127 voxel, biased by 128; bit 24: double-sided material.
 IRAD_CONST uint FACET_DOUBLE_SIDED = 1u << 24;
-/// Bit 25: another surface, recorded only in a neighbouring voxel, may pass through this one (edges and corners: a voxel
-/// holds two facets at most), or its other facet faces elsewhere. Set by markCorners; rays that meet no recorded face
-/// there look around (gi/trace.glsl).
+/// Bit 25: another surface, recorded only in a neighbouring voxel, may pass through this one (edges and corners: a
+/// voxel has room for few facets), or its other facet faces elsewhere. Set by markCorners; rays that meet no recorded
+/// face there look around (gi/trace.glsl).
 IRAD_CONST uint FACET_CORNER = 1u << 25;
 /// FacetArrays::around: bits 0-26 the voxels around to look into (bit x + 3 y + 9 z, AROUND_SELF its own); bit 27 + k:
 /// the k-th of them holds one face besides this one's plane, which meets it convexly: the two end where they cross.

@@ -8,8 +8,8 @@ IRAD_BEGIN
 /// Lobes narrower than this are drawn as this wide for point-like lights, whose mirror image has no size.
 IRAD_CONST float GGX_LEAST_ALPHA = 2e-3f;
 
-/// `sin2`: the squared sine between normal and half vector. Of their cosine, 1 less a hair where the lobe is, too few
-/// digits are left for a narrow one: at alpha = .002 the last of them is 6 % of its peak.
+/// `sin2`: the squared sine between normal and half vector. The cosine is so near 1 within a narrow lobe that too few
+/// digits are left: at alpha = .002 the last of them is worth 6 % of the peak.
 IRAD_FN float ggxDistribution(float sin2, float alpha) {
   float a2 = alpha * alpha;
   float d = sin2 + (1.0f - sin2) * a2;

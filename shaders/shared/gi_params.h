@@ -1,62 +1,75 @@
 // The settings that shaders read: the very structs that are uploaded (members of gi/settings.h's Settings).
 #ifndef IRAD_SHARED_GI_PARAMS_H
 #define IRAD_SHARED_GI_PARAMS_H
-#include "shared/types.h"
+#include "shared/enumeration.h"
 IRAD_BEGIN
 
-// matrix.hit_rule
-IRAD_CONST uint HIT_RULE_THESIS = 0u;  ///< first front face (d.n < 0), from the facet's voxel; back faces let through
-IRAD_CONST uint HIT_RULE_ROBUST = 1u;  ///< METHOD section 5
-// matrix.traversal, specular.traversal
-IRAD_CONST uint TRAVERSAL_DDA = 0u;
-IRAD_CONST uint TRAVERSAL_SDF = 1u;
-// field.method: which field an sdf traversal reads
-IRAD_CONST uint FIELD_CHEBYSHEV = 0u;
-IRAD_CONST uint FIELD_JFA = 1u;
-// sample.filter
-IRAD_CONST uint FILTER_NEAREST = 0u;
-IRAD_CONST uint FILTER_LINEAR = 1u;
-IRAD_CONST uint FILTER_BLUR = 2u;
-// camera tone curve
-IRAD_CONST uint TONE_LINEAR = 0u;
-IRAD_CONST uint TONE_NEUTRAL = 1u;  ///< Khronos PBR Neutral (2024)
+// clang-format off
+// thesis: first front face (d.n < 0), from the facet's voxel, back faces let through. robust: docs/method.md 5.
+#define IRAD_HIT_RULES(X, E) \
+  X(E, thesis, "thesis", HIT_RULE_THESIS, 0) \
+  X(E, robust, "robust", HIT_RULE_ROBUST, 1)
+IRAD_SHARED_ENUM(HitRule, IRAD_HIT_RULES)
+
+#define IRAD_TRAVERSALS(X, E) \
+  X(E, dda, "dda", TRAVERSAL_DDA, 0) \
+  X(E, sdf, "sdf", TRAVERSAL_SDF, 1)
+IRAD_SHARED_ENUM(Traversal, IRAD_TRAVERSALS)
+
+#define IRAD_SAMPLE_FILTERS(X, E) \
+  X(E, nearest, "nearest", FILTER_NEAREST, 0) \
+  X(E, linear,  "linear",  FILTER_LINEAR,  1) \
+  X(E, blur,    "blur",    FILTER_BLUR,    2)
+IRAD_SHARED_ENUM(SampleFilter, IRAD_SAMPLE_FILTERS)
+
+// neutral: Khronos PBR Neutral (2024).
+#define IRAD_TONE_CURVES(X, E) \
+  X(E, linear,  "linear",  TONE_LINEAR,  0) \
+  X(E, neutral, "neutral", TONE_NEUTRAL, 1)
+IRAD_SHARED_ENUM(ToneCurve, IRAD_TONE_CURVES)
+// clang-format on
 
 struct MatrixParams {
-  uint rays;       ///< N: rays per facet
-  uint hitRule;
-  uint traversal;
-  uint jitter;     ///< 1: Cranley-Patterson shift per voxel; 0: the same set everywhere
+  uint rays;       ///< R: rays per facet
+  IRAD_AS(HitRule) hitRule;
+  IRAD_AS(Traversal) traversal;
+  IRAD_AS(Flag) jitter;  ///< Cranley-Patterson shift per voxel; else the same set everywhere
   uint seed;
+  IRAD_EQUALITY(MatrixParams)
 };
 
 struct SolverParams {
-  float lambda;  ///< T eq. 23's gain; 1 leaves the physics alone
+  float lambda;  ///< T 4.3's gain; 1 leaves the physics alone
   float omega;   ///< under-relaxation, (0, 1]
   float flush;   ///< values below are set to zero, W/m^2
+  IRAD_EQUALITY(SolverParams)
 };
 
 struct SampleParams {
-  uint filter_;
-  uint premultiplied;
-  uint gated;        ///< 1: taps go to facets that face the same way; 0: the thesis's volume lookups
-  float normalOffset;  ///< lookup offset along the normal, voxels
+  IRAD_AS(SampleFilter) filter_;
+  IRAD_AS(Flag) premultiplied;
+  IRAD_AS(Flag) gated;  ///< taps go to facets that face the same way; else the thesis's volume lookups
+  float normalOffset;   ///< lookup offset along the normal, voxels
+  IRAD_EQUALITY(SampleParams)
 };
 
 struct SpecularParams {
   uint rays;
-  uint traversal;
+  IRAD_AS(Traversal) traversal;
   float maxRoughness;  ///< rougher surfaces take H / pi instead of traced rays
   float fade;          ///< width of the blend below maxRoughness
   float threshold;     ///< skip where F0 x H is below this share of the largest H
-  uint filter_;        ///< 1: edge-aware filter over the G-buffer after tracing
+  IRAD_AS(Flag) filter_;  ///< edge-aware filter over the G-buffer after tracing
+  IRAD_EQUALITY(SpecularParams)
 };
 
 struct ShadeParams {
   float exposure;    ///< linear factor 2^EV
-  uint toneCurve;
+  IRAD_AS(ToneCurve) toneCurve;
   float shadowBias;  ///< normal offset, shadow texels
   uint pcf;          ///< taps per axis: 1, 3 or 5
-  uint specularDirect;  ///< 1: GGX lobe of direct lights
+  IRAD_AS(Flag) specularDirect;  ///< GGX lobe of direct lights
+  IRAD_EQUALITY(ShadeParams)
 };
 
 IRAD_END

@@ -1,4 +1,4 @@
-// The voxel grid (METHOD section 2, T 5.1.1): one edge length for every axis, one empty voxel of padding per side,
+// The voxel grid (docs/method.md 2, T 5.1.1): one edge length for every axis, one empty voxel of padding per side,
 // half-open cells. Everything after voxelization works in voxel units: p_v = (p_local - origin) / edge.
 #ifndef IRAD_SHARED_GRID_H
 #define IRAD_SHARED_GRID_H

@@ -1,4 +1,4 @@
-// The form-factor matrix on the device (METHOD section 5).
+// The form-factor matrix on the device (docs/method.md 5).
 //   csr:    rows are grouped in segments of 2^segmentShift rows, each segment one exactly sized array of uints. An entry is
 //           column | hits << columnBits, columns ascending and merged. Row r lives in segment r >> segmentShift and starts
 //           at rowStart[r]. 32-bit offsets and allocation limits hold per segment, whatever the matrix's size.
@@ -6,10 +6,18 @@
 //           capacity is a power of two of rows; segments split it only where an allocation would exceed the device's limit.
 #ifndef IRAD_SHARED_MATRIX_H
 #define IRAD_SHARED_MATRIX_H
-#include "shared/types.h"
+#include "shared/enumeration.h"
 IRAD_BEGIN
 
-/// rowInfo[r] = uvec2(entries | invalid << 16, weight bits): weight = 1/(N - invalid), by which hit counts are scaled.
+// clang-format off
+#define IRAD_MATRIX_FORMATS(X, E) \
+  X(E, padded, "padded", MATRIX_PADDED, 0) \
+  X(E, csr,    "csr",    MATRIX_CSR,    1)
+IRAD_SHARED_ENUM(MatrixFormat, IRAD_MATRIX_FORMATS)
+// clang-format on
+
+/// rowInfo[r] = uvec2(entries | invalid << 16, weight bits): weight = 1/(rays - invalid), by which hit counts are
+/// scaled.
 IRAD_FN uint rowEntries(uvec2 info) { return info.x & 0xFFFFu; }
 IRAD_FN uint rowInvalid(uvec2 info) { return info.x >> 16; }
 

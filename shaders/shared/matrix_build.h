@@ -1,4 +1,4 @@
-// What the kernels that turn rays into rows take (METHOD section 5).
+// What the kernels that turn rays into rows take (docs/method.md 5).
 #ifndef IRAD_SHARED_MATRIX_BUILD_H
 #define IRAD_SHARED_MATRIX_BUILD_H
 #include "shared/matrix.h"
@@ -13,24 +13,24 @@ IRAD_ARRAY(ChunkCountsArray, ChunkCounts, 16)
 
 /// gi/merge_rows.comp: sorts what the rays of each row met and merges equal columns, in place.
 struct MergeRowsPush {
-  UintArray hits;       ///< rows x rays: in, what each ray met; out, the row's entries
-  UintArray counts;     ///< rows: entries, later scanned
-  Uvec2Array rowInfo;   ///< of all rows
+  UintArray hits;      ///< rows x rays: in, what each ray met; out, the row's entries
+  UintArray counts;    ///< rows: entries, later scanned
+  Uvec2Array rowInfo;  ///< of all rows
   ChunkCountsArray sums;
   uint firstRow, rows, rays, columnBits;
 };
 
 /// gi/pack_rows.comp: moves the entries of a chunk into its exactly sized segment.
 struct PackRowsPush {
-  UintArray entries;    ///< rows x rays, from merge_rows
-  UintArray starts;     ///< rows: exclusive scan of the counts
+  UintArray entries;  ///< rows x rays, from merge_rows
+  UintArray starts;   ///< rows: exclusive scan of the counts
   Uvec2Array rowInfo;
   UintArray rowStart;
   UintArray segment;
   uint firstRow, rows, rays, pad;
 };
 
-/// gi/padded_rows.comp (T 5.4-5.6): one invocation per row traces and appends.
+/// thesis/padded_rows.comp (T 5.4-5.6): one invocation per row traces and appends.
 struct PaddedRowsPush {
   FacetArrays facets;  ///< by value
   ByteArray chebyshev;

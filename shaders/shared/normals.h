@@ -1,15 +1,19 @@
-// Normal encodings (METHOD section 2, T 5.1.3): axis6, axis26, oct8 (T eq. 16-21), oct16. Code 0 is never used, so that 0
-// can mean "empty" in the thesis's alpha channel. `nonNegative ? 1 : -1` everywhere: GLSL's sign(0) is 0 and would
+// Normal encodings (docs/method.md 2, T 5.1.3): axis6, axis26, oct8 (T eq. 16-21), oct16. Code 0 is never used, so that
+// 0 can mean "empty" in the thesis's alpha channel. `nonNegative ? 1 : -1` everywhere: GLSL's sign(0) is 0 and would
 // decode -Z 174 degrees wrong.
 #ifndef IRAD_SHARED_NORMALS_H
 #define IRAD_SHARED_NORMALS_H
-#include "shared/types.h"
+#include "shared/enumeration.h"
 IRAD_BEGIN
 
-IRAD_CONST uint NORMALS_AXIS6 = 0u;
-IRAD_CONST uint NORMALS_AXIS26 = 1u;
-IRAD_CONST uint NORMALS_OCT8 = 2u;
-IRAD_CONST uint NORMALS_OCT16 = 3u;
+// clang-format off
+#define IRAD_NORMAL_ENCODINGS(X, E) \
+  X(E, axis6,  "axis6",  NORMALS_AXIS6,  0) \
+  X(E, axis26, "axis26", NORMALS_AXIS26, 1) \
+  X(E, oct8,   "oct8",   NORMALS_OCT8,   2) \
+  X(E, oct16,  "oct16",  NORMALS_OCT16,  3)
+IRAD_SHARED_ENUM(NormalEncoding, IRAD_NORMAL_ENCODINGS)
+// clang-format on
 
 IRAD_FN float signNotZero(float x) { return x >= 0.0f ? 1.0f : -1.0f; }
 
@@ -28,7 +32,7 @@ IRAD_FN vec3 octUnwrap(vec2 p, float extent) {
 }
 
 /// Unit vector -> code in [1, 65535] (axis6: 1..6, axis26: 1..26, oct8: 1..255).
-IRAD_FN uint encodeNormal(vec3 n, uint encoding) {
+IRAD_FN uint encodeNormal(vec3 n, IRAD_AS(NormalEncoding) encoding) {
   if (encoding == NORMALS_AXIS6) {
     vec3 a = abs(n);
     if (a.x >= a.y && a.x >= a.z) return n.x >= 0.0f ? 1u : 2u;
@@ -62,7 +66,7 @@ IRAD_FN uint encodeNormal(vec3 n, uint encoding) {
     uint qx = uint(floor((p.x + 1.0f) * 0.5f * 15.0f + 0.5f));
     uint qy = uint(floor((p.y + 1.0f) * 0.5f * 15.0f + 0.5f));
     uint code = (qx << 4) | qy;
-    return code == 0u ? 15u : code;  // corners are all -Z: costs 0 degrees (METHOD section 2)
+    return code == 0u ? 15u : code;  // corners are all -Z: costs 0 degrees (docs/method.md 2)
   }
   // oct16: odd grid 0..254 per axis, so that 127 is exactly 0 and the axes are exact; +1 keeps 0 free.
   uint x = uint(floor((p.x + 1.0f) * 127.0f + 0.5f));
@@ -79,7 +83,7 @@ IRAD_FN uint encodeOct8Literal(vec3 n) {
   return code == 0u ? 1u : code;
 }
 
-IRAD_FN vec3 decodeNormal(uint code, uint encoding) {
+IRAD_FN vec3 decodeNormal(uint code, IRAD_AS(NormalEncoding) encoding) {
   if (encoding == NORMALS_AXIS6) {
     uint axis = (code - 1u) >> 1;
     float s = ((code - 1u) & 1u) == 0u ? 1.0f : -1.0f;

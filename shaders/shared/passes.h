@@ -1,12 +1,7 @@
-// Push constants of the passes that make pictures (renderer/forward.cpp, gi/specular.cpp).
+// Push constants of the passes that make pictures (renderer/forward.cpp).
 #ifndef IRAD_SHARED_PASSES_H
 #define IRAD_SHARED_PASSES_H
-#include "shared/emitters.h"
-#include "shared/facets.h"
-#include "shared/gi_params.h"
-#include "shared/grid.h"
 #include "shared/scene_gpu.h"
-#include "shared/trace.h"
 IRAD_BEGIN
 
 struct Projection {
@@ -22,17 +17,18 @@ struct DepthPush {
   uint padding;
 };
 
-/// Specialization constants of "RE Forward" (forward/shade.glsl, forward/resolve.glsl). The effects leave out what they are false for.
-IRAD_CONST uint FORWARD_LIGHTS = 0u;  ///< LIGHT_SUN and so on follow
-IRAD_CONST uint FORWARD_TEXTURED = 5u;    ///< effect: a material of the pass has a texture
-IRAD_CONST uint FORWARD_NORMAL_MAP = 6u;  ///< effect: ... a normal map
-IRAD_CONST uint FORWARD_EMISSION = 7u;    ///< effect
-IRAD_CONST uint FORWARD_HIGHLIGHTS = 8u;  ///< effect: the lights' specular lobe
-IRAD_CONST uint FORWARD_F0 = 9u;          ///< effect: reflections are traced
-IRAD_CONST uint FORWARD_INDIRECT = 10u;   ///< effect
-IRAD_CONST uint FORWARD_PCF = 11u;
-IRAD_CONST uint FORWARD_MANY_LIGHTS = 12u;  ///< more than UNIFORM_LIGHTS
-IRAD_CONST uint FORWARD_TARGETS = 13u;      ///< kernels: those of TARGETS_ALL that are there
+/// Specialization constants of "RE Forward" (forward/shade.glsl, forward/resolve.comp). The effects leave out what they
+/// are false for.
+IRAD_CONST uint FORWARD_LIGHTS = 0u;                                  ///< LIGHT_CONSTANTS of them
+IRAD_CONST uint FORWARD_TEXTURED = FORWARD_LIGHTS + LIGHT_CONSTANTS;  ///< effect: a material of the pass has a texture
+IRAD_CONST uint FORWARD_NORMAL_MAP = FORWARD_TEXTURED + 1u;           ///< effect: ... a normal map
+IRAD_CONST uint FORWARD_EMISSION = FORWARD_TEXTURED + 2u;             ///< effect
+IRAD_CONST uint FORWARD_HIGHLIGHTS = FORWARD_TEXTURED + 3u;           ///< effect: the lights' specular lobe
+IRAD_CONST uint FORWARD_F0 = FORWARD_TEXTURED + 4u;                   ///< effect: reflections are traced
+IRAD_CONST uint FORWARD_INDIRECT = FORWARD_TEXTURED + 5u;             ///< effect: a later pass looks indirect light up
+IRAD_CONST uint FORWARD_PCF = FORWARD_TEXTURED + 6u;
+IRAD_CONST uint FORWARD_MANY_LIGHTS = FORWARD_TEXTURED + 7u;  ///< more than UNIFORM_LIGHTS
+IRAD_CONST uint FORWARD_TARGETS = FORWARD_TEXTURED + 8u;      ///< kernels: those of TARGETS_ALL that are there
 
 /// Targets that are there only where a picture is composed from them: bits of a specialization constant of the shaders
 /// that read or write them. An absent term is 0.
@@ -72,7 +68,6 @@ struct ForwardPush {
   SceneArray scene;
   CameraArray camera;
   MaterialArray materials;
-  GridArray grid;        ///< of the volume; 0: there is none
   PixelListArray lists;  ///< kernels: per material
   Uvec2Array listed;     ///< kernels: pixels and triangles, list after list
   vec4 baseColor;
@@ -83,39 +78,6 @@ struct ForwardPush {
   uint lightCount;
   float shadowBias;
   uint specularDirect;
-  SampleParams sampling;
-};
-
-/// "RE Forward", forward/indirect.comp.
-struct IndirectPush {
-  CameraArray camera;
-  GridArray grid;
-  UintArray shape, reverse, around;  ///< of FacetArrays
-  Vec4Array shaded;                  ///< H per facet
-  Vec4Array shadedEmitted;           ///< F M per facet
-  SampleParams sampling;
-  uvec2 size;
-};
-
-/// Targets::glossy: three words of dispatch arguments, the number of pixels, then each pixel that traces, x | y << 16,
-/// in no particular order.
-IRAD_CONST uint GLOSSY_COUNT = 3u;
-IRAD_CONST uint GLOSSY_FIRST = 4u;
-IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
-IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in specular/trace_picture.glsl
-
-/// "RE Specular".
-struct SpecularPush {
-  CameraArray camera;
-  Grid grid;
-  FacetRecord facets;
-  Vec4Array radiosity;
-  ByteArray chebyshev;
-  UintArray glossy;
-  EmitterRecord emitters;  ///< 0: there are none
-  SpecularParams params;
-  float jfaMax;
-  float leastReflected;  ///< no rays where F0 x H is below, W/m^2
 };
 
 IRAD_END

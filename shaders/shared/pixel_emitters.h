@@ -17,7 +17,7 @@ struct EmissiveTriangle {
 };
 IRAD_ARRAY(EmissiveTriangleArray, EmissiveTriangle, 4)
 
-/// Every pixel asks every one of them: of a scene that has more the facets serve.
+/// Every pixel asks all of them, so a scene with more is left to the facets.
 IRAD_CONST uint MAX_EMISSIVE_TRIANGLES = 256u;
 
 /// Pushed to gi/emissive_triangles.comp.
@@ -38,7 +38,7 @@ struct PixelEmittersPush {
   EmissiveTriangleArray triangles;
   uint count;
   uint rays;
-  float lambda;  ///< solver.lambda, with which H holds F M
+  float gain;  ///< the factor on F M in H
   uvec2 size;
 };
 

@@ -42,7 +42,7 @@ IRAD_CONST uint RASTER_REST_BYTES = 8u;
 IRAD_CONST uint RASTER_COUNTS_BYTES = 32u;
 IRAD_FN uint64_t rasterPartBytes(uint pieces) { return uint64_t(pieces) * (RASTER_PIECE_BYTES + RASTER_REST_BYTES); }
 struct RasterCount {
-  uint64_t rests;  ///< tiles but the pieces' first ones; above them (<< 32) the pieces that have such
+  uint64_t rests;  ///< tiles but the pieces' first ones; above them (<< 32) the number of pieces that have such
   uint pieces;     ///< all
   uint padding;
 };

@@ -1,5 +1,5 @@
 // Directions: Hammersley set with +1/2 offset (u is never 0 or 1), toroidal shift per voxel by a hash (Cranley-Patterson),
-// cosine-weighted hemisphere (METHOD section 5). The same functions serve GPU kernels and the oracle.
+// cosine-weighted hemisphere (docs/method.md 5). The same functions serve GPU kernels and the oracle.
 #ifndef IRAD_SHARED_SAMPLING_H
 #define IRAD_SHARED_SAMPLING_H
 #include "shared/types.h"

@@ -2,6 +2,7 @@
 // Scene::origin), fp32.
 #ifndef IRAD_SHARED_SCENE_GPU_H
 #define IRAD_SHARED_SCENE_GPU_H
+#include "shared/light_kinds.h"
 #include "shared/types.h"
 IRAD_BEGIN
 
@@ -35,25 +36,9 @@ struct GpuMaterial {
   vec3 uvRow[10];       ///< two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
 };
 
-/// Light types as in renderer/scene/scene.h.
-IRAD_CONST uint LIGHT_SUN = 0u;
-IRAD_CONST uint LIGHT_POINT = 1u;
-IRAD_CONST uint LIGHT_SPOT = 2u;
-
-/// Specialization constants of shaders that sum up lights (forward/shadow.glsl), counted from the first that such a
-/// shader gives them: LIGHT_SUN, LIGHT_POINT and LIGHT_SPOT say which types of light shine, these which shadow maps
-/// there are. What is false has no code.
-IRAD_CONST uint LIGHT_FLAT_MAPS = 3u;
-IRAD_CONST uint LIGHT_CUBE_MAPS = 4u;
-
-/// Whether a light's shadow is drawn in six cube faces: points, and spots too wide for one perspective map.
-IRAD_FN bool lightUsesCube(uint type, float outerCos) {
-  return type == LIGHT_POINT || (type == LIGHT_SPOT && outerCos < 0.342f);  // half-angle over 70 degrees
-}
-
 struct GpuLight {
   vec3 position;   ///< local
-  uint type;
+  uint type;       ///< LIGHT_SUN and so on
   vec3 direction;  ///< unit, the way the light shines
   float range;     ///< 0: unlimited
   vec3 intensity;  ///< colour x intensity: lux (sun) or candela

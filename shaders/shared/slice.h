@@ -5,8 +5,8 @@
 IRAD_BEGIN
 
 /// The axis across a slice: view.axis, resolved. `forward`: where the camera looks.
-IRAD_FN uint sliceAxis(uint axis, vec3 forward) {
-  if (axis != AXIS_OF_CAMERA) return axis;
+IRAD_FN uint sliceAxis(IRAD_AS(Axis) axis, vec3 forward) {
+  if (axis != AXIS_OF_CAMERA) return uint(axis);
   vec3 a = abs(forward);
   return a.x > a.y && a.x > a.z ? 0u : (a.y > a.z ? 1u : 2u);
 }

@@ -1,4 +1,4 @@
-// The relight kernels' records (METHOD section 6).
+// The relight kernels' records (docs/method.md 6).
 #ifndef IRAD_SHARED_SOLVE_H
 #define IRAD_SHARED_SOLVE_H
 #include "shared/emitters.h"
@@ -22,10 +22,7 @@ struct SolveResidual {
 };
 IRAD_ARRAY(ResidualArray, SolveResidual, 16)
 
-// Specialization constant 0 of gi/solve_*.comp.
-IRAD_CONST uint SOLVE_CSR = 0u;
-IRAD_CONST uint SOLVE_PADDED = 1u;
-// Specialization constant 1: what is computed.
+// Specialization constant 1 of gi/solve_*.comp (0: the matrix's format): what is computed.
 IRAD_CONST uint SOLVE_SWEEP = 0u;    ///< H = F B, then B'
 IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with the reductions of SolveResidual
 IRAD_CONST uint SOLVE_PRODUCT = 2u;  ///< output = F input alone
@@ -38,10 +35,10 @@ struct SolvePush {
   Vec4Array output_;   ///< B' (or F input)
   Vec4Array indirect;  ///< H
   ResidualArray residual;
-  FloatArray rowSum;   ///< sum_j F_ij, written with SOLVE_WATCH
-  Vec4Array correction;  ///< added to F B where `corrected`: the emitters' light by samples less that by rays
+  FloatArray rowSum;     ///< sum_j F_ij, written with SOLVE_WATCH
+  Vec4Array correction;  ///< F M by samples of the emitters less that by rays
   float lambda, omega, flush;
-  uint corrected;
+  float correctionGain;  ///< the factor on M in B, and so on the correction to F B. 0: there is none
 };
 
 /// gi/solve_image.comp: a vector of facets as an image, row by row.
@@ -55,7 +52,7 @@ IRAD_FN ivec2 solveTexel(uint i) {
   return ivec2(int(i % SOLVE_IMAGE_WIDTH), int(i / SOLVE_IMAGE_WIDTH));
 }
 
-/// The first of gi/gather.comp's specialization constants about lights: LIGHT_SUN and so on follow.
+/// The first of gi/gather.comp's specialization constants about lights: LIGHT_CONSTANTS of them.
 IRAD_CONST uint GATHER_LIGHTS = 1u;
 
 /// gi/gather.comp: D per facet.
@@ -89,8 +86,8 @@ struct SampleEmittersPush {
   float jfaMax;
   uint samples, seed;
 };
-/// Emitters nearer than this, in voxels from centre to centre, are left to the rays: a sample of a face in front of
-/// one's nose weighs too much.
+/// Emitters nearer than this, in voxels from centre to centre, are left to the rays: a sample of so near a face would
+/// weigh too much.
 IRAD_CONST float EMITTERS_NEAR = 4.0f;
 
 /// gi/scatter_facets.comp: H (and F M) blurred, as shading samples them.
@@ -103,14 +100,14 @@ struct ScatterFacetsPush {
   uint pad;
 };
 
-/// gi/scatter_volume.comp (T 5.9): one facet per solid voxel into the sampled volume.
+/// thesis/scatter_volume.comp (T 5.9): one facet per solid voxel into the sampled volume.
 struct ScatterVolumePush {
   FacetRecord facets;
-  Vec4Array value;     ///< H or B
-  Vec4Array direct;    ///< D, read for edge removal
+  Vec4Array value;   ///< H or B
+  Vec4Array direct;  ///< D, read for edge removal
   uvec3 dims;
-  float removal;       ///< lambda of T eq. 23, 0: nothing is subtracted
-  UintArray clamped;   ///< counts voxels whose value exceeds what the volume's half floats hold
+  float removal;      ///< lambda of T eq. 23 that B was solved with, 0: nothing is subtracted
+  UintArray clamped;  ///< counts voxels whose value exceeds what the volume's half floats hold
 };
 IRAD_CONST float HALF_MAX = 65504.0f;
 

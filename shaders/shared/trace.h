@@ -1,4 +1,4 @@
-// What the ray traversals of shaders/gi/trace.glsl take and give (METHOD sections 3 and 5).
+// What the ray traversals of shaders/gi/trace.glsl take and give (docs/method.md 3 and 5).
 #ifndef IRAD_SHARED_TRACE_H
 #define IRAD_SHARED_TRACE_H
 #include "shared/facets.h"
@@ -78,7 +78,7 @@ struct FacetCornersPush {
 
 /// Pushed to gi/trace_rays.comp.
 struct TraceRaysPush {
-  FacetArrays facets;  ///< by value: pointers in push constants are uniform, which lavapipe cannot see of loaded ones
+  FacetArrays facets;  ///< by value: lavapipe knows only pointers in push constants to be uniform
   ByteArray chebyshev;
   UintArray hits;  ///< rays x rows words: facet met, or TRACE_*
   uvec3 dims;

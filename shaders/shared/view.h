@@ -1,9 +1,12 @@
-// Push constants and records of the passes that draw views (gi/view_*.cpp).
+// Push constants and records of the passes that draw views (gi/views/).
 #ifndef IRAD_SHARED_VIEW_H
 #define IRAD_SHARED_VIEW_H
+#include "shared/color_map.h"
 #include "shared/facets.h"
+#include "shared/gi_params.h"
 #include "shared/grid.h"
 #include "shared/matrix.h"
+#include "shared/normals.h"
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
@@ -12,17 +15,35 @@ struct ViewPush {
   CameraArray camera;
   uint kind;
   float exposure;  ///< linear factor
-  uint toneCurve;
+  IRAD_AS(ToneCurve) toneCurve;
 };
 
-// How a volume is shown (view.shape, resolved).
-IRAD_CONST uint SHAPE_CUBES = 0u;
-IRAD_CONST uint SHAPE_SLICE = 1u;
-IRAD_CONST uint SHAPE_PROJECTION = 2u;
-IRAD_CONST uint SHAPE_ISOSURFACE = 3u;
+// clang-format off
+// How a volume is shown (view.shape); a view is drawn as one of the first four.
+#define IRAD_VIEW_SHAPES(X, E) \
+  X(E, cubes,      "cubes",      SHAPE_CUBES,      0) \
+  X(E, slice,      "slice",      SHAPE_SLICE,      1) \
+  X(E, projection, "projection", SHAPE_PROJECTION, 2) \
+  X(E, isosurface, "isosurface", SHAPE_ISOSURFACE, 3) \
+  X(E, automatic,  "auto",       SHAPE_AUTO,       4)
+IRAD_SHARED_ENUM(ViewShape, IRAD_VIEW_SHAPES)
 
-// view.axis: x, y, z, or the one that the camera looks along most.
-IRAD_CONST uint AXIS_OF_CAMERA = 3u;
+// automatic: the axis that the camera looks along most.
+#define IRAD_AXES(X, E) \
+  X(E, x,         "x",    AXIS_X,         0) \
+  X(E, y,         "y",    AXIS_Y,         1) \
+  X(E, z,         "z",    AXIS_Z,         2) \
+  X(E, automatic, "auto", AXIS_OF_CAMERA, 3)
+IRAD_SHARED_ENUM(Axis, IRAD_AXES)
+
+// What the ends of a colour map stand for (view.range).
+#define IRAD_RANGE_MODES(X, E) \
+  X(E, standard,   "standard",   RANGE_STANDARD,   0) \
+  X(E, automatic,  "auto",       RANGE_AUTO,       1) \
+  X(E, percentile, "percentile", RANGE_PERCENTILE, 2) \
+  X(E, manual,     "manual",     RANGE_MANUAL,     3)
+IRAD_SHARED_ENUM(RangeMode, IRAD_RANGE_MODES)
+// clang-format on
 
 /// view/voxel_view.comp: values of voxels. Addresses that a view does not read are 0.
 struct VoxelViewPush {
@@ -34,14 +55,14 @@ struct VoxelViewPush {
   UintArray bytes;      ///< a distance field, 4 voxels per uint
   UintArray seeds;      ///< packVoxel of a solid voxel, or NO_SEED
   UintArray exact;      ///< exact distance (view/exact_distance.comp)
-  uint axis;        ///< of a slice
+  IRAD_AS(Axis) axis;  ///< of a slice
   float slice;      ///< 0..1
   float isovalue;   ///< voxels
   float byteScale;  ///< voxels that one step of `bytes` stands for
   uint row;         ///< packRow
 };
-IRAD_FN uint packRow(uint rays, uint padded, uint normalEncoding) {
-  return rays | (padded << 16) | (normalEncoding << 17);
+IRAD_FN uint packRow(uint rays, uint padded, IRAD_AS(NormalEncoding) normalEncoding) {
+  return rays | (padded << 16) | (uint(normalEncoding) << 17);
 }
 
 /// view/exact_distance.comp: along one axis after another.
@@ -72,19 +93,13 @@ IRAD_ARRAY(ViewRangeArray, ViewRange, 4)
 IRAD_CONST uint RANGE_BINS = 65536u;
 IRAD_CONST uint RANGE_BIN_SHIFT = 15u;
 
-// view.range
-IRAD_CONST uint RANGE_STANDARD = 0u;
-IRAD_CONST uint RANGE_AUTO = 1u;
-IRAD_CONST uint RANGE_PERCENTILE = 2u;
-IRAD_CONST uint RANGE_MANUAL = 3u;
-
 /// view/range_measure.comp and view/range_resolve.comp.
 struct RangePush {
   ViewRangeArray range;
   UintArray bins;
   uvec2 size;  ///< pixels
   uint kind;
-  uint mode;  ///< RANGE_AUTO, RANGE_PERCENTILE or RANGE_MANUAL
+  IRAD_AS(RangeMode) mode;  ///< RANGE_AUTO, RANGE_PERCENTILE or RANGE_MANUAL
   float low, high;   ///< RANGE_MANUAL
   float percentile;  ///< the upper one, 50..100
 };
@@ -94,9 +109,9 @@ struct FinishPush {
   ViewRangeArray range;
   uvec2 size;
   uint kind;
-  uint colorMap;
+  IRAD_AS(ColorMap) colorMap;
   float exposure;
-  uint toneCurve;
+  IRAD_AS(ToneCurve) toneCurve;
   uvec3 dims;  ///< of the grid that sites are of
   uint surroundings;  ///< 1: where nothing is drawn the lit scene shows, dimmed
 };

@@ -1,17 +1,19 @@
-// Push constants and keys of voxelization, compaction and distance fields (METHOD sections 2-4).
+// Push constants and keys of voxelization, compaction and distance fields (docs/method.md 2-4).
 #ifndef IRAD_SHARED_VOXELIZE_H
 #define IRAD_SHARED_VOXELIZE_H
 #include "shared/facets.h"
 #include "shared/grid.h"
+#include "shared/normals.h"
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
-/// Ordered key of one side of a triangle in a voxel, resolved by atomicMax; 0 is empty. Bit 31: the triangle crosses the
-/// voxel's middle line along the triangle's dominant axis, which of a surface just one triangle does, however finely it
-/// is divided. Bits 25-30 where it does: `front`, the distance of the crossing's plane from the voxel's centre along the
-/// side's facing, voxels, so that of a lamp just below a ceiling, or a curtain before a wall, the visible face wins;
-/// where it does not: `area` inside the voxel, voxel faces, half a face being full, so that the largest of slivers wins.
-/// Bit 24: the front side. Bits 0-23: the triangle's complement, so that equals go to the lower triangle.
+/// Ordered key of one side of a triangle in a voxel, resolved by atomicMax; 0 is empty. Bit 31: the triangle crosses
+/// the voxel's middle line along the triangle's dominant axis, as exactly one triangle of a surface does, however
+/// finely it is divided. Bits 25-30 where it does: `front`, the distance of the crossing's plane from the voxel's
+/// centre along the side's facing, voxels, so that of a lamp just below a ceiling, or a curtain before a wall, the
+/// visible face wins; where it does not: `area` inside the voxel, voxel faces, half a face being full, so that the
+/// largest of slivers wins. Bit 24: the front side. Bits 0-23: the triangle's complement, so that equals go to the
+/// lower triangle.
 IRAD_CONST uint MAX_TRIANGLES = 0xFFFFFEu;
 IRAD_CONST uint KEY_MIDDLE = 1u << 31;
 IRAD_CONST uint KEY_FRONT_SIDE = 1u << 24;
@@ -26,13 +28,13 @@ IRAD_FN uint sliverKey(float area, bool back, uint triangle) {
 IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
 IRAD_FN bool keyBack(uint key) { return (key & KEY_FRONT_SIDE) == 0u; }
 
-/// The second facet of a voxel is opposed to the first. Where none is, it is the best of those that face elsewhere
-/// (n . n' below this) and cross their middle line: the other wall of a corner.
+/// The second facet of a voxel is opposed to the first. Where no face is, it is the best of those that face elsewhere
+/// (n . n' below this) and cross the middle line: the other wall of a corner.
 IRAD_CONST float ELSEWHERE_COSINE = 0.7f;
-/// Further facets are the best of those that cross their middle line and of which none before has the plane: facing alike,
-/// this near, voxels. (A sheet just before a wall: its two sides and the wall.)
+/// Further facets are the best of those that cross the middle line in a plane that no facet before has (faces that look
+/// alike within this distance, voxels, share a plane). (A sheet just before a wall: its two sides and the wall.)
 IRAD_CONST float SAME_LEVEL = 0.2f;
-/// Key of a second facet: opposed ones first (bit 31), then as `key` has it with half the steps.
+/// Key of a second facet: opposed ones first (bit 31), then in the order of `key`, with half as many steps.
 IRAD_FN uint secondKey(uint key, bool opposed) {
   return (opposed ? 1u << 31 : 0u) | ((key >> 1) & 0x7E000000u) | (key & 0x1FFFFFFu);
 }
@@ -54,7 +56,7 @@ struct VoxelizePush {
   uint endTriangle;
   uint firstTile;
   uint tileCount;  ///< by kernels the pieces that the RasterQueue holds
-  uint slot;   ///< 0: the best side of all; 1: the best that faces against it; 2, 3: the best in no plane of those
+  uint slot;   ///< 0: the best side of all; 1: the best that faces against it; 2, 3: the best in another plane
   uint slots;  ///< 2 and more: both sides of a double-sided triangle may be the first facet
 };
 
@@ -84,7 +86,7 @@ struct ShadeFacetsPush {
   UintArray clamped;  ///< [0]: facets whose albedo had to be clamped
   uint first;         ///< this group, within `order`
   uint count;
-  uint encoding;
+  IRAD_AS(NormalEncoding) encoding;
   uint hasEmission;
   uint literal;
 };

@@ -3,9 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"
+#include "shared/constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool FILTERED = true;
+layout(constant_id = CONSTANT_FILTERED) const bool FILTERED = true;
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D f0Target;

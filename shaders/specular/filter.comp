@@ -4,11 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"
+#include "shared/constants.h"
 
 layout(local_size_x = GLOSSY_GROUP) in;
-layout(constant_id = 0) const int STEP = 1;  ///< pixels between taps; 0: no filter
-layout(constant_id = 1) const bool RESOLVE = true;
-layout(constant_id = 2) const float LEAST_ROUGHNESS = 0.0;  ///< smoother surfaces are left alone
+layout(constant_id = CONSTANT_FILTER_STEP) const int STEP = 1;  ///< pixels between taps; 0: no filter
+layout(constant_id = CONSTANT_FILTER_RESOLVE) const bool RESOLVE = true;
+layout(constant_id = CONSTANT_LEAST_ROUGHNESS) const float LEAST_ROUGHNESS = 0.0;  ///< smoother surfaces are left alone
 layout(set = 0, binding = 0, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D geometricTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D f0Target;

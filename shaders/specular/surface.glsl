@@ -1,7 +1,7 @@
 // The G-buffer as specular tracing and its filter read it.
 #include "forward/camera_view.glsl"
 #include "shared/ggx.h"
-#include "shared/passes.h"
+#include "shared/indirect.h"
 
 layout(push_constant, scalar) uniform PushBlock {
   SpecularPush push;
@@ -21,7 +21,7 @@ bool glossyPixel(uint invocation, out ivec2 pixel) {
   return true;
 }
 
-/// No rays: no lobe, too rough, or too little light here to matter (METHOD section 8). The targets hold roughness in
+/// No rays: no lobe, too rough, or too little light here to matter (docs/method.md 8). The targets hold roughness in
 /// half precision, which some devices truncate: a material at max_roughness would come back below it.
 bool tracesNothing(vec4 f0, float roughness, vec3 irradiance) {
   if (f0.w == 0.0 || roughness * (1.0 + 1.0 / 1024.0) >= push.params.maxRoughness) return true;

@@ -1,3 +1,37 @@
+// "RE Specular": one invocation per listed pixel. Writes the mean reflected radiance (without the lobe's reflectance)
+// and the view depth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "specular/trace_compute.glsl"
+#include "specular/trace.glsl"
+
+layout(local_size_x = GLOSSY_GROUP) in;
+layout(set = 0, binding = 0) uniform sampler2D depthTarget;
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
+layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
+layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
+layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D tracedTarget;
+
+void main() {
+  GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
+  Grid grid = push.grid;
+  TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
+  ivec2 pixel;
+  if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
+  vec4 normal = imageLoad(normalTarget, pixel);
+  vec3 axis = viewAxis(camera);
+  float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);
+  vec3 local = pixelPosition(camera, pixel, z, axis);
+  Surface s;
+  s.position = (local - grid.origin) * grid.inverseEdge;
+  s.normal = normalize(normal.xyz);
+  s.face = normalize(imageLoad(geometricTarget, pixel).xyz);
+  s.view = towardsViewer(camera, local, axis);
+  s.f0 = imageLoad(f0Target, pixel).rgb;
+  s.roughness = normal.w;
+  // Shifts of neighbouring pixels follow the R2 lattice (Roberts 2018), so that any few of them cover the lobe evenly.
+  // The shifts of rays to emitters follow another permutation of it.
+  uvec2 first = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
+  uvec4 shift =
+      uvec4(first, pixel.x * 2447445414u + pixel.y * 3242174889u, pixel.x * 1847517997u + pixel.y * 2447445414u);
+  imageStore(tracedTarget, pixel, vec4(traceLobe(world, s, shift), z));
+}

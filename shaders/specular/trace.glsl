@@ -1,12 +1,13 @@
-// Specular rays of one pixel through the voxels (METHOD section 8, T 5.11). Radiance at a hit is B / pi; what escapes
-// sees nothing.
-#include "forward/indirect.glsl"
+// Specular rays of one pixel through the voxels (docs/method.md 8, T 5.11). Radiance at a hit is B / pi; rays that
+// escape bring nothing.
 #include "gi/emitter_point.glsl"
+#include "gi/indirect.glsl"
 #include "gi/trace.glsl"
+#include "shared/constants.h"
 #include "shared/sampling.h"
 #include "specular/surface.glsl"
 
-layout(constant_id = 3) const bool EMITTERS = false;  ///< traceLobe sends rays to emitters too
+layout(constant_id = CONSTANT_TRACE_EMITTERS) const bool EMITTERS = false;  ///< traceLobe sends rays to emitters too
 
 /// Start of the rays: off the surface, so that its own voxels are behind them.
 const float RAY_LIFT = 1.5;

@@ -1,3 +1,31 @@
+// "RE Specular" of every listed pixel by itself, where kernels rasterize: two invocations per pixel, which take its
+// rays in turn, since a ray is a long chain of loads, each of which waits for the one before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "specular/trace_picture.glsl"
+#define TRACE_AHEAD 16
+#include "specular/trace_pixel.glsl"
+
+// A workgroup is as slow as its longest ray, so workgroups are small.
+const uint PIXELS = GLOSSY_GROUP / GLOSSY_PARTS;
+layout(local_size_x = 2u * PIXELS) in;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D specularTarget;
+shared vec3 second[PIXELS];
+
+void main() {
+  uint i = gl_LocalInvocationIndex % PIXELS;
+  uint turn = gl_LocalInvocationIndex / PIXELS;
+  ivec2 pixel;
+  Reflection r;
+  r.traces = false;
+  if (glossyPixel((gl_WorkGroupID.x * GLOSSY_PARTS + gl_WorkGroupID.y) * PIXELS + i, pixel)) r = reflectionAt(pixel);
+  vec3 met = vec3(0.0);
+  for (uint k = 0u; k < push.params.rays; k += 2u) {
+    vec3 ray = vec3(0.0);
+    if (r.traces && k + turn < push.params.rays) ray = traceJittered(reflectedWorld(), r.surface, r.seed, k + turn);
+    if (turn == 1u) second[i] = ray;
+    barrier();
+    met = met + ray + second[i];
+    barrier();
+  }
+  if (r.traces && turn == 0u) imageStore(specularTarget, pixel, specularOf(r, met));
+}

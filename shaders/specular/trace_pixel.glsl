@@ -54,7 +54,7 @@ vec4 specularOf(Reflection r, vec3 met) {
   return vec4(radiance * environmentBrdf(s.f0, s.roughness, max(dot(s.normal, s.view), 1e-3)), 1.0);
 }
 
-/// All of it by one invocation.
+/// The whole reflection by one invocation.
 vec4 specularAt(ivec2 pixel) {
   Reflection r = reflectionAt(pixel);
   vec3 met = vec3(0.0);

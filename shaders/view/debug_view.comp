@@ -1,13 +1,14 @@
-// Views composed from the targets of the forward pass (METHOD section 1: radiance = albedo (D + H) / pi + ...).
+// Views composed from the targets of the forward pass (docs/method.md 1: radiance = albedo (D + H) / pi + ...).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
 #include "shared/passes.h"
 #include "shared/view.h"
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint VIEW = 0u;  ///< known to the compiler: no view pays for what the others read
-layout(constant_id = 1) const uint TARGETS = TARGETS_ALL;  ///< those that are there
+layout(constant_id = CONSTANT_VIEW) const uint VIEW = 0u;  ///< a constant: no view pays for the others
+layout(constant_id = CONSTANT_TARGETS) const uint TARGETS = TARGETS_ALL;  ///< those that are there
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -62,7 +63,7 @@ void main() {
     case VIEW_IRRADIANCE: value = indirect; break;
     case VIEW_EMITTER_IRRADIANCE: value = IRAD_TERM(TARGET_EMITTED, emittedTarget); break;
     default: {
-      // A view that nobody wrote: magenta.
+      // A view without a case here: magenta.
       imageStore(linearTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));
       imageStore(displayTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));
       return;

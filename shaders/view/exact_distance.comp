@@ -2,10 +2,11 @@
 // jump flooding and the stored fields are measured against.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
 #include "shared/facets.h"
 #include "shared/view.h"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint METRIC = METRIC_EUCLIDEAN;
+layout(constant_id = CONSTANT_DISTANCE_METRIC) const uint METRIC = METRIC_EUCLIDEAN;
 layout(push_constant, scalar) uniform PushBlock { ExactDistancePush push; };
 
 /// Distance over the axes so far; within the solid set alone before the first.

@@ -2,12 +2,13 @@
 // they drew: the alpha of `linear` is 0 where nothing is drawn, else the share of the display colour that remains.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
 #include "shared/sampling.h"
 #include "shared/view.h"
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool INDIRECT = true;  ///< there is such a target
+layout(constant_id = CONSTANT_HAS_INDIRECT) const bool INDIRECT = true;  ///< there is such a target
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D linearTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D albedoTarget;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D directTarget;
@@ -24,7 +25,7 @@ vec3 surroundings(ivec2 pixel) {
   return vec3(0.35 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
 }
 
-/// Where in the grid a voxel lies, as colour; its own brightness tells it from those beside it.
+/// Where in the grid a voxel lies, as colour; a brightness of its own tells it from its neighbours.
 vec3 siteColor(uvec3 voxel) {
   uint h = hashUint(voxel.x + 1024u * (voxel.y + 1024u * voxel.z));
   return (0.15 + 0.85 * (vec3(voxel) + 0.5) / vec3(push.dims)) * (0.65 + 0.35 * float(h & 255u) / 255.0);

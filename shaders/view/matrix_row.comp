@@ -1,11 +1,12 @@
 // F from one facet to every other. One invocation per column.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
 #include "shared/solve.h"
 #include "shared/view.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint FORMAT = SOLVE_CSR;
+layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
 layout(push_constant, scalar) uniform Push {
   MatrixRowPush p;
 };
@@ -18,7 +19,7 @@ void main() {
   if (column >= m.rows) return;
   Row row = openRow(m, p.row);
   float weight = row.weight;  // of a hit; the same for all of the row
-  if (FORMAT == SOLVE_PADDED && row.count > 0u) weight = rowEntry(row, m.columnBits, 0u).weight;
+  if (FORMAT == MATRIX_PADDED && row.count > 0u) weight = rowEntry(row, m.columnBits, 0u).weight;
   float f = float(hitsOn(row, m.columnBits, column)) * weight;
   p.factors.at[column] = vec4(vec3(f), 0.0);
 }

@@ -1,13 +1,14 @@
-// The reference picture beside the one that was drawn: as high as the view and in its middle, which is where it belongs
-// if it was made with the same camera. Bilinear where the sizes differ.
+// The reference picture beside the one that was drawn: as high as the view and in its middle, where it belongs if it
+// was made with the same camera. Bilinear where the sizes differ.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
 #include "shared/debug_views.h"
 #include "shared/emitters.h"
 #include "shared/view.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint VIEW = 0u;
+layout(constant_id = CONSTANT_VIEW) const uint VIEW = 0u;
 layout(set = 0, binding = 0) uniform sampler2D referencePicture;
 layout(set = 0, binding = 1, rgba32f) uniform image2D linearTarget;
 layout(push_constant, scalar) uniform PushBlock { ReferencePush push; };

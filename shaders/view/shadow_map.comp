@@ -1,5 +1,5 @@
 // One light's shadow map, whole, in the middle of the picture: the distance from the light at which each texel's first
-// surface lies, along the map's axis (a sun's from where its map begins). A cube's faces lie +X -X +Y over -Y +Z -Z.
+// surface lies, along the map's axis (a distant light's from where its map begins). A cube's faces lie +X -X +Y over -Y +Z -Z.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/view.h"
@@ -41,6 +41,7 @@ void main() {
       depth = textureLod(flatMaps, vec3(at, float(light.shadowLayer)), 0.0).r;
   }
   // Depths are reversed (forward/shadow.glsl); 0 is where the light meets nothing.
-  float distance = light.type == LIGHT_SUN ? mix(light.shadowFar, light.shadowNear, depth) : light.shadowNear / depth;
+  float distance = lightHas(light.type, LIGHT_DISTANT) ? mix(light.shadowFar, light.shadowNear, depth)
+                                                       : light.shadowNear / depth;
   imageStore(linearTarget, ivec2(pixel), depth > 0.0 ? vec4(vec3(distance), 1.0) : vec4(0.0));
 }

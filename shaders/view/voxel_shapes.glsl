@@ -67,7 +67,7 @@ vec4 drawCubes(FacetArrays facets, ViewRay ray) {
     vec4 value = voxelValue(facets, uvec3(w.cell), ray.origin - (w.cell + 0.5));
     if (value.a == 0.0) return vec4(0.0);
     float ink = cellLines(ray, w.t, w.cell, w.side);
-    if (VIEW == VIEW_VOXEL_ALBEDO || showsField()) ink *= 1.0 - 0.15 * w.side.x - 0.08 * w.side.z;
+    if (VIEW == VIEW_VOXEL_ALBEDO || isFrom(FROM_ANY_FIELD)) ink *= 1.0 - 0.15 * w.side.x - 0.08 * w.side.z;
     return vec4(value.rgb, ink);
   }
   return vec4(0.0);
@@ -99,9 +99,9 @@ vec4 drawProjection(FacetArrays facets, ViewRay ray) {
     vec4 value = voxelValue(facets, uvec3(w.cell), ray.origin - (w.cell + 0.5));
     if (value.a == 0.0) continue;
     float part = w.until - w.t;
-    if (showsDistance()) {
+    if (viewIsDistance(FROM)) {
       sum += part / max(value.x, 0.5);
-    } else if (showsError()) {
+    } else if (isFrom(FROM_EXACT)) {
       if (extent == 0.0 || abs(value.x) > abs(sum.x)) sum = value.rgb;
     } else {
       sum += part * value.rgb;
@@ -109,7 +109,7 @@ vec4 drawProjection(FacetArrays facets, ViewRay ray) {
     extent += part;
   }
   if (extent == 0.0) return vec4(0.0);
-  return vec4(showsDistance() || showsError() ? sum : sum / extent, 1.0);
+  return vec4(viewIsDistance(FROM) || isFrom(FROM_EXACT) ? sum : sum / extent, 1.0);
 }
 
 /// The field between the centres of its voxels, less the isovalue.

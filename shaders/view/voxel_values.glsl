@@ -1,4 +1,4 @@
-// What the voxel views show of one voxel. The including shader declares `push` (VoxelViewPush) and VIEW.
+// What the voxel views show of one voxel. The including shader declares `push` (VoxelViewPush), VIEW and FROM.
 #ifndef IRAD_VIEW_VOXEL_VALUES_GLSL
 #define IRAD_VIEW_VOXEL_VALUES_GLSL
 #include "shared/debug_views.h"
@@ -29,17 +29,15 @@ float rowSum(MatrixArrays m, uint row) {
   return float(hits) * uintBitsToFloat(info.y);
 }
 
+bool isFrom(uint sources) { return (FROM & sources) != 0u; }
+
 /// What the view shows for one facet of a voxel that holds `count`.
 vec3 facetValue(FacetArrays facets, uint facet, uint count) {
+  if (isFrom(FROM_FACET_VALUES)) return uvec2(push.values) != uvec2(0u) ? push.values.at[facet].xyz : vec3(0.0);
   switch (VIEW) {
     case VIEW_VOXEL_ALBEDO: return unpackAlbedo(facets.albedo.at[facet]);
     case VIEW_VOXEL_NORMAL: return facetNormal(facets, facet);
     case VIEW_VOXEL_EMISSION: return facets.hasEmission != 0u ? facets.emission.at[facet] : vec3(0.0);
-    case VIEW_VOXEL_DIRECT:
-    case VIEW_VOXEL_IRRADIANCE:
-    case VIEW_REFERENCE:
-    case VIEW_MATRIX_ROW:
-    case VIEW_RADIOSITY: return uvec2(push.values) != uvec2(0u) ? push.values.at[facet].xyz : vec3(0.0);
     case VIEW_FACET_COUNT: return vec3(float(count));
   }
   if (uvec2(push.matrix) == uvec2(0u)) return vec3(0.0);
@@ -51,17 +49,6 @@ vec3 facetValue(FacetArrays facets, uint facet, uint count) {
     case VIEW_ROW_SUM: return vec3(rowSum(m, facet));
   }
   return vec3(1.0, 0.0, 1.0);
-}
-
-/// Whether the view's values are those of a field, which every voxel has, rather than of facets.
-bool showsField() {
-  return VIEW == VIEW_DISTANCE || (VIEW >= VIEW_DISTANCE_CHEBYSHEV && VIEW <= VIEW_CHEBYSHEV_ERROR);
-}
-bool showsDistance() {
-  return VIEW == VIEW_DISTANCE || VIEW == VIEW_DISTANCE_CHEBYSHEV || VIEW == VIEW_DISTANCE_JFA;
-}
-bool showsError() {
-  return VIEW == VIEW_JFA_ERROR || VIEW == VIEW_JFA_FIELD_ERROR || VIEW == VIEW_CHEBYSHEV_ERROR;
 }
 
 /// The stored distance field, voxels.
@@ -81,34 +68,34 @@ float seedDistance(uvec3 voxel, uint index) {
 float exactDistance(uint index) {
   uint d = push.exact.at[index];
   if (d == NO_DISTANCE) return -1.0;
-  return VIEW == VIEW_CHEBYSHEV_ERROR ? float(min(d, 255u)) : sqrt(float(d));  // that field ends at 255
+  return isFrom(FROM_CHEBYSHEV) ? float(min(d, 255u)) : sqrt(float(d));  // that field ends at 255
 }
 
 /// By what a field view's cubes and isosurface are cut out, voxels.
 float levelDistance(uvec3 voxel) {
   const float far = 1e4;
   uint index = voxelIndex(voxel, push.grid.dims);
-  if (showsDistance()) return storedDistance(index);
-  float d = VIEW == VIEW_JFA_SEEDS ? seedDistance(voxel, index) : exactDistance(index);
+  if (viewIsDistance(FROM)) return storedDistance(index);
+  float d = isFrom(FROM_EXACT) ? exactDistance(index) : seedDistance(voxel, index);
   return d < 0.0 ? far : d;
 }
 
 vec4 fieldValue(uvec3 voxel) {
   uint index = voxelIndex(voxel, push.grid.dims);
-  if (showsDistance()) return vec4(vec3(storedDistance(index)), 1.0);
-  if (VIEW == VIEW_JFA_SEEDS) {
+  if (viewIsDistance(FROM)) return vec4(vec3(storedDistance(index)), 1.0);
+  if (!isFrom(FROM_EXACT)) {
     uint seed = push.seeds.at[index];
     return seed == NO_SEED ? vec4(0.0) : vec4(vec3(unpackVoxel(seed)), 1.0);
   }
   float exact = exactDistance(index);
-  float found = VIEW == VIEW_JFA_ERROR ? seedDistance(voxel, index) : storedDistance(index);
+  float found = isFrom(FROM_JUMP_FLOOD) ? seedDistance(voxel, index) : storedDistance(index);
   return exact < 0.0 || found < 0.0 ? vec4(0.0) : vec4(vec3(found - exact), 1.0);
 }
 
 /// The value of a voxel, as seen from `towards` (relative to its centre): of its facets the one that faces there more.
 /// Alpha 0: it has none.
 vec4 voxelValue(FacetArrays facets, uvec3 voxel, vec3 towards) {
-  if (showsField()) return fieldValue(voxel);
+  if (isFrom(FROM_ANY_FIELD)) return fieldValue(voxel);
   uint entry = facets.reverse.at[voxelIndex(voxel, push.grid.dims)];
   if (entry == NO_FACET) return vec4(0.0);
   uint facet = firstFacet(entry);
@@ -125,7 +112,7 @@ vec4 voxelValue(FacetArrays facets, uvec3 voxel, vec3 towards) {
 
 /// Whether a voxel is drawn as a cube.
 bool isCube(FacetArrays facets, uvec3 voxel) {
-  if (showsField()) return levelDistance(voxel) <= push.isovalue;
+  if (isFrom(FROM_ANY_FIELD)) return levelDistance(voxel) <= push.isovalue;
   return facets.reverse.at[voxelIndex(voxel, push.grid.dims)] != NO_FACET;
 }
 

@@ -18,7 +18,7 @@ struct Scratch : test::TemporaryFolder {
     uint8_t data[256];
     for (int i = 0; i < 256; ++i) data[i] = static_cast<uint8_t>(i);
     write(path / "data.bin", data);
-    std::filesystem::copy_file(IRAD_SOURCE_DIR "/tests/fuzz/seeds/image/rgb.png", path / "image.png");
+    std::filesystem::copy_file(test::sourceFolder() / "tests/fuzz/seeds/image/rgb.png", path / "image.png");
   }
 };
 

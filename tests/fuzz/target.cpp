@@ -1,7 +1,7 @@
 // libFuzzer's entry points for one reader, IRAD_FUZZ_READER.
 #include <cstring>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/readers.h"
 

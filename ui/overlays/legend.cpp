@@ -1,12 +1,12 @@
 // The colours of a view with a range: name, unit, map, ticks, and what is marked instead.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
 #include "gi/legend.h"
 #include "shaders/shared/color_map.h"
 #include "ui/color_bar.h"
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 #include "ui/widgets.h"
@@ -24,7 +24,7 @@ class LegendOverlay : public Overlay {
       return false;
     const Settings& settings = session.pipeline->settings();
     const Quantity quantity = difference ? differenceQuantity(*info, settings) : shownQuantity(*info, settings);
-    const uint32_t map = difference ? uint32_t{COLOR_MAP_BLUE_RED} : colorMapOf(*info, settings);
+    const ColorMap map = difference ? COLOR_MAP_BLUE_RED : colorMapOf(*info, settings);
 
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing(), margin = em;
     const Rect& where = picture.rect();

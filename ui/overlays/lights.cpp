@@ -1,12 +1,12 @@
 // Handles of the lights over the picture: a click chooses a light, a drag moves it, a drag of the square at the end of
 // its arrow aims it.
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "ui/imgui.h"
 #include "ui/light_color.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
@@ -85,7 +85,7 @@ class LightsOverlay : public Overlay {
     return false;
   }
 
-  static bool aimable(const Light& light) { return light.type != LightType::Point; }
+  static bool aimable(const Light& light) { return lightKind(light.type).has(LIGHT_DIRECTION); }
   static float radius() { return 0.45f * ImGui::GetFontSize(); }
   glm::dvec3 tip(const Light& light) const { return light.position + glm::dvec3(light.direction) * reach_; }
 
@@ -160,6 +160,7 @@ class LightsOverlay : public Overlay {
 
   void drawLight(const SceneEdits& edits, const Picture& picture, int index, bool hot) const {
     const Light& light = edits.lights[static_cast<size_t>(index)];
+    const LightKind& kind = lightKind(light.type);
     const bool chosen = index == edits.selected;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 accent = ImGui::ColorConvertFloat4ToU32(theme::accent);
@@ -167,7 +168,7 @@ class LightsOverlay : public Overlay {
     const std::optional<glm::vec2> at = picture.project(light.position);
     if (!at) return;
     const float r = radius() * (hot ? 1.25f : 1.0f);
-    if (light.type == LightType::Sun)
+    if (kind.has(LIGHT_DISTANT))
       for (int ray = 0; ray < 8; ++ray) {
         const float angle = static_cast<float>(ray) * std::numbers::pi_v<float> / 4;
         const glm::vec2 out(std::cos(angle), std::sin(angle));
@@ -175,14 +176,14 @@ class LightsOverlay : public Overlay {
       }
     list.AddCircleFilled(vec(*at), r + 1.5f, kEdge);
     list.AddCircleFilled(vec(*at), r, displayColor(light.color));
-    if (light.type == LightType::Spot) list.AddCircleFilled(vec(*at), r * 0.45f, kEdge);
+    if (kind.has(LIGHT_CONE)) list.AddCircleFilled(vec(*at), r * 0.45f, kEdge);
     if (chosen) list.AddCircle(vec(*at), r + 3.0f, accent, 0, 2.0f);
   }
 
   /// The arrow with its square, and of a spot the rim of its cone.
   void drawAim(ImDrawList& list, const Light& light, const Picture& picture, ImU32 accent) const {
     if (const auto shaft = picture.project(light.position, tip(light))) line(list, shaft->first, shaft->second, accent);
-    if (light.type == LightType::Spot && light.outerCos > 0.05f) drawRim(list, light, picture, accent);
+    if (lightKind(light.type).has(LIGHT_CONE) && light.outerCos > 0.05f) drawRim(list, light, picture, accent);
     const std::optional<glm::vec2> at = picture.project(tip(light));
     if (!at) return;
     const glm::vec2 half(0.6f * radius());

@@ -1,8 +1,8 @@
 // Why a picture of light is black all over: in its middle, in words.
-#include <imgui.h>
 
 #include <algorithm>
 
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 
@@ -13,7 +13,7 @@ class NoLightOverlay : public Overlay {
  public:
   bool draw(Session& session, const Picture& picture, const PictureMouse&) override {
     const ViewInfo* info = viewInfo(session.view);
-    if (info == nullptr || !info->toneMapped() || info->view == VIEW_REFERENCE_PICTURE) return false;
+    if (info == nullptr || !info->toneMapped() || info->isFrom(FROM_PICTURE)) return false;
     for (const Side* side : session.sides())
       if (!side->built || side->built->noLight.empty()) return false;
 

@@ -1,12 +1,12 @@
 // The picked facet in the picture: its voxel, lines to the facets that it exchanges light with, the traced ray. A click
 // picks.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
 #include "shaders/shared/emitters.h"
 #include "ui/color_bar.h"
+#include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 #include "ui/widgets.h"
@@ -29,7 +29,7 @@ class RowOverlay : public Overlay {
     const glm::vec2 low = picture.rect().position, high = low + picture.rect().size;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({low.x, low.y}, {high.x, high.y}, true);
-    const Drawing d{list, picture, in, static_cast<uint32_t>(session.edited.view.colorMap)};
+    const Drawing d{list, picture, in, session.edited.view.colorMap};
     d.box(in.voxel->world, theme::accent, 2);
     if (in.facet()) {
       if (in.shown == Inspection::Show::Comparison && in.comparison)
@@ -48,7 +48,7 @@ class RowOverlay : public Overlay {
     ImDrawList& list;
     const Picture& picture;
     const Inspection& in;
-    uint32_t map;  ///< COLOR_MAP_*
+    ColorMap map;
 
     glm::dvec3 centre(const glm::ivec3& voxel) const {
       return in.voxel->world + in.edge() * (glm::dvec3(voxel) - glm::dvec3(in.voxel->voxel));

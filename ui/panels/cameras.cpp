@@ -1,10 +1,9 @@
 // The scene's cameras and the user's bookmarks: go to one, keep where the camera is, rename, remove.
 #include <fmt/format.h>
-#include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/sidecar_row.h"
 #include "ui/theme.h"
@@ -28,7 +27,7 @@ class CamerasPanel : public Panel {
     for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
       ImGui::PushID(i);
       const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
-      if (ImGui::Selectable("##row", i == session.sceneCamera)) session.useSceneCamera(i);
+      if (ImGui::Selectable("##", i == session.sceneCamera)) session.useSceneCamera(i);
       const char* kind = i < ofFile ? "scene" : "bookmark";
       const float kindWidth = ImGui::CalcTextSize(kind).x;
       ImGui::SameLine(start);

@@ -1,10 +1,10 @@
 // A/B: two sets of settings side by side, what differs between them, and by how much the pictures do.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <cmath>
 
 #include "ui/comparison.h"
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
@@ -33,14 +33,12 @@ class ComparePanel : public Panel {
     savePresetButton("Save A\u2026", half, nameA_, session, session.sideA().edited);
     ImGui::SameLine();
     savePresetButton("Save B\u2026", half, nameB_, session, session.sideB().edited);
-    if (ImGui::Button("End the comparison", {-1, 0})) session.compare = false;
+    if (ImGui::Button("End the comparison", {-1, 0})) session.leave({Leaving::What::EndComparison});
     helpTooltip("The edited side stays");
   }
 
  private:
   std::string nameA_, nameB_;  ///< of presets, being typed
-  std::vector<SettingDifference> differences_;
-  std::string seen_;  ///< the settings that differences_ are of
 
   static void drawSides(Session& session) {
     Comparison& comparison = *session.comparison;
@@ -51,15 +49,15 @@ class ComparePanel : public Panel {
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "edit");
     helpTooltip("A click in the picture takes the side that it is on");
-    if (choice("A##edit", !comparison.editsB) && comparison.editsB) session.swapSides();
-    if (choice("B##edit", session.comparison->editsB) && !session.comparison->editsB) session.swapSides();
+    if (choice("A###edit A", !comparison.editsB) && comparison.editsB) session.swapSides();
+    if (choice("B###edit B", session.comparison->editsB) && !session.comparison->editsB) session.swapSides();
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "show");
     using Show = Comparison::Show;
-    for (const auto& [show, label] : {std::pair{Show::Split, "both##show"},
-                                      {Show::A, "A##show"},
-                                      {Show::B, "B##show"},
-                                      {Show::Difference, "B \u2212 A##show"}})
+    for (const auto& [show, label] : {std::pair{Show::Split, "both###show both"},
+                                      {Show::A, "A###show A"},
+                                      {Show::B, "B###show B"},
+                                      {Show::Difference, "B \u2212 A###show B - A"}})
       if (choice(label, comparison.show == show)) {
         comparison.show = show;
         session.viewDirty = true;
@@ -67,22 +65,20 @@ class ComparePanel : public Panel {
     helpTooltip("X: the other one");
     ImGui::Checkbox("same seed", &comparison.sameSeed);
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button(fmt::format("Copy A {} B", arrowGlyph()).c_str(), {half, 0})) copy(session, /*toB=*/true);
+    if (ImGui::Button(fmt::format("Copy A {} B###copy A to B", arrowGlyph()).c_str(), {half, 0}))
+      copy(session, /*toB=*/true);
     ImGui::SameLine();
-    if (ImGui::Button(fmt::format("Copy B {} A", arrowGlyph()).c_str(), {half, 0})) copy(session, /*toB=*/false);
+    if (ImGui::Button(fmt::format("Copy B {} A###copy B to A", arrowGlyph()).c_str(), {half, 0}))
+      copy(session, /*toB=*/false);
   }
 
   static void copy(Session& session, bool toB) {
     (toB ? session.sideB() : session.sideA()).edited = (toB ? session.sideA() : session.sideB()).edited;
   }
 
-  void drawDifferences(Session& session) {
+  static void drawDifferences(Session& session) {
     const Settings &a = session.sideA().edited, &b = session.sideB().edited;
-    if (std::string now = settingsToJson(a) + settingsToJson(b); now != seen_) {
-      differences_ = differences(a, b);
-      seen_ = std::move(now);
-    }
-    if (differences_.empty()) {
+    if (a == b) {
       ImGui::TextColored(theme::dim, "the same settings");
       return;
     }
@@ -91,12 +87,14 @@ class ComparePanel : public Panel {
     ImGui::TableSetupColumn("A");
     ImGui::TableSetupColumn("B");
     ImGui::TableHeadersRow();
-    for (const SettingDifference& d : differences_)
-      for (const std::string* text : {&d.name, &d.a, &d.b}) {
+    for (const Setting& setting : settingTable()) {
+      if (setting.get(a) == setting.get(b)) continue;
+      for (const std::string& text : {std::string(setting.name), setting.text(a), setting.text(b)}) {
         ImGui::TableNextColumn();
-        clippedText(*text, ImGui::GetContentRegionAvail().x);
-        helpTooltip(*text);
+        clippedText(text, ImGui::GetContentRegionAvail().x);
+        helpTooltip(text);
       }
+    }
     ImGui::EndTable();
   }
 

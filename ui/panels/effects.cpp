@@ -1,11 +1,11 @@
 // The effect plan: what the scene calls for, what not, why, and what that saves; every effect may be forced on or off.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <deque>
 #include <optional>
 #include <utility>
 
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
@@ -73,27 +73,25 @@ class EffectsPanel : public Panel {
 
   /// One line: name, state and reason, and where the effect can be forced, the list of modes behind an arrow.
   static void drawRow(Settings& settings, const EffectRow& row) {
-    const EffectInfo& info = effectInfo(row.effect);
+    const EffectInfo& info = row.info();
     const bool forced = forcedMode(settings, row.effect) != EffectMode::automatic;
     const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
     const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float words = start + width * kLabelShare, end = start + width - arrow;
-    const std::string state = EnumNames<EffectState>::names.at(static_cast<size_t>(row.state));
     ImGui::PushID(info.name);
     ImGui::BeginGroup();
     ImGui::AlignTextToFramePadding();
     const ImVec4& nameColor = forced ? theme::accent : theme::text;
     ImGui::TextColored(nameColor, "%s", clipped(info.label, words - start - gap).c_str());
     ImGui::SameLine(words);
-    ImGui::TextColored(row.state == EffectState::on ? theme::good : theme::dim, "%s", state.c_str());
+    ImGui::TextColored(row.state == EffectState::on ? theme::good : theme::dim, "%s", row.stateName());
     ImGui::SameLine(0, gap);
     ImGui::TextColored(theme::dim, "%s", clipped(row.reason, end - gap - ImGui::GetCursorPosX()).c_str());
     ImGui::EndGroup();
     helpTooltip(fmt::format(
-        "{}: {}\n{}\n{}{}", info.label, state, row.reason,
-        row.skip == Skip::exact
-            ? "Exact: forced on it gives the same bits."
-            : fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of),
+        "{}: {}\n{}\n{}{}", info.label, row.stateName(), row.reason,
+        row.threshold ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
+                      : "Exact: forced on it gives the same bits.",
         row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
     if (*info.setting != 0) {
       ImGui::SameLine(end);

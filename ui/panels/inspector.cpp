@@ -1,10 +1,10 @@
 // The picked facet: its record, its row and column of the matrix, one of its rays step by step.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
 #include "shaders/shared/emitters.h"
+#include "ui/imgui.h"
 #include "ui/link_table.h"
 #include "ui/panel.h"
 #include "ui/theme.h"

@@ -1,13 +1,12 @@
 // The scene's lights: list, add, remove, and the fields of the one chosen. The picture follows at once; the scene's
 // file is never touched.
 #include <fmt/format.h>
-#include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "ui/imgui.h"
 #include "ui/light_color.h"
 #include "ui/panel.h"
 #include "ui/sidecar_row.h"
@@ -17,24 +16,23 @@
 namespace irad {
 namespace {
 
-constexpr const char* kTypes[] = {"sun", "point", "spot"};  // in the order of LightType
 constexpr float kDegree = std::numbers::pi_v<float> / 180.0f;
 
 const char* typeName(const Light& light) {
-  return kTypes[static_cast<size_t>(light.type)];
+  return lightKind(light.type).name;
 }
 
-/// Where the camera is, shining where it looks: a white surface that faces it at a quarter of the scene's diagonal has
-/// radiance 1. Lamps stand a little ahead, where they can be seen and taken hold of.
-Light lightAtCamera(LightType type, const Camera& camera, float diagonal) {
+/// A light at the camera that shines where it looks: a white surface facing it at a quarter of the scene's diagonal has
+/// radiance 1. Lamps are put a little ahead, where they can be seen and grabbed.
+Light lightAtCamera(const LightKind& kind, const Camera& camera, float diagonal) {
   const glm::vec3 forward = glm::normalize(camera.orientation * glm::vec3(0, 0, -1));
   const float distance = 0.25f * diagonal;
   Light light;
-  light.type = type;
+  light.type = kind.type;
   light.name = typeName(light);
   light.direction = forward;
   light.position = camera.position + glm::dvec3(forward) * (0.4 * distance);
-  light.intensity = std::numbers::pi_v<float> * (type == LightType::Sun ? 1.0f : distance * distance);
+  light.intensity = std::numbers::pi_v<float> * (kind.has(LIGHT_DISTANT) ? 1.0f : distance * distance);
   light.intensity = std::clamp(light.intensity, 1e-6f, 1e12f);
   light.outerCos = std::cos(30 * kDegree);
   return light;
@@ -68,12 +66,12 @@ class LightsPanel : public Panel {
     const glm::vec3 size = session.pipeline->scene().boundsMax - session.pipeline->scene().boundsMin;
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "add");
-    for (const LightType type : {LightType::Sun, LightType::Point, LightType::Spot}) {
+    for (const LightKind& kind : lightKinds()) {
       ImGui::SameLine();
-      const Light light = lightAtCamera(type, session.camera.camera(), std::max(glm::length(size), 1e-6f));
-      if (ImGui::Button(typeName(light))) session.edits.add(light);
-      helpTooltip(type == LightType::Point ? "A point light ahead of the camera"
-                                           : fmt::format("A {} that shines the way the camera looks", typeName(light)));
+      const Light light = lightAtCamera(kind, session.camera.camera(), std::max(glm::length(size), 1e-6f));
+      if (ImGui::Button(kind.name)) session.edits.add(light);
+      helpTooltip(kind.has(LIGHT_DIRECTION) ? fmt::format("A {} that shines the way the camera looks", kind.name)
+                                            : fmt::format("A {} ahead of the camera", kind.one));
     }
   }
 
@@ -90,7 +88,7 @@ class LightsPanel : public Panel {
         ImGui::PushID(i);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
-        if (ImGui::Selectable("##row", i == edits.selected)) edits.selected = i;
+        if (ImGui::Selectable("##", i == edits.selected)) edits.selected = i;
         ImGui::GetWindowDrawList()->AddCircleFilled({at.x + em * 0.5f, at.y + em * 0.5f}, em * 0.3f,
                                                     displayColor(light.color));
         ImGui::SameLine(start + em * 1.3f);
@@ -120,34 +118,38 @@ class LightsPanel : public Panel {
     fieldLabel("name");
     ImGui::InputText("##name", &light.name);
     fieldLabel("type");
+    std::vector<const char*> names;
+    for (const LightKind& other : lightKinds()) names.push_back(other.name);
     int type = static_cast<int>(light.type);
-    if (ImGui::Combo("##type", &type, kTypes, 3)) light.type = static_cast<LightType>(type);
-    const bool sun = light.type == LightType::Sun;
+    if (ImGui::Combo("##type", &type, names.data(), static_cast<int>(names.size())))
+      light.type = static_cast<LightType>(type);
+    const LightKind& kind = lightKind(light.type);
+    const bool distant = kind.has(LIGHT_DISTANT);
 
     fieldLabel("color", "As shown on a display; the file holds it linear");
     glm::vec3 shown = glm::convertLinearToSRGB(light.color);
     if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float))
       light.color = glm::convertSRGBToLinear(shown);
-    fieldLabel("intensity", sun ? "Irradiance of a surface that faces the sun, lux (W/m\u00B2)"
-                                : "Candela (W/sr): at a distance d a facing surface receives intensity / d\u00B2");
+    fieldLabel("intensity", distant ? "Irradiance of a surface that faces the sun, lux (W/m\u00B2)"
+                                    : "Candela (W/sr): at a distance d a facing surface receives intensity / d\u00B2");
     ImGui::DragFloat("##intensity", &light.intensity, std::max(light.intensity * 0.01f, 1e-6f), 0,
-                     static_cast<float>(kMaxLightOrEmission), sun ? "%.4g lx" : "%.4g cd",
+                     static_cast<float>(kMaxLightOrEmission), distant ? "%.4g lx" : "%.4g cd",
                      ImGuiSliderFlags_AlwaysClamp);
-    if (!sun) {
+    if (kind.has(LIGHT_RANGE)) {
       fieldLabel("range", "Distance at which the light has faded out; 0: unlimited");
       ImGui::DragFloat("##range", &light.range, std::max(light.range * 0.01f, 0.01f), 0,
                        static_cast<float>(kMaxCoordinate), light.range > 0 ? "%.4g" : "unlimited",
                        ImGuiSliderFlags_AlwaysClamp);
     }
-    if (light.type == LightType::Spot) drawCone(light);
+    if (kind.has(LIGHT_CONE)) drawCone(light);
 
-    fieldLabel("position", sun ? "Of its handle in the picture: the light comes from everywhere"
-                               : "World coordinates, scene units");
+    fieldLabel("position", distant ? "Of its handle in the picture: the light comes from everywhere"
+                                   : "World coordinates, scene units");
     const double low = -kMaxCoordinate, high = kMaxCoordinate;
     const float size = glm::distance(session.pipeline->scene().boundsMin, session.pipeline->scene().boundsMax);
     ImGui::DragScalarN("##position", ImGuiDataType_Double, &light.position.x, 3, std::max(size * 1e-3f, 1e-9f), &low,
                        &high, "%.4g", ImGuiSliderFlags_AlwaysClamp);
-    if (light.type != LightType::Point) {
+    if (kind.has(LIGHT_DIRECTION)) {
       fieldLabel("direction", "The way it shines");
       glm::vec3 direction = light.direction;
       if (ImGui::DragFloat3("##direction", &direction.x, 0.005f, -1, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp) &&

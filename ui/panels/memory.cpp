@@ -1,11 +1,11 @@
-// Device memory: every buffer and image as the allocator measured it, beside what its formula predicts (METHOD 10),
-// with subtotals per subsystem; T eq. 29-31; the heap's budget.
+// Device memory: every buffer and image as the allocator measured it, beside what its formula predicts (docs/method.md
+// 10), with subtotals per subsystem; T eq. 29-31; the heap's budget.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
 #include "gi/memory_report.h"
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"

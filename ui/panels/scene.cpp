@@ -1,8 +1,9 @@
 // The scene as loaded: file, counts, lights, warnings; opening another.
 #include <fmt/format.h>
-#include <imgui.h>
-#include <imgui_stdlib.h>
 
+#include <algorithm>
+
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -48,12 +49,11 @@ class ScenePanel : public Panel {
   }
 
   static std::string lights(const std::vector<Light>& all) {
-    size_t sun = 0, point = 0, spot = 0;
-    for (const Light& light : all)
-      ++(light.type == LightType::Sun ? sun : light.type == LightType::Point ? point : spot);
     std::string text;
-    for (const auto& [count, name] : {std::pair{sun, "sun"}, {point, "point"}, {spot, "spot"}})
-      if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+    for (const LightKind& kind : lightKinds()) {
+      const auto count = std::ranges::count(all, kind.type, &Light::type);
+      if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind.name);
+    }
     return text.empty() ? "none" : text;
   }
 

@@ -1,7 +1,7 @@
-// Every setting of gi/settings.h, generated from visit().
-#include <imgui.h>
+// Every setting of gi/settings.h, generated from their table.
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
@@ -36,9 +36,12 @@ class SettingsPanel : public Panel {
   static void choosePreset(Session& session) {
     if (!ImGui::BeginCombo("##preset", "Preset\u2026")) return;
     for (const std::string& name : presetNames())
-      if (ImGui::Selectable(name.c_str())) applyPreset(session.edited, name, session.context.device.isCpu);
+      if (ImGui::Selectable(name.c_str())) {
+        applyPreset(session.edited, name, session.context.device.isCpu);
+        session.saved = session.edited;
+      }
     ImGui::Separator();
-    if (ImGui::Selectable("defaults of this device")) session.edited = session.defaults;
+    if (ImGui::Selectable("defaults of this device")) session.saved = session.edited = session.defaults;
     if (!session.presets.names().empty()) ImGui::Separator();
     for (const std::string& name : session.presets.names())
       if (ImGui::Selectable(name.c_str())) apply(session, name);
@@ -48,6 +51,7 @@ class SettingsPanel : public Panel {
   static void apply(Session& session, const std::string& name) {
     try {
       session.presets.apply(session.edited, name);
+      session.saved = session.edited;
     } catch (const Error& error) {
       session.error(error.what());
     }

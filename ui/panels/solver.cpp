@@ -1,11 +1,11 @@
 // The solver: how far, how exact, awake or asleep and why; residual and bound over the sweeps; the energy's balance.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "gi/convergence.h"
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/plot.h"
 #include "ui/setting_rows.h"
@@ -69,7 +69,7 @@ class SolverPanel : public Panel {
   static void drawButtons(Session& session) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const ImVec2 third{std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3), 0};
-    if (ImGui::Button(session.paused ? "Resume" : "Pause", third)) session.paused = !session.paused;
+    if (ImGui::Button(session.paused ? "Resume###pause" : "Pause###pause", third)) session.paused = !session.paused;
     helpTooltip("Space");
     ImGui::SameLine();
     if (ImGui::Button("Step", third)) session.paused = session.step = true;
@@ -125,7 +125,7 @@ class SolverPanel : public Panel {
     ImGui::TextColored(theme::dim, "- - sleeps, W/m\u00B2");
   }
 
-  /// Of all channels, W: scenes' units are taken for metres.
+  /// All channels together, W; the scene's units are taken for metres.
   static void drawEnergy(const Built& built) {
     if (!built.solve.energy) {
       valueRow("energy", "\u2026");

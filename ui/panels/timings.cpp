@@ -1,11 +1,11 @@
 // Milliseconds per stage: a plot of the last frames with their composition, the tables of T 6-10, recordings compared.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/plot.h"
 #include "ui/recording_comparison.h"
@@ -86,7 +86,7 @@ class TimingsPanel : public Panel {
     }
     helpTooltip("How far plot and table look back");
     ImGui::SameLine();
-    if (ImGui::Button(paused_ ? "Resume" : "Pause", {button("Resume"), 0})) paused_ = !paused_;
+    if (ImGui::Button(paused_ ? "Resume###pause" : "Pause###pause", {button("Resume"), 0})) paused_ = !paused_;
     helpTooltip("Holds plot and tables; the program goes on");
     ImGui::SameLine();
     if (ImGui::Button((record + "###record").c_str(), {button("Stop 000.0 s"), 0})) session.recorder.toggle = true;
@@ -105,7 +105,7 @@ class TimingsPanel : public Panel {
     const ImVec2 space = ImGui::GetContentRegionAvail();
     const float list = std::floor(std::min(0.3f * space.x, 13 * ImGui::GetFontSize()));
     const size_t first = history_.size() - std::min(window_, history_.size());
-    // The list is drawn beside the plot, but shows the frame that the plot is asked for.
+    // The list is drawn beside the plot but shows the frame under the mouse in the plot.
     const ImVec2 begin = ImGui::GetCursorPos();
     ImGui::SetCursorPosX(begin.x + list + ImGui::GetStyle().ItemSpacing.x);
     ImGui::BeginGroup();
@@ -181,7 +181,7 @@ class TimingsPanel : public Panel {
   void drawStages(ImVec2 size, size_t frame) {
     ImGui::BeginChild("stages", size);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 1});
-    // Those that ran in the frame first.
+    // Stages that ran in the frame come first.
     for (const bool ran : {true, false})
       for (size_t s = 0; s < history_.stages().size(); ++s)
         if (std::isnan(history_.stages()[s].ms[frame]) != ran) drawStage(s, frame);

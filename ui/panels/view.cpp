@@ -1,9 +1,10 @@
 // What the viewport shows: the view, what it has to choose, and how its values become a picture.
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
+#include "gi/thesis/jump_flood.h"
+#include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
@@ -26,8 +27,7 @@ std::vector<const char*> groups() {
 std::string lightLabel(const Scene& scene, uint32_t index) {
   if (index >= scene.lights.size()) return "none";
   const Light& light = scene.lights[index];
-  constexpr const char* kinds[] = {"sun", "point", "spot"};
-  return fmt::format("{}: {}", index, light.name.empty() ? kinds[static_cast<size_t>(light.type)] : light.name.c_str());
+  return fmt::format("{}: {}", index, light.name.empty() ? lightKind(light.type).name : light.name.c_str());
 }
 
 class ViewPanel : public Panel {
@@ -42,8 +42,8 @@ class ViewPanel : public Panel {
       const std::string unit = shownQuantity(*info, session.edited).unit;
       valueRow("unit", unit.empty() ? "none" : prettyUnit(unit));
       drawShape(session, *info);
-      if (showsJumpFloodPass(info->view)) drawPass(session);
-      if (info->view == VIEW_SHADOW_MAP || info->view == VIEW_SHADOW) drawLight(session);
+      if (info->isFrom(FROM_JUMP_FLOOD)) drawPass(session);
+      if (info->isFrom(FROM_SHADOW_MAPS)) drawLight(session);
       drawNotes(session, *info);
       if (info->hasRange()) drawRange(session, *info);
       if (info->toneMapped()) {
@@ -73,8 +73,9 @@ class ViewPanel : public Panel {
       ImGui::TextColored(theme::dim, "%s", group);
       for (const ViewInfo& info : views()) {
         if (std::string_view(group) != info.group) continue;
-        const std::string text = info.view < kNumberKeys ? fmt::format("{}  {}", info.view + 1, info.label)
-                                                         : fmt::format("    {}", info.label);
+        const std::string text = (info.view < kNumberKeys ? fmt::format("{}  {}", info.view + 1, info.label)
+                                                          : fmt::format("    {}", info.label)) +
+                                 "###" + info.name;
         const bool chosen = info.view == session.view;
         if (ImGui::Selectable(text.c_str(), chosen)) {
           session.view = info.view;
@@ -90,15 +91,15 @@ class ViewPanel : public Panel {
     const auto shape = resolveShape(info.view, session.edited.view.shape);
     if (!shape) return;
     row(session, "view.shape");
-    if (*shape == SHAPE_SLICE) {
+    if (*shape == ViewShape::slice) {
       row(session, "view.axis");
       row(session, "view.slice");
     }
-    if (showsField(info.view) && (*shape == SHAPE_CUBES || *shape == SHAPE_ISOSURFACE)) row(session, "view.isovalue");
-    const auto wanted = static_cast<uint32_t>(session.edited.view.shape);
-    if (session.edited.view.shape != ViewShape::automatic && *shape != wanted)
-      note(fmt::format("This view has no {}: shown as {}.", EnumNames<ViewShape>::names[wanted],
-                       EnumNames<ViewShape>::names[*shape]));
+    if (info.ofField() && (*shape == ViewShape::cubes || *shape == ViewShape::isosurface))
+      row(session, "view.isovalue");
+    const ViewShape wanted = session.edited.view.shape;
+    if (wanted != ViewShape::automatic && *shape != wanted)
+      note(fmt::format("This view has no {}: shown as {}.", nameOf(wanted), nameOf(*shape)));
   }
 
   /// From the seeds alone to the last pass, with the arrows or the slider.
@@ -115,7 +116,7 @@ class ViewPanel : public Panel {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
     const std::string label = pass == 0 ? "seeds" : fmt::format("pass %d of {}, step {}", last, 1 << (last - pass));
     changed |= ImGui::SliderInt("##slider", &pass, 0, last, label.c_str(), ImGuiSliderFlags_AlwaysClamp);
-    helpTooltip("view.jfa_pass\nJump-flood pass after which its seeds are shown (T Fig. 4)");
+    helpTooltip("view.jfa_pass\nJump-flood pass after which its seeds are shown");
     ImGui::SameLine(0, gap);
     if (ImGui::ArrowButton("on", ImGuiDir_Right)) {
       ++pass;
@@ -139,17 +140,17 @@ class ViewPanel : public Panel {
   static void drawNotes(const Session& session, const ViewInfo& info) {
     if (!session.pipeline) return;
     const Pipeline& pipeline = *session.pipeline;
-    if (std::string_view(info.group) == "Reference" && !pipeline.hasReference())
+    if (info.isFrom(FROM_PICTURE) && !pipeline.hasReference())
       note("There is no picture to compare with: drop an .exr, or drop an .exr or .hdr on the window.");
-    else if (info.view == VIEW_ERROR)
+    else if (info.isFrom(FROM_PICTURE) && info.isFrom(FROM_TARGETS))
       note(
           fmt::format("(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of lit and reference, from the reference's "
                       "camera; its mean square is relMSE.",
                       VIEW_ERROR_EPSILON));
-    else if (info.view == VIEW_MATRIX_ROW)
+    else if (info.isFrom(FROM_MATRIX_ROW))
       note(fmt::format("F from facet {} to each facet: click the picture to take another's row.",
                        session.edited.view.facet));
-    else if (info.view == VIEW_REFERENCE && !pipeline.scene().expectedIrradiance)
+    else if (info.isFrom(FROM_ORACLE) && !pipeline.knowsIrradiance())
       note("Only check scenes know the exact answer.");
   }
 

@@ -1,0 +1,82 @@
+#include "app/device_session.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/version.h"
+#include "gi/check/check.h"
+#include "gi/sizes.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/sidecar.h"
+
+namespace irad::app {
+
+DeviceSession::DeviceSession(const SettingArguments& arguments, const DeviceArguments& deviceArguments,
+                             size_t timedFrames)
+    : config(arguments.readConfig()), timings(timedFrames), sizesAreDefault_(arguments.sizesAreDefault()) {
+  (void)arguments.resolve(config, /*cpuDevice=*/true);
+  device = Device::create(deviceArguments.options());
+  context = std::make_unique<Context>(*device, shaders, timings);
+  settings = arguments.resolve(config, device->isCpu);
+}
+
+Scene DeviceSession::load(const std::filesystem::path& path, const SceneArguments& arguments) {
+  LoadOptions options = arguments.load(config, settings);
+  options.progress = [this](float fraction, const char* step) { progress(step, fraction); };
+  Scene scene = openScene(path, options);
+  if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
+  for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
+  if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
+    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
+                              config.path.string(), scene.sha256, *config.sceneSha256));
+  if (!config.shaders.empty())
+    progress.note(
+        fmt::format("warning: {} was made with shaders compiled in the window, which this run does not have: {}",
+                    config.path.string(), fmt::join(config.shaders, ", ")));
+  return scene;
+}
+
+void DeviceSession::prepare(Pipeline& pipeline) {
+  while (true) {
+    try {
+      pipeline.prepare([this](const char* stage, float fraction) { return progress(stage, fraction); });
+      return;
+    } catch (const DeviceError& error) {
+      Settings lower = settings;
+      if (!sizesAreDefault_ || !lowerSizes(lower)) throw;
+      progress.note(fmt::format("warning: {}; taking {} voxels and {} rays instead of {} and {}", error.what(),
+                                lower.voxel.resolution, lower.matrix.gpu.rays, settings.voxel.resolution,
+                                settings.matrix.gpu.rays));
+      settings = lower;
+    }
+    device->waitIdle();  // everything that the attempt held is free from here on
+    pipeline.set(settings);
+  }
+}
+
+Manifest DeviceSession::manifest(std::string subcommand, const Pipeline& pipeline) const {
+  return {.program = {versionNumber(), versionCommit()},
+          .subcommand = std::move(subcommand),
+          .device = &device->info,
+          .scene = &pipeline.scene(),
+          .settings = &settings,
+          .cpuDevice = device->isCpu};
+}
+
+void DeviceSession::checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors) {
+  for (const Finding& finding : pipeline.findings())
+    if (finding.severity == Finding::Severity::Error)
+      errors.insert(errors.begin(), finding.text);  // the cause before its pictures
+    else
+      progress.note("warning: " + finding.text);
+  if (!errors.empty()) throw WorkError(fmt::format("{}", fmt::join(errors, "\n")));
+}
+
+void DeviceSession::checkValidation() const {
+  if (!device->options.validate) return;
+  const std::vector<std::string> messages = device->validationMessages();
+  if (!messages.empty())
+    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
+
+}  // namespace irad::app

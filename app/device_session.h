@@ -1,0 +1,44 @@
+// What every subcommand that computes needs: device, shaders, timings, context, settings, in this order.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/arguments.h"
+#include "app/progress.h"
+#include "gi/manifest.h"
+#include "gi/pipeline.h"
+#include "renderer/frame/frame.h"
+
+namespace irad::app {
+
+struct DeviceSession {
+  /// Checks the settings first (so that mistakes are reported before a device is opened), then opens the device. Times
+  /// are kept of the last `timedFrames` frames.
+  DeviceSession(const SettingArguments& settings, const DeviceArguments& device, size_t timedFrames = SIZE_MAX);
+
+  Config config;
+  std::unique_ptr<Device> device;
+  ShaderLibrary shaders;
+  Timings timings;
+  std::unique_ptr<Context> context;
+  Settings settings;
+  ProgressReport progress;
+
+  /// Loads the scene, with its sidecar, and says what is odd about it, on standard error.
+  Scene load(const std::filesystem::path& path, const SceneArguments& arguments);
+  /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
+  /// next smaller ones, in `settings` too.
+  void prepare(Pipeline& pipeline);
+  /// A manifest of this program, device, scene and settings; the subcommand adds what it made.
+  Manifest manifest(std::string subcommand, const Pipeline& pipeline) const;
+  /// Prints the numerical watch's warnings; WorkError with what it found wrong, and with `errors`.
+  void checkNumbers(const Pipeline& pipeline, std::vector<std::string> errors = {});
+  /// After --validate: WorkError with the messages, if there were any.
+  void checkValidation() const;
+
+ private:
+  bool sizesAreDefault_;
+};
+
+}  // namespace irad::app

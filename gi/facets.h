@@ -1,0 +1,33 @@
+// The facet list (docs/method.md 4, T 5.3).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gi/voxelize.h"
+#include "shaders/shared/facets.h"
+
+namespace irad {
+
+struct FacetList {
+  Grid grid;
+  uint32_t count = 0;  ///< facets
+  uint32_t solidVoxels = 0;
+  uint32_t slots = MAX_VOXEL_FACETS;  ///< facets of a voxel at most
+  uint32_t clampedAlbedo = 0;         ///< facets whose albedo was outside [0, .98] or not a number
+  Buffer voxel, shape, albedo, emission, reverse, around;
+  Buffer triangle;  ///< which triangle won, | BACK_SIDE where its back did, for the inspector; none of uploaded lists
+  Buffer record;    ///< one FacetArrays
+  bool hasEmission = false;
+  NormalEncoding encoding = NormalEncoding::oct16;
+  /// What the record holds; `addressOf` gives the addresses: a pass's in() or a RecordMaker's of().
+  FacetArrays arrays(const std::function<uint64_t(const Buffer&)>& addressOf) const;
+};
+/// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
+FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
+/// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.
+FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,
+                       const std::vector<uint32_t>& shape, const std::vector<glm::uvec2>& albedo,
+                       const std::vector<glm::vec3>& emission, NormalEncoding encoding);
+
+}  // namespace irad

@@ -1,0 +1,21 @@
+// The first gather: light that reaches the facets straight from emissive ones.
+#pragma once
+
+#include "gi/emitters.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+
+namespace irad {
+
+/// F M by samples of the emitters in place of rays; empty: by rays.
+struct EmitterSource {
+  const Emitters* emitters = nullptr;
+  const Field* field = nullptr;
+};
+/// `emitted`, with `correction` and `sampledShare` where the emitters are sampled. Before solve(), and again where the
+/// matrix or the emission has changed. Blocking.
+void gatherEmitters(Context& context, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
+                    const Settings& settings, Lighting& light);
+
+}  // namespace irad

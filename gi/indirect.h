@@ -1,0 +1,29 @@
+// Indirect diffuse light in pictures (docs/method.md 7): from the facets around each visible point, or the thesis's
+// volume.
+#pragma once
+
+#include "renderer/forward.h"
+#include "shaders/shared/gi_params.h"
+#include "shaders/shared/normals.h"
+
+namespace irad {
+
+/// Where a picture finds indirect light. Null pointers: there is none, and no Targets::indirect.
+struct IndirectInputs {
+  const Buffer* grid = nullptr;           ///< one Grid
+  const Buffer* shape = nullptr;          ///< facet words
+  const Buffer* reverse = nullptr;        ///< voxel -> facet
+  const Buffer* around = nullptr;         ///< corners' neighbours
+  const Buffer* shaded = nullptr;         ///< vec4 per facet: H
+  const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, no Targets::emitted
+  bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
+  const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup (gated off)
+  NormalEncoding normalEncoding = NormalEncoding::oct16;
+  SampleParams sample{};
+};
+
+/// drawForward, and then the lookup of indirect light ("RE Forward", too).
+void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
+               const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects = {});
+
+}  // namespace irad

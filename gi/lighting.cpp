@@ -1,0 +1,31 @@
+// The buffers of light per facet.
+#include "gi/lighting.h"
+
+#include "gi/subsystems.h"
+#include "gi/thesis/volume.h"
+#include "shaders/shared/solve.h"
+
+namespace irad {
+
+Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings) {
+  const uint64_t bytes = 16ull * facets.count;
+  const Device& device = context.device;
+  Lighting light;
+  light.gain = {settings.solver.gpu.lambda, settings.solver.gpu.lambda};
+  light.direct = Buffer(device, "direct irradiance D", Subsystem::Solver, bytes);
+  if (facets.hasEmission) light.emitted = Buffer(device, "emitted share F M", Subsystem::Solver, bytes);
+  light.indirect = Buffer(device, "indirect irradiance H", Subsystem::Solver, bytes);
+  light.radiosity = Buffer(device, "radiosity B (a)", Subsystem::Solver, bytes);
+  light.radiosityNext = Buffer(device, "radiosity B (b)", Subsystem::Solver, bytes);
+  light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual));
+  light.rowSum = Buffer(device, "row sums of F", Subsystem::Solver, 4ull * facets.count);
+  Frame frame = context.begin();
+  for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
+                          &light.residual, &light.rowSum})
+    if (*b) frame.pass("GI Solve Clear").fill(*b, 0);
+  frame.submit();
+  if (settings.sample.gpu.gated == 0) addVolume(context, facets, light);
+  return light;
+}
+
+}  // namespace irad

@@ -1,0 +1,33 @@
+// The form-factor matrix (docs/method.md 5).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gi/field.h"
+#include "shaders/shared/matrix.h"
+
+namespace irad {
+
+struct MatrixStats {
+  uint64_t rays = 0, hits = 0, entries = 0, escaped = 0, invalid = 0;
+  uint64_t bytesUsed = 0, bytesAllocated = 0;  ///< used: of filled entries (padded: 8 B per hit)
+  uint32_t largestRow = 0;
+};
+/// Where none was built there are no rows, and no buffers.
+struct FormFactors {
+  MatrixFormat format = MatrixFormat::csr;
+  uint32_t rows = 0, rays = 0;
+  std::vector<Buffer> segments;  ///< entries of rowsPerSegment rows each (csr), or of fixed stride (padded)
+  Buffer rowStart;               ///< rows: first entry within its segment
+  Buffer rowInfo;                ///< rows: entries | ... see shared/matrix.h
+  Buffer record;                 ///< one MatrixArrays; from kSegmentTable on, the segments' addresses
+  static constexpr uint64_t kSegmentTable = 64;
+  MatrixStats stats;
+  explicit operator bool() const { return static_cast<bool>(record); }
+};
+/// `progress` (0..1) may be empty; it returns false to cancel, upon which a WorkError "cancelled" is thrown.
+FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
+                        const std::function<bool(float)>& progress = {});
+
+}  // namespace irad

@@ -1,0 +1,28 @@
+// Emissive triangles, and the pixels that look for them.
+#pragma once
+
+#include <span>
+
+#include "gi/facets.h"
+#include "renderer/targets.h"
+
+namespace irad {
+
+/// The triangles of emissive materials, in voxel units, for pixels that look for emitters themselves
+/// (shaders/shared/pixel_emitters.h). None where nothing emits, or more triangles than that takes.
+struct EmissiveTriangles {
+  uint32_t count = 0;
+  Buffer triangles;  ///< an EmissiveTriangle each
+};
+struct MaterialTraits;
+EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& scene,
+                                        std::span<const MaterialTraits> materials, const FacetList& facets,
+                                        const Buffer& grid);
+
+struct ViewInputs;
+/// "RE Emitters": of every pixel the light that comes straight from emissive triangles, from their true outlines
+/// (shaders/gi/emitters_light.comp), in place of what the facets around it have of it: in targets.emitted and within
+/// targets.indirect. Between drawScene and traceSpecular; records nothing where there is no targets.emitted.
+void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& settings, Targets& targets);
+
+}  // namespace irad

@@ -1,0 +1,220 @@
+// The settings, a row each: SETTING(member of Settings, name, range of a number, help, what a change redoes).
+#include <type_traits>
+
+#include "gi/settings.h"
+
+namespace irad {
+namespace {
+
+template <class T>
+constexpr SettingKind kindOf() {
+  if constexpr (std::is_enum_v<T>) return SettingKind::choice;
+  if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, Flag>) return SettingKind::toggle;
+  if constexpr (std::is_same_v<T, uint32_t>) return SettingKind::integer;
+  if constexpr (std::is_same_v<T, float>) return SettingKind::number;
+}
+
+template <class T>
+constexpr std::span<const char* const> choicesOf() {
+  if constexpr (std::is_enum_v<T>)
+    return EnumNames<T>::names;
+  else
+    return {};
+}
+
+/// `Member`: from Settings, const or not, to the setting in it.
+template <class Member>
+constexpr Setting row(Member, const char* name, const SettingRange& range, const char* help, Redo redo) {
+  using T = std::remove_cvref_t<decltype(Member{}(std::declval<Settings&>()))>;
+  return {.name = name,
+          .kind = kindOf<T>(),
+          .range = range,
+          .help = help,
+          .redo = redo,
+          .choices = choicesOf<T>(),
+          .get = [](const Settings& s) { return static_cast<double>(Member{}(s)); },
+          .set = [](Settings& s, double value) { Member{}(s) = static_cast<T>(value); }};
+}
+template <class Member>
+constexpr Setting row(Member member, const char* name, const char* help, Redo redo) {
+  return row(member, name, SettingRange{}, help, redo);
+}
+
+#define SETTING(member, ...) \
+  row(                       \
+      [](auto& s) -> auto& { return s.member; }, __VA_ARGS__)
+
+namespace rows {  // alone sees the stages' names without Redo::, whatever is compiled with it
+using enum Redo;
+constexpr Setting kTable[] = {
+    SETTING(voxel.resolution, "voxel.resolution", {8, 1022, "voxels"}, "Voxels along the scene's longest axis (N).",
+            Voxels),
+    SETTING(voxel.method, "voxel.method",
+            "raster: each triangle is drawn along its dominant axis, as the thesis does it, which leaves pin-holes; "
+            "conservative: every voxel that a triangle touches, watertight.",
+            Voxels),
+    SETTING(
+        voxel.facets, "voxel.facets", {1, 4},
+        "Facets that a voxel may hold: 2 keeps both sides of a thin wall, 4 also those of a sheet in front of a wall.",
+        Voxels),
+    SETTING(voxel.normals, "voxel.normals", "Encoding of facet normals.", Voxels),
+    SETTING(field.method, "field.method", "Distance field that rays with sdf traversal read.", Field),
+    SETTING(matrix.format, "matrix.format",
+            "padded: the thesis's rows of a fixed length, 8 bytes per hit; csr: rows of the exact length, 4 bytes per "
+            "distinct column.",
+            Matrix),
+    SETTING(matrix.gpu.rays, "matrix.rays", {1, 4096, "rays"},
+            "Rays traced per facet; the noise of a form factor falls with their square root.", Matrix),
+    SETTING(matrix.gpu.hitRule, "matrix.hit_rule",
+            "Where rays start and what they meet. thesis: one voxel above the facet, the first solid voxel with a "
+            "front face; robust: on the facet, the planes of the facets on the way.",
+            Voxels),
+    SETTING(matrix.gpu.traversal, "matrix.traversal",
+            "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix),
+    SETTING(matrix.gpu.jitter, "matrix.jitter",
+            "Shift the set of directions in each voxel by a hash of its own (Cranley-Patterson rotation).", Matrix),
+    SETTING(matrix.emitterSampling, "matrix.emitter_sampling",
+            "Light that facets get straight from emissive ones: by rays to points of the emitters instead of the "
+            "matrix row; auto: where fewer than a tenth of the facets emit and the sum agrees with the matrix.",
+            Emission),
+    SETTING(matrix.emitterSamples, "matrix.emitter_samples", {1, 256, "rays"}, "Rays per facet to the emitters.",
+            Emission),
+    SETTING(matrix.gpu.seed, "matrix.seed", {0, 4294967295.0}, "Seed of the ray directions (--seed).", Matrix),
+    SETTING(gather.samples, "gather.samples", {1, 16, "samples"}, "Shadow lookups per facet and light.", Gather),
+    SETTING(solver.gpu.lambda, "solver.lambda", {0, 2},
+            "Artistic gain: B = lambda (M + rho (D + H)); 1 leaves the physics alone.", Solve),
+    SETTING(solver.gpu.omega, "solver.omega", {0.05, 1},
+            "Under-relaxation: a sweep goes this share of the way to its result; the solution stays the same.", Solve),
+    SETTING(solver.gpu.flush, "solver.flush", {0, 1e-3, "W/m^2", /*logarithmic=*/true},
+            "Smaller values become exact zero.", Solve),
+    SETTING(solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
+            "The solver stops when its error bound is below this share of the largest H.", Solve),
+    SETTING(solver.sweepsPerFrame, "solver.sweeps_per_frame", {1, 1000, "sweeps"},
+            "Jacobi sweeps per frame of the window.", Solve),
+    SETTING(solver.maxSweeps, "solver.max_sweeps", {1, 100000, "sweeps"}, "Most sweeps of a headless solve.", Solve),
+    SETTING(solver.kernel, "solver.kernel",
+            "tree: 64 threads per row and a sum in shared memory, as the thesis does it; subgroup: one subgroup per "
+            "row; row: one invocation per row.",
+            Solve),
+    SETTING(scatter.edgeRemoval, "scatter.edge_removal",
+            "Subtract direct and emitted light from the volume that ungated lookups sample, as the thesis does it: no "
+            "blocky shadow edges.",
+            Scatter),
+    SETTING(
+        sample.gpu.filter_, "sample.filter",
+        "How shading looks up indirect light: the nearest facet, between voxel centres, or a blur of 3 x 3 x 3 voxels.",
+        Scatter),
+    SETTING(sample.gpu.premultiplied, "sample.premultiplied",
+            "Divide what is looked up by its alpha, the share of it that lies on surfaces, so that empty voxels do not "
+            "darken it.",
+            Shade),
+    SETTING(sample.gpu.gated, "sample.gated", "Take only facets that face the same way, so that walls do not leak.",
+            Scatter),
+    SETTING(sample.gpu.normalOffset, "sample.normal_offset", {0, 2, "voxels"}, "Offset of the lookup along the normal.",
+            Shade),
+    SETTING(sample.emitters, "sample.emitters",
+            "Who gives a pixel the light that comes straight from emissive faces. facets: the voxels around it, like "
+            "the rest of H; pixels: the faces' true outlines, with shadow rays of each pixel.",
+            Shade),
+    SETTING(sample.emitterRays, "sample.emitter_rays", {1, 256, "rays"}, "Shadow rays per pixel to emissive triangles.",
+            Shade),
+    SETTING(specular.mode, "specular.mode",
+            "Where specular rays are traced: in the forward fragment shader, as the thesis does it, or in compute over "
+            "the G-buffer.",
+            Shade),
+    SETTING(specular.gpu.rays, "specular.rays", {1, 64, "rays"},
+            "Specular rays per pixel; a quarter as many again go to emissive faces.", Shade),
+    SETTING(specular.gpu.traversal, "specular.traversal",
+            "How specular rays step through the grid; as matrix.traversal.", Shade),
+    SETTING(specular.gpu.maxRoughness, "specular.max_roughness", {0, 1},
+            "Rougher surfaces take the diffuse irradiance instead of rays.", Shade),
+    SETTING(specular.gpu.fade, "specular.fade", {0, 1}, "Width of the blend below max_roughness.", Shade),
+    SETTING(specular.gpu.threshold, "specular.threshold", {0, 1, "", /*logarithmic=*/true},
+            "No rays where F0 x H is below this share of the scene's largest H.", Shade),
+    SETTING(specular.gpu.filter_, "specular.filter", "Edge-aware filter over traced reflections.", Shade),
+    SETTING(light.shadowResolution, "light.shadow_resolution", {64, 8192, "texels"},
+            "Shadow-map size; point lights use half per cube face.", Gather),
+    SETTING(camera.exposureEv, "camera.exposure", {-16, 16, "EV"},
+            "Exposure of the displayed picture; EXR files stay linear.", Nothing),
+    SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),
+    SETTING(camera.gpu.shadowBias, "camera.shadow_bias", {0, 10, "texels"}, "Normal offset of shadow lookups.", Gather),
+    SETTING(camera.gpu.pcf, "camera.pcf", {1, 5, "taps", /*logarithmic=*/false, /*step=*/2},
+            "Percentage-closer filter taps per axis.", Gather),
+    SETTING(camera.gpu.specularDirect, "camera.specular_direct", "Specular lobe of direct lights.", Shade),
+    SETTING(view.shape, "view.shape",
+            "How a volume is shown: cubes where it is solid, a slice, a projection along the line of sight (distances: "
+            "the sum of their inverses; errors: the largest; else the mean), the surface at a distance; auto: as suits "
+            "the view.",
+            Nothing),
+    SETTING(view.axis, "view.axis", "Axis across the slice; auto: the one that the camera looks along most.", Nothing),
+    SETTING(view.slice, "view.slice", {0, 1}, "Place of the slice along its axis, as a share of the grid.", Nothing),
+    SETTING(view.isovalue, "view.isovalue", {0, 64, "voxels"},
+            "Distance at which fields are shown as cubes or isosurface.", Nothing),
+    SETTING(view.jfaPass, "view.jfa_pass", {0, 11},
+            "Jump-flood pass after which its seeds are shown; 0: before the first, more than there are: the last.",
+            Nothing),
+    SETTING(view.light, "view.light", {0, 4096}, "Light of the shadow views, by index.", Nothing),
+    SETTING(view.facet, "view.facet", {0, 2147483647},
+            "Facet whose row the view matrix-row shows, by index; in the window the one in the inspector.", Nothing),
+    SETTING(view.range, "view.range",
+            "Values that the colour map's ends stand for. standard: the view's own, auto where it has none; auto: the "
+            "picture's smallest and largest.",
+            Nothing),
+    SETTING(view.low, "view.low", {-1e6, 1e6}, "Lower end of the manual range.", Nothing),
+    SETTING(view.high, "view.high", {-1e6, 1e6},
+            "Upper end of the manual range; signed views take the larger magnitude to both sides.", Nothing),
+    SETTING(view.percentile, "view.percentile", {50, 100, "%"},
+            "Upper end of the percentile range; the lower is 100 less this.", Nothing),
+    SETTING(view.colorMap, "view.color_map",
+            "Colours of scalar views, even in lightness; signed views are always blue-red.", Nothing),
+    SETTING(thesis.literal, "thesis.literal",
+            "Bring back the thesis's slips (a grid without padding, the sign of 0), to show what they cost.", Voxels),
+    SETTING(effects.emission, "effects.emission",
+            "Emissive surfaces: the light that they give, and how they look; auto: where a material emits.", Voxels),
+    SETTING(effects.sun, "effects.sun", "Suns with their shadow maps; auto: those with an intensity.", Gather),
+    SETTING(effects.point, "effects.point",
+            "Point lights with their shadow maps; auto: those with an intensity whose range reaches the scene.",
+            Gather),
+    SETTING(effects.spot, "effects.spot",
+            "Spot lights with their shadow maps; auto: those with an intensity whose range and cone reach the scene.",
+            Gather),
+    SETTING(effects.matrix, "effects.matrix",
+            "Indirect light: matrix and solver; auto: where there is light, and something that reflects it.", Matrix),
+    SETTING(effects.specular, "effects.specular",
+            "Reflections; auto: where there is light, and a material that is not Lambertian.", Shade),
+    SETTING(effects.secondFacet, "effects.second_facet",
+            "Search for second facets of voxels; auto: unless it is known to find none. off: as voxel.facets=1.",
+            Nothing),
+    SETTING(effects.field, "effects.field", "Distance field kept beside the voxels; auto: where rays read it.", Shade),
+    SETTING(effects.relight, "effects.relight",
+            "Gather, solve and scatter; auto: until the error bound is below solver.tolerance; on: in every frame of "
+            "the window; off: the light stays as it is.",
+            Nothing),
+    SETTING(effects.alphaTest, "effects.alpha_test", "Cut-outs by alpha; auto: where a material has one.", Voxels),
+    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Shade),
+    SETTING(effects.blur, "effects.blur",
+            "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than "
+            "effects.blur_noise.",
+            Scatter),
+    SETTING(effects.blurNoise, "effects.blur_noise", {0, 1},
+            "The blur is left out where it changes H by less than this share of the largest H.", Scatter),
+    SETTING(rasterizer, "device.rasterizer",
+            "Who rasterizes voxels (voxel.method=raster), shadow maps and pictures: the graphics pipeline or compute "
+            "kernels; auto: kernels where few of the GPU's processors serve the graphics pipeline.",
+            Voxels),
+    SETTING(scene.lambertian, "scene.lambertian", "Every material Lambertian with its base colour (read at load).",
+            Voxels),
+    SETTING(scene.doubleSided, "scene.double_sided",
+            "Every material double-sided, as path tracers without culling have them (read at load).", Voxels),
+};
+}  // namespace rows
+
+#undef SETTING
+
+}  // namespace
+
+std::span<const Setting> settingTable() {
+  return rows::kTable;
+}
+
+}  // namespace irad

@@ -1,0 +1,11 @@
+// Which subsystem memory belongs to, for the memory table: the method's subsystems.
+#pragma once
+
+#include "renderer/resources.h"
+
+namespace irad::Subsystem {
+
+inline constexpr SubsystemName Voxels{"voxels"}, Field{"field"}, Facets{"facets"}, Matrix{"matrix"}, Solver{"solver"},
+    Volumes{"volumes"}, Specular{"specular"};
+
+}  // namespace irad::Subsystem

@@ -1,0 +1,69 @@
+// Draws a view: its own passes, its range, and the display picture.
+#include <cmath>
+
+#include "gi/views/passes.h"
+#include "shaders/shared/constants.h"
+#include "shaders/shared/view.h"
+
+namespace irad {
+
+VkSampler pointSampler(const Device& device) {
+  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
+  nearest.linearMips = false;
+  return sampler(device, nearest);
+}
+
+float linearExposure(const Settings& settings) {
+  return settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
+}
+
+void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& settings, Targets& targets) {
+  const ViewInfo* info = viewInfo(view);
+  Pass pass = frame.pass("View");
+  ViewPush push{};
+  push.camera = pass.in(camera);
+  push.kind = info != nullptr ? info->kind : VIEW_KIND_COLOR;
+  push.exposure = linearExposure(settings);
+  push.toneCurve = settings.camera.gpu.toneCurve;
+  pass.shader("view/debug_view.comp")
+      .constant(CONSTANT_VIEW, view)
+      .constant(CONSTANT_TARGETS, targets.present())
+      .sample(targets.depth, pointSampler(frame.context().device))
+      .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.bound(&Targets::highlight),
+            targets.bound(&Targets::indirect), targets.bound(&Targets::emitted), targets.bound(&Targets::specular))
+      .write(targets.linear, targets.display)
+      .push(push)
+      .dispatch(targets.size);
+}
+
+void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
+              Targets& targets) {
+  const ViewInfo* known = viewInfo(view);
+  if (inputs.fields != nullptr && (known == nullptr || !known->isFrom(FROM_ANY_FIELD | FROM_MATRIX_ROW)))
+    *inputs.fields = {};  // no memory for what is not shown
+  if (known == nullptr) return drawTargets(frame, view, camera, settings, targets);
+
+  const ViewInfo& info = *known;
+  if (info.shape) {
+    drawVoxels(frame, info, inputs, camera, settings, targets);
+  } else if (info.isFrom(FROM_PICTURE)) {
+    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, VIEW_LIT, camera, settings, targets);
+    drawReference(frame, info, inputs, targets);
+  } else if (info.isFrom(FROM_SHADOW_MAPS)) {
+    drawShadowView(frame, info, inputs, camera, settings, targets);
+  } else if (info.isFrom(FROM_FACETS)) {
+    drawPinHoles(frame, inputs, camera, targets);
+  } else {
+    drawTargets(frame, view, camera, settings, targets);
+    if (!info.hasRange()) return;  // the display picture is there
+  }
+  if (info.hasRange()) {
+    if (inputs.range != nullptr)
+      frame.pass("View range").copy(*inputs.range, targets.viewRange, sizeof(ViewRange));
+    else
+      findRange(frame, info, settings, targets);
+  }
+  finishView(frame, info, settings, inputs.facets != nullptr ? inputs.facets->grid.dims : glm::uvec3(1), targets);
+}
+
+}  // namespace irad

@@ -1,0 +1,31 @@
+// The passes that draw views, one file each. All but the first leave the display picture to finishView.
+#pragma once
+
+#include "gi/views/views.h"
+
+namespace irad {
+
+/// Over the targets of the forward pass; draws the display picture too where the view's kind has no range.
+void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& settings, Targets& targets);
+/// Over the voxels.
+void drawVoxels(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, const Buffer& camera,
+                const Settings& settings, Targets& targets);
+/// Over the depth target and the voxels.
+void drawPinHoles(Frame& frame, const ViewInputs& inputs, const Buffer& camera, Targets& targets);
+/// The shadow map of light settings.view.light, or where its light arrives on the targets; empty where there is no such
+/// light or it has no map.
+void drawShadowView(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, const Buffer& camera,
+                    const Settings& settings, Targets& targets);
+/// The reference picture, or what targets.linear holds against it. Empty without one.
+void drawReference(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, Targets& targets);
+
+/// Finds the range that a view is drawn with, from targets.linear and settings.view, into targets.viewRange.
+void findRange(Frame& frame, const ViewInfo& info, const Settings& settings, Targets& targets);
+/// targets.linear -> targets.display. `dims`: of the grid, for views of its voxels' coordinates.
+void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, glm::uvec3 dims, Targets& targets);
+
+/// Nearest texel, no mips.
+VkSampler pointSampler(const Device& device);
+float linearExposure(const Settings& settings);
+
+}  // namespace irad

@@ -1,0 +1,55 @@
+// The range of a view's values, and the display picture that it leads to. Reductions are of integers: the same picture
+// gives the same range, bit for bit.
+#include "gi/views/passes.h"
+#include "shaders/shared/constants.h"
+#include "shaders/shared/passes.h"
+#include "shaders/shared/view.h"
+
+namespace irad {
+
+void findRange(Frame& frame, const ViewInfo& info, const Settings& settings, Targets& targets) {
+  const ViewSettings& view = settings.view;
+  RangePush push{};
+  push.size = targets.size;
+  push.kind = info.kind;
+  push.mode = view.range;
+  push.low = view.low;
+  push.high = view.high;
+  push.percentile = view.percentile;
+  if (view.range == RangeMode::standard) {
+    push.mode = info.rangeMin < info.rangeMax ? RangeMode::manual : RangeMode::automatic;
+    push.low = info.rangeMin;
+    push.high = info.rangeMax;
+  }
+  frame.pass("View range").update(targets.viewRange, ViewRange{.least = UINT32_MAX});
+  if (push.mode == RangeMode::percentile) frame.pass("View range").fill(targets.viewBins, 0);
+  Pass measure = frame.pass("View range");
+  push.range = measure.out(targets.viewRange);
+  push.bins = measure.out(targets.viewBins);
+  measure.shader("view/range_measure.comp").read(targets.linear).push(push).dispatch(targets.size);
+  Pass resolve = frame.pass("View range");
+  push.range = resolve.out(targets.viewRange);
+  push.bins = resolve.in(targets.viewBins);
+  resolve.shader("view/range_resolve.comp").push(push).dispatchWorkgroups(1);
+}
+
+void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, glm::uvec3 dims, Targets& targets) {
+  Pass pass = frame.pass("View");
+  FinishPush push{};
+  push.range = pass.in(targets.viewRange);
+  push.size = targets.size;
+  push.kind = info.kind;
+  push.colorMap = colorMapOf(info, settings);
+  push.exposure = linearExposure(settings);
+  push.toneCurve = settings.camera.gpu.toneCurve;
+  push.dims = dims;
+  push.surroundings = resolveShape(info.view, settings.view.shape) == ViewShape::slice ? 1 : 0;
+  pass.shader("view/finish.comp")
+      .constant(CONSTANT_HAS_INDIRECT, (targets.present() & TARGET_INDIRECT) != 0)
+      .read(targets.linear, targets.albedo, targets.direct, targets.bound(&Targets::indirect))
+      .write(targets.display)
+      .push(push)
+      .dispatch(targets.size);
+}
+
+}  // namespace irad

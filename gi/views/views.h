@@ -1,0 +1,90 @@
+// Views: what the window shows and `render` writes. "lit" is a view too.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/pixel_emitters.h"
+#include "gi/views/fields.h"
+#include "renderer/forward.h"
+#include "shaders/shared/debug_views.h"
+
+namespace irad {
+
+/// Identifiers are the VIEW_* constants of shaders/shared/debug_views.h.
+using View = uint32_t;
+
+struct ViewInfo {
+  View view;
+  const char* name;                ///< as --view takes it: "voxel-albedo"
+  const char* label;               ///< as the combo box shows it
+  const char* unit;                ///< "" where there is none
+  const char* group;               ///< heading of the combo box
+  uint32_t kind;                   ///< VIEW_KIND_*
+  float rangeMin, rangeMax;        ///< the standard range; the same: there is none
+  std::optional<ViewShape> shape;  ///< what view.shape = auto stands for; none: it is not of a volume
+  uint32_t from;                   ///< what it is drawn from: a sum of FROM_*
+
+  /// Drawn from any of these.
+  bool isFrom(uint32_t sources) const { return (from & sources) != 0; }
+  /// Of distances, seeds and their errors: a value in every voxel, which view.isovalue cuts.
+  bool ofField() const { return isFrom(FROM_ANY_FIELD); }
+  /// Drawn through a colour map with a range.
+  bool hasRange() const { return viewHasRange(kind); }
+  /// Light: exposure and tone curve apply to the display image.
+  bool toneMapped() const { return kind == VIEW_KIND_LIGHT || kind == VIEW_KIND_IRRADIANCE; }
+};
+const std::vector<ViewInfo>& views();
+const ViewInfo* viewInfo(View view);  ///< null where there is none
+std::optional<View> findView(std::string_view name);
+/// Names to views, in order, each once, `all` standing for every one; UsageError lists near matches of an unknown name.
+std::vector<ViewInfo> findViews(const std::vector<std::string>& names);
+
+/// How a view of a volume is shown, never `automatic`. Facets have values on solid voxels only, so that an isosurface
+/// of theirs is cubes; seeds have no mean, so that a projection of theirs is a slice. None for views that are no
+/// volumes.
+std::optional<ViewShape> resolveShape(View view, ViewShape wanted);
+
+/// What the colours of a view with a range stand for, in the shape that it is shown in: "Chebyshev field" in "voxels".
+struct Quantity {
+  std::string name, unit;
+};
+Quantity shownQuantity(const ViewInfo& info, const Settings& settings);
+/// The colour map that `info` is drawn with.
+ColorMap colorMapOf(const ViewInfo& info, const Settings& settings);
+const char* colorMapName(ColorMap map);  ///< "violet-yellow", ... "blue-red"
+
+/// Everything that a view may draw from; absent parts are null and draw as empty.
+struct ViewInputs {
+  const SceneOnDevice* scene = nullptr;
+  const FacetList* facets = nullptr;
+  const Field* field = nullptr;
+  const FormFactors* matrix = nullptr;
+  const Lighting* lighting = nullptr;
+  const Emitters* emitters = nullptr;
+  const EmissiveTriangles* emissiveTriangles = nullptr;  ///< where pixels look for emitters themselves
+  const Buffer* reference = nullptr;                     ///< vec4 per facet: H by the oracle, W/m^2
+  const ShadowMaps* shadows = nullptr;
+  const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
+  ViewFields* fields = nullptr;    ///< of `facets`
+  const Buffer* range = nullptr;   ///< a ViewRange to draw with in place of the picture's own
+};
+/// Composes `view` from the targets (after drawScene and traceSpecular) into targets.linear and targets.display. Of a
+/// view with a range targets.viewRange then holds what it is drawn with.
+void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
+              Targets& targets);
+
+/// Two pictures of the view `info`, `values` less `reference`, all of one size: of light and colours the luminance,
+/// between normals the angle in degrees. Into the linear, range and display targets of `out`, by the diverging map.
+void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings, const Targets& values,
+                    const Targets& reference, Targets& out);
+Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
+
+}  // namespace irad

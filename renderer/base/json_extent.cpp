@@ -1,0 +1,25 @@
+#include "renderer/base/json_extent.h"
+
+#include <algorithm>
+
+namespace irad {
+
+JsonExtent jsonExtent(std::string_view text) {
+  JsonExtent extent;
+  uint64_t depth = 0;
+  bool inString = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') inString = !inString;
+    if (inString) {
+      i += c == '\\';  // what follows is part of the string, a quote too
+      continue;
+    }
+    if (c == '{' || c == '[') extent.depth = std::max(extent.depth, ++depth);
+    if ((c == '}' || c == ']') && depth > 0) --depth;
+    extent.elements += c == ',' || c == ':' || c == '{' || c == '[';
+  }
+  return extent;
+}
+
+}  // namespace irad

@@ -1,0 +1,43 @@
+// A command buffer to which passes are recorded (renderer/frame/pass.h), and how often it is waited for.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "renderer/frame/context.h"
+#include "renderer/frame/pass.h"
+#include "renderer/frame/transfer.h"
+
+namespace irad {
+
+/// One command buffer. Move-only. Record one frame at a time. Dropping an unsubmitted frame (an error unwinds) runs
+/// what was recorded, so that the resources' states stay true, and drops its readbacks and timings.
+class Frame {
+ public:
+  Pass pass(std::string_view stage);  ///< stage: a name of docs/method.md 11, or a UI / transfer label
+  /// Deferred: `done` is called with the bytes by whoever first notices that the frame has finished.
+  void readback(const Buffer& buffer, uint64_t offset, uint64_t bytes,
+                std::function<void(std::span<const uint8_t>)> done);
+  /// Makes the frame a sample of its own in the timing table. It is closed when its times are collected, so nobody has
+  /// to wait for it. Its CPU time runs from `began` until it is submitted.
+  void sampled(uint64_t frameIndex, std::chrono::steady_clock::time_point began);
+  void submit(VkSemaphore presentWait = VK_NULL_HANDLE, VkSemaphore presentSignal = VK_NULL_HANDLE);
+  void submitAndWait();
+  Context& context() const;
+  VkCommandBuffer commands() const;
+  ~Frame();
+  Frame(Frame&&) noexcept;
+
+ private:
+  friend class Context;
+  friend class Pass;
+  friend class Commands;
+  Frame() = default;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace irad

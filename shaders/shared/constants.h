@@ -1,0 +1,43 @@
+// The specialization constants of the shaders, by one name in both languages; each has a number of its own, so that a
+// shader may be put together from any pieces. The constants of the lights, of "RE Forward" and of the rasterizing
+// kernels are declared with these (shared/scene_gpu.h, shared/passes.h, shared/raster.h) and have lower numbers.
+#ifndef IRAD_SHARED_CONSTANTS_H
+#define IRAD_SHARED_CONSTANTS_H
+#include "shared/types.h"
+IRAD_BEGIN
+
+// Facets.
+IRAD_CONST uint CONSTANT_NORMALS = 16u;           ///< how their normals are encoded
+IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 17u;  ///< gi/voxel_material.glsl
+
+// Rays through the voxels (gi/trace.glsl).
+IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;
+IRAD_CONST uint CONSTANT_TRACE_HIT_RULE = 21u;
+IRAD_CONST uint CONSTANT_TRACE_MANY = 22u;      ///< a voxel may have more than two facets
+IRAD_CONST uint CONSTANT_TRACE_EMITTERS = 23u;  ///< specular/trace.glsl
+
+// The matrix and what is made of it.
+IRAD_CONST uint CONSTANT_MATRIX_FORMAT = 30u;
+IRAD_CONST uint CONSTANT_SLICE = 31u;            ///< thesis/padded_rows.comp: rays of one dispatch
+IRAD_CONST uint CONSTANT_MERGE_WORKGROUP = 32u;  ///< gi/merge_rows.comp: its size
+IRAD_CONST uint CONSTANT_SORTED = 33u;           ///< gi/merge_rows.comp
+IRAD_CONST uint CONSTANT_SOLVE_WORK = 34u;
+IRAD_CONST uint CONSTANT_SCATTER_STORES = 35u;
+IRAD_CONST uint CONSTANT_EMITTED = 36u;  ///< F M too, beside H
+
+// Pictures.
+IRAD_CONST uint CONSTANT_VIEW = 40u;
+IRAD_CONST uint CONSTANT_VIEW_SHAPE = 41u;
+IRAD_CONST uint CONSTANT_VIEW_FROM = 51u;       ///< FROM_*: what it is drawn from
+IRAD_CONST uint CONSTANT_TARGETS = 42u;         ///< those that are there
+IRAD_CONST uint CONSTANT_KEEPS_POSITION = 43u;  ///< gi/indirect.comp
+IRAD_CONST uint CONSTANT_LIST_PIXELS = 44u;     ///< forward/list_pixels.comp: write the lists, not count
+IRAD_CONST uint CONSTANT_DISTANCE_METRIC = 45u;
+IRAD_CONST uint CONSTANT_FILTERED = 46u;     ///< specular/classify.comp
+IRAD_CONST uint CONSTANT_FILTER_STEP = 47u;  ///< these three: specular/filter.comp
+IRAD_CONST uint CONSTANT_FILTER_RESOLVE = 48u;
+IRAD_CONST uint CONSTANT_LEAST_ROUGHNESS = 49u;
+IRAD_CONST uint CONSTANT_HAS_INDIRECT = 50u;  ///< view/finish.comp: there is such a target
+
+IRAD_END
+#endif

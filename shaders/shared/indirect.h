@@ -1,0 +1,52 @@
+// Push constants of indirect light in pictures (gi/indirect.cpp, gi/thesis/volume.cpp, gi/specular.cpp).
+#ifndef IRAD_SHARED_INDIRECT_H
+#define IRAD_SHARED_INDIRECT_H
+#include "shared/emitters.h"
+#include "shared/facets.h"
+#include "shared/gi_params.h"
+#include "shared/grid.h"
+#include "shared/scene_gpu.h"
+#include "shared/trace.h"
+IRAD_BEGIN
+
+/// "RE Forward", gi/indirect.comp.
+struct IndirectPush {
+  CameraArray camera;
+  GridArray grid;
+  UintArray shape, reverse, around;  ///< of FacetArrays
+  Vec4Array shaded;                  ///< H per facet
+  Vec4Array shadedEmitted;           ///< F M per facet
+  SampleParams sampling;
+  uvec2 size;
+};
+
+/// "RE Forward", thesis/indirect_volume.comp.
+struct VolumeIndirectPush {
+  GridArray grid;
+  SampleParams sampling;
+  uvec2 size;
+};
+
+/// Targets::glossy: three words of dispatch arguments, the number of pixels, then each pixel that traces, x | y << 16,
+/// in no particular order.
+IRAD_CONST uint GLOSSY_COUNT = 3u;
+IRAD_CONST uint GLOSSY_FIRST = 4u;
+IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
+IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in specular/trace_picture.comp
+
+/// "RE Specular".
+struct SpecularPush {
+  CameraArray camera;
+  Grid grid;
+  FacetRecord facets;
+  Vec4Array radiosity;
+  ByteArray chebyshev;
+  UintArray glossy;
+  EmitterRecord emitters;  ///< 0: there are none
+  SpecularParams params;
+  float jfaMax;
+  float leastReflected;  ///< no rays where F0 x H is below, W/m^2
+};
+
+IRAD_END
+#endif

@@ -1,0 +1,67 @@
+#include "ui/controls.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <fstream>
+
+namespace irad {
+namespace {
+
+std::string_view controlName(std::string_view label) {
+  if (const size_t at = label.find("###"); at != label.npos) return label.substr(at + 3);
+  const size_t at = label.find("##");
+  if (at == 0) return label.substr(2);
+  return label.substr(0, at);
+}
+
+}  // namespace
+
+Controls::Controls(std::filesystem::path file) : file_(std::move(file)) {
+  ImGui::GetIO().UserData = this;
+}
+
+Controls::~Controls() {
+  ImGui::GetIO().UserData = nullptr;
+}
+
+Controls* Controls::current() {
+  return static_cast<Controls*>(ImGui::GetIO().UserData);
+}
+
+void Controls::enter(std::string_view id) {
+  path_.emplace_back(controlName(id));
+}
+
+void Controls::leave() {
+  path_.pop_back();
+}
+
+void Controls::add(std::string_view label, bool on) {
+  const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
+  if (window.SkipItems) return;
+  std::string name;
+  const auto add = [&](std::string_view part) {
+    if (!part.empty()) name += fmt::format("{}{}", name.empty() ? "" : "/", part);
+  };
+  for (const std::string& part : path_) add(part);
+  add(controlName(label));
+  const auto rect = [](ImVec2 low, ImVec2 high) {
+    return fmt::format("{:.0f} {:.0f} {:.0f} {:.0f} ", low.x, low.y, high.x - low.x, high.y - low.y);
+  };
+  const bool disabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+  lines_ += rect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()) + rect(window.ClipRect.Min, window.ClipRect.Max) +
+            fmt::format("{:d} {:d}\t{}\n", on, disabled, name);
+}
+
+void Controls::write() {
+  std::filesystem::path whole = file_;
+  whole += ".part";
+  std::ofstream(whole) << lines_;
+  std::filesystem::rename(whole, file_);
+  lines_.clear();
+  path_.clear();  // an error may have ended the frame within a panel
+}
+
+}  // namespace irad

@@ -1,0 +1,40 @@
+// The controls of the window by their names, for tests that click them wherever they lie.
+//
+// A control's name is the path of the IDs around it and its own label: "Settings/voxel.resolution", "Menu/File/Quit",
+// "Unsaved changes/Cancel". Of a label the part after "###" counts, else the part before "##", else the part after it;
+// where that is empty, the path is the name.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace irad {
+
+class Controls {
+ public:
+  /// ImGui's context must be there.
+  explicit Controls(std::filesystem::path file);
+  ~Controls();
+  Controls(const Controls&) = delete;
+
+  /// Null except in tests: nobody asks for names.
+  static Controls* current();
+  void enter(std::string_view id);
+  void leave();
+  /// The item that ImGui has just been given. `on`: ticked, chosen, unfolded.
+  void add(std::string_view label, bool on);
+
+  /// Those of the frame that has been drawn, one per line: the control's rectangle, the part of the window that its
+  /// region shows (x, y, width, height in pixels), 1 where it is on, 1 where it is disabled, and after a tab its name.
+  /// The file is replaced as a whole.
+  void write();
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::string> path_;
+  std::string lines_;
+};
+
+}  // namespace irad
