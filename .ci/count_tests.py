@@ -1,7 +1,7 @@
 """count_tests.py STATUS FOLDER…: sums the GoogleTest XML files of folders; suites.json there (ctest --show-only=json-v1)
 says which suites must have left one.
 
-Prints the failed tests, then one line `N passed, N failed[, N skipped]`. Exits with 1 on a failed test, on no test at
+Prints the failed tests with what they said, then one line `N passed, N failed[, N skipped]`. Exits with 1 on a failed test, on no test at
 all, on a suite that left no results (it crashed or ran out of time), and where STATUS, of all that ran, is not 0.
 """
 
@@ -24,8 +24,11 @@ def main():
             print(f"{folder.parent.name}: {suite}: FAILED, not one test ran")
             failed += 1
         for case in cases:
-            if case.find("failure") is not None or case.find("error") is not None:
+            failures = case.findall("failure") + case.findall("error")
+            if failures:
                 print(f"{folder.parent.name}: {suite}: FAILED {case.get('classname')}.{case.get('name')}")
+                for failure in failures[:3]:
+                    print("    " + (failure.text or failure.get("message")).strip()[:2000].replace("\n", "\n    "))
                 failed += 1
             elif case.get("status") == "notrun" or case.get("result") in ("skipped", "suppressed"):
                 skipped += 1

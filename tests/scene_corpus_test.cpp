@@ -48,14 +48,16 @@ struct Outcome {
   std::string text;  ///< the refusal, or what went wrong
 };
 
-/// Loads a file in a child process: at most 10 s and 2 GiB resident.
+/// Loads a file in a child process: at most 10 s of processor time, a minute, and 2 GiB resident.
 Outcome loadApart(const fs::path& path) {
   int pipes[2];
   if (pipe(pipes) != 0) return {false, false, "no pipe"};
   const pid_t child = fork();
   if (child == 0) {
     close(pipes[0]);
-    alarm(10);
+    const rlimit seconds{10, 10};
+    setrlimit(RLIMIT_CPU, &seconds);
+    alarm(60);
     std::string message;
     int status = 0;
     try {

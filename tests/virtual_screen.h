@@ -27,6 +27,21 @@ inline void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
+/// Per thread of a process, but for one, how often it has run; nothing while one of them runs, or waits for a processor
+/// or a disk. If it is the same twice, the process slept in between, however busy the machine is.
+inline std::optional<std::string> threadsAsleep(pid_t process, pid_t except = 0) {
+  std::string runs;
+  for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+    if (thread.path().filename() == std::to_string(except)) continue;
+    std::ifstream status(thread.path() / "status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("State:") && line.find("S (") == std::string::npos) return std::nullopt;
+      if (line.find("_ctxt_switches:") != std::string::npos) runs += line + ' ';
+    }
+  }
+  return runs;
+}
+
 /// A program in a folder and an environment of its own, what it prints in a file there. It ends with the test, even a
 /// test that is killed; therefore the thread that starts it must live as long.
 class Program {
@@ -61,19 +76,7 @@ class Program {
     fields >> user >> system;
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
-  /// Per thread how often it has run; nothing while one of them runs, or waits for a processor or a disk. If it is the
-  /// same twice, the program slept in between, however busy the machine is.
-  std::optional<std::string> asleep() const {
-    std::string runs;
-    for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process_.pid()))) {
-      std::ifstream status(thread.path() / "status");
-      for (std::string line; std::getline(status, line);) {
-        if (line.starts_with("State:") && line.find("S (") == std::string::npos) return std::nullopt;
-        if (line.find("_ctxt_switches:") != std::string::npos) runs += line + ' ';
-      }
-    }
-    return runs;
-  }
+  std::optional<std::string> asleep() const { return threadsAsleep(process_.pid()); }
   std::string log() const { return slurp(log_); }
 
  private:

@@ -99,12 +99,13 @@ class WindowLoop : public ::testing::Test {
     ADD_FAILURE() << "no setting is in view";
     return "360 510";
   }
-  /// Nothing was asked of the device for a second, nor computed: on a busy machine a frame takes longer than that.
+  /// The display and every thread but the user's slept for a second, and nothing was asked of the device.
   bool rests() const {
-    const Counters before = context_->counters();
-    const double used = processSeconds();
+    const auto asleep = [this] { return std::pair(screen_->server().asleep(), threadsAsleep(getpid(), gettid())); };
+    const Counters counted = context_->counters();
+    const auto before = asleep();
     pause(1);
-    return context_->counters() == before && processSeconds() - used < 0.02;
+    return before.first && before.second && asleep() == before && context_->counters() == counted;
   }
   /// Once the loop has ended: the stages of frames that began between these times of Timings::now().
   std::set<std::string> stagesBetween(double from, double to) const {
