@@ -40,7 +40,7 @@ void Controls::leave() {
 
 void Controls::add(std::string_view label, bool on) {
   const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
-  if (window.SkipItems) return;
+  if (window.SkipItems || window.Hidden) return;  // hidden: its first frame, in which it finds its size and place
   std::string name;
   const auto add = [&](std::string_view part) {
     if (!part.empty()) name += fmt::format("{}{}", name.empty() ? "" : "/", part);

@@ -57,16 +57,19 @@ class SettingsPanel : public Panel {
     }
   }
 
-  /// What an edit will redo, before it is redone. The line is always there, so that rows do not jump.
+  /// What an edit will redo, before it is redone: always one line, so that rows do not jump while a value is dragged.
   static void drawNext(Session& session) {
-    ImGui::PushTextWrapPos(0);
+    const auto line = [](const ImVec4& color, const std::string& text) {
+      ImGui::PushStyleColor(ImGuiCol_Text, color);
+      clippedText(text, ImGui::GetContentRegionAvail().x);
+      ImGui::PopStyleColor();
+    };
     if (session.next < Redo::Shade)
-      ImGui::TextColored(theme::accent, "next: %s", stagesFrom(session.next, arrowGlyph()).c_str());
+      line(theme::accent, "next: " + stagesFrom(session.next, arrowGlyph()));
     else if (session.halted)
-      ImGui::TextColored(theme::warning, "not rebuilt: the picture shows the old state");
+      line(theme::warning, "not rebuilt: the picture shows the old state");
     else
-      ImGui::TextColored(theme::dim, "up to date");
-    ImGui::PopTextWrapPos();
+      line(theme::dim, "up to date");
     if (session.halted && ImGui::Button("Rebuild", {-1, 0})) session.rebuild = true;
   }
 };
