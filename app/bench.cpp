@@ -124,20 +124,24 @@ TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
   return out;
 }
 
-std::vector<glm::vec4> Bench::picture() {
+std::vector<glm::vec4> Bench::pictures(std::span<const View> views) {
   std::vector<glm::vec4> pixels;
-  pipeline_.solvedAfresh({}, [&] { pixels = pictureAsLit(); });
+  pipeline_.solvedAfresh({}, [&] { pixels = picturesAsLit(views); });
   context_.timings.reset();
   return pixels;
 }
 
-std::vector<glm::vec4> Bench::pictureAsLit() {
-  Frame frame = context_.beginUntimed();
-  pipeline_.render(frame, camera_, view_, targets_);
-  frame.submitAndWait();
-  const std::vector<std::byte> bytes = download(context_, targets_.linear);
-  std::vector<glm::vec4> pixels(bytes.size() / sizeof(glm::vec4));
-  std::memcpy(pixels.data(), bytes.data(), bytes.size());
+std::vector<glm::vec4> Bench::picturesAsLit(std::span<const View> views) {
+  std::vector<glm::vec4> pixels;
+  for (const View view : views) {
+    Frame frame = context_.beginUntimed();
+    pipeline_.render(frame, camera_, view, targets_);
+    frame.submitAndWait();
+    const std::vector<std::byte> bytes = download(context_, targets_.linear);
+    const size_t before = pixels.size();
+    pixels.resize(before + bytes.size() / sizeof(glm::vec4));
+    std::memcpy(&pixels[before], bytes.data(), bytes.size());
+  }
   return pixels;
 }
 

@@ -31,10 +31,10 @@ class Bench {
   /// Runs `count` ticks as a window does that begins at rest: moves, prepares what is not asleep, and draws where
   /// anything has changed (`redraws`: in any case). Leaves camera and lights as they were.
   TickWork ticks(Moving moving, uint32_t count, bool redraws);
-  /// Radiance of the picture that a solve from the dark gives, bottom row last.
-  std::vector<glm::vec4> picture();
+  /// Pixels of these views, one view after the other, bottom rows last, of the light that a solve from the dark gives.
+  std::vector<glm::vec4> pictures(std::span<const View> views);
   /// The same of the light as it is.
-  std::vector<glm::vec4> pictureAsLit();
+  std::vector<glm::vec4> picturesAsLit(std::span<const View> views);
 
   /// Per kind and stage; the stage "wall" is all of a call, on the CPU's clock.
   std::vector<StageSamples> samples() const;

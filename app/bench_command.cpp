@@ -14,6 +14,7 @@
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
+#include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 #include "renderer/base/recording.h"
 
@@ -94,8 +95,8 @@ std::string rates(const Bench& bench, double copy) {
                     bench.sweepMilliseconds(), static_cast<double>(matrix.entries) * 1e-3 / bench.sweepMilliseconds(),
                     static_cast<double>(bench.sweepBytes()) * 1e-6, bench.sweepGigabytesPerSecond(), copy);
   out += fmt::format("matrix      {} facets, {} entries, {:.1f} MiB used, {:.1f} MiB allocated\n",
-                     bench.pipeline().facets().count, matrix.entries, static_cast<double>(matrix.bytesUsed) / (1 << 20),
-                     static_cast<double>(matrix.bytesAllocated) / (1 << 20));
+                     bench.pipeline().facets().count, matrix.entries, inMebibytes(matrix.bytesUsed),
+                     inMebibytes(matrix.bytesAllocated));
   return out;
 }
 

@@ -26,19 +26,16 @@ struct PlanArguments {
   bool json = false, measure = false, prove = false;
 };
 
-std::string mebibytes(uint64_t bytes) {
-  return bytes == 0 ? "-" : fmt::format("{:.2f}", static_cast<double>(bytes) / (1 << 20));
-}
+using Costs = std::optional<std::map<Effect, Times>>;  ///< where they were measured
 
-/// `costs`: null where they were not measured.
-void printTable(const EffectPlan& plan, const std::map<Effect, Times>* costs) {
+void printTable(const EffectPlan& plan, const Costs& costs) {
   std::vector<std::vector<std::string>> rows{{"effect", "state", "difference", "MiB not allocated"}};
   if (costs) rows[0].insert(rows[0].end(), {"rebuild ms", "relight ms", "frame ms"});
   rows[0].push_back("reason");
   for (const EffectRow& row : plan.rows) {
     rows.push_back({row.info().name, row.stateName(),
                     row.threshold ? fmt::format("{:.2g} of {}", row.epsilon, row.of) : row.skipName(),
-                    mebibytes(row.bytesNotAllocated)});
+                    mebibyteCell(row.bytesNotAllocated)});
     for (size_t i = 0; costs && i < Times{}.size(); ++i)
       rows.back().push_back(costs->contains(row.effect) ? fmt::format("{:.2f}", costs->at(row.effect)[i]) : "-");
     rows.back().push_back(row.reason);
@@ -46,12 +43,11 @@ void printTable(const EffectPlan& plan, const std::map<Effect, Times>* costs) {
   std::vector<bool> numeric(rows[0].size() - 1, true);
   std::fill_n(numeric.begin(), 3, false);
   print("{}", formatTable(rows, numeric));
-  print("{} MiB not allocated in all{}\n", mebibytes(plan.bytesNotAllocated()),
+  print("{} MiB not allocated in all{}\n", mebibyteCell(plan.bytesNotAllocated()),
         costs ? "; milliseconds that the effect would take, by the median" : "");
 }
 
-void printJson(const EffectPlan& plan, const Scene& scene, const DeviceInfo& device,
-               const std::map<Effect, Times>* costs) {
+void printJson(const EffectPlan& plan, const Scene& scene, const DeviceInfo& device, const Costs& costs) {
   nlohmann::ordered_json out{{"scene", scene.path.string()}, {"device", device.name}};
   out["effects"] = nlohmann::ordered_json::parse(planJson(plan));
   if (costs)
@@ -72,13 +68,13 @@ void show(DeviceSession& session, const PlanArguments& arguments, const std::str
   pipeline.render(frame, camera, VIEW_LIT, targets);
   frame.submitAndWait();
   const EffectPlan plan = pipeline.plan();
-  std::optional<std::map<Effect, Times>> costs;
+  Costs costs;
   if (arguments.measure) costs = measureCosts(session, scene, plan, size, camera, frames);
   session.progress.finish();
   if (arguments.json)
-    printJson(plan, scene, session.device->info, costs ? &*costs : nullptr);
+    printJson(plan, scene, session.device->info, costs);
   else
-    printTable(plan, costs ? &*costs : nullptr);
+    printTable(plan, costs);
   session.checkNumbers(pipeline);
 }
 

@@ -17,20 +17,21 @@ namespace {
 
 using Pixels = std::vector<glm::vec4>;
 
-PictureDifference compare(const Pixels& a, const Pixels& b, float allowed) {
-  IRAD_CHECK_OP(a.size(), ==, b.size());
+/// Of `b` and as many pixels of `a`.
+PictureDifference compare(std::span<const glm::vec4> a, std::span<const glm::vec4> b, float allowed) {
+  IRAD_CHECK_OP(a.size(), >=, b.size());
   PictureDifference out{.allowed = allowed};
-  const auto sum = [](const Pixels& pixels) {
-    double all = 0;
-    for (const glm::vec4& p : pixels) all += double{p.x} + p.y + p.z;
-    return all;
-  };
-  if (sum(a) > 0) out.mean = static_cast<float>(std::abs(sum(b) - sum(a)) / sum(a));
-  for (size_t i = 0; i < a.size(); ++i) {
+  double sum = 0, change = 0;
+  for (size_t i = 0; i < b.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      sum += a[i][c];
+      change += double{b[i][c]} - a[i][c];
+    }
     if (std::memcmp(&a[i], &b[i], sizeof(glm::vec4)) == 0) continue;
     ++out.pixels;
     for (int c = 0; c < 4; ++c) out.largest = std::max(out.largest, std::abs(a[i][c] - b[i][c]));
   }
+  if (sum > 0) out.mean = static_cast<float>(std::abs(change) / sum);
   return out;
 }
 
@@ -117,38 +118,6 @@ Figures energyOf(Bench& bench, Moving moving, uint32_t ticks, bool everything) {
           perSecond * static_cast<double>(work.draws)};
 }
 
-/// Runs an effect that the plan does not have on, where anything can put it on.
-ProofRow proveEffect(const std::string& scene, const Settings& settings, Bench& bench, const EffectRow& row,
-                     const Pixels& planned) {
-  ProofRow proof{.scene = scene, .name = row.info().name, .effect = row};
-  Pipeline& pipeline = bench.pipeline();
-  const std::string setting = row.info().setting;
-  // These start from the light as it is; everything else is compared after a solve from the dark.
-  const bool asLit = row.effect == Effect::redraw || row.effect == Effect::relight;
-  const Pixels before = asLit ? bench.pictureAsLit() : planned;
-  if (!setting.empty()) {
-    if (findSetting(setting).text(settings) == "off") {
-      proof.reason = setting + " = off";
-      return proof;
-    }
-    Settings forced = settings;
-    applySetting(forced, setting + "=on");
-    pipeline.set(forced);
-    pipeline.prepare();
-    if (const EffectRow now = pipeline.plan().row(row.effect); now.state != EffectState::on) proof.reason = now.reason;
-  }
-  if (row.effect == Effect::rebuild) bench.rebuild();
-  if (proof.reason.empty()) {
-    const bool ofMean = row.effect == Effect::emitterSampling && row.threshold;
-    proof.difference = compare(before, asLit ? bench.pictureAsLit() : bench.picture(),
-                               ofMean ? row.epsilon : allowedRadiance(pipeline, row));
-    proof.difference->ofMean = ofMean;
-  }
-  pipeline.set(settings);
-  pipeline.prepare();
-  return proof;
-}
-
 }  // namespace
 
 std::string PictureDifference::text() const {
@@ -182,39 +151,85 @@ std::map<Effect, Times> measureCosts(DeviceSession& session, const Scene& scene,
   return costs;
 }
 
+Settings allForcedOn(const Settings& settings) {
+  Settings all = settings;
+  forceEffects(all, EffectMode::on);
+  all.effects.relight = EffectMode::automatic;
+  return all;
+}
+
+ProofRow proveAll(const std::string& scene, Bench& planned, Bench& forced, std::span<const View> views) {
+  float allowed = 0;
+  for (const EffectRow& row : planned.pipeline().plan().rows)
+    if (row.state == EffectState::off && forcedMode(forced.pipeline().settings(), row.effect) == EffectMode::on)
+      allowed += allowedRadiance(planned.pipeline(), row);
+  const auto compared = allowed > 0 ? views.first(1) : views;
+  return {.scene = scene,
+          .name = "all forced on",
+          .difference = compare(planned.pictures(compared), forced.pictures(compared), allowed)};
+}
+
+Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> views) {
+  Pipeline& pipeline = bench.pipeline();
+  const Settings settings = pipeline.settings();
+  const EffectPlan plan = pipeline.plan(/*redraw=*/false);
+  const Pixels planned = bench.pictures(views);
+  Proof proof;
+  for (const EffectRow& row : plan.rows) {
+    if (row.state == EffectState::on) continue;
+    ProofRow& proven = proof.emplace_back(ProofRow{.scene = scene, .name = row.info().name, .effect = row});
+    // These start from the light as it is; everything else is compared after a solve from the dark.
+    const bool asLit = row.effect == Effect::redraw || row.effect == Effect::relight;
+    const Pixels before = asLit ? bench.picturesAsLit(views) : planned;
+    if (const std::string setting = row.info().setting; !setting.empty()) {
+      if (findSetting(setting).text(settings) == "off") {
+        proven.reason = setting + " = off";
+        continue;
+      }
+      Settings forced = settings;
+      applySetting(forced, setting + "=on");
+      pipeline.set(forced);
+      pipeline.prepare();
+      const EffectRow now = pipeline.plan().row(row.effect);
+      if (now.state != EffectState::on) proven.reason = now.reason;
+    }
+    if (row.effect == Effect::rebuild) bench.rebuild();
+    if (proven.reason.empty()) {
+      const bool ofMean = row.effect == Effect::emitterSampling && row.threshold;
+      const auto compared = row.threshold ? views.first(1) : views;
+      proven.difference = compare(before, asLit ? bench.picturesAsLit(compared) : bench.pictures(compared),
+                                  ofMean ? row.epsilon : allowedRadiance(pipeline, row));
+      proven.difference->ofMean = ofMean;
+    }
+    pipeline.set(settings);
+    pipeline.prepare();
+  }
+  return proof;
+}
+
 Proof prove(DeviceSession& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
             uint32_t frames) {
-  Settings all = session.settings;
-  forceEffects(all, EffectMode::on);
-  all.effects.relight = EffectMode::automatic;  // asleep for the comparison; energyOf() puts it on
-  Proof proof{{name, "all forced on"}, {name, "as planned"}};
+  const Settings all = allForcedOn(session.settings);
   std::array<std::unique_ptr<Bench>, 2> benches;
+  std::array<Figures, 2> figures;  // all forced on, as planned
   for (const size_t i : {1, 0}) {
     const uint64_t before = heldBytes(session);
     benches[i] = open(session, scene, i == 0 ? all : session.settings, size, camera);
-    proof[i].figures = workOf(session, *benches[i], before);
+    figures[i] = workOf(session, *benches[i], before);
   }
   Bench &forced = *benches[0], &planned = *benches[1];
   const auto times = timesInTurn({&forced, &planned}, frames, &FrameSample::gpuMs,
                                  [&](float share) { session.progress(name.c_str(), share); });
   for (const size_t i : {1, 0}) {
-    Figures& figures = proof[i].figures;
-    figures.insert(figures.begin(), times[i].begin(), times[i].end());
+    figures[i].insert(figures[i].begin(), times[i].begin(), times[i].end());
     for (const Moving moving : {Moving::Nothing, Moving::Camera, Moving::Lights})
-      std::ranges::copy(energyOf(*benches[i], moving, frames, /*everything=*/i == 0), std::back_inserter(figures));
+      std::ranges::copy(energyOf(*benches[i], moving, frames, /*everything=*/i == 0), std::back_inserter(figures[i]));
   }
-
-  // The pictures, each solved from the dark.
-  const EffectPlan plan = planned.pipeline().plan(/*redraw=*/false);
-  const Pixels picture = planned.picture();
-  float allowed = 0;
-  for (const EffectRow& row : plan.rows)
-    if (row.state == EffectState::off && forcedMode(all, row.effect) == EffectMode::on)
-      allowed += allowedRadiance(planned.pipeline(), row);
-  proof[0].difference = compare(picture, forced.picture(), allowed);
-  benches[0].reset();
-  for (const EffectRow& row : plan.rows)
-    if (row.state != EffectState::on) proof.push_back(proveEffect(name, session.settings, planned, row, picture));
+  constexpr View kPicture[]{VIEW_LIT};
+  Proof proof{proveAll(name, planned, forced, kPicture), {name, "as planned", figures[1]}};
+  proof[0].figures = figures[0];
+  benches[0].reset();  // its memory
+  std::ranges::copy(proveEach(name, planned, kPicture), std::back_inserter(proof));
   return proof;
 }
 

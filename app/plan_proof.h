@@ -1,9 +1,11 @@
-// What a scene's effects take and change: each of two sets of them measured in turn. `irad plan --measure` and --prove.
+// What a scene's effects take and change: two sets of them measured in turn. `irad plan --measure` and --prove, and the
+// suites of the plan, which prove their scenes with it.
 #pragma once
 
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,17 +65,25 @@ using Figures = std::vector<std::optional<double>>;
 /// is not on, run all the same, with all others as planned.
 struct ProofRow {
   std::string scene, name;
-  Figures figures{};                  ///< of a set
-  std::optional<EffectRow> effect{};  ///< as planned
-  std::optional<PictureDifference>
-      difference{};      ///< from the picture as planned; none of an effect that cannot be put on
-  std::string reason{};  ///< why not
+  Figures figures{};                              ///< of a set, in `irad plan`
+  std::optional<EffectRow> effect{};              ///< as planned
+  std::optional<PictureDifference> difference{};  ///< from the picture as planned
+  std::string reason{};                           ///< why there is none: the effect cannot be put on
 };
 using Proof = std::vector<ProofRow>;
 /// WorkError naming what does not hold.
 void require(const Proof& proof);
 
-/// Interleaves `frames` relights and pictures of both sets, then runs as many ticks of idle, camera and lights of each.
+/// With every effect on; but the light sleeps where it is at rest.
+Settings allForcedOn(const Settings& settings);
+/// Both show all `views` alike, each solved from the dark: `forced` has the settings allForcedOn(). What a threshold
+/// allows is allowed to the first view, which is radiance, and thresholds are judged by that one alone.
+ProofRow proveAll(const std::string& scene, Bench& planned, Bench& forced, std::span<const View> views);
+/// A row for each effect that is not on.
+Proof proveEach(const std::string& scene, Bench& planned, std::span<const View> views);
+
+/// Both of the picture. Measures `frames` relights and pictures of both sets in turn, then as many ticks of idle,
+/// camera and lights of each.
 Proof prove(DeviceSession& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
             uint32_t frames);
 

@@ -7,15 +7,12 @@
 #include "app/plan_proof.h"
 #include "app/table.h"
 #include "renderer/base/csv.h"
+#include "renderer/base/number_text.h"
 
 namespace irad::app {
 namespace {
 
 using Cells = std::vector<std::string>;
-
-std::string mebibytes(const EffectRow& row, int decimals) {
-  return fmt::format("{:.{}f}", static_cast<double>(row.bytesNotAllocated) / (1 << 20), decimals);
-}
 
 /// The first `words` columns to the left, the others, numbers, to the right.
 std::string table(const std::vector<Cells>& rows, size_t words, bool markdown) {
@@ -44,7 +41,7 @@ std::string proofTables(const Proof& proof, bool markdown) {
     if (const auto& effect = row.effect) {
       if (!row.difference) difference = "not done: " + row.reason;
       effects.push_back({row.scene, row.name, effect->stateName(), effect->skipName(), difference,
-                         effect->bytesNotAllocated > 0 ? mebibytes(*effect, 2) : "-"});
+                         mebibyteCell(effect->bytesNotAllocated)});
       continue;
     }
     cost.push_back({row.scene, row.name, difference});
@@ -56,35 +53,36 @@ std::string proofTables(const Proof& proof, bool markdown) {
 }
 
 std::string proofCsv(const Proof& proof) {
-  std::string out =
-      "scene,effect,state,reason,skip,epsilon,pixels_different,largest_difference,mean_difference,allowed_difference,"
-      "not_proven,mib_not_allocated";
-  for (const Figure& figure : kFigures) out += fmt::format(",{}", figure.column);
-  out += '\n';
-  // Cells that do not apply to a row are empty.
+  std::string header, lines;
   for (const ProofRow& row : proof) {
-    Cells cells{row.scene, row.name};
-    cells.resize(12);
-    if (const auto& e = row.effect) {
-      std::ranges::copy(Cells{e->stateName(), e->reason, e->skipName()}, &cells[2]);
-      if (e->threshold) cells[5] = fmt::format("{}", e->epsilon);
-      cells[10] = row.reason;
-      cells[11] = mebibytes(*e, 3);
+    Cells columns, cells;  // those that do not apply to a row are empty
+    const auto cell = [&](const char* column, bool applies, const auto& value) {
+      columns.push_back(column);
+      cells.push_back(applies ? csvField(fmt::format("{}", value)) : "");
+    };
+    const bool isEffect = row.effect.has_value(), compared = row.difference.has_value();
+    const EffectRow effect = row.effect.value_or(EffectRow{});
+    const PictureDifference difference = row.difference.value_or(PictureDifference{});
+    cell("scene", true, row.scene);
+    cell("effect", true, row.name);
+    cell("state", isEffect, effect.stateName());
+    cell("reason", isEffect, effect.reason);
+    cell("skip", isEffect, effect.skipName());
+    cell("epsilon", effect.threshold, effect.epsilon);
+    cell("pixels_different", compared, difference.pixels);
+    cell("largest_difference", compared, difference.largest);
+    cell("mean_difference", compared, difference.mean);
+    cell("allowed_difference", compared, difference.allowed);
+    cell("not_proven", true, row.reason);
+    cell("mib_not_allocated", isEffect, fmt::format("{:.3f}", inMebibytes(effect.bytesNotAllocated)));
+    for (size_t i = 0; i < std::size(kFigures); ++i) {
+      const auto figure = i < row.figures.size() ? row.figures[i] : std::nullopt;
+      cell(kFigures[i].column, figure.has_value(), fmt::format("{:.{}f}", figure.value_or(0), kFigures[i].csvDecimals));
     }
-    if (const auto& d = row.difference) {
-      cells[6] = fmt::format("{}", d->pixels);
-      cells[7] = fmt::format("{}", d->largest);
-      cells[8] = fmt::format("{}", d->mean);
-      cells[9] = fmt::format("{}", d->allowed);
-    }
-    for (size_t i = 0; i < std::size(kFigures); ++i)
-      cells.push_back(i < row.figures.size() && row.figures[i]
-                          ? fmt::format("{:.{}f}", *row.figures[i], kFigures[i].csvDecimals)
-                          : "");
-    for (std::string& cell : cells) cell = csvField(cell);
-    out += fmt::format("{}\n", fmt::join(cells, ","));
+    header = fmt::format("{}\n", fmt::join(columns, ","));
+    lines += fmt::format("{}\n", fmt::join(cells, ","));
   }
-  return out;
+  return header + lines;
 }
 
 }  // namespace irad::app

@@ -18,6 +18,7 @@
 #include "gi/pipeline.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 
 namespace irad::app {
@@ -81,8 +82,7 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   print("facets      {} in {} solid voxels{}\n", facets.count, facets.solidVoxels,
         facets.clampedAlbedo ? fmt::format(", albedo of {} clamped to [0, .98]", facets.clampedAlbedo) : "");
   print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
-        static_cast<double>(matrix.bytesUsed) / (1 << 20), static_cast<double>(matrix.bytesAllocated) / (1 << 20),
-        matrix.largestRow);
+        inMebibytes(matrix.bytesUsed), inMebibytes(matrix.bytesAllocated), matrix.largestRow);
   const double buildMs = meanSetup(session.timings, "GI BuildMatrix");
   if (buildMs > 0)
     print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
@@ -93,7 +93,7 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);  // ru_maxrss: KiB
   print("memory      {:.1f} MiB on the device, {:.1f} MiB at the process's peak\n",
-        static_cast<double>(session.device->memory().used()) / (1 << 20), static_cast<double>(usage.ru_maxrss) / 1024);
+        inMebibytes(session.device->memory().used()), static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
 void run(const RenderArguments& arguments) {

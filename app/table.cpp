@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "renderer/base/number_text.h"
+
 namespace irad::app {
 namespace {
 
@@ -32,6 +34,10 @@ std::string formatTable(const std::vector<std::vector<std::string>>& rows, const
     out += line + "\n";
   }
   return out;
+}
+
+std::string mebibyteCell(uint64_t bytes) {
+  return bytes == 0 ? "-" : fmt::format("{:.2f}", inMebibytes(bytes));
 }
 
 }  // namespace irad::app

@@ -3,6 +3,7 @@
 #include <random>
 #include <sstream>
 
+#include "app/plan_proof.h"
 #include "tests/effects_fixture.h"
 
 namespace irad::test::random_effects_suite {
@@ -124,22 +125,25 @@ class RandomEffects : public EffectsTest {
   void comparePlannedWithForced(uint32_t seed) {
     Dice dice(seed), settingsDice(1000 + seed / 6);
     const Scene scene = randomScene(dice);
-    const Settings planned = randomSettings(settingsDice);
-    Settings forced = planned;
-    forceEffects(forced, EffectMode::on);
-    forced.effects.relight = EffectMode::automatic;
-    const auto a = prepared(scene, planned), b = prepared(scene, forced);
-    std::string off;
-    for (const EffectRow& row : a->plan().rows)
-      if (row.state == EffectState::off && !b->plan().off(row.effect)) {
-        off += std::string(" ") + row.info().name;
+    const Settings settings = randomSettings(settingsDice);
+    const auto bench = [&](const Settings& s) {
+      auto made = std::make_unique<app::Bench>(context(), scene, s, glm::uvec2(32, 24), VIEW_LIT, scene.cameras.at(0));
+      made->prepare({});
+      return made;
+    };
+    const auto planned = bench(settings), forced = bench(app::allForcedOn(settings));
+    const EffectPlan plan = planned->pipeline().plan(), all = forced->pipeline().plan();
+    std::string name = fmt::format("seed {}, left out:", seed);
+    for (const EffectRow& row : plan.rows)
+      if (row.state == EffectState::off && !all.off(row.effect)) {
+        name += std::string(" ") + row.info().name;
         ++leftOut_[static_cast<size_t>(row.effect)];
       }
-    EXPECT_TRUE(same(draw(*a), draw(*b))) << "seed " << seed << ", left out:" << off;
     // Where light falls only on albedos of 0, no surface shows H: it is not computed, and its views are black.
-    const bool shown = !a->plan().off(Effect::matrix) || b->lighting().report.largestH == 0;
-    EXPECT_EQ(same(draw(*a, VIEW_IRRADIANCE), draw(*b, VIEW_IRRADIANCE)), shown)
-        << "seed " << seed << ", H, left out:" << off;
+    const bool shown = !plan.off(Effect::matrix) || forced->pipeline().lighting().report.largestH == 0;
+    constexpr View kViews[]{VIEW_LIT, VIEW_IRRADIANCE};
+    const app::ProofRow proven = app::proveAll(name, *planned, *forced, std::span(kViews).first(shown ? 2 : 1));
+    EXPECT_TRUE(proven.difference->pixels == 0) << name << ": " << proven.difference->text();
   }
   static inline std::array<uint32_t, kEffects> leftOut_{};  ///< how often, of the seeds so far
 };

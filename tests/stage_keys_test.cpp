@@ -126,6 +126,7 @@ TEST_F(Dirty, WhatIsChangedAndChangedBackCostsNothing) {
   const Counters work = context().counters();
   pipeline->prepare();
   EXPECT_EQ(context().counters().since(work).dispatches, 0u);
+  EXPECT_EQ(context().counters().since(work).draws, 0u);
   EXPECT_EQ(pipeline->revision(), before);
   for (const EffectRow& row : pipeline->plan().rows) EXPECT_EQ(row.reason, plan.row(row.effect).reason);
 }

@@ -7,16 +7,10 @@
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "renderer/base/error.h"
+#include "renderer/base/number_text.h"
 #include "shaders/shared/constants.h"
 
 namespace irad {
-namespace {
-
-double mebibytes(uint64_t bytes) {
-  return static_cast<double>(bytes) / (1024.0 * 1024.0);
-}
-
-}  // namespace
 
 void buildPaddedRows(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
                      FormFactors& matrix, const std::function<bool(float)>& progress) {
@@ -29,7 +23,7 @@ void buildPaddedRows(Context& context, const FacetList& facets, const Field& fie
     device.memory().check(Subsystem::Matrix, what, capacity * rowBytes);
   } catch (const DeviceError& error) {
     throw DeviceError(fmt::format("{}; matrix.format=csr keeps only the entries that exist (about {:.0f} MiB at most)",
-                                  error.what(), mebibytes(4ull * rows * params.rays)));
+                                  error.what(), inMebibytes(4ull * rows * params.rays)));
   }
   MatrixArrays arrays{};
   arrays.stride = params.rays;

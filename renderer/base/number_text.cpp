@@ -22,8 +22,12 @@ std::string milliseconds(double value) {
                         : fmt::format("{:.0f}", value);
 }
 
+double inMebibytes(uint64_t bytes) {
+  return static_cast<double>(bytes) / (1 << 20);
+}
+
 std::string mebibytes(uint64_t bytes) {
-  const double value = static_cast<double>(bytes) / (1024.0 * 1024.0);
+  const double value = inMebibytes(bytes);
   return value < 9.95 ? fmt::format("{:.2f} MiB", value) : fmt::format("{:.1f} MiB", value);
 }
 
