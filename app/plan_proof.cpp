@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "renderer/base/error.h"
+#include "renderer/base/number_text.h"
 
 namespace irad::app {
 namespace {
@@ -42,9 +43,10 @@ float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
 }
 
 /// Prepares, compiles pipelines and touches pages.
-std::unique_ptr<Bench> open(DeviceSession& session, const Scene& scene, const Settings& settings, glm::uvec2 size,
-                            const Camera& camera) {
-  auto bench = std::make_unique<Bench>(*session.context, scene, settings, size, VIEW_LIT, camera);
+std::unique_ptr<Bench> open(const Subject& subject, const Settings& settings) {
+  DeviceSession& session = subject.session;
+  auto bench =
+      std::make_unique<Bench>(*session.context, subject.scene, settings, subject.size, VIEW_LIT, subject.camera);
   bench->prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
   bench->cameraFrame();
   bench->relight();
@@ -90,7 +92,7 @@ uint64_t heldBytes(const DeviceSession& session) {
 /// relight and a picture.
 Figures workOf(DeviceSession& session, Bench& bench, uint64_t before) {
   Context& context = *session.context;
-  const double mebibytes = static_cast<double>(heldBytes(session) - before) / (1 << 20);
+  const double mebibytes = inMebibytes(heldBytes(session) - before);
   (void)context.pipelinesUsed();
   const Counters counters = context.counters();
   bench.relight();
@@ -135,17 +137,15 @@ void require(const Proof& proof) {
   if (!wrong.empty()) throw WorkError(fmt::format("{}", fmt::join(wrong, "\n")));
 }
 
-std::map<Effect, Times> measureCosts(DeviceSession& session, const Scene& scene, const EffectPlan& plan,
-                                     glm::uvec2 size, const Camera& camera, uint32_t frames) {
+std::map<Effect, Times> measureCosts(const Subject& subject, const EffectPlan& plan) {
   std::map<Effect, Times> costs;
   for (const EffectRow& row : plan.rows) {
     if (row.state != EffectState::off || !row.info().mode) continue;
-    Settings forced = session.settings;
+    Settings forced = subject.session.settings;
     forced.effects.*row.info().mode = EffectMode::on;
-    const auto without = open(session, scene, session.settings, size, camera),
-               with = open(session, scene, forced, size, camera);
+    const auto without = open(subject, subject.session.settings), with = open(subject, forced);
     if (!with->pipeline().plan().on(row.effect)) continue;  // another setting has it off
-    const auto [off, on] = timesInTurn({without.get(), with.get()}, frames, &FrameSample::cpuMs, [](float) {});
+    const auto [off, on] = timesInTurn({without.get(), with.get()}, subject.frames, &FrameSample::cpuMs, [](float) {});
     for (size_t i = 0; i < on.size(); ++i) costs[row.effect][i] = on[i] - off[i];
   }
   return costs;
@@ -207,29 +207,30 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
   return proof;
 }
 
-Proof prove(DeviceSession& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
-            uint32_t frames) {
-  const Settings all = allForcedOn(session.settings);
+Proof prove(const Subject& subject) {
+  DeviceSession& session = subject.session;
+  const std::array sets{allForcedOn(session.settings), session.settings};
   std::array<std::unique_ptr<Bench>, 2> benches;
-  std::array<Figures, 2> figures;  // all forced on, as planned
+  std::array<Figures, 2> figures;
   for (const size_t i : {1, 0}) {
     const uint64_t before = heldBytes(session);
-    benches[i] = open(session, scene, i == 0 ? all : session.settings, size, camera);
+    benches[i] = open(subject, sets[i]);
     figures[i] = workOf(session, *benches[i], before);
   }
   Bench &forced = *benches[0], &planned = *benches[1];
-  const auto times = timesInTurn({&forced, &planned}, frames, &FrameSample::gpuMs,
-                                 [&](float share) { session.progress(name.c_str(), share); });
+  const auto times = timesInTurn({&forced, &planned}, subject.frames, &FrameSample::gpuMs,
+                                 [&](float share) { session.progress(subject.name.c_str(), share); });
   for (const size_t i : {1, 0}) {
     figures[i].insert(figures[i].begin(), times[i].begin(), times[i].end());
     for (const Moving moving : {Moving::Nothing, Moving::Camera, Moving::Lights})
-      std::ranges::copy(energyOf(*benches[i], moving, frames, /*everything=*/i == 0), std::back_inserter(figures[i]));
+      std::ranges::copy(energyOf(*benches[i], moving, subject.frames, /*everything=*/i == 0),
+                        std::back_inserter(figures[i]));
   }
   constexpr View kPicture[]{VIEW_LIT};
-  Proof proof{proveAll(name, planned, forced, kPicture), {name, "as planned", figures[1]}};
+  Proof proof{proveAll(subject.name, planned, forced, kPicture), {subject.name, "as planned", figures[1]}};
   proof[0].figures = figures[0];
   benches[0].reset();  // its memory
-  std::ranges::copy(proveEach(name, planned, kPicture), std::back_inserter(proof));
+  std::ranges::copy(proveEach(subject.name, planned, kPicture), std::back_inserter(proof));
   return proof;
 }
 

@@ -14,13 +14,22 @@
 
 namespace irad::app {
 
+/// What is measured.
+struct Subject {
+  DeviceSession& session;
+  std::string name;
+  Scene scene;
+  Camera camera;
+  glm::uvec2 size;
+  uint32_t frames;  ///< relights, pictures and ticks of each set
+};
+
 /// Medians of milliseconds: of a rebuild, a relight, a frame.
 using Times = std::array<double, 3>;
 
 /// Milliseconds, by the wall's clock, that each effect of `plan` that is off and can be forced on takes beyond those
 /// without it.
-std::map<Effect, Times> measureCosts(DeviceSession& session, const Scene& scene, const EffectPlan& plan,
-                                     glm::uvec2 size, const Camera& camera, uint32_t frames);
+std::map<Effect, Times> measureCosts(const Subject& subject, const EffectPlan& plan);
 
 /// How far a picture is from the one that the plan makes.
 struct PictureDifference {
@@ -82,13 +91,8 @@ ProofRow proveAll(const std::string& scene, Bench& planned, Bench& forced, std::
 /// A row for each effect that is not on.
 Proof proveEach(const std::string& scene, Bench& planned, std::span<const View> views);
 
-/// Both of the picture. Measures `frames` relights and pictures of both sets in turn, then as many ticks of idle,
-/// camera and lights of each.
-Proof prove(DeviceSession& session, const std::string& name, const Scene& scene, const Camera& camera, glm::uvec2 size,
-            uint32_t frames);
-
-/// Three tables: cost, energy, and the effects that are not on; as text or Markdown.
-std::string proofTables(const Proof& proof, bool markdown);
-std::string proofCsv(const Proof& proof);
+/// Both of the picture, after the figures: relights and pictures of both sets in turn, then ticks of idle, camera and
+/// lights of each.
+Proof prove(const Subject& subject);
 
 }  // namespace irad::app

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "renderer/base/number_text.h"
-
 namespace irad::app {
 namespace {
 
@@ -34,10 +32,6 @@ std::string formatTable(const std::vector<std::vector<std::string>>& rows, const
     out += line + "\n";
   }
   return out;
-}
-
-std::string mebibyteCell(uint64_t bytes) {
-  return bytes == 0 ? "-" : fmt::format("{:.2f}", inMebibytes(bytes));
 }
 
 }  // namespace irad::app

@@ -27,8 +27,9 @@ class Planner {
   }
 
   EffectPlan run() {
-    emission();
     for (const LightKind& kind : lightKinds()) light(kind);
+    emission();
+    if (shines_) plan_.noLight.clear();
     specular();
     matrix();
     emitterSampling();
@@ -48,11 +49,10 @@ class Planner {
   EffectRow& row(Effect effect) { return plan_.rows[static_cast<size_t>(effect)]; }
 
   /// Sets the state by need and by what forces it; `bytes`: what being off saves.
-  void decide(Effect effect, bool calledFor, std::string reason, uint64_t bytes = 0) {
-    decide(effect, calledFor, std::move(reason), bytes, forcedMode(s_, effect));
-  }
-  void decide(Effect effect, bool calledFor, std::string reason, uint64_t bytes, EffectMode mode) {
+  void decide(Effect effect, bool calledFor, std::string reason, uint64_t bytes = 0,
+              std::optional<EffectMode> forced = {}) {
     EffectRow& r = row(effect);
+    const EffectMode mode = forced.value_or(forcedMode(s_, effect));
     const bool on = mode == EffectMode::automatic ? calledFor : mode == EffectMode::on;
     r.state = on ? EffectState::on : EffectState::off;
     r.reason = on == calledFor ? std::move(reason) : fmt::format("forced {}: {}", nameOf(mode), reason);
@@ -62,6 +62,13 @@ class Planner {
   void sleeps(Effect effect, bool due, std::string reason) {
     decide(effect, due, std::move(reason));
     if (plan_.off(effect) && !due) row(effect).state = EffectState::asleep;
+  }
+  /// Whether there is light of a kind, once its effect is decided.
+  bool lit(Effect effect, bool calledFor) {
+    const bool lights = calledFor && plan_.on(effect);
+    if (!lights) plan_.noLight.push_back(row(effect).reason);
+    shines_ |= lights;
+    return lights;
   }
   /// Off because of another setting or effect, whatever forces it on.
   void without(Effect effect, std::string reason, uint64_t bytes = 0) {
@@ -103,8 +110,7 @@ class Planner {
     if (emitting > 0) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", most(&MaterialTraits::emission));
     // M in the list, F M, and that as shading samples it.
     decide(Effect::emission, emitting > 0, std::move(reason), facets() * (12 + 16 + 16));
-    emits_ = emitting > 0 && plan_.on(Effect::emission);
-    shines_ |= emits_;
+    emits_ = lit(Effect::emission, emitting > 0);
   }
 
   void light(const LightKind& kind) {
@@ -131,7 +137,7 @@ class Planner {
     else if (all > 0)
       reason += ", none with an intensity";
     decide(effect, calledFor, std::move(reason), maps);
-    shines_ |= calledFor && plan_.on(effect);
+    lit(effect, calledFor);
   }
 
   void specular() {

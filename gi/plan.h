@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "gi/settings.h"
 #include "gi/traits.h"
@@ -72,6 +73,8 @@ struct EffectRow {
 struct EffectPlan {
   std::array<EffectRow, kEffects> rows;
   bool pixelEmitters = false;  ///< sample.emitters = pixels is obeyed; the row of emission says why not
+  /// The reasons of all kinds of light where none lights the scene; else nothing.
+  std::vector<std::string> noLight;
   const EffectRow& row(Effect effect) const { return rows[static_cast<size_t>(effect)]; }
   bool on(Effect effect) const { return row(effect).state == EffectState::on; }
   bool off(Effect effect) const { return row(effect).state == EffectState::off; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -17,36 +18,22 @@ float largest(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-/// The texels of the images that materials use, each read once.
-class Texels {
- public:
-  explicit Texels(const Scene& scene) : scene_(scene) {}
-  /// 1 for a material without the texture.
-  TexelRange range(const TextureUse& use) {
-    if (use.image < 0) return {glm::vec4(1), glm::vec4(1)};
-    const auto [at, fresh] = ranges_.try_emplace(use.image);
-    if (fresh) at->second = texelRange(scene_.images.at(static_cast<size_t>(use.image)));
-    return at->second;
-  }
+/// What a texture's texels hold; 1 for a material without the texture.
+using Texels = std::function<TexelRange(const TextureUse&)>;
 
- private:
-  const Scene& scene_;
-  std::map<int, TexelRange> ranges_;
-};
-
-MaterialTraits measureMaterial(const Material& m, Texels& texels) {
+MaterialTraits measureMaterial(const Material& m, const Texels& texels) {
   MaterialTraits t;
   // A factor of 0 settles it without a look at the texture.
   if (largest(m.emission) > 0) {
-    const glm::vec3 radiance = m.emission * glm::vec3(texels.range(m.emissiveTexture).most);
+    const glm::vec3 radiance = m.emission * glm::vec3(texels(m.emissiveTexture).most);
     // A channel that luminance() weighs lightly still emits.
     if (largest(radiance) > 0) t.emission = std::max(luminance(radiance), std::numeric_limits<float>::min());
   }
-  const glm::vec3 base = glm::min(glm::vec3(m.baseColor) * glm::vec3(texels.range(m.baseColorTexture).most), 1.0f);
+  const glm::vec3 base = glm::min(glm::vec3(m.baseColor) * glm::vec3(texels(m.baseColorTexture).most), 1.0f);
   if (m.lambertian) {
     t.albedo = largest(base);
   } else {
-    const TexelRange rough = texels.range(m.metallicRoughnessTexture);
+    const TexelRange rough = texels(m.metallicRoughnessTexture);
     t.albedo = largest(base) * (1 - std::min(m.metallic * rough.least.b, 1.0f));
     // A black metal reflects as well, at grazing angles.
     const float least = std::numeric_limits<float>::min();
@@ -118,7 +105,13 @@ LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t res
 SceneTraits measure(const Scene& scene, uint32_t resolution) {
   SceneTraits traits;
   traits.facesOneWay = allFaceOneWay(scene);
-  Texels texels(scene);
+  std::map<int, TexelRange> images;  // each is read once
+  const Texels texels = [&](const TextureUse& use) {
+    if (use.image < 0) return TexelRange{glm::vec4(1), glm::vec4(1)};
+    const auto [at, fresh] = images.try_emplace(use.image);
+    if (fresh) at->second = texelRange(scene.images.at(static_cast<size_t>(use.image)));
+    return at->second;
+  };
   traits.materials.resize(scene.materials.size());
   for (const Draw& draw : scene.draws) {
     MaterialTraits& t = traits.materials.at(draw.material);

@@ -110,17 +110,15 @@ class EffectsTest : public GiTest {
   static bool any(const Stages& stages, const std::string& prefix) {
     return std::ranges::any_of(stages, [&](const std::string& s) { return s.starts_with(prefix); });
   }
-  template <class Counts>
-  uint64_t bytesOf(Counts&& counts) {
+  /// Of a buffer or image, or of all of a subsystem.
+  uint64_t bytesOf(const std::string& name) {
     context().finish();
     uint64_t sum = 0;
-    for (const MemoryRow& row : context().device.memory().rows()) sum += counts(row) ? row.bytes : 0;
+    for (const MemoryRow& row : context().device.memory().rows())
+      if (row.name == name || row.subsystem.text == name) sum += row.bytes;
     return sum;
   }
-  /// A buffer or image, or anything of a subsystem.
-  bool holds(const std::string& name) {
-    return bytesOf([&](const MemoryRow& row) { return row.name == name || row.subsystem.text == name; }) > 0;
-  }
+  bool holds(const std::string& name) { return bytesOf(name) > 0; }
   /// Terms apart by commas: "+STAGE" was recorded, "-STAGE" not; "has MEMORY", "no MEMORY"; "EFFECT STATE". A name that
   /// some test of a suite finds absent, another of its tests has to find present: it may be misspelt.
   void expect(const Pipeline& pipeline, const Stages& stages, const std::string& terms) {

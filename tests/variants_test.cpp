@@ -103,8 +103,7 @@ TEST_F(VariantKeys, TargetsComeAndGoWithThem) {
   EXPECT_EQ(draw(SpecularMode::compute, kNone), 0u);
 }
 
-// ---- Variants while others are compiled
-// ------------------------------------------------------------------------------
+using Constants = std::map<uint32_t, uint32_t>;
 
 /// A context of its own, whose second thread waits at a gate before it compiles.
 class Bridge : public GpuTest {
@@ -132,7 +131,7 @@ class Bridge : public GpuTest {
     shaders.add("effects.comp", compileGlsl(root / "shaders", (root / "tests/shaders/effects.comp").string()));
   }
   /// Runs the shader and returns the constants that its pipeline had; checks what it wrote.
-  std::map<uint32_t, uint32_t> run(bool first, bool second) {
+  Constants run(bool first, bool second) {
     struct {
       uint64_t to;
       uint32_t count, nothing;
@@ -148,7 +147,7 @@ class Bridge : public GpuTest {
     const std::vector<uint32_t> values = downloadAs<uint32_t>(*own, to);
     for (uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(values.at(i), i);
     const std::vector<PipelineUse> used = own->pipelinesUsed();
-    return used.size() == 1 ? used[0].constants : std::map<uint32_t, uint32_t>{{99, 99}};
+    return used.size() == 1 ? used[0].constants : Constants{{99, 99}};
   }
   uint64_t compiled() { return own->counters().pipelines; }
   /// Until the thread has nothing left to do.
@@ -160,8 +159,6 @@ class Bridge : public GpuTest {
     settle();
   }
 };
-
-using Constants = std::map<uint32_t, uint32_t>;
 
 TEST_F(Bridge, TheFirstPictureWaitsForItsOwnAlone) {
   const uint64_t before = compiled();
@@ -206,7 +203,7 @@ TEST_F(Bridge, WhatTheThreadMeetsIsThrownByTheNextFrame) {
   EXPECT_EQ(run(false, true), (Constants{{0, 0}}));
 }
 
-TEST_F(Bridge, OtherShadersDropWhatIsBeingCompiled) {
+TEST_F(Bridge, OtherShadersDropWhatIsBeingCompiledAndItsEndWaits) {
   run(true, true);
   run(false, true);
   run(true, false);
@@ -216,12 +213,6 @@ TEST_F(Bridge, OtherShadersDropWhatIsBeingCompiled) {
   EXPECT_EQ(own->variantsCompiling(), 0u);
   gate.set_value();
   EXPECT_EQ(run(false, false), Constants{});
-}
-
-TEST_F(Bridge, ItsEndWaitsForWhatIsBeingCompiled) {
-  run(true, true);
-  run(false, true);
-  gate.set_value();
   own.reset();
 }
 

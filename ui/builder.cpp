@@ -14,18 +14,6 @@ namespace {
 
 constexpr const char* kCancelled = "cancelled";
 
-std::vector<std::string> noLight(const EffectPlan& plan) {
-  std::vector<Effect> sources;
-  for (const LightKind& kind : lightKinds()) sources.push_back(effectOf(kind.type));
-  sources.push_back(Effect::emission);
-  std::vector<std::string> reasons;
-  for (const Effect source : sources) {
-    if (plan.on(source)) return {};
-    reasons.push_back(plan.row(source).reason);
-  }
-  return reasons;
-}
-
 }  // namespace
 
 Builder::Builder(Context& context, Session& session, std::function<void()> breathe)
@@ -221,7 +209,7 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .edge = facets.grid.edge,
                      .solve = report,
                      .findings = pipeline.findings(),
-                     .noLight = noLight(pipeline.plan())};
+                     .noLight = pipeline.plan().noLight};
   side.solves.push_back({report.sweeps, report.residual, report.bound});
   if (side.solves.size() > 400) side.solves.pop_front();
   side.sweepsSinceWake += report.sweeps;

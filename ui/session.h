@@ -48,7 +48,7 @@ struct Built {
   double edge = 0;  ///< of a voxel
   SolveReport solve;
   std::vector<Finding> findings;     ///< of the numerical watch, errors first
-  std::vector<std::string> noLight;  ///< why none of the kinds of light is on, by the plan; empty: one is
+  std::vector<std::string> noLight;  ///< EffectPlan::noLight
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <deque>
-#include <optional>
-#include <utility>
 
 #include "ui/imgui.h"
 #include "ui/panel.h"
@@ -20,21 +18,18 @@ constexpr double kMinute = 60;  // s
 class PerMinute {
  public:
   uint64_t operator()(uint64_t count, double now) {
-    if (!last_ || count < *last_) steps_.clear(), last_ = count;  // another scene counts anew
-    if (count > *last_) steps_.push_back({now, count - *std::exchange(last_, count)});
-    while (!steps_.empty() && steps_.front().at < now - kMinute) steps_.pop_front();
-    uint64_t sum = 0;
-    for (const Step& step : steps_) sum += step.by;
-    return sum;
+    if (!seen_.empty() && count < seen_.back().count) seen_.clear();  // another scene counts anew
+    seen_.push_back({now, count});
+    while (seen_.size() > 1 && seen_[1].at < now - kMinute) seen_.pop_front();
+    return count - seen_.front().count;
   }
 
  private:
-  struct Step {
+  struct Seen {
     double at;
-    uint64_t by;
+    uint64_t count;
   };
-  std::deque<Step> steps_;
-  std::optional<uint64_t> last_;
+  std::deque<Seen> seen_;
 };
 
 class EffectsPanel : public Panel {
