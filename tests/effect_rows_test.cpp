@@ -75,7 +75,7 @@ class Rows : public EffectsTest {
     Shown shown{.picture = draw(pipeline, targets)};
     const Stages stages = recorded();
     const uint64_t staging = bytesOf(Subsystem::Staging.text);
-    shown.bytes = context().device.memory().used() - staging;
+    shown.bytes = usedBytes() - staging;
     const EffectRow now = pipeline.plan().row(row.effect);
     SCOPED_TRACE(fmt::format("{} {}: {}", now.info().name, now.stateName(), now.reason));
     EXPECT_EQ(now.state == EffectState::on, wanted);

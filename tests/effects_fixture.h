@@ -110,6 +110,10 @@ class EffectsTest : public GiTest {
   static bool any(const Stages& stages, const std::string& prefix) {
     return std::ranges::any_of(stages, [&](const std::string& s) { return s.starts_with(prefix); });
   }
+  uint64_t usedBytes() {
+    context().finish();
+    return context().device.memory().used();
+  }
   /// Of a buffer or image, or of all of a subsystem.
   uint64_t bytesOf(const std::string& name) {
     context().finish();
@@ -150,7 +154,11 @@ class EffectsTest : public GiTest {
     for (const Step& step : steps) {
       SCOPED_TRACE(fmt::format("step {}: {}", &step - steps.data(), step.terms));
       if (step.edit) step.edit(pipeline);
+      const auto work = [&] { return std::pair(context().counters().dispatches, usedBytes()); };
+      const auto before = work();
+      const bool slept = pipeline.asleep();
       pipeline.prepare();
+      EXPECT_TRUE(!slept || work() == before);  // there was nothing to do
       EXPECT_NE(pipeline.asleep(), pipeline.plan().on(Effect::relight));
       Pixels picture = draw(pipeline, step.view);
       expect(pipeline, recorded(), step.terms);
@@ -158,7 +166,7 @@ class EffectsTest : public GiTest {
       if (step.picture == '.' || step.picture == ' ') continue;
       if (pipeline.lighting())
         std::ranges::copy(downloadAs<glm::vec4>(context(), pipeline.lighting().indirect), std::back_inserter(picture));
-      for (const auto& [letter, before] : pictures_) EXPECT_EQ(same(before, picture), letter == step.picture) << letter;
+      for (const auto& [letter, known] : pictures_) EXPECT_EQ(same(known, picture), letter == step.picture) << letter;
       pictures_.emplace(step.picture, std::move(picture));
     }
   }

@@ -13,14 +13,6 @@ namespace {
 
 class Effects : public EffectsTest {};
 
-/// An edit after which something is due, but for `rests`.
-Edit due(const Edit& edit, bool rests = false) {
-  return [=](Pipeline& p) {
-    edit(p);
-    EXPECT_EQ(p.asleep(), rests);
-  };
-}
-
 /// A light brings matrix, field and light in one prepare, keeps the matrix while it is turned down, and takes all of it
 /// along.
 TEST_F(Effects, WithoutLightThereIsNothingOfIt) {
@@ -34,12 +26,12 @@ TEST_F(Effects, WithoutLightThereIsNothingOfIt) {
   for (const ViewInfo& view : views()) draw(*pipeline, view.view);  // those of what is not there too
   recorded();
   walk(*pipeline,
-       {{due(lights({lamp(0)})), "matrix on, has matrix, has solver, has field, +GI SDF, +GI BuildMatrix", 'a'},
+       {{lights({lamp(0)}), "matrix on, has matrix, has solver, has field, +GI SDF, +GI BuildMatrix", 'a'},
         {{}, "+RE Forward, -GI ", 'a'},  // a camera that moves
         {lights({lamp(0.1)}), "+GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
-        {due(lights({lamp(0, /*candela=*/0)})), "matrix asleep, has matrix, no solver", '.'},
-        {due(lights({lamp(0)})), "-GI BuildMatrix, +GI Solve, +GI Scatter", 'a'},  // from the dark, as before
-        {due(lights({})), nothing, '.'}});
+        {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, no solver", '.'},
+        {lights({lamp(0)}), "-GI BuildMatrix, +GI Solve, +GI Scatter", 'a'},  // from the dark, as before
+        {lights({}), nothing, '.'}});
   EXPECT_EQ(bytesOf(Subsystem::Shadow.text), shadows);
   EXPECT_GE(pipeline->flips(), 2u);
   walk(*prepared(litRoom()), {{{}, "", 'a'}});
@@ -66,7 +58,7 @@ TEST_F(Effects, TheFieldIsMadeByItsViewsAndByForceWithoutAnotherMatrix) {
   walk(*pipeline, {{{}, "no field", 'a'},
                    {{}, "has field", 'b', VIEW_DISTANCE},
                    {{}, "no field", 'a'},
-                   {due(setting("effects.field=on")), "has field, -GI BuildMatrix", 'a'},
+                   {setting("effects.field=on"), "has field, -GI BuildMatrix", 'a'},
                    {traceAnew, "has field, +GI BuildMatrix", 'a'}});
 }
 
@@ -75,9 +67,9 @@ TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
   const View h = VIEW_IRRADIANCE;
   walk(*pipeline, {{{}, "relight asleep", 'a', h},
                    {setting("effects.relight=off"), "", 'a', h},
-                   {due(lights({lamp(0.3)}), /*rests=*/true), "-GI Gather", 'a', h},
-                   {due(setting("effects.relight=auto")), "+GI Gather", 'b', h},
-                   {due(setting("effects.relight=on")), "+GI Gather", ' '}});
+                   {lights({lamp(0.3)}), "-GI Gather", 'a', h},
+                   {setting("effects.relight=auto"), "+GI Gather", 'b', h},
+                   {setting("effects.relight=on"), "+GI Gather", ' '}});
 }
 
 RunResult irad(std::vector<std::string> arguments) {
