@@ -124,7 +124,7 @@ TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
     }
   row.flip[false](pipeline);
   pipeline.prepare();
-  app::require(app::proveEach("", *bench, kViews));
+  app::require(app::proveEach(effectInfo(row.effect).name, *bench, kViews));
 }
 
 INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
