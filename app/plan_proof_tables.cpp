@@ -6,6 +6,7 @@
 
 #include "app/plan_proof.h"
 #include "app/table.h"
+#include "gi/plan.h"
 #include "renderer/base/csv.h"
 
 namespace irad::app {

@@ -4,6 +4,9 @@
 #include <unordered_set>
 #include <vector>
 
+#include "gi/export.h"
+#include "shaders/shared/grid.h"
+
 namespace irad {
 
 VoxelMetrics compareVoxels(const VolumeValues& values, const VolumeValues& reference) {

@@ -4,6 +4,9 @@
 #include "gi/facets.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/jump_flood.h"
+#include "renderer/frame/context.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/transfer.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {

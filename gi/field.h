@@ -1,9 +1,14 @@
 // Distance fields (docs/method.md 3, T 5.2).
 #pragma once
 
-#include "gi/facets.h"
+#include "gi/settings.h"
+#include "renderer/resources.h"
 
 namespace irad {
+
+class Context;
+class Frame;
+struct FacetList;
 
 struct Field {
   FieldMethod method = FieldMethod::chebyshev;

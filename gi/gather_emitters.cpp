@@ -4,11 +4,20 @@
 #include <cmath>
 
 #include "gi/emitter_rule.h"
+#include "gi/emitters.h"
+#include "gi/facets.h"
 #include "gi/gather_emitters.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "gi/sweep.h"
+#include "renderer/frame/context.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/transfer.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/emitters.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
 namespace {

@@ -1,6 +1,11 @@
 #include "gi/host_facets.h"
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/oracle/rays.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/transfer.h"
+#include "renderer/resources.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 

@@ -5,7 +5,11 @@
 #include <cstring>
 #include <utility>
 
+#include "gi/matrix.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/transfer.h"
+#include "renderer/resources.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 

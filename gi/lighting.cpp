@@ -1,6 +1,8 @@
 // The buffers of light per facet.
 #include "gi/lighting.h"
 
+#include "gi/facets.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/volume.h"
 #include "shaders/shared/solve.h"

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/subsystems.h"
 #include "renderer/base/csv.h"
 #include "shaders/shared/solve.h"

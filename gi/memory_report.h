@@ -4,14 +4,16 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-
 namespace irad {
+
+struct FacetList;
+struct Field;
+struct FormFactors;
+struct Lighting;
+struct MemoryRow;
 
 struct MemoryReportRow {
   std::string name, subsystem, format;

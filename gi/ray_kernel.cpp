@@ -1,7 +1,10 @@
 #include "gi/ray_kernel.h"
 
+#include "gi/facets.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 

@@ -3,6 +3,7 @@
 
 #include "gi/facets.h"
 #include "gi/lighting.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/volume.h"
 #include "shaders/shared/constants.h"

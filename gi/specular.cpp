@@ -6,7 +6,16 @@
 #include <bit>
 #include <limits>
 
-#include "gi/views/views.h"
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/settings.h"
+#include "gi/subsystems.h"
+#include "gi/views/draw.h"
+#include "renderer/frame/frame.h"
+#include "renderer/resources.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
 

@@ -1,6 +1,9 @@
 // Each row of the effect plan on a device. What calls for an effect flips: it is there with the next picture, with its
 // passes, memory and shader code; it flips back, and they are gone, to the last byte. Where the scene does not call for
 // it, forced on it gives the same bits.
+#include "gi/lighting.h"
+#include "gi/plan.h"
+#include "renderer/targets.h"
 #include "shaders/shared/passes.h"
 #include "tests/effects_fixture.h"
 

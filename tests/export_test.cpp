@@ -10,6 +10,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/memory_report.h"
 #include "gi/subsystems.h"
 #include "renderer/base/error.h"

@@ -11,6 +11,8 @@
 #include "gi/scatter.h"
 #include "gi/solve.h"
 #include "gi/subsystems.h"
+#include "gi/views/draw.h"
+#include "gi/views/fields.h"
 #include "gi/voxelize.h"
 #include "tests/forward_support.h"
 

@@ -6,7 +6,11 @@
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "gi/matrix.h"
+#include "gi/solve_report.h"
+#include "gi/watch.h"
 #include "renderer/base/error.h"
 
 namespace irad {

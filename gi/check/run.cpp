@@ -7,7 +7,12 @@
 #include <cstring>
 #include <limits>
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/transfer.h"
+#include "renderer/targets.h"
 
 namespace irad {
 namespace {

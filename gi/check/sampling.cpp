@@ -12,13 +12,19 @@
 #include "gi/check/scenes.h"
 #include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/lighting.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "gi/voxelize.h"
 #include "renderer/base/angle.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/transfer.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/check.h"
 #include "shaders/shared/normals.h"
+#include "shaders/shared/sampling.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 namespace {

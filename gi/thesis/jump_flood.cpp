@@ -6,6 +6,7 @@
 
 #include "gi/facets.h"
 #include "gi/subsystems.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {

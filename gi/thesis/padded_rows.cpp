@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/facets.h"
 #include "gi/matrix_build.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/context.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 
 namespace irad {

@@ -1,6 +1,7 @@
 #include "gi/thesis/volume.h"
 
 #include "gi/facets.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "shaders/shared/indirect.h"
 #include "shaders/shared/solve.h"

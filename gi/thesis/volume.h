@@ -3,6 +3,7 @@
 
 #include "gi/lighting.h"
 #include "renderer/targets.h"
+#include "shaders/shared/gi_params.h"
 
 namespace irad {
 

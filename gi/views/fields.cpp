@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/matrix.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/jump_flood.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 #include "shaders/shared/view.h"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "gi/plan.h"
 #include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
