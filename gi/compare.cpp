@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "gi/export.h"
-#include "shaders/shared/grid.h"
 
 namespace irad {
 

@@ -22,9 +22,7 @@
 #include "gi/solve.h"
 #include "renderer/base/angle.h"
 #include "renderer/base/error.h"
-#include "renderer/frame/context.h"
 #include "renderer/frame/frame.h"
-#include "renderer/frame/transfer.h"
 #include "renderer/scene/scene.h"
 #include "shaders/shared/slice.h"
 #include "shaders/shared/trace.h"
@@ -49,8 +47,8 @@ void Inspector::refresh() {
     const Field& field = this->field();
     field_ = {field.method == FieldMethod::jfa, hostDistances(context_, list.grid, field)};
     seeds_.clear();
-    if (field.jfaSeeds) {
-      const std::vector<std::byte> bytes = download(context_, field.jfaSeeds);
+    if (field.jumpFlood.seeds) {
+      const std::vector<std::byte> bytes = download(context_, field.jumpFlood.seeds);
       seeds_.resize(bytes.size() / sizeof(uint32_t));
       std::memcpy(seeds_.data(), bytes.data(), bytes.size());
     }

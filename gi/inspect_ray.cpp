@@ -4,9 +4,7 @@
 #include "gi/inspect.h"
 #include "gi/ray_kernel.h"
 #include "renderer/base/error.h"
-#include "renderer/frame/context.h"
 #include "renderer/frame/frame.h"
-#include "renderer/frame/transfer.h"
 #include "shaders/shared/trace.h"
 
 namespace irad {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gi/solve_report.h"
+#include "gi/thesis/volume.h"
 #include "renderer/resources.h"
 
 namespace irad {
@@ -51,10 +52,9 @@ struct Lighting {
   Buffer blurred;         ///< H averaged over neighbours that face the same way; none where shading samples H itself
   Buffer blurredEmitted;  ///< `emitted` likewise
   Buffer blurChange;      ///< largest |blurred - H|, float bits; where scatter() watches it
-  Image volume;           ///< RGBA16F: the thesis's RadianceTexture (only for ungated sampling, views and exports)
   Buffer residual;        ///< solver's reductions, see shared/solve.h
   Buffer rowSum;          ///< sum_j F_ij, one float each
-  Buffer clamped;         ///< counter of the volume's clamped voxels; with the volume
+  RadianceVolume volume;  ///< only where sampling is ungated
   SolveReport report;
   DivergenceGuard guard;
   /// What shading samples, H and F M, blurred or not.
@@ -66,8 +66,7 @@ struct Lighting {
   /// than specular.threshold of it are not traced.
   float litH = 0;
 };
-/// All zero. The volume exists when sampling is ungated; addVolume (gi/thesis/volume.h) makes it otherwise. Blurred
-/// copies exist where scatter() blurs, which makes and frees them.
+/// All zero. Blurred copies exist where scatter() blurs, which makes and frees them.
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
 
 }  // namespace irad

@@ -9,7 +9,6 @@
 #include "gi/subsystems.h"
 #include "gi/traits.h"
 #include "gi/views/draw.h"
-#include "renderer/frame/context.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/targets.h"

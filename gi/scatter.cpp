@@ -6,6 +6,7 @@
 #include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/volume.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 

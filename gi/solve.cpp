@@ -9,12 +9,10 @@
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
-#include "gi/solve_report.h"
 #include "gi/subsystems.h"
 #include "gi/sweep.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
-#include "renderer/frame/context.h"
 #include "renderer/frame/frame.h"
 #include "shaders/shared/solve.h"
 

@@ -4,7 +4,6 @@
 #include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/subsystems.h"
-#include "renderer/frame/context.h"
 #include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"

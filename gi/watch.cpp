@@ -8,11 +8,8 @@
 
 #include "gi/facets.h"
 #include "gi/lighting.h"
-#include "gi/solve_report.h"
 #include "gi/subsystems.h"
-#include "renderer/frame/context.h"
 #include "renderer/frame/frame.h"
-#include "renderer/frame/transfer.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/grid.h"

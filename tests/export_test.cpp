@@ -14,6 +14,7 @@
 #include "gi/matrix.h"
 #include "gi/memory_report.h"
 #include "gi/subsystems.h"
+#include "gi/thesis/memory.h"
 #include "renderer/base/error.h"
 #include "shaders/shared/normals.h"
 #include "tests/support.h"

@@ -65,7 +65,7 @@ struct Lit {
     in.around = &facets.around;
     in.shaded = &light.shaded();
     if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
-    in.volume = light.volume ? &light.volume : nullptr;
+    in.volume = light.volume ? &light.volume.image : nullptr;
     in.normalEncoding = facets.encoding;
     in.sample = stage.settings.sample.gpu;
     return in;

@@ -9,7 +9,6 @@
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
-#include "gi/solve_report.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
 

@@ -11,7 +11,6 @@
 #include "gi/lighting.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
-#include "renderer/frame/transfer.h"
 #include "renderer/targets.h"
 
 namespace irad {
