@@ -6,7 +6,11 @@
 #include <cstring>
 #include <numbers>
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "renderer/base/error.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/bench.h"
 
 namespace irad::app {

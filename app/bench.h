@@ -7,6 +7,8 @@
 
 #include "gi/pipeline.h"
 #include "renderer/base/timings.h"
+#include "renderer/scene/scene.h"
+#include "renderer/targets.h"
 
 namespace irad::app {
 

@@ -10,6 +10,8 @@
 #include "app/device_session.h"
 #include "app/devices.h"
 #include "app/table.h"
+#include "gi/facets.h"
+#include "gi/matrix.h"
 #include "renderer/base/compare_timings.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"

@@ -6,6 +6,7 @@
 #include "app/version.h"
 #include "gi/check/check.h"
 #include "gi/sizes.h"
+#include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/sidecar.h"
 

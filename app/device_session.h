@@ -8,7 +8,8 @@
 #include "app/progress.h"
 #include "gi/manifest.h"
 #include "gi/pipeline.h"
-#include "renderer/frame/frame.h"
+#include "renderer/frame/context.h"
+#include "renderer/scene/scene.h"
 
 namespace irad::app {
 

@@ -9,6 +9,7 @@
 #include "app/devices.h"
 #include "app/plan_proof.h"
 #include "app/table.h"
+#include "gi/plan.h"
 #include "gi/views/views.h"
 #include "renderer/base/console.h"
 #include "renderer/base/csv.h"

@@ -10,6 +10,8 @@
 #include <memory>
 #include <numbers>
 
+#include "gi/lighting.h"
+#include "gi/plan.h"
 #include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 

@@ -11,6 +11,7 @@
 
 #include "app/bench.h"
 #include "app/device_session.h"
+#include "gi/plan.h"
 
 namespace irad::app {
 

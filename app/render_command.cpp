@@ -12,14 +12,22 @@
 #include "app/devices.h"
 #include "app/reference.h"
 #include "gi/check/check.h"
+#include "gi/facets.h"
 #include "gi/inspect.h"
+#include "gi/legend.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/memory_report.h"
 #include "gi/picture.h"
 #include "gi/pipeline.h"
+#include "gi/plan.h"
+#include "gi/watch.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;

@@ -14,6 +14,9 @@
 #include "app/version.h"
 #include "app/view_command.h"
 #include "renderer/base/error.h"
+#include "renderer/base/timings.h"
+#include "renderer/frame/context.h"
+#include "renderer/shaders.h"
 #include "ui/preferences.h"
 
 namespace irad::app {

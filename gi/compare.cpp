@@ -4,6 +4,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "gi/export.h"
+
 namespace irad {
 
 VoxelMetrics compareVoxels(const VolumeValues& values, const VolumeValues& reference) {

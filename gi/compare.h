@@ -1,10 +1,11 @@
 // Two solutions of one scene, voxel by voxel.
 #pragma once
 
-#include "gi/export.h"
 #include "renderer/metrics.h"
 
 namespace irad {
+
+struct VolumeValues;
 
 /// The irradiance of one solution against that of another. Voxels of `reference` are matched with the voxel of `values`
 /// that holds their centre, so that grids of other sizes compare too.

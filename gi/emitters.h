@@ -3,10 +3,13 @@
 
 #include <vector>
 
-#include "gi/facets.h"
+#include "renderer/resources.h"
 #include "shaders/shared/emitters.h"
 
 namespace irad {
+
+class Context;
+struct FacetList;
 
 /// The facets that emit, to be drawn in proportion to their power. count 0: none, and no buffers.
 struct Emitters {

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/facets.h"
 #include "gi/host_facets.h"
 #include "gi/host_matrix.h"
+#include "gi/lighting.h"
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
+#include "renderer/frame/transfer.h"
 #include "shaders/shared/normals.h"
 
 namespace irad {

@@ -8,13 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-#include "renderer/frame/frame.h"
+#include "shaders/shared/enumeration.h"
+#include "shaders/shared/grid.h"
 
 namespace irad {
+
+class Context;
+struct FacetList;
+struct Field;
+struct FormFactors;
+struct Lighting;
 
 // clang-format off
 #define IRAD_VOLUMES(X) \

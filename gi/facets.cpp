@@ -6,10 +6,12 @@
 
 #include "gi/mark_corners.h"
 #include "gi/scan.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/voxelize.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/record.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/voxelize.h"
 

@@ -4,10 +4,16 @@
 #include <functional>
 #include <vector>
 
-#include "gi/voxelize.h"
+#include "renderer/resources.h"
 #include "shaders/shared/facets.h"
+#include "shaders/shared/grid.h"
+#include "shaders/shared/normals.h"
 
 namespace irad {
+
+class Context;
+struct Settings;
+struct Voxels;
 
 struct FacetList {
   Grid grid;

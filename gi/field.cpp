@@ -4,6 +4,7 @@
 #include "gi/facets.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/jump_flood.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -42,7 +43,7 @@ Field recordField(Frame& frame, const char* stage, const FacetList& facets, cons
   if (method == FieldMethod::chebyshev)
     field.chebyshev = recordChebyshev(frame, stage, facets, gridRecord);
   else
-    recordJumpFloodField(frame, stage, facets, gridRecord, field);
+    field.jumpFlood = recordJumpFloodField(frame, stage, facets, gridRecord);
   return field;
 }
 

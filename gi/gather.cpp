@@ -3,6 +3,10 @@
 
 #include "gi/facets.h"
 #include "gi/lighting.h"
+#include "gi/settings.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 

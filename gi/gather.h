@@ -1,10 +1,14 @@
 // Direct light onto the facets.
 #pragma once
 
-#include "gi/lighting.h"
-#include "renderer/shadow.h"
-
 namespace irad {
+
+class Frame;
+class SceneOnDevice;
+struct FacetList;
+struct Lighting;
+struct Settings;
+struct ShadowMaps;
 
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
             Lighting& light, const Settings& settings);

@@ -4,11 +4,17 @@
 #include <cmath>
 
 #include "gi/emitter_rule.h"
+#include "gi/emitters.h"
+#include "gi/facets.h"
 #include "gi/gather_emitters.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "gi/sweep.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
 namespace {
@@ -53,7 +59,7 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
   push.emitted = pass.out(light.emitted);
   push.correction = pass.out(light.correction);
   push.dims = facets.grid.dims;
-  push.jfaMax = source.field->jfaMax;
+  push.jfaMax = source.field->jumpFlood.largest;
   push.samples = settings.matrix.emitterSamples;
   push.seed = settings.matrix.gpu.seed;
   kernel.configure(pass, frame.context().device, "gi/sample_emitters")

@@ -1,12 +1,15 @@
 // The first gather: light that reaches the facets straight from emissive ones.
 #pragma once
 
-#include "gi/emitters.h"
-#include "gi/field.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-
 namespace irad {
+
+class Context;
+struct Emitters;
+struct FacetList;
+struct Field;
+struct FormFactors;
+struct Lighting;
+struct Settings;
 
 /// F M by samples of the emitters in place of rays; empty: by rays.
 struct EmitterSource {

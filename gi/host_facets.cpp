@@ -1,6 +1,11 @@
 #include "gi/host_facets.h"
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/oracle/rays.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/transfer.h"
+#include "renderer/resources.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 
@@ -47,13 +52,14 @@ std::vector<glm::vec3> perFacet(Context& context, const FacetList& list, const B
 
 std::vector<float> hostDistances(Context& context, const Grid& grid, const Field& field) {
   const bool jfa = field.method == FieldMethod::jfa;
-  const std::vector<std::byte> bytes = jfa ? download(context, field.jfaDistance) : download(context, field.chebyshev);
+  const std::vector<std::byte> bytes =
+      jfa ? download(context, field.jumpFlood.distance) : download(context, field.chebyshev);
   IRAD_CHECK_OP(bytes.size(), >=, grid.voxels);
   std::vector<float> out;
   out.reserve(grid.voxels);
   for (uint32_t v = 0; v < grid.voxels; ++v) {
     const float value = static_cast<float>(std::to_integer<uint32_t>(bytes[v]));
-    out.push_back(jfa ? value / 255.0f * field.jfaMax : value);
+    out.push_back(jfa ? value / 255.0f * field.jumpFlood.largest : value);
   }
   return out;
 }

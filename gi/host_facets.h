@@ -3,11 +3,17 @@
 
 #include <vector>
 
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/oracle/rays.h"
+#include "shaders/shared/grid.h"
 
 namespace irad {
+
+namespace oracle {
+struct Facets;
+}
+class Buffer;
+class Context;
+struct FacetList;
+struct Field;
 
 struct HostFacets {
   Grid grid;

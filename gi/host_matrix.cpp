@@ -5,7 +5,10 @@
 #include <cstring>
 #include <utility>
 
+#include "gi/matrix.h"
+#include "gi/thesis/padded_rows.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 
@@ -15,27 +18,24 @@ namespace {
 
 /// Where a row's words begin within its segment.
 size_t firstWord(const MatrixArrays& arrays, MatrixFormat format, uint32_t row, uint32_t rowStart) {
-  if (format == MatrixFormat::csr) return rowStart;
-  return 2 * size_t{row & ((1u << arrays.segmentShift) - 1)} * arrays.stride;
+  return format == MatrixFormat::csr ? rowStart : paddedStart(arrays, row);
 }
 /// How many there are.
 size_t wordCount(MatrixFormat format, glm::uvec2 info) {
-  return size_t{rowEntries(info)} * (format == MatrixFormat::csr ? 1 : 2);
+  return size_t{rowEntries(info)} * (format == MatrixFormat::csr ? 1 : kPaddedWords);
 }
 
 HostRow decode(const MatrixArrays& arrays, MatrixFormat format, glm::uvec2 info, std::span<const uint32_t> words) {
   HostRow row;
   row.invalid = rowInvalid(info);
   row.weight = std::bit_cast<float>(info.y);
-  for (uint32_t i = 0; i < rowEntries(info); ++i) {
-    if (format == MatrixFormat::csr) {
-      row.columns.push_back(words[i] & ((1u << arrays.columnBits) - 1));
-      row.hits.push_back(words[i] >> arrays.columnBits);
-    } else {
-      row.columns.push_back(words[2 * i]);
-      row.hits.push_back(1);
-      IRAD_CHECK_OP(words[2 * i + 1], ==, info.y);
-    }
+  if (format == MatrixFormat::padded) {
+    decodePadded(words, row);
+    return row;
+  }
+  for (const uint32_t word : words) {
+    row.columns.push_back(word & ((1u << arrays.columnBits) - 1));
+    row.hits.push_back(word >> arrays.columnBits);
   }
   return row;
 }

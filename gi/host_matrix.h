@@ -1,12 +1,14 @@
 // The form-factor matrix in host memory, row by row: for exports, checks, the inspector and tests.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "gi/matrix.h"
-
 namespace irad {
+
+class Context;
+struct FormFactors;
 
 /// One row as it is stored: csr holds each column once, ascending; padded holds a place per hit in the rays' order.
 struct HostRow {

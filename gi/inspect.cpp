@@ -11,15 +11,21 @@
 #include <numeric>
 
 #include "gi/emitters.h"
+#include "gi/facets.h"
 #include "gi/field.h"
 #include "gi/gather_emitters.h"
+#include "gi/host_matrix.h"
 #include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/oracle/voxels.h"
 #include "gi/ray_kernel.h"
 #include "gi/solve.h"
 #include "renderer/base/angle.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/scene/scene.h"
 #include "shaders/shared/slice.h"
+#include "shaders/shared/trace.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -41,8 +47,8 @@ void Inspector::refresh() {
     const Field& field = this->field();
     field_ = {field.method == FieldMethod::jfa, hostDistances(context_, list.grid, field)};
     seeds_.clear();
-    if (field.jfaSeeds) {
-      const std::vector<std::byte> bytes = download(context_, field.jfaSeeds);
+    if (field.jumpFlood.seeds) {
+      const std::vector<std::byte> bytes = download(context_, field.jumpFlood.seeds);
       seeds_.resize(bytes.size() / sizeof(uint32_t));
       std::memcpy(seeds_.data(), bytes.data(), bytes.size());
     }
@@ -118,8 +124,8 @@ std::optional<uint32_t> Inspector::facing(const glm::uvec3& voxel, const glm::dv
   });
 }
 
-std::optional<Inspector::SliceCell> Inspector::inSlice(const glm::dvec3& start, const glm::dvec3& direction,
-                                                       const glm::dvec3& forward, const ViewSettings& view) const {
+std::optional<SliceCell> Inspector::inSlice(const glm::dvec3& start, const glm::dvec3& direction,
+                                            const glm::dvec3& forward, const ViewSettings& view) const {
   const glm::dvec3 origin = toVoxels(start);
   const auto axis = static_cast<int>(sliceAxis(view.axis, glm::vec3(forward)));
   const double layer = sliceLayer(static_cast<float>(facets_.grid.dims[axis]), view.slice);

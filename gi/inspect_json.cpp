@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gi/inspect.h"
+#include "gi/inspected.h"
 #include "shaders/shared/trace.h"
 
 namespace irad {

@@ -4,6 +4,8 @@
 #include "gi/inspect.h"
 #include "gi/ray_kernel.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 

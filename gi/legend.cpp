@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gi/views/views.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/ticks.h"
 #include "renderer/image_io.h"

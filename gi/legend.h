@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "gi/views/views.h"
+#include "shaders/shared/color_map.h"
 #include "shaders/shared/view.h"
 
 namespace irad {
+
+struct Quantity;
 
 struct Legend {
   std::string title;  ///< "Depth (m)"

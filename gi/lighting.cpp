@@ -1,8 +1,11 @@
 // The buffers of light per facet.
 #include "gi/lighting.h"
 
+#include "gi/facets.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/volume.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -24,7 +27,7 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
                           &light.residual, &light.rowSum})
     if (*b) frame.pass("GI Solve Clear").fill(*b, 0);
   frame.submit();
-  if (settings.sample.gpu.gated == 0) addVolume(context, facets, light);
+  if (settings.sample.gpu.gated == 0) light.volume = makeVolume(context, facets.grid);
   return light;
 }
 

@@ -1,6 +1,7 @@
 #include "gi/mark_corners.h"
 
 #include "gi/facets.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/trace.h"
 

@@ -1,9 +1,12 @@
 // What rays must know of a facet's surroundings (docs/method.md 4).
 #pragma once
 
-#include "gi/facets.h"
+#include <cstdint>
 
 namespace irad {
+
+class Context;
+struct FacetList;
 
 /// Sets FACET_CORNER, the clear distance and the joints in the list's shape words, and fills `around`; the last step of
 /// the two functions that make lists. `slots`: facets of a voxel that were looked for.

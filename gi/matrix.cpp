@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/facets.h"
 #include "gi/matrix_build.h"
 #include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"

@@ -4,10 +4,15 @@
 #include <functional>
 #include <vector>
 
-#include "gi/field.h"
+#include "renderer/resources.h"
 #include "shaders/shared/matrix.h"
 
 namespace irad {
+
+class Context;
+struct FacetList;
+struct Field;
+struct Settings;
 
 struct MatrixStats {
   uint64_t rays = 0, hits = 0, entries = 0, escaped = 0, invalid = 0;

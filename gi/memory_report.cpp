@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/subsystems.h"
+#include "gi/thesis/memory.h"
+#include "gi/thesis/padded_rows.h"
 #include "renderer/base/csv.h"
 #include "shaders/shared/solve.h"
 
@@ -42,12 +47,11 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.record, sizeof(FacetArrays));
   // Fields: one byte per voxel each; JFA seeds one word.
   buffer(field.chebyshev, (V + 3) / 4 * 4);
-  image(field.jfaDistance, V);
-  image(field.jfaSeeds, 4 * V);
-  // csr: 4 B per distinct column. padded: 8 B for each of R places of a power of two of rows (T Fig. 7).
-  const uint64_t capacity = std::bit_ceil(std::max<uint64_t>(1, matrix.rows));
-  out.emplace_back(kEntries,
-                   matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries : 8 * matrix.rays * capacity);
+  image(field.jumpFlood.distance, V);
+  image(field.jumpFlood.seeds, 4 * V);
+  // csr: 4 B per distinct column.
+  out.emplace_back(
+      kEntries, matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries : paddedBytes(matrix.rows, matrix.rays));
   buffer(matrix.rowStart, 4 * uint64_t{matrix.rows});
   buffer(matrix.rowInfo, 8 * uint64_t{matrix.rows});
   buffer(matrix.record, FormFactors::kSegmentTable + 8 * std::max<uint64_t>(1, matrix.segments.size()));
@@ -59,16 +63,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(lighting.rowSum, 4 * s);
   buffer(lighting.residual, sizeof(SolveResidual));
   buffer(lighting.blurChange, sizeof(uint32_t));
-  image(lighting.volume, 8 * V);
-  return out;
-}
-
-ThesisMemory thesisMemory(uint64_t voxels, uint64_t solidVoxels, uint64_t rays) {
-  const uint64_t capacity = std::bit_ceil(std::max<uint64_t>(1, solidVoxels));
-  ThesisMemory out{};
-  out.volumes = 36 * voxels;                     // T eq. 29
-  out.matrix = capacity * (84 + 8 * rays) + 16;  // T eq. 30
-  out.total = out.volumes + out.matrix;          // T eq. 31
+  image(lighting.volume.image, 8 * V);
   return out;
 }
 
@@ -87,21 +82,13 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
 
   using Kind = MemoryReportRow::Kind;
   std::vector<MemoryReportRow> rows;
-  uint64_t entries = 0, total = 0, volumes = 0, matrixBytes = 0;
+  uint64_t entries = 0, total = 0;
   std::vector<std::pair<SubsystemName, uint64_t>> subtotals;
   for (const MemoryRow& row : measured) {
     total += row.bytes;
     auto subtotal = std::find_if(subtotals.begin(), subtotals.end(), [&](auto& s) { return s.first == row.subsystem; });
     if (subtotal == subtotals.end()) subtotal = subtotals.insert(subtotals.end(), {row.subsystem, 0});
     subtotal->second += row.bytes;
-
-    // T Table 1's two groups: textures over the grid (the reverse map among them), and the matrix with its vectors.
-    const bool reverse = facets.reverse && row.name == facets.reverse.name;
-    const auto isOf = [&](std::initializer_list<SubsystemName> group) {
-      return std::find(group.begin(), group.end(), row.subsystem) != group.end();
-    };
-    if (isOf({Subsystem::Voxels, Subsystem::Field, Subsystem::Volumes})) volumes += row.bytes;
-    if (isOf({Subsystem::Facets, Subsystem::Matrix, Subsystem::Solver})) (reverse ? volumes : matrixBytes) += row.bytes;
 
     if (row.subsystem == Subsystem::Matrix && isSegment(matrix, row.name))
       entries += row.bytes;
@@ -114,10 +101,8 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
   for (const auto& [subsystem, bytes] : subtotals)
     rows.push_back({"subtotal", subsystem.text, "", bytes, std::nullopt, Kind::Subtotal});
   rows.push_back({"total", "all", "", total, std::nullopt, Kind::Sum});
-  const ThesisMemory thesis = thesisMemory(facets.grid.voxels, facets.solidVoxels, matrix.rays);
-  rows.push_back({"volumes (formula of the thesis)", "gi", "", volumes, thesis.volumes, Kind::Sum});
-  rows.push_back({"matrix and list (formula of the thesis)", "gi", "", matrixBytes, thesis.matrix, Kind::Sum});
-  rows.push_back({"all of gi (formula of the thesis)", "gi", "", volumes + matrixBytes, thesis.total, Kind::Sum});
+  const std::vector<MemoryReportRow> thesis = thesisMemoryRows(measured, facets, matrix);
+  rows.insert(rows.end(), thesis.begin(), thesis.end());
   return rows;
 }
 

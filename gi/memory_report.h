@@ -4,14 +4,16 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-
 namespace irad {
+
+struct FacetList;
+struct Field;
+struct FormFactors;
+struct Lighting;
+struct MemoryRow;
 
 struct MemoryReportRow {
   std::string name, subsystem, format;
@@ -23,13 +25,6 @@ struct MemoryReportRow {
 /// their extent and format. Units: s facets, V voxels (padding included), R rays, E matrix entries.
 std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& facets, const Field& field,
                                                             const FormFactors& matrix, const Lighting& lighting);
-
-/// T eq. 29-31, bytes: volumes of V voxels, matrix of a capacity M_s (the power of two at or above the solid voxels)
-/// with R entries per row.
-struct ThesisMemory {
-  uint64_t volumes, matrix, total;
-};
-ThesisMemory thesisMemory(uint64_t voxels, uint64_t solidVoxels, uint64_t rays);
 
 /// Resources (the matrix's segments as one row), subtotals per subsystem, the total, and T eq. 29-31 beside what the GI
 /// subsystems take.

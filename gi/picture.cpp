@@ -4,9 +4,13 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "gi/legend.h"
+#include "gi/views/views.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/base/sha256.h"
+#include "renderer/frame/transfer.h"
+#include "renderer/targets.h"
 #include "shaders/shared/view.h"
 
 namespace irad {

@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "gi/legend.h"
-#include "gi/views/views.h"
 #include "renderer/image_io.h"
 
 namespace irad {
+
+class Context;
+struct Legend;
+struct Settings;
+struct Targets;
+struct ViewInfo;
 
 struct PictureFiles {
   std::vector<std::filesystem::path> paths;

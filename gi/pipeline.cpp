@@ -23,6 +23,7 @@
 #include "gi/stage_keys.h"
 #include "gi/subsystems.h"
 #include "gi/voxelize.h"
+#include "gi/watch.h"
 #include "renderer/base/error.h"
 
 namespace irad {

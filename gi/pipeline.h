@@ -1,21 +1,35 @@
 // The whole method, stage after stage, for one scene: what is due is redone, the rest is kept.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
-#include <string>
+#include <vector>
 
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-#include "gi/plan.h"
+#include "gi/settings.h"
 #include "gi/views/views.h"
-#include "gi/watch.h"
-#include "renderer/forward.h"
 
 namespace irad {
+
+class Buffer;
+class Context;
+class Frame;
+class SceneOnDevice;
+struct Camera;
+struct EffectPlan;
+struct FacetList;
+struct Field;
+struct Finding;
+struct FormFactors;
+struct Light;
+struct Lighting;
+struct Scene;
+struct SceneTraits;
+struct ShadowMaps;
+struct Targets;
 
 /// Called between steps with the running stage's name and its share done; returns false to cancel.
 using Progress = std::function<bool(const char* stage, float fraction)>;

@@ -3,10 +3,15 @@
 
 #include "shaders/shared/pixel_emitters.h"
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "gi/traits.h"
-#include "gi/views/views.h"
+#include "gi/views/draw.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 
 namespace irad {

@@ -26,7 +26,7 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   const ViewInfo* info = viewInfo(view);
   if (((info != nullptr && info->isFrom(FROM_EMITTED)) || in.keepPosition) && p.light->emitted)
     in.shadedEmitted = &p.light->shadedEmitted();
-  in.volume = p.light->volume ? &p.light->volume : nullptr;
+  in.volume = p.light->volume ? &p.light->volume.image : nullptr;
   in.normalEncoding = p.facets->encoding;
   in.sample = obeyed.sample.gpu;
   return in;

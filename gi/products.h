@@ -11,7 +11,8 @@
 #include "gi/matrix.h"
 #include "gi/pixel_emitters.h"
 #include "gi/plan.h"
-#include "gi/views/views.h"
+#include "gi/views/draw.h"
+#include "gi/views/fields.h"
 
 namespace irad {
 

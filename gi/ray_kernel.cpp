@@ -1,7 +1,10 @@
 #include "gi/ray_kernel.h"
 
+#include "gi/facets.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 
@@ -9,7 +12,7 @@ RayKernel rayKernel(const FacetList& facets, const Field& field, const MatrixPar
   uint32_t method = field.chebyshev ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
   if (params.traversal == Traversal::sdf) {
     method = field.method == FieldMethod::jfa ? TRACE_JFA : TRACE_SKIP;
-    if (method == TRACE_JFA) IRAD_CHECK(field.jfaDistance.handle, "an sdf traversal without its jfa volume");
+    if (method == TRACE_JFA) IRAD_CHECK(field.jumpFlood.distance.handle, "an sdf traversal without its jfa volume");
     if (method == TRACE_SKIP) IRAD_CHECK(field.chebyshev.handle, "an sdf traversal without its chebyshev field");
   }
   return {method, params.hitRule, facets.encoding, facets, field};
@@ -23,12 +26,12 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
       .constant(CONSTANT_NORMALS, encoding)
       .constant(CONSTANT_TRACE_MANY, facets.slots > 2);
   if (jfa)
-    pass.sample(field.jfaDistance, sampler(device, {.u = Wrap::Clamp,
-                                                    .v = Wrap::Clamp,
-                                                    .linearMag = false,
-                                                    .linearMin = false,
-                                                    .mips = false,
-                                                    .linearMips = false}));
+    pass.sample(field.jumpFlood.distance, sampler(device, {.u = Wrap::Clamp,
+                                                           .v = Wrap::Clamp,
+                                                           .linearMag = false,
+                                                           .linearMin = false,
+                                                           .mips = false,
+                                                           .linearMips = false}));
   return pass;
 }
 
@@ -40,7 +43,7 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.chebyshev = kernel.chebyshev(pass);
   push.hits = pass.out(hits);
   push.dims = kernel.facets.grid.dims;
-  push.jfaMax = kernel.field.jfaMax;
+  push.jfaMax = kernel.field.jumpFlood.largest;
   push.firstRow = firstRow;
   push.rows = rows;
   push.rays = params.rays;

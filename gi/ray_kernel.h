@@ -2,11 +2,17 @@
 // (shaders/gi/trace.glsl).
 #pragma once
 
-#include "gi/facets.h"
+#include <string>
+
 #include "gi/field.h"
-#include "shaders/shared/trace.h"
+#include "renderer/frame/pass.h"
+#include "shaders/shared/gi_params.h"
+#include "shaders/shared/normals.h"
 
 namespace irad {
+
+class Frame;
+struct FacetList;
 
 /// How a stage's rays find solid voxels.
 struct RayKernel {

@@ -3,8 +3,10 @@
 
 #include "gi/facets.h"
 #include "gi/lighting.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/volume.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 

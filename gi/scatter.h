@@ -1,9 +1,12 @@
 // What shading samples, from the light of the facets.
 #pragma once
 
-#include "gi/lighting.h"
-
 namespace irad {
+
+class Frame;
+struct FacetList;
+struct Lighting;
+struct Settings;
 
 /// `blurred` and `blurredEmitted`, with report.blurChange; and the volume where it exists (gi/thesis/volume.h). `light`
 /// must stay where it is until the frame has finished: light.report.blurChange is read back. `watchBlur`: blurChange

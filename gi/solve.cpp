@@ -6,10 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/subsystems.h"
 #include "gi/sweep.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
 namespace {

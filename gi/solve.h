@@ -1,10 +1,16 @@
 // Indirect light between the facets.
 #pragma once
 
-#include "gi/lighting.h"
-#include "gi/matrix.h"
+#include <cstdint>
 
 namespace irad {
+
+class Context;
+struct FacetList;
+struct FormFactors;
+struct Lighting;
+struct Settings;
+struct SolveReport;
 
 /// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity (from the dark where the
 /// last report has something not finite). Blocking.

@@ -6,7 +6,17 @@
 #include <bit>
 #include <limits>
 
-#include "gi/views/views.h"
+#include "gi/emitters.h"
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/settings.h"
+#include "gi/specular_pass.h"
+#include "gi/subsystems.h"
+#include "gi/thesis/pixel_specular.h"
+#include "gi/views/draw.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
 
@@ -24,7 +34,7 @@ constexpr std::array<FilterStep, 3> kFilter{{{1, 0.03f}, {2, 0.08f}, {4, 0.15f}}
 uint32_t traceMethod(const Settings& settings, const Field& field) {
   const bool bytes = static_cast<bool>(field.chebyshev);
   if (settings.specular.gpu.traversal == Traversal::dda) return bytes ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
-  if (field.method == FieldMethod::jfa && field.jfaDistance) return TRACE_JFA;
+  if (field.method == FieldMethod::jfa && field.jumpFlood.distance) return TRACE_JFA;
   return bytes ? TRACE_SKIP : TRACE_DDA_REVERSE;
 }
 
@@ -33,88 +43,85 @@ float leastReflected(float threshold, float largestH) {
   return threshold > 0 ? std::max(threshold * largestH, std::numeric_limits<float>::min()) : 0;
 }
 
+VkSampler nearest(const Device& device) {
+  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
+  nearest.linearMips = false;
+  return sampler(device, nearest);
+}
+
 }  // namespace
+
+void listGlossy(SpecularPicture& picture, bool filtered, uint32_t parts) {
+  Frame& frame = picture.frame;
+  Targets& targets = picture.targets;
+  const Device& device = frame.context().device;
+  if (!targets.glossy)
+    targets.glossy =
+        Buffer(device, "glossy pixels", Subsystem::Targets, 4ull * (GLOSSY_FIRST + targets.size.x * targets.size.y));
+  frame.pass(kSpecularStage).update(targets.glossy, glm::uvec4(0, parts, 1, 0));
+  Pass pass = frame.pass(kSpecularStage);
+  SpecularPush push = picture.push;
+  push.camera = pass.in(picture.camera);
+  push.glossy = pass.out(targets.glossy);
+  pass.shader("specular/classify.comp")
+      .constant(CONSTANT_FILTERED, filtered)
+      .sample(targets.depth, nearest(device))
+      .read(targets.normal, targets.f0, targets.indirect)
+      .write(targets.linear, targets.specular)
+      .push(push)
+      .dispatch(targets.size);
+}
+
+Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitters) {
+  const Targets& targets = picture.targets;
+  const FacetList& facets = *picture.inputs.facets;
+  SpecularPush push = picture.push;
+  push.camera = pass.in(picture.camera);
+  push.facets = pass.in(facets.record);
+  push.radiosity = pass.in(picture.inputs.lighting->radiosity);
+  push.chebyshev = pass.inIfAny(picture.inputs.field->chebyshev);
+  push.glossy = pass.inIfAny(targets.glossy);
+  if (emitters != nullptr) push.emitters = pass.in(emitters->record);
+  return pass.constant(CONSTANT_TRACE_METHOD, picture.method)
+      .constant(CONSTANT_TRACE_HIT_RULE, picture.settings.matrix.gpu.hitRule)
+      .constant(CONSTANT_NORMALS, facets.encoding)
+      .constant(CONSTANT_TRACE_MANY, facets.slots > 2)
+      .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
+      .sample(targets.depth, nearest(picture.frame.context().device))
+      .read(targets.normal, targets.geometric, targets.f0)
+      .push(push);
+}
+
+Pass& sampleField(const SpecularPicture& picture, Pass& pass) {
+  if (fieldIsImage(picture))
+    pass.sample(picture.inputs.field->jumpFlood.distance, nearest(picture.frame.context().device));
+  return pass;
+}
 
 void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                    Targets& targets) {
   const bool traces = settings.specular.mode != SpecularMode::off && targets.f0 && targets.indirect &&
                       inputs.facets != nullptr && inputs.field != nullptr && inputs.lighting != nullptr;
-  // T 5.11: every pixel by itself, unfiltered.
-  const bool alone = settings.specular.mode == SpecularMode::fragment;
-  const bool kernels = static_cast<bool>(targets.visible);
-  const bool lists = traces && (!alone || kernels);
   targets.fit(frame.context(), &Targets::specular, traces);
-  if (lists != static_cast<bool>(targets.glossy))
-    targets.glossy = lists ? Buffer(frame.context().device, "glossy pixels", Subsystem::Targets,
-                                    4ull * (GLOSSY_FIRST + targets.size.x * targets.size.y))
-                           : Buffer();
-  if (!traces) return;
-  const FacetList& facets = *inputs.facets;
-  const Field& field = *inputs.field;
-  const Lighting& lighting = *inputs.lighting;
-  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
-  nearest.linearMips = false;
-  const VkSampler point = sampler(frame.context().device, nearest);
-
-  SpecularPush common{};
-  common.grid = facets.grid;
+  if (!traces) {
+    targets.glossy = Buffer();
+    return;
+  }
+  SpecularPicture picture{frame, inputs, camera, settings, targets, {}, traceMethod(settings, *inputs.field)};
+  SpecularPush& common = picture.push;
+  common.grid = inputs.facets->grid;
   common.params = settings.specular.gpu;
-  common.jfaMax = field.jfaMax;
-  common.leastReflected = leastReflected(settings.specular.gpu.threshold, lighting.litH);
-  const uint32_t method = traceMethod(settings, field);
-  const bool volume = method == TRACE_JFA;
-  const auto traced = [&](Pass& pass, const Emitters* emitters = nullptr) -> Pass& {
-    SpecularPush push = common;
-    push.camera = pass.in(camera);
-    push.facets = pass.in(facets.record);
-    push.radiosity = pass.in(lighting.radiosity);
-    push.chebyshev = pass.inIfAny(field.chebyshev);
-    if (lists) push.glossy = pass.in(targets.glossy);
-    if (emitters != nullptr) push.emitters = pass.in(emitters->record);
-    pass.constant(CONSTANT_TRACE_METHOD, method)
-        .constant(CONSTANT_TRACE_HIT_RULE, settings.matrix.gpu.hitRule)
-        .constant(CONSTANT_NORMALS, facets.encoding)
-        .constant(CONSTANT_TRACE_MANY, facets.slots > 2)
-        .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
-        .sample(targets.depth, point)
-        .read(targets.normal, targets.geometric, targets.f0);
-    if (alone) pass.read(targets.indirect);
-    if (lists) pass.write(alone ? targets.specular : targets.linear);
-    if (volume) pass.sample(field.jfaDistance, point);
-    return pass.push(push);
-  };
+  common.jfaMax = inputs.field->jumpFlood.largest;
+  common.leastReflected = leastReflected(settings.specular.gpu.threshold, inputs.lighting->litH);
+  if (settings.specular.mode == SpecularMode::fragment) return traceByPixel(picture);
 
-  if (!lists) {
-    Pass pass = frame.pass("RE Specular");
-    pass.shaders({"specular/screen.vert", volume ? "specular/trace_jfa.frag" : "specular/trace.frag"});
-    traced(pass).color(targets.specular, ClearColor{}).draw(3);
-    return;
-  }
+  listGlossy(picture, /*filtered=*/true, /*parts=*/1);
 
-  // List the pixels that trace; the others have their reflection with this step.
-  frame.pass("RE Specular").update(targets.glossy, glm::uvec4(0, alone ? GLOSSY_PARTS : 1, 1, 0));
-  Pass classify = frame.pass("RE Specular");
-  SpecularPush push = common;
-  push.camera = classify.in(camera);
-  push.glossy = classify.out(targets.glossy);
-  classify.shader("specular/classify.comp")
-      .constant(CONSTANT_FILTERED, !alone)
-      .sample(targets.depth, point)
-      .read(targets.normal, targets.f0, targets.indirect)
-      .write(targets.linear, targets.specular)
-      .push(push)
-      .dispatch(targets.size);
-
-  // Trace.
-  Pass trace = frame.pass("RE Specular");
-  if (alone) {
-    trace.shader(volume ? "specular/trace_picture_jfa.comp" : "specular/trace_picture.comp");
-    traced(trace).dispatchIndirect(targets.glossy);
-    return;
-  }
-  trace.shader(volume ? "specular/trace_jfa.comp" : "specular/trace.comp");
+  Pass trace = frame.pass(kSpecularStage);
+  trace.shader(fieldIsImage(picture) ? "specular/trace_jfa.comp" : "specular/trace.comp");
   const bool emitters = inputs.emitters != nullptr && inputs.emitters->count > 0;
-  traced(trace, emitters ? inputs.emitters : nullptr).dispatchIndirect(targets.glossy);
+  addRays(picture, trace, emitters ? inputs.emitters : nullptr).write(targets.linear);
+  sampleField(picture, trace).dispatchIndirect(targets.glossy);
 
   // Filter; linear and specular take turns, so that the last of the three steps ends in `specular`.
   const Image* from = &targets.linear;
@@ -122,7 +129,8 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   for (size_t i = 0; i < kFilter.size(); ++i) {
     const bool last = i + 1 == kFilter.size();
     if (settings.specular.gpu.filter_ == 0 && !last) continue;
-    Pass filter = frame.pass("RE Specular");
+    Pass filter = frame.pass(kSpecularStage);
+    SpecularPush push = common;
     push.camera = filter.in(camera);
     push.glossy = filter.in(targets.glossy);
     filter.shader("specular/filter.comp")

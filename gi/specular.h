@@ -1,13 +1,14 @@
 // Reflections of the voxelized scene (docs/method.md 8).
 #pragma once
 
-#include "gi/settings.h"
-#include "renderer/frame/frame.h"
-#include "renderer/targets.h"
-
 namespace irad {
 
+class Buffer;
+class Frame;
+struct Settings;
+struct Targets;
 struct ViewInputs;
+
 /// "RE Specular" in compute over the G-buffer (docs/method.md 8): traces settings.specular.rays rays per pixel in the
 /// GGX lobe through the voxels, radiance B/pi at the hit; rough surfaces take H/pi. Makes and writes
 /// targets.specular; gives it back, and records nothing, where specular.mode is off or f0 or H is absent.

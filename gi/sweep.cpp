@@ -1,7 +1,12 @@
 #include "gi/sweep.h"
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/subsystems.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
 namespace {

@@ -3,13 +3,16 @@
 
 #include <array>
 
-#include "gi/facets.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-#include "gi/solve.h"
-#include "shaders/shared/solve.h"
+#include "gi/settings.h"
+#include "renderer/resources.h"
 
 namespace irad {
+
+class Context;
+class Frame;
+struct FacetList;
+struct FormFactors;
+struct Lighting;
 
 /// Binds the kernel to a list and a matrix, which it must not outlive.
 class Sweep {

@@ -3,11 +3,14 @@
 
 #include <vector>
 
-#include "gi/voxelize.h"
-#include "renderer/frame/frame.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
+
+class Pass;
+class SceneOnDevice;
+struct Settings;
+struct Voxels;
 
 inline constexpr const char* kVoxelizeStage = "GI Voxelization";
 

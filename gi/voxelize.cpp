@@ -5,11 +5,13 @@
 
 #include "gi/grid.h"
 #include "gi/scan.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/literal_grid.h"
 #include "gi/thesis/raster_voxels.h"
 #include "gi/voxel_pass.h"
 #include "renderer/base/error.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/constants.h"
 
 namespace irad {

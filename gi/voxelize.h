@@ -1,11 +1,14 @@
 // Voxelization: which triangles own which voxels (docs/method.md 2, T 5.1).
 #pragma once
 
-#include "gi/settings.h"
-#include "renderer/gpu_scene.h"
+#include "renderer/resources.h"
 #include "shaders/shared/grid.h"
 
 namespace irad {
+
+class Context;
+class SceneOnDevice;
+struct Settings;
 
 /// Who rasterizes (renderer/raster.h). UsageError where kernels are asked for that the device cannot run.
 bool rasterizesByKernels(const Device& device, const Settings& settings);

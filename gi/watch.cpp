@@ -6,7 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "gi/subsystems.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/energy.h"
 #include "shaders/shared/grid.h"

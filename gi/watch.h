@@ -1,14 +1,21 @@
 // The numerical watch: what the solver counts on the device (shared/solve.h), traced to its stage, and said in words.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "gi/facets.h"
-#include "gi/lighting.h"
+#include "shaders/shared/grid.h"
 
 namespace irad {
+
+class Context;
+struct Defect;
+struct EnergyBalance;
+struct FacetList;
+struct Lighting;
+struct SolveReport;
 
 /// Where the light of a solve went wrong; nothing where every number is finite and >= 0. Reads everything back, so it
 /// is called only when the solver's counts say that there is something to find.

@@ -3,6 +3,8 @@
 #include "gi/picture.h"
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/scene.h"
+#include "renderer/targets.h"
 #include "tests/support.h"
 
 namespace irad::capture_suite {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "gi/compare.h"
+#include "gi/export.h"
 #include "gi/lighting.h"
 #include "tests/gi_fixture.h"
 #include "tests/scene_files.h"

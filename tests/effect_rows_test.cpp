@@ -2,6 +2,9 @@
 // passes, memory and shader code; it flips back, and they are gone, to the last byte. Where the scene does not call for
 // it, forced on it gives the same bits.
 #include "app/plan_proof.h"
+#include "gi/lighting.h"
+#include "gi/plan.h"
+#include "renderer/targets.h"
 #include "shaders/shared/passes.h"
 #include "tests/effects_fixture.h"
 

@@ -6,7 +6,10 @@
 #include <set>
 #include <sstream>
 
+#include "gi/lighting.h"
 #include "gi/pipeline.h"
+#include "gi/plan.h"
+#include "renderer/targets.h"
 #include "tests/gi_fixture.h"
 
 namespace irad::test {

@@ -5,7 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "gi/plan.h"
 #include "renderer/base/csv.h"
+#include "renderer/shadow.h"
 #include "tests/effects_fixture.h"
 
 namespace irad::test::effects_suite {

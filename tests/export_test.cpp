@@ -10,8 +10,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/memory_report.h"
 #include "gi/subsystems.h"
+#include "gi/thesis/memory.h"
 #include "renderer/base/error.h"
 #include "shaders/shared/normals.h"
 #include "tests/support.h"

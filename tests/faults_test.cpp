@@ -5,6 +5,8 @@
 
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/scene.h"
+#include "renderer/targets.h"
 #include "tests/support.h"
 
 namespace irad::test::faults_suite {

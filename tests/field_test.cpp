@@ -94,7 +94,7 @@ TEST_F(FieldTest, EmptyAndFullScenes) {
   Settings settings;
   settings.field.method = FieldMethod::jfa;
   const Field field = buildField(context(), solids(grid, std::vector<bool>(grid.voxels, false)), settings);
-  for (const std::byte b : download(context(), field.jfaDistance)) ASSERT_EQ(std::to_integer<int>(b), 255);
+  for (const std::byte b : download(context(), field.jumpFlood.distance)) ASSERT_EQ(std::to_integer<int>(b), 255);
 }
 
 std::vector<uint32_t> words(const std::vector<std::byte>& bytes) {
@@ -116,9 +116,9 @@ TEST_F(FieldTest, JumpFloodAgainstBruteForce) {
     const std::vector<bool> solid = seed == 0 ? shell(grid) : randomSolids(grid, share, seed);
     const std::vector<uint32_t> exact = oracle::squaredDistance(grid, solid);
     const Field field = buildField(context(), solids(grid, solid), settings);
-    EXPECT_EQ(field.jfaMax, static_cast<float>(largest));
-    const std::vector<uint32_t> seeds = words(download(context(), field.jfaSeeds));
-    const std::vector<std::byte> distance = download(context(), field.jfaDistance);
+    EXPECT_EQ(field.jumpFlood.largest, static_cast<float>(largest));
+    const std::vector<uint32_t> seeds = words(download(context(), field.jumpFlood.seeds));
+    const std::vector<std::byte> distance = download(context(), field.jumpFlood.distance);
     ASSERT_EQ(seeds.size(), grid.voxels);
     uint32_t wrong = 0;
     for (uint32_t i = 0; i < grid.voxels; ++i) {
@@ -187,7 +187,7 @@ TEST_F(FieldTest, EveryPassOfJumpFloodingIsThatOfTheProcessor) {
   Settings settings;
   settings.field.method = FieldMethod::jfa;
   const Field field = buildField(context(), facets, settings);
-  EXPECT_EQ(words(download(context(), field.jfaSeeds)), seeds);
+  EXPECT_EQ(words(download(context(), field.jumpFlood.seeds)), seeds);
   EXPECT_FALSE(field.chebyshev);
 }
 

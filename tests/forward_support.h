@@ -6,8 +6,9 @@
 #include <memory>
 
 #include "gi/indirect.h"
+#include "gi/settings.h"
 #include "gi/specular.h"
-#include "gi/views/views.h"
+#include "gi/views/draw.h"
 #include "tests/support.h"
 
 namespace irad::test {

@@ -1,6 +1,7 @@
 // Direct light on the facets against closed forms (docs/method.md 6, T 5.7).
 #include "gi/gather.h"
 #include "gi/lighting.h"
+#include "renderer/shadow.h"
 #include "tests/gi_fixture.h"
 
 namespace irad::test::gather_suite {

@@ -10,7 +10,9 @@
 #include "gi/facets.h"
 #include "gi/field.h"
 #include "gi/host_matrix.h"
+#include "gi/settings.h"
 #include "gi/voxelize.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/normals.h"
 #include "tests/support.h"
 

@@ -13,6 +13,8 @@
 #include "gi/pipeline.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
+#include "renderer/scene/scene.h"
+#include "renderer/targets.h"
 #include "tests/exr.h"
 #include "tests/support.h"
 

@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/check/scenes.h"
+#include "gi/lighting.h"
 #include "renderer/base/error.h"
+#include "renderer/targets.h"
+#include "shaders/shared/emitters.h"
 #include "tests/gi_fixture.h"
 
 namespace irad::test::inspect_suite {

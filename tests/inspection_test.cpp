@@ -7,6 +7,7 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/quaternion.hpp>
 
+#include "gi/lighting.h"
 #include "renderer/base/error.h"
 #include "ui/session.h"
 

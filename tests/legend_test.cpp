@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gi/views/views.h"
 #include "renderer/image_io.h"
 #include "shaders/shared/color_map.h"
 #include "tests/exr.h"

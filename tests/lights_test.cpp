@@ -13,6 +13,7 @@
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sidecar.h"
 #include "renderer/shadow.h"
+#include "renderer/targets.h"
 #include "tests/scene_files.h"
 #include "tests/virtual_screen.h"
 

@@ -11,6 +11,8 @@
 #include "gi/scatter.h"
 #include "gi/solve.h"
 #include "gi/subsystems.h"
+#include "gi/views/draw.h"
+#include "gi/views/fields.h"
 #include "gi/voxelize.h"
 #include "tests/forward_support.h"
 
@@ -63,7 +65,7 @@ struct Lit {
     in.around = &facets.around;
     in.shaded = &light.shaded();
     if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
-    in.volume = light.volume ? &light.volume : nullptr;
+    in.volume = light.volume ? &light.volume.image : nullptr;
     in.normalEncoding = facets.encoding;
     in.sample = stage.settings.sample.gpu;
     return in;

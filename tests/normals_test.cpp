@@ -7,6 +7,7 @@
 
 #include "shaders/shared/facets.h"
 #include "shaders/shared/normals.h"
+#include "shaders/thesis/oct8_literal.h"
 
 namespace irad::normals_suite {
 namespace {

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "gi/pipeline.h"
+#include "gi/watch.h"
+#include "renderer/targets.h"
 #include "tests/support.h"
 
 namespace irad::test::poison_suite {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <random>
 
+#include "gi/settings.h"
 #include "gi/voxelize.h"
 #include "renderer/depth_pass.h"
 #include "renderer/instance.h"

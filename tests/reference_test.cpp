@@ -10,7 +10,10 @@
 
 #include <fstream>
 
+#include "gi/lighting.h"
 #include "gi/pipeline.h"
+#include "renderer/scene/scene.h"
+#include "renderer/targets.h"
 #include "tests/exr.h"
 #include "tests/support.h"
 

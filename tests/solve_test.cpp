@@ -306,7 +306,7 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
   for (const float v : value) h.emplace_back(v, 2 * v, 3 * v, 0);
   upload(context(), light.indirect, std::as_bytes(std::span(h)));
   upload(context(), light.emitted, std::as_bytes(std::span(h)));
-  addVolume(context(), facets, light);
+  light.volume = makeVolume(context(), grid);
   light.report.clampedVoxels = 77;  // of a run before
   const auto run = [&] {
     Frame frame = context().begin();
@@ -345,7 +345,7 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
   upload(context(), light.indirect, std::as_bytes(std::span(h)));
   run();
   EXPECT_EQ(light.report.clampedVoxels, 1u);
-  const std::vector<std::byte> bytes = download(context(), light.volume);
+  const std::vector<std::byte> bytes = download(context(), light.volume.image);
   std::vector<uint64_t> texels(grid.voxels);
   ASSERT_EQ(bytes.size(), texels.size() * 8);
   std::memcpy(texels.data(), bytes.data(), bytes.size());
@@ -368,14 +368,14 @@ TEST_F(Solve, ScatterKeepsConstantsAndStaysOnItsLevel) {
   setDirect(light, direct);
   settings.sample.gpu.gated = 0;
   run();
-  std::vector<std::byte> held = download(context(), light.volume);
+  std::vector<std::byte> held = download(context(), light.volume.image);
   std::memcpy(texels.data(), held.data(), held.size());
   EXPECT_EQ(texel(voxel[0]), glm::vec4(5, 5, 5, 1));
   settings.scatter.edgeRemoval = true;
   settings.solver.gpu.lambda = 0.3f;  // for a solve to come: this light was solved with .8
   light.gain.radiosity = 0.8f;
   run();
-  held = download(context(), light.volume);
+  held = download(context(), light.volume.image);
   std::memcpy(texels.data(), held.data(), held.size());
   EXPECT_NEAR(texel(voxel[0]).x, 5 - 0.8f * 0.5f * 2, 0.005f);
   EXPECT_NEAR(texel(voxel[0]).y, 5 - 0.8f * 0.5f * 4, 0.005f);

@@ -8,7 +8,9 @@
 #include "gi/host_facets.h"
 #include "gi/ray_kernel.h"
 
+#include "gi/oracle/rays.h"
 #include "gi/subsystems.h"
+#include "shaders/shared/trace.h"
 #include "tests/gi_fixture.h"
 
 namespace irad::test::trace_suite {

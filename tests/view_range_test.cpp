@@ -1,7 +1,9 @@
 // How the values of a view with a range become colours: the range itself, the maps, the marks.
 #include <gtest/gtest.h>
 
+#include "gi/settings.h"
 #include "gi/views/passes.h"
+#include "renderer/targets.h"
 #include "shaders/shared/color_map.h"
 #include "shaders/shared/view.h"
 #include "tests/support.h"

@@ -6,6 +6,7 @@
 #include "gi/oracle/fields.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/jump_flood.h"
+#include "gi/views/fields.h"
 #include "gi/voxelize.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/voxelize.h"

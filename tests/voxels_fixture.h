@@ -6,7 +6,9 @@
 #include <tuple>
 
 #include "gi/facets.h"
+#include "gi/settings.h"
 #include "gi/voxelize.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/normals.h"
 #include "tests/soup.h"
 #include "tests/support.h"

@@ -6,13 +6,14 @@
 
 #include "gi/emitters.h"
 #include "gi/facets.h"
-#include "gi/grid.h"
 #include "gi/gather_emitters.h"
+#include "gi/grid.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/pipeline.h"
 #include "gi/solve.h"
 #include "gi/subsystems.h"
+#include "gi/watch.h"
 #include "renderer/frame/record.h"
 #include "shaders/shared/energy.h"
 #include "tests/gi_fixture.h"
@@ -300,12 +301,12 @@ TEST_F(Guard, EdgesAreRemovedFromTheLightThatWasPutBack) {
   settings.scatter.edgeRemoval = true;
   Pipeline pipeline(context(), furnaceBox(0.9f), settings);
   pipeline.prepare();
-  const std::vector<std::byte> before = download(context(), pipeline.lighting().volume);
+  const std::vector<std::byte> before = download(context(), pipeline.lighting().volume.image);
   settings.solver.gpu.lambda = 2;
   pipeline.set(settings);
   pipeline.prepare();
   ASSERT_TRUE(pipeline.lighting().report.diverging);
-  EXPECT_EQ(download(context(), pipeline.lighting().volume), before);
+  EXPECT_EQ(download(context(), pipeline.lighting().volume.image), before);
 }
 
 TEST_F(Guard, GrowthThatEndsIsDampedAndConverges) {

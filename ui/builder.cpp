@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "gi/check/check.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "gi/plan.h"
 #include "renderer/base/error.h"
 
 namespace irad {

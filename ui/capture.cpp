@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gi/picture.h"
+#include "gi/plan.h"
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"

@@ -1,5 +1,7 @@
 #include "ui/comparison.h"
 
+#include "gi/export.h"
+
 namespace irad {
 namespace {
 

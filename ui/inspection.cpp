@@ -5,7 +5,9 @@
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
+#include "gi/inspect.h"
 #include "renderer/base/error.h"
+#include "renderer/forward.h"
 #include "ui/session.h"
 
 namespace irad {
@@ -14,6 +16,13 @@ namespace {
 constexpr size_t kSamples = 400;  ///< samples of H that are remembered
 
 }  // namespace
+
+Inspection::Inspection() = default;
+Inspection::~Inspection() = default;
+
+double Inspection::edge() const {
+  return inspector_ ? double{inspector_->grid().edge} : 0;
+}
 
 Inspector& Inspection::inspector(Session& session) {
   const Pipeline& pipeline = *session.pipeline;
@@ -57,7 +66,7 @@ void Inspection::open(Session& session, const glm::uvec3& at) {
 }
 
 /// Picks from the picture as it is shown: the cell of a slice, the first cube on the way, or the surface in the pixel.
-std::optional<Inspector::SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
+std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
   const Targets& targets = session.targets;
   const GpuCamera camera = makeGpuCamera(session.pipeline->scene(), session.shown, targets.size);
   const glm::dmat4 inverse = glm::inverse(glm::dmat4(camera.viewProjection));
@@ -67,7 +76,7 @@ std::optional<Inspector::SliceCell> Inspection::under(Session& session, const gl
     return glm::dvec3(p) / p.w + session.pipeline->scene().origin;
   };
   const auto cell = [&](std::optional<uint32_t> facet) {
-    return facet ? std::optional(Inspector::SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
+    return facet ? std::optional(SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
   };
   const glm::dvec3 start = at(0), direction = glm::normalize(at(1) - start);
   if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
@@ -96,7 +105,7 @@ void Inspection::serveRequests(Session& session) {
     trail.clear();
   }
   if (const auto wanted = std::exchange(pick, std::nullopt)) {
-    const std::optional<Inspector::SliceCell> found = under(session, wanted->pixel);
+    const std::optional<SliceCell> found = under(session, wanted->pixel);
     if (found && found->facet && wanted->compare && facet()) {
       compareWith(*found->facet);
     } else if (!wanted->compare) {

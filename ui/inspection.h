@@ -9,14 +9,19 @@
 #include <optional>
 #include <vector>
 
-#include "gi/inspect.h"
+#include "gi/inspected.h"
+#include "gi/pipeline.h"
 
 namespace irad {
 
+class Inspector;
 struct Session;
 
 class Inspection {
  public:
+  Inspection();
+  ~Inspection();
+
   // ---- What is shown ----
   std::optional<InspectedVoxel> voxel;  ///< none: nothing is picked; it may hold no facet, in slices
   size_t chosen = 0;                    ///< of the voxel's facets
@@ -57,13 +62,13 @@ class Inspection {
   /// Does what is wanted, and takes over what the pipeline has changed. True where something changed; errors are shown.
   bool serve(Session& session);
   /// The voxel's edge length, m.
-  double edge() const { return inspector_ ? double{inspector_->grid().edge} : 0; }
+  double edge() const;
 
  private:
   void serveRequests(Session& session);
   bool update(Session& session);
   Inspector& inspector(Session& session);
-  std::optional<Inspector::SliceCell> under(Session& session, const glm::uvec2& pixel);
+  std::optional<SliceCell> under(Session& session, const glm::uvec2& pixel);
   void pickFacet(uint32_t facet);
   void compareWith(uint32_t facet);
   void reset();

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gi/inspect.h"
+#include "gi/inspected.h"
 
 namespace irad {
 

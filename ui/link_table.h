@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gi/inspect.h"
+#include "gi/inspected.h"
 #include "ui/link_filter.h"
 
 struct ImGuiTableSortSpecs;

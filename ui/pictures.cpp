@@ -2,6 +2,9 @@
 
 #include <cstring>
 
+#include "gi/views/draw.h"
+#include "renderer/frame/frame.h"
+
 namespace irad {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/forward.h"
 #include "ui/imgui.h"
 #include "ui/imgui_layer.h"
 #include "ui/overlay.h"

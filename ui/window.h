@@ -9,10 +9,14 @@
 
 #include "gi/manifest.h"
 #include "gi/picture.h"
-#include "gi/pipeline.h"
+#include "gi/settings.h"
+#include "gi/views/views.h"
+#include "renderer/scene/scene.h"
 #include "ui/presets.h"
 
 namespace irad {
+
+class Context;
 
 struct WindowOptions {
   std::filesystem::path scene;

@@ -7,6 +7,7 @@
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
+#include "gi/lighting.h"
 
 namespace irad {
 namespace {

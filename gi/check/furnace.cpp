@@ -3,6 +3,9 @@
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
 
 namespace irad {
 namespace {

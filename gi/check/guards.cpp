@@ -6,7 +6,10 @@
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "gi/matrix.h"
+#include "gi/watch.h"
 #include "renderer/base/error.h"
 
 namespace irad {

@@ -5,6 +5,8 @@
 
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
+#include "gi/facets.h"
+#include "gi/lighting.h"
 
 namespace irad {
 namespace {

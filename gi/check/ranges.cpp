@@ -9,6 +9,7 @@
 #include "gi/check/pictures.h"
 #include "gi/check/scenes.h"
 #include "gi/grid.h"
+#include "gi/lighting.h"
 
 namespace irad {
 namespace {

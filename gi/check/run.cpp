@@ -7,7 +7,11 @@
 #include <cstring>
 #include <limits>
 
+#include "gi/facets.h"
+#include "gi/lighting.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 
 namespace irad {
 namespace {

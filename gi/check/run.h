@@ -9,6 +9,8 @@
 #include "gi/host_facets.h"
 #include "gi/host_matrix.h"
 #include "gi/pipeline.h"
+#include "renderer/frame/context.h"
+#include "renderer/scene/scene.h"
 
 namespace irad {
 

@@ -12,13 +12,18 @@
 #include "gi/check/scenes.h"
 #include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/lighting.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "gi/voxelize.h"
 #include "renderer/base/angle.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/check.h"
 #include "shaders/shared/normals.h"
+#include "shaders/shared/sampling.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 namespace {
@@ -240,7 +245,7 @@ void halfCase(CheckRun& run) {
     run.setAlbedo(*pipeline, std::vector<glm::vec3>(list.count, glm::vec3(rho)));
     pipeline->prepare();
     const std::vector<glm::vec3> b = run.read(*pipeline, pipeline->lighting().radiosity);
-    const std::vector<std::byte> texels = download(run.context, pipeline->lighting().volume);
+    const std::vector<std::byte> texels = download(run.context, pipeline->lighting().volume.image);
     IRAD_CHECK_OP(texels.size(), ==, 8 * reverse.size());
     double worst = 0;
     for (size_t v = 0; v < reverse.size(); ++v) {

@@ -11,8 +11,11 @@
 #include "gi/check/cases.h"
 #include "gi/check/process.h"
 #include "gi/check/scenes.h"
+#include "gi/lighting.h"
 #include "renderer/base/error.h"
 #include "renderer/base/temporary_folder.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 
 namespace irad {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "gi/facets.h"
 #include "gi/subsystems.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -59,20 +60,22 @@ Buffer recordJumpFlood(Frame& frame, const char* stage, const FacetList& facets,
   return from;
 }
 
-void recordJumpFloodField(Frame& frame, const char* stage, const FacetList& facets, const Buffer& gridRecord,
-                          Field& field) {
+JumpFloodField recordJumpFloodField(Frame& frame, const char* stage, const FacetList& facets,
+                                    const Buffer& gridRecord) {
   const Device& device = frame.context().device;
   const Grid& grid = facets.grid;
   const Buffer seeds = recordJumpFlood(frame, stage, facets, gridRecord, jumpFloodPasses(grid));
-  field.jfaMax = static_cast<float>(largestDimension(grid));
-  field.jfaSeeds = fieldImage(device, grid, "jfa seeds", VK_FORMAT_R32_UINT);
-  field.jfaDistance = fieldImage(device, grid, "jfa distance", VK_FORMAT_R8_UNORM);
+  JumpFloodField field;
+  field.largest = static_cast<float>(largestDimension(grid));
+  field.seeds = fieldImage(device, grid, "jfa seeds", VK_FORMAT_R32_UINT);
+  field.distance = fieldImage(device, grid, "jfa distance", VK_FORMAT_R8_UNORM);
   Pass pass = frame.pass(stage);
   FieldPush push{};
   push.grid = pass.in(gridRecord);
   push.source = pass.in(seeds);
-  push.scale = 1.0f / field.jfaMax;
-  pass.shader("thesis/jfa_distance.comp").write(field.jfaDistance, field.jfaSeeds).push(push).dispatch(grid.voxels);
+  push.scale = 1.0f / field.largest;
+  pass.shader("thesis/jfa_distance.comp").write(field.distance, field.seeds).push(push).dispatch(grid.voxels);
+  return field;
 }
 
 }  // namespace irad

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <bit>
 
+#include "gi/facets.h"
+#include "gi/host_matrix.h"
 #include "gi/matrix_build.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
 #include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 
 namespace irad {
@@ -20,7 +23,7 @@ void buildPaddedRows(Context& context, const FacetList& facets, const Field& fie
   const uint64_t rowBytes = 8ull * params.rays;
   const std::string what = fmt::format("the padded matrix of {} rows x {} places x 8 B", capacity, params.rays);
   try {
-    device.memory().check(Subsystem::Matrix, what, capacity * rowBytes);
+    device.memory().check(Subsystem::Matrix, what, paddedBytes(rows, params.rays));
   } catch (const DeviceError& error) {
     throw DeviceError(fmt::format("{}; matrix.format=csr keeps only the entries that exist (about {:.0f} MiB at most)",
                                   error.what(), inMebibytes(4ull * rows * params.rays)));
@@ -50,7 +53,7 @@ void buildPaddedRows(Context& context, const FacetList& facets, const Field& fie
     const uint64_t end = std::min<uint64_t>({rows, first + chunk, (segment + 1) << arrays.segmentShift});
     PaddedRowsPush push{};
     push.dims = facets.grid.dims;
-    push.jfaMax = field.jfaMax;
+    push.jfaMax = field.jumpFlood.largest;
     push.firstRow = first;
     push.rows = static_cast<uint32_t>(end - first);
     push.jitter = params.jitter;
@@ -82,6 +85,22 @@ void buildPaddedRows(Context& context, const FacetList& facets, const Field& fie
   matrix.stats.entries = matrix.stats.hits;
   matrix.stats.bytesUsed = 8 * matrix.stats.hits;
   writeMatrixRecord(context, matrix, arrays);
+}
+
+uint64_t paddedBytes(uint64_t rows, uint64_t rays) {
+  return 8 * rays * std::bit_ceil(std::max<uint64_t>(1, rows));
+}
+
+size_t paddedStart(const MatrixArrays& arrays, uint32_t row) {
+  return kPaddedWords * (row & ((1u << arrays.segmentShift) - 1)) * arrays.stride;
+}
+
+void decodePadded(std::span<const uint32_t> words, HostRow& row) {
+  for (size_t i = 0; i < words.size(); i += kPaddedWords) {
+    row.columns.push_back(words[i]);
+    row.hits.push_back(1);
+    IRAD_CHECK_OP(words[i + 1], ==, std::bit_cast<uint32_t>(row.weight));
+  }
 }
 
 }  // namespace irad

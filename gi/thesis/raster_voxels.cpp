@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gi/subsystems.h"
+#include "gi/voxelize.h"
 #include "renderer/raster.h"
 
 namespace irad {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gi/voxel_pass.h"
+#include "renderer/frame/frame.h"
 
 namespace irad {
 

@@ -1,15 +1,27 @@
 // The volume of light that ungated lookups sample, the thesis's RadianceTexture (docs/method.md 7, T 5.9).
 #pragma once
 
-#include "gi/lighting.h"
-#include "renderer/targets.h"
+#include "renderer/resources.h"
 
 namespace irad {
 
-/// light.volume and light.clamped, where they are not there yet.
-void addVolume(Context& context, const FacetList& facets, Lighting& light);
-/// Fills it: H, or B with ungated sampling (T 5.9), or B - gain (M + rho D) with edge removal (T eq. 23), W/m^2 in all
-/// cases, the first facet of a voxel, alpha 1. `light` must stay where it is until the frame has finished:
+class Context;
+class Frame;
+struct FacetList;
+struct Grid;
+struct Lighting;
+struct SampleParams;
+struct Settings;
+struct Targets;
+
+struct RadianceVolume {
+  Image image;     ///< RGBA16F
+  Buffer clamped;  ///< counter of voxels whose light exceeds what it holds
+  explicit operator bool() const { return static_cast<bool>(image); }
+};
+RadianceVolume makeVolume(Context& context, const Grid& grid);
+/// Fills light.volume: H, or B with ungated sampling (T 5.9), or B - gain (M + rho D) with edge removal (T eq. 23),
+/// W/m^2 in all cases, the first facet of a voxel, alpha 1. `light` must stay where it is until the frame has finished:
 /// light.report.clampedVoxels is read back.
 void scatterVolume(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
 /// Indirect light in a picture (T 5.10): Targets::indirect from the positions that it holds, and the normals in

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "gi/views/passes.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 #include "shaders/shared/view.h"
 
 namespace irad {

@@ -1,7 +1,12 @@
 // Draws a view: its own passes, its range, and the display picture.
 #include <cmath>
 
+#include "gi/facets.h"
+#include "gi/settings.h"
+#include "gi/views/fields.h"
 #include "gi/views/passes.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/view.h"
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/matrix.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/jump_flood.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
 #include "shaders/shared/view.h"
@@ -40,7 +43,7 @@ ViewFields::Bytes ViewFields::bytes(Frame& frame, const FacetList& facets, const
     if (!have) made = recordField(frame, kFieldsStage, facets, grid(frame, facets), FieldMethod::jfa);
     jfa_ = Buffer(frame.context().device, "view: jfa distance", Subsystem::Field,
                   (uint64_t{facets.grid.voxels} + 3) / 4 * 4);
-    frame.pass(kFieldsStage).copy(have ? inUse->jfaDistance : made.jfaDistance, jfa_);
+    frame.pass(kFieldsStage).copy(have ? inUse->jumpFlood.distance : made.jumpFlood.distance, jfa_);
   }
   return {jfa_, static_cast<float>(std::max({dims.x, dims.y, dims.z})) / 255.0f};
 }

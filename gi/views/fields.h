@@ -4,11 +4,15 @@
 
 #include <array>
 
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/matrix.h"
+#include "gi/settings.h"
+#include "renderer/resources.h"
 
 namespace irad {
+
+class Frame;
+struct FacetList;
+struct Field;
+struct FormFactors;
 
 class ViewFields {
  public:

@@ -1,7 +1,8 @@
 // The passes that draw views, one file each. All but the first leave the display picture to finishView.
 #pragma once
 
-#include "gi/views/views.h"
+#include "gi/views/draw.h"
+#include "renderer/resources.h"
 
 namespace irad {
 

@@ -1,5 +1,10 @@
 // Views of pictures that others made: the lights' shadow maps, and the reference picture.
+#include "gi/settings.h"
 #include "gi/views/passes.h"
+#include "renderer/frame/frame.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/shadow.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/view.h"
 

@@ -1,6 +1,9 @@
 // The range of a view's values, and the display picture that it leads to. Reductions are of integers: the same picture
 // gives the same range, bit for bit.
+#include "gi/settings.h"
 #include "gi/views/passes.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/passes.h"
 #include "shaders/shared/view.h"

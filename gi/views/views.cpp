@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gi/settings.h"
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
 #include "shaders/shared/view.h"

@@ -6,17 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "gi/emitters.h"
-#include "gi/facets.h"
-#include "gi/field.h"
-#include "gi/lighting.h"
-#include "gi/matrix.h"
-#include "gi/pixel_emitters.h"
-#include "gi/views/fields.h"
-#include "renderer/forward.h"
+#include "shaders/shared/color_map.h"
 #include "shaders/shared/debug_views.h"
+#include "shaders/shared/view.h"
 
 namespace irad {
+
+struct Settings;
 
 /// Identifiers are the VIEW_* constants of shaders/shared/debug_views.h.
 using View = uint32_t;
@@ -57,34 +53,10 @@ struct Quantity {
   std::string name, unit;
 };
 Quantity shownQuantity(const ViewInfo& info, const Settings& settings);
+/// The same of two pictures' difference (drawDifference).
+Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
 /// The colour map that `info` is drawn with.
 ColorMap colorMapOf(const ViewInfo& info, const Settings& settings);
 const char* colorMapName(ColorMap map);  ///< "violet-yellow", ... "blue-red"
-
-/// Everything that a view may draw from; absent parts are null and draw as empty.
-struct ViewInputs {
-  const SceneOnDevice* scene = nullptr;
-  const FacetList* facets = nullptr;
-  const Field* field = nullptr;
-  const FormFactors* matrix = nullptr;
-  const Lighting* lighting = nullptr;
-  const Emitters* emitters = nullptr;
-  const EmissiveTriangles* emissiveTriangles = nullptr;  ///< where pixels look for emitters themselves
-  const Buffer* reference = nullptr;                     ///< vec4 per facet: H by the oracle, W/m^2
-  const ShadowMaps* shadows = nullptr;
-  const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
-  ViewFields* fields = nullptr;    ///< of `facets`
-  const Buffer* range = nullptr;   ///< a ViewRange to draw with in place of the picture's own
-};
-/// Composes `view` from the targets (after drawScene and traceSpecular) into targets.linear and targets.display. Of a
-/// view with a range targets.viewRange then holds what it is drawn with.
-void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
-              Targets& targets);
-
-/// Two pictures of the view `info`, `values` less `reference`, all of one size: of light and colours the luminance,
-/// between normals the angle in degrees. Into the linear, range and display targets of `out`, by the diverging map.
-void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings, const Targets& values,
-                    const Targets& reference, Targets& out);
-Quantity differenceQuantity(const ViewInfo& info, const Settings& settings);
 
 }  // namespace irad

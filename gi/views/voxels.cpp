@@ -1,7 +1,15 @@
 // Views of the voxels and of what lies in them.
 #include <optional>
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/settings.h"
+#include "gi/views/fields.h"
 #include "gi/views/passes.h"
+#include "renderer/frame/frame.h"
+#include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/view.h"
 

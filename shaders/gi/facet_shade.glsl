@@ -2,6 +2,7 @@
 // [0, .98], emitted exitance. One dispatch per textured material, whose set 1 is bound, and one for all facets that sample
 // no texture.
 #include "shared/normals.h"
+#include "thesis/oct8_literal.h"
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_material.glsl"
 layout(local_size_x = 64) in;

@@ -32,7 +32,7 @@ struct VolumeIndirectPush {
 IRAD_CONST uint GLOSSY_COUNT = 3u;
 IRAD_CONST uint GLOSSY_FIRST = 4u;
 IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
-IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in specular/trace_picture.comp
+IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in thesis/specular.comp
 
 /// "RE Specular".
 struct SpecularPush {

@@ -15,7 +15,9 @@ IRAD_BEGIN
 IRAD_SHARED_ENUM(NormalEncoding, IRAD_NORMAL_ENCODINGS)
 // clang-format on
 
-IRAD_FN float signNotZero(float x) { return x >= 0.0f ? 1.0f : -1.0f; }
+IRAD_FN float signNotZero(float x) {
+  return x >= 0.0f ? 1.0f : -1.0f;
+}
 
 /// Octahedral map of a unit vector to [-1, 1]^2 (T eq. 16-17) and back (T eq. 20-21), there from a square of half edge
 /// `extent`: whole numbers stay exact in it, and axes and zeros with them, also where a GPU fuses products into sums.
@@ -74,15 +76,6 @@ IRAD_FN uint encodeNormal(vec3 n, IRAD_AS(NormalEncoding) encoding) {
   return ((x << 8) | y) + 1u;
 }
 
-/// T eq. 16-19 to the letter (thesis.literal): sign(0) = 0 puts -Z into the middle of the square, where +Z is; code 0
-/// becomes 1.
-IRAD_FN uint encodeOct8Literal(vec3 n) {
-  vec2 p = vec2(n.x, n.y) * (1.0f / (abs(n.x) + abs(n.y) + abs(n.z)));
-  if (n.z < 0.0f) p = vec2((1.0f - abs(p.y)) * sign(p.x), (1.0f - abs(p.x)) * sign(p.y));
-  uint code = (uint(floor((p.x + 1.0f) * 0.5f * 15.0f + 0.5f)) << 4) | uint(floor((p.y + 1.0f) * 0.5f * 15.0f + 0.5f));
-  return code == 0u ? 1u : code;
-}
-
 IRAD_FN vec3 decodeNormal(uint code, IRAD_AS(NormalEncoding) encoding) {
   if (encoding == NORMALS_AXIS6) {
     uint axis = (code - 1u) >> 1;
@@ -93,8 +86,7 @@ IRAD_FN vec3 decodeNormal(uint code, IRAD_AS(NormalEncoding) encoding) {
     uint c = code <= 13u ? code - 1u : code;
     return normalize(vec3(float(c % 3u) - 1.0f, float((c / 3u) % 3u) - 1.0f, float(c / 9u) - 1.0f));
   }
-  if (encoding == NORMALS_OCT8)
-    return octUnwrap(2.0f * vec2(float(code >> 4), float(code & 15u)) - vec2(15.0f), 15.0f);
+  if (encoding == NORMALS_OCT8) return octUnwrap(2.0f * vec2(float(code >> 4), float(code & 15u)) - vec2(15.0f), 15.0f);
   uint c = code - 1u;
   return octUnwrap(vec2(float(c >> 8), float(c & 255u)) - vec2(127.0f), 127.0f);
 }

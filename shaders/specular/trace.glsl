@@ -1,4 +1,4 @@
-// Specular rays of one pixel through the voxels (docs/method.md 8, T 5.11). Radiance at a hit is B / pi; rays that
+// Specular rays of one pixel through the voxels (docs/method.md 8). Radiance at a hit is B / pi; rays that
 // escape bring nothing.
 #include "gi/emitter_point.glsl"
 #include "gi/indirect.glsl"
@@ -88,16 +88,4 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
     sum += weight * facetValueAround(map, push.radiosity, hit.facet, at, n, -direction);
   }
   return weights > 0.0 ? sum / (weights * IRAD_PI) : vec3(0.0);
-}
-
-/// T 5.11: the radiosity that ray `k` about the mirror direction meets; the normal is jittered by the roughness.
-vec3 traceJittered(TraceWorld world, Surface s, uint seed, uint k) {
-  uint a = hashUint(seed + k);
-  vec3 jitter = cosineDirection(vec2(unitFloat(a), unitFloat(hashUint(a))));
-  vec3 n = normalize(mix(s.normal, toWorld(jitter, s.normal), s.roughness * s.roughness));
-  vec3 direction = reflect(-s.view, n);
-  float out_ = dot(direction, s.face);
-  if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
-  TraceHit hit = traceFrom(world, s, direction);
-  return hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : vec3(0.0);
 }

@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "gi/plan.h"
 #include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"

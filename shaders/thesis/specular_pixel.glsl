@@ -9,6 +9,18 @@ layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
 
+/// The radiosity that ray `k` about the mirror direction meets; the normal is jittered by the roughness.
+vec3 traceJittered(TraceWorld world, Surface s, uint seed, uint k) {
+  uint a = hashUint(seed + k);
+  vec3 jitter = cosineDirection(vec2(unitFloat(a), unitFloat(hashUint(a))));
+  vec3 n = normalize(mix(s.normal, toWorld(jitter, s.normal), s.roughness * s.roughness));
+  vec3 direction = reflect(-s.view, n);
+  float out_ = dot(direction, s.face);
+  if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
+  TraceHit hit = traceFrom(world, s, direction);
+  return hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : vec3(0.0);
+}
+
 struct Reflection {
   bool shows;   ///< there is a surface, with a lobe
   bool traces;  ///< rays, seeded by `seed`

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define TRACE_AHEAD 16
-#include "specular/trace_pixel.glsl"
+#include "thesis/specular_pixel.glsl"
 
 // A workgroup is as slow as its longest ray, so workgroups are small.
 const uint PIXELS = GLOSSY_GROUP / GLOSSY_PARTS;
