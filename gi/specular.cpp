@@ -14,7 +14,7 @@
 #include "gi/specular_pass.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/pixel_specular.h"
-#include "gi/views/draw.h"
+#include "gi/views/passes.h"
 #include "renderer/frame/frame.h"
 #include "renderer/targets.h"
 #include "shaders/shared/constants.h"
@@ -43,12 +43,6 @@ float leastReflected(float threshold, float largestH) {
   return threshold > 0 ? std::max(threshold * largestH, std::numeric_limits<float>::min()) : 0;
 }
 
-VkSampler nearest(const Device& device) {
-  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
-  nearest.linearMips = false;
-  return sampler(device, nearest);
-}
-
 }  // namespace
 
 void listGlossy(SpecularPicture& picture, bool filtered, uint32_t parts) {
@@ -65,7 +59,7 @@ void listGlossy(SpecularPicture& picture, bool filtered, uint32_t parts) {
   push.glossy = pass.out(targets.glossy);
   pass.shader("specular/classify.comp")
       .constant(CONSTANT_FILTERED, filtered)
-      .sample(targets.depth, nearest(device))
+      .sample(targets.depth, pointSampler(device))
       .read(targets.normal, targets.f0, targets.indirect)
       .write(targets.linear, targets.specular)
       .push(push)
@@ -87,14 +81,14 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
       .constant(CONSTANT_NORMALS, facets.encoding)
       .constant(CONSTANT_TRACE_MANY, facets.slots > 2)
       .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
-      .sample(targets.depth, nearest(picture.frame.context().device))
+      .sample(targets.depth, pointSampler(picture.frame.context().device))
       .read(targets.normal, targets.geometric, targets.f0)
       .push(push);
 }
 
 Pass& sampleField(const SpecularPicture& picture, Pass& pass) {
   if (fieldIsImage(picture))
-    pass.sample(picture.inputs.field->jumpFlood.distance, nearest(picture.frame.context().device));
+    pass.sample(picture.inputs.field->jumpFlood.distance, pointSampler(picture.frame.context().device));
   return pass;
 }
 
