@@ -5,7 +5,8 @@
 
 namespace irad {
 
-/// The next smaller sizes: fewer rays first (to 128), then fewer voxels (to N = 64). False when they are that small already.
+/// The next smaller sizes: fewer rays first (to 128), then fewer voxels (to N = 64). False when they are that small
+/// already.
 bool lowerSizes(Settings& settings);
 
 }  // namespace irad

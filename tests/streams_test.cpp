@@ -43,9 +43,10 @@ class Streams : public ::testing::Test {
     };
     // 9 becomes a pipe whose reader has gone: a fifo opened for reading and writing, then for writing, then the first
     // closed again.
-    const std::string script = fmt::format(
-        "cd '{0}' && rm -f fifo && mkfifo fifo && exec 8<>fifo 9>fifo 8>&- && exec '{1}' {2} {3} {4}",
-        folder_.path.string(), test::iradProgram(), arguments, redirection(out, 1, outFile), redirection(err, 2, errFile));
+    const std::string script =
+        fmt::format("cd '{0}' && rm -f fifo && mkfifo fifo && exec 8<>fifo 9>fifo 8>&- && exec '{1}' {2} {3} {4}",
+                    folder_.path.string(), test::iradProgram(), arguments, redirection(out, 1, outFile),
+                    redirection(err, 2, errFile));
     std::ofstream(folder_.path / "script") << script << "\n";
     const int status = std::system(fmt::format("sh '{}'", (folder_.path / "script").string()).c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), slurp(outFile), slurp(errFile)};

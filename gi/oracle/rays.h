@@ -7,8 +7,8 @@
 
 #include "shaders/shared/facets.h"
 #include "shaders/shared/gi_params.h"
-#include "shaders/shared/normals.h"
 #include "shaders/shared/grid.h"
+#include "shaders/shared/normals.h"
 
 namespace irad::oracle {
 
