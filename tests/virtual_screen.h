@@ -147,12 +147,13 @@ class VirtualScreen {
     int fds[2] = {};
     if (pipe(fds) != 0) throw std::runtime_error("pipe");
     // -noreset: otherwise it restarts whenever its last client leaves, and refuses connections meanwhile. -r: a key
-    // that is held is one event.
-    server_ =
-        std::make_unique<Program>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
-                                                           fmt::format("{}x{}x24", width, height), "-fbdir",
-                                                           folder_.path.string(), "-nolisten", "tcp", "-noreset", "-r"},
-                                  folder_.path, std::map<std::string, std::string>{});
+    // that is held is one event. -dumbSched: otherwise the timer of its scheduler now and then goes on after the last
+    // request, and the server never sleeps.
+    server_ = std::make_unique<Program>(
+        std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
+                                 fmt::format("{}x{}x24", width, height), "-fbdir", folder_.path.string(), "-nolisten",
+                                 "tcp", "-noreset", "-r", "-dumbSched"},
+        folder_.path, std::map<std::string, std::string>{});
     close(fds[1]);
     // "N\n", written in two pieces: closing early would kill the server with SIGPIPE.
     std::string number;
