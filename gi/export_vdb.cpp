@@ -1,4 +1,4 @@
-// Volumes as OpenVDB files: the one translation unit that knows the library (20 s to compile).
+// Volumes as OpenVDB files: the one translation unit that knows the library (the longest to compile).
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 

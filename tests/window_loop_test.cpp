@@ -84,8 +84,7 @@ class WindowLoop : public ::testing::Test {
       const std::vector<Control> all = readControls(options_.controls);
       return std::find_if(all.begin(), all.end(), [&](const Control& c) { return c.name == name; }) != all.end();
     };
-    // In its first frame a dialog does not know its size yet, nor therefore its place.
-    EXPECT_TRUE(until([&] { return rests() && find(); })) << "no " << name;
+    EXPECT_TRUE(until(find)) << "no " << name;
     const Control::Area at = findControl(readControls(options_.controls), name).area;
     screen_->xdotool(fmt::format("mousemove {} {} sleep 0.2 mousedown 1 sleep 0.2 mouseup 1", at.x + at.width / 2,
                                  at.y + at.height / 2));

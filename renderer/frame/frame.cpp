@@ -10,16 +10,24 @@
 
 namespace irad {
 
-void everythingBarrier(VkCommandBuffer commands) {
-  constexpr VkAccessFlags2 kAll = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+namespace {
+
+void memoryBarrier(VkCommandBuffer commands, const Use& source, const Use& destination) {
   const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                 .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 .srcAccessMask = kAll,
-                                 .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 .dstAccessMask = kAll};
+                                 .srcStageMask = source.stages,
+                                 .srcAccessMask = source.access,
+                                 .dstStageMask = destination.stages,
+                                 .dstAccessMask = destination.access};
   const VkDependencyInfo info{
       .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
   vkCmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace
+
+void everythingBarrier(VkCommandBuffer commands) {
+  constexpr Use kAll{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  memoryBarrier(commands, kAll, kAll);
 }
 
 Frame::Frame(Frame&&) noexcept = default;
@@ -87,14 +95,8 @@ void Frame::Impl::submit(VkSemaphore presentWait, VkSemaphore presentSignal, boo
   const Device& device = context->device;
   if (!finished->readbacks.empty()) {
     // The host reads what was copied.
-    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(finished->commands, &info);
+    memoryBarrier(finished->commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                  {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
   }
   const auto discard = [&] {
     device.recordingEnded();
