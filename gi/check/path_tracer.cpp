@@ -1,0 +1,333 @@
+// The one translation unit that knows Embree.
+#include "gi/check/path_tracer.h"
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <thread>
+
+#include "gi/check/path_surfaces.h"
+#include "renderer/base/error.h"
+
+namespace irad {
+namespace {
+
+using truth::kNoTriangle;
+using truth::Random;
+using truth::SurfacePoint;
+using truth::Surfaces;
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+/// What a ray passes through: the triangle that it leaves, the one that it goes to, holes of masks, and for the
+/// camera's rays backs of single-sided faces.
+struct Passing {
+  RTCIntersectContext context;  // first: Embree hands back its address
+  const Surfaces* surfaces;
+  uint32_t from = kNoTriangle, to = kNoTriangle;
+  bool camera = false;
+};
+
+void pass(const RTCFilterFunctionNArguments* arguments) {
+  const auto& passing = *reinterpret_cast<const Passing*>(arguments->context);
+  const Surfaces& surfaces = *passing.surfaces;
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const glm::dvec2 uv(RTCHitN_u(arguments->hit, arguments->N, i), RTCHitN_v(arguments->hit, arguments->N, i));
+    const glm::dvec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
+                               RTCRayN_dir_y(arguments->ray, arguments->N, i),
+                               RTCRayN_dir_z(arguments->ray, arguments->N, i));
+    const bool through = triangle == passing.from || triangle == passing.to ||
+                         (passing.camera && surfaces.singleSided(triangle) &&
+                          glm::dot(direction, surfaces.triangles()[triangle].normal) >= 0) ||
+                         surfaces.cutOut(triangle, uv);
+    if (through) arguments->valid[i] = 0;
+  }
+}
+
+struct Freed {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+struct Met {
+  uint32_t triangle = kNoTriangle;
+  glm::dvec2 uv{0};
+};
+
+/// A direction about `normal` with density cosine / pi.
+glm::dvec3 cosineDirection(const glm::dvec3& normal, Random& random) {
+  const double r2 = random.next(), r = std::sqrt(r2), phi = 2 * std::numbers::pi * random.next();
+  const glm::dvec3 aside = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 t = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, t);
+  return r * std::cos(phi) * t + r * std::sin(phi) * b + std::sqrt(std::max(0.0, 1 - r2)) * normal;
+}
+
+/// What the samples of one pixel come to.
+struct PixelSums {
+  glm::dvec3 half[2] = {}, squares{0};
+  void put(TracedLight& light, size_t pixel, uint32_t samples) const {
+    const double n = samples;
+    const glm::dvec3 mean = (half[0] + half[1]) / n;
+    light.mean[pixel] = mean;
+    light.half[0][pixel] = half[0] * (2 / n);
+    light.half[1][pixel] = half[1] * (2 / n);
+    light.error[pixel] = glm::sqrt(glm::max(squares / n - mean * mean, 0.0) / (n - 1));
+  }
+};
+
+void makeRoom(TracedLight& light, size_t pixels) {
+  light.mean.resize(pixels);
+  light.error.resize(pixels);
+  light.half[0].resize(pixels);
+  light.half[1].resize(pixels);
+}
+
+void sumUp(TracedLight& light) {
+  glm::dvec3 sum(0), variance(0);
+  for (size_t i = 0; i < light.mean.size(); ++i) {
+    sum += light.mean[i];
+    variance += light.error[i] * light.error[i];
+  }
+  const double n = static_cast<double>(light.mean.size());
+  light.pictureMean = sum / n;
+  light.pictureError = glm::sqrt(variance) / n;
+}
+
+class EmbreeTracer : public PathTracer {
+ public:
+  explicit EmbreeTracer(Scene scene) : surfaces_(std::move(scene)) {
+    // One thread, so that the tree, and with it what a ray through an edge meets, is the same every time.
+    device_.reset(rtcNewDevice("threads=1"));
+    if (!device_) throw WorkError("Embree: no device");
+    scene_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+    if (!surfaces_.triangles().empty()) attach();
+    rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw WorkError("Embree could not build its tree");
+  }
+
+  TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const override {
+    IRAD_CHECK(options.samples > 0 && options.samples % 2 == 0, "{} samples", options.samples);
+    const auto start = std::chrono::steady_clock::now();
+    TracedPicture picture{.size = size, .samples = options.samples};
+    const size_t pixels = size_t{size.x} * size.y;
+    makeRoom(picture.lit, pixels);
+    makeRoom(picture.indirect, pixels);
+    std::atomic<uint32_t> nextRow = 0;
+    std::atomic<uint64_t> rays = 0;
+    const auto work = [&] {
+      for (uint32_t y; (y = nextRow++) < size.y;) {
+        Paths paths(*this, camera, size, options);
+        for (uint32_t x = 0; x < size.x; ++x) paths.pixel({x, y}, picture);
+        rays += paths.rays;
+      }
+    };
+    const uint32_t count = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+    {
+      std::vector<std::jthread> others;
+      for (uint32_t t = 1; t < count; ++t) others.emplace_back(work);
+      work();
+    }
+    sumUp(picture.lit);
+    sumUp(picture.indirect);
+    picture.rays = rays;
+    picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return picture;
+  }
+
+ private:
+  void attach() {
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const std::vector<glm::vec3>& positions = surfaces_.scene().positions;
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 sizeof(glm::vec3), positions.size()));
+    for (size_t i = 0; i < positions.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis) vertices[3 * i + static_cast<size_t>(axis)] = positions[i][axis];
+    auto* corners = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   sizeof(glm::uvec3), surfaces_.triangles().size()));
+    for (const truth::Triangle& t : surfaces_.triangles())
+      for (int k = 0; k < 3; ++k) *corners++ = t.corner[k];
+    rtcSetGeometryIntersectFilterFunction(geometry, pass);
+    rtcSetGeometryOccludedFilterFunction(geometry, pass);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  /// The paths of some pixels.
+  struct Paths {
+    Paths(const EmbreeTracer& tracer, const Camera& camera, glm::uvec2 size, const TraceOptions& options)
+        : tracer(tracer), surfaces(tracer.surfaces_), camera(camera), size(size), options(options) {}
+    const EmbreeTracer& tracer;
+    const Surfaces& surfaces;
+    const Camera& camera;
+    const glm::uvec2 size;
+    const TraceOptions& options;
+    uint64_t rays = 0;
+    glm::dvec3 lit{0}, indirect{0};  ///< of the path in hand
+
+    void pixel(glm::uvec2 at, TracedPicture& picture) {
+      const size_t index = size_t{at.y} * size.x + at.x;
+      Random random(options.seed, index);
+      PixelSums litSums, indirectSums;
+      for (uint32_t s = 0; s < options.samples; ++s) {
+        lit = indirect = glm::dvec3(0);
+        path(at, random);
+        const int half = s >= options.samples / 2;
+        litSums.half[half] += lit;
+        litSums.squares += lit * lit;
+        indirectSums.half[half] += indirect;
+        indirectSums.squares += indirect * indirect;
+      }
+      litSums.put(picture.lit, index, options.samples);
+      indirectSums.put(picture.indirect, index, options.samples);
+    }
+
+    RTCRay ray(const glm::dvec3& origin, const glm::dvec3& direction, float near, float far) {
+      ++rays;
+      const glm::vec3 o(origin), d(direction);
+      return {.org_x = o.x,
+              .org_y = o.y,
+              .org_z = o.z,
+              .tnear = near,
+              .dir_x = d.x,
+              .dir_y = d.y,
+              .dir_z = d.z,
+              .time = 0,
+              .tfar = far,
+              .mask = ~0u,
+              .id = 0,
+              .flags = 0};
+    }
+    Passing passing(uint32_t from, uint32_t to, bool fromCamera) const {
+      Passing p{.context = {}, .surfaces = &surfaces, .from = from, .to = to, .camera = fromCamera};
+      rtcInitIntersectContext(&p.context);
+      return p;
+    }
+
+    Met meet(const glm::dvec3& origin, const glm::dvec3& direction, float near, float far, uint32_t from,
+             bool fromCamera) {
+      Passing p = passing(from, kNoTriangle, fromCamera);
+      RTCRayHit hit{.ray = ray(origin, direction, near, far), .hit = {}};
+      hit.hit.geomID = hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(tracer.scene_.get(), &p.context, &hit);
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+      return {hit.hit.primID, {hit.hit.u, hit.hit.v}};
+    }
+    /// Whether nothing lies on the first `far` lengths of `direction`.
+    bool clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to) {
+      Passing p = passing(from, to, /*fromCamera=*/false);
+      RTCRay shadow = ray(origin, direction, 0, far);
+      rtcOccluded1(tracer.scene_.get(), &p.context, &shadow);
+      return shadow.tfar >= 0;
+    }
+
+    void add(const glm::dvec3& light, bool bounced) {
+      lit += light;
+      if (bounced) indirect += light;
+    }
+
+    void path(glm::uvec2 at, Random& random) {
+      // The camera's ray. Its direction has length 1 along the view, so that distances are depths.
+      const glm::dvec2 within = options.centred ? glm::dvec2(0.5) : glm::dvec2(random.next(), random.next());
+      const glm::dvec2 p = (glm::dvec2(at) + within) / glm::dvec2(size) * glm::dvec2(2, -2) + glm::dvec2(-1, 1);
+      const glm::dmat3 axes = glm::mat3_cast(glm::dquat(glm::normalize(camera.orientation)));
+      const double high = camera.orthographic ? camera.ymag : std::tan(0.5 * camera.yfov);
+      const glm::dvec3 aside = axes[0] * (p.x * high * size.x / size.y) + axes[1] * (p.y * high);
+      glm::dvec3 origin = camera.position - surfaces.scene().origin;
+      glm::dvec3 direction = -axes[2];
+      (camera.orthographic ? origin : direction) += aside;
+      const float far = camera.zfar > camera.znear ? camera.zfar : kFar;
+      Met met = meet(origin, direction, std::max(camera.znear, 0.0f), far, kNoTriangle, /*fromCamera=*/true);
+      direction = glm::normalize(direction);
+
+      glm::dvec3 throughput(1);
+      double bounceDensity = 0;  // per steradian, of the direction that led here
+      for (uint32_t depth = 0; met.triangle != kNoTriangle; ++depth) {
+        const SurfacePoint point = surfaces.at(met.triangle, met.uv, direction);
+        // Emission that the ray has come upon. From the second vertex on it may have been drawn there, too.
+        if (point.emission != glm::dvec3(0)) {
+          double weight = 1;
+          if (depth > 0) {
+            const glm::dvec3 way = point.position - origin;
+            const double cosine = std::abs(glm::dot(direction, point.face));
+            const double drawn = surfaces.emitterDensity(met.triangle) * glm::dot(way, way);  // x cosine
+            weight = bounceDensity * cosine / (bounceDensity * cosine + drawn);
+          }
+          add(throughput * point.emission * weight, depth > 0);
+        }
+        if (point.albedo == glm::dvec3(0)) return;
+        origin = point.position + point.face * surfaces.offset(met.triangle);
+        const glm::dvec3 reflected = throughput * point.albedo / std::numbers::pi;
+        for (size_t l = 0; l < surfaces.lights(); ++l) fromLight(l, point, met.triangle, origin, reflected, depth > 0);
+        if (surfaces.emits()) fromEmitter(point, met.triangle, origin, reflected, random);
+
+        // Go on in proportion to the cosine; the albedo is what is left of the weight. From the fourth bounce on a path
+        // survives with the probability of its largest channel.
+        direction = cosineDirection(point.normal, random);
+        throughput *= point.albedo;
+        if (glm::dot(direction, point.face) <= 0) return;
+        if (depth >= 3) {
+          const double survive = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
+          if (random.next() >= survive) return;
+          throughput /= survive;
+        }
+        bounceDensity = glm::dot(direction, point.normal) / std::numbers::pi;
+        met = meet(origin, direction, 0, kFar, met.triangle, /*fromCamera=*/false);
+      }
+    }
+
+    void fromLight(size_t light, const SurfacePoint& point, uint32_t from, const glm::dvec3& origin,
+                   const glm::dvec3& reflected, bool bounced) {
+      const auto arriving = surfaces.arriving(light, point.position);
+      if (!arriving) return;
+      const double cosine = glm::dot(point.normal, arriving->towards);
+      if (cosine <= 0 || glm::dot(point.face, arriving->towards) <= 0) return;
+      const float far = std::isfinite(arriving->distance) ? static_cast<float>(arriving->distance) : kFar;
+      if (clear(origin, arriving->towards, far, from, kNoTriangle))
+        add(reflected * arriving->irradiance * cosine, bounced);
+    }
+
+    void fromEmitter(const SurfacePoint& point, uint32_t from, const glm::dvec3& origin, const glm::dvec3& reflected,
+                     Random& random) {
+      const truth::EmitterPoint drawn = surfaces.drawEmitter(random);
+      const glm::dvec3 way = drawn.position - origin;
+      const double d2 = glm::dot(way, way), distance = std::sqrt(d2);
+      if (!(distance > 0) || drawn.triangle == from) return;
+      const glm::dvec3 towards = way / distance;
+      const double cosine = glm::dot(point.normal, towards);
+      if (cosine <= 0 || glm::dot(point.face, towards) <= 0 || surfaces.cutOut(drawn.triangle, drawn.uv)) return;
+      const SurfacePoint there = surfaces.at(drawn.triangle, drawn.uv, towards);
+      const double cosineThere = -glm::dot(there.face, towards);
+      if (there.emission == glm::dvec3(0) || !(cosineThere > 0)) return;
+      // Just short of the other triangle, lest its neighbour in the same plane is in the way.
+      if (!clear(origin, towards, static_cast<float>(distance * (1 - 0x1p-20)), from, drawn.triangle)) return;
+      // Both densities per steradian: the balance heuristic's weight over the drawn one is 1 / (their sum).
+      const double density = drawn.density * d2 / cosineThere + cosine / std::numbers::pi;
+      add(reflected * there.emission * cosine / density, /*bounced=*/true);
+    }
+  };
+
+  Surfaces surfaces_;
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Freed> device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, Freed> scene_;
+};
+
+}  // namespace
+
+bool hasPathTracer() {
+  return true;
+}
+
+std::unique_ptr<PathTracer> makePathTracer(Scene scene) {
+  return std::make_unique<EmbreeTracer>(std::move(scene));
+}
+
+}  // namespace irad

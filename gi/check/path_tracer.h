@@ -1,0 +1,64 @@
+// A diffuse path tracer on the triangles: what pictures are judged by. It shares the scene with the program and nothing
+// else: no facets, no shaders or headers of theirs, no sampler; its rays are Embree's, its random numbers its own.
+//
+// Surfaces are Lambertian with the albedo of docs/method.md (base colour x (1 - metallic), clamped to [0, .98]); there
+// is no specular lobe and no normal map, and what blends is opaque. Texels that a mask cuts out let every ray through.
+// The back of a single-sided face stops all rays and is black, but for those of the camera, which see through it.
+// Cosines, at lights and of bounces, are taken with the vertices' interpolated normal, turned to the side that was
+// met; what comes from behind the face itself adds nothing (as in Cycles).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+namespace irad {
+
+struct Camera;
+struct Scene;
+
+struct TraceOptions {
+  uint32_t samples = 64;  ///< per pixel, even and > 0
+  uint64_t seed = 1;
+  /// Rays through the middle of each pixel, as a rasterizer samples; otherwise spread over it evenly.
+  bool centred = false;
+  uint32_t threads = 0;  ///< 0: all cores; the picture does not depend on it, to the bit
+};
+
+/// Radiance of every pixel, top row first, W/(m^2 sr).
+struct TracedLight {
+  std::vector<glm::dvec3> mean;
+  std::vector<glm::dvec3> error;  ///< standard error of `mean`
+  /// Means of the first and of the second half of the samples: independent of each other, so that in products of their
+  /// deviations noise cancels.
+  std::array<std::vector<glm::dvec3>, 2> half;
+  glm::dvec3 pictureMean{0}, pictureError{0};  ///< over all pixels, with its standard error
+};
+
+struct TracedPicture {
+  glm::uvec2 size{0};
+  uint32_t samples = 0;
+  TracedLight lit;       ///< everything
+  TracedLight indirect;  ///< without emission that is seen and without suns, points and spots at what is seen: rho H/pi
+  uint64_t rays = 0;     ///< that were traced
+  double seconds = 0;
+};
+
+class PathTracer {
+ public:
+  virtual ~PathTracer() = default;
+  /// Unbiased: paths end by Russian roulette alone. Samples have independent random numbers, sums are in double
+  /// precision and in a fixed order. Light: suns, points and spots in full at every vertex of a path; emissive
+  /// triangles by one point in proportion to their power and by the bounce, joined by the balance heuristic (Veach and
+  /// Guibas 1995).
+  virtual TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const = 0;
+};
+
+/// Whether this build has one (IRAD_EMBREE).
+bool hasPathTracer();
+/// Takes the scene by value and keeps it. WorkError where this build has none.
+std::unique_ptr<PathTracer> makePathTracer(Scene scene);
+
+}  // namespace irad

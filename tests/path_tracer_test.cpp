@@ -1,0 +1,253 @@
+// The path tracer that judges pictures (gi/check/path_tracer.h), against closed forms, and against Cycles on scenes by
+// others. Means are held to four of their own standard errors.
+#include "gi/check/path_tracer.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "gi/check/scenes.h"
+#include "tests/exr.h"
+#include "tests/support.h"
+
+namespace irad::test::path_tracer_suite {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+class PathTracing : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  }
+};
+
+/// Looks along a direction from `eye` without perspective, `half` to each side.
+Camera plan(glm::dvec3 eye, glm::vec3 way, float half) {
+  const glm::vec3 up = std::abs(way.y) > 0.9f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+  return {.name = "plan",
+          .position = eye,
+          .orientation = glm::quatLookAt(way, up),
+          .orthographic = true,
+          .ymag = half,
+          .znear = 1e-4f};
+}
+
+TracedPicture traced(Scene scene, const Camera& camera, glm::uvec2 size, const TraceOptions& options) {
+  return makePathTracer(std::move(scene))->render(camera, size, options);
+}
+
+void expectMean(const TracedLight& light, double expected, double relative, const char* what) {
+  const double mean = light.pictureMean.x, error = light.pictureError.x;
+  printf("%s: %.6g +- %.2g, expected %.6g, ratio %.5f\n", what, mean, error, expected, mean / expected);
+  EXPECT_NEAR(mean, expected, 4 * error + 1e-6 * expected) << what;
+  EXPECT_LE(error, relative * expected) << what << ": too noisy to say anything";
+}
+
+TEST_F(PathTracing, Furnaces) {
+  // B = M / (1 - rho) everywhere, M = 1.
+  for (const float rho : {0.1f, 0.5f, 0.8f, 0.95f}) {
+    const TracedPicture p = traced(furnaceBox(rho), furnaceBox(rho).cameras[0], {16, 16}, {.samples = 256});
+    expectMean(p.lit, 1 / (1 - double{rho}) / kPi, 0.005, "furnace box");
+    expectMean(p.indirect, double{rho} / (1 - double{rho}) / kPi, 0.006, "its indirect light");
+  }
+  const Scene inner = furnaceInner(0.8f);
+  const Camera camera = inner.cameras[0];
+  expectMean(traced(inner, camera, {16, 16}, {.samples = 256}).lit, 1 / (1 - 0.8) / kPi, 0.005, "box in a box");
+  // The white of a closed room is .98.
+  expectMean(traced(furnaceBox(1.0f), furnaceBox(1.0f).cameras[0], {16, 16}, {.samples = 512}).lit, 50 / kPi, 0.02,
+             "white furnace");
+}
+
+TEST_F(PathTracing, FormFactorOfParallelSquares) {
+  for (const float d : {0.1f, 0.5f, 1.0f, 2.0f}) {
+    SceneBuilder b;
+    const uint32_t floor = b.material(glm::vec3(0), glm::vec3(1)), ceiling = b.material(glm::vec3(0.5f));
+    const float h = 0.5f, y = d / 2;
+    b.quad(floor, {-h, -y, h}, {h, -y, h}, {h, -y, -h}, {-h, -y, -h});
+    b.quad(ceiling, {-h, y, -h}, {h, y, -h}, {h, y, h}, {-h, y, h});
+    const TracedPicture p = traced(b.finish("squares"), plan({0, 0, 0}, {0, 1, 0}, h), {32, 32}, {.samples = 256});
+    expectMean(p.lit, 0.5 * formFactorParallelSquares(d) / kPi, 0.003, "parallel squares");
+  }
+}
+
+TEST_F(PathTracing, PlatesThatReflectEachOther) {
+  const float gap = 0.2f;
+  const auto [first, second] = plateRadiosity(gap, 0.9, 0.3);
+  const Camera up = plan({0, 0, 0}, {0, 1, 0}, 0.5f), down = plan({0, 0, 0}, {0, -1, 0}, 0.5f);
+  expectMean(traced(plates(gap), down, {32, 32}, {.samples = 512}).lit, first / kPi, 0.002, "plate of .9");
+  expectMean(traced(plates(gap), up, {32, 32}, {.samples = 512}).lit, second / kPi, 0.002, "plate of .3");
+}
+
+/// A floor of 8 x 8 with albedo .5, seen from 4 above the place `at` of it.
+Scene floorScene() {
+  SceneBuilder b;
+  b.quad(b.material(glm::vec3(0.5f)), {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4});
+  return b.finish("floor");
+}
+double radianceOfFloor(const Scene& scene, double x) {
+  return traced(scene, plan({x, 4, 0}, {0, -1, 0}, 1e-3f), {1, 1}, {.samples = 2, .centred = true}).lit.mean[0].x;
+}
+
+TEST_F(PathTracing, LightsOverAFloor) {
+  const double h = 2;
+  for (const double x : {0.0, 0.5, 1.5, 3.0}) {
+    const double d2 = x * x + h * h, cosine = h / std::sqrt(d2);
+    const auto expect = [&](const char* what, const Light& light, double irradiance) {
+      Scene scene = floorScene();
+      scene.lights = {light};
+      EXPECT_NEAR(radianceOfFloor(scene, x), 0.5 * irradiance / kPi, 1e-6 * irradiance + 1e-12) << what << " at " << x;
+    };
+    Light light{.type = LightType::Point, .position = {0, h, 0}, .color = glm::vec3(0.5f), .intensity = 20};
+    expect("point", light, 10 * cosine / d2);
+    light.range = 3;  // 1 - (d / range)^4, 0 beyond it
+    expect("point with a range", light, 10 * cosine / d2 * std::max(0.0, 1 - d2 * d2 / 81));
+    light.range = 0;
+    light.type = LightType::Spot;
+    light.innerCos = 0.95f;
+    light.outerCos = 0.75f;
+    const double ramp = std::clamp((cosine - 0.75f) / (double{0.95f} - 0.75f), 0.0, 1.0);
+    expect("spot", light, 10 * cosine / d2 * ramp * ramp);
+    light.type = LightType::Sun;
+    light.direction = glm::normalize(glm::vec3(1, -2, 0));
+    expect("sun", light, 10 * 2 / std::sqrt(5.0));
+    light.direction = {0, 1, 0};
+    expect("sun from below", light, 0);
+  }
+}
+
+TEST_F(PathTracing, SunThroughASlit) {
+  // A black roof at y = 1 with a slit of .37: from the sun's direction the floor shows a strip of that width.
+  SceneBuilder b;
+  const uint32_t grey = b.material(glm::vec3(0.5f)),
+                 black = b.material(glm::vec3(0), glm::vec3(0), /*doubleSided=*/true);
+  b.quad(grey, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  b.quad(black, {-9, 1, 9}, {0.1f, 1, 9}, {0.1f, 1, -9}, {-9, 1, -9});
+  b.quad(black, {0.47f, 1, 9}, {9, 1, 9}, {9, 1, -9}, {0.47f, 1, -9});
+  b.sun({-0.3f, -1, 0.2f}, 10);
+  const TracedPicture p = traced(b.finish("slit"), plan({0, 0.5, 0}, {0, -1, 0}, 1), {32, 32}, {.samples = 256});
+  const double cosine = 1 / std::sqrt(1 + 0.09 + 0.04);
+  expectMean(p.lit, 0.37 / 2 * 0.5 * 10 * cosine / kPi, 0.01, "sun through a slit");
+  EXPECT_EQ(p.indirect.pictureMean, glm::dvec3(0));
+}
+
+TEST_F(PathTracing, SidesOfFaces) {
+  // A lamp below a face that looks down, above a floor: the camera from above sees through the face's back, and light
+  // from below the face does not pass it.
+  for (const bool doubleSided : {false, true}) {
+    SceneBuilder b;
+    const uint32_t grey = b.material(glm::vec3(0.5f)), lid = b.material(glm::vec3(0.5f), glm::vec3(1), doubleSided);
+    b.quad(grey, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+    b.quad(lid, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});  // faces down
+    b.sun({0, -1, 0}, 10);
+    const Scene scene = b.finish("sides");
+    const TracedPicture p = traced(scene, plan({0, 3, 0}, {0, -1, 0}, 0.1f), {4, 4}, {.samples = 256});
+    // Single-sided: the floor below, in the lid's shadow, lit by it alone. Double-sided: the lid, in the sun.
+    const double f = formFactorPolygon(
+        {0, 0, 0}, {0, 1, 0}, {glm::dvec3(-1, 1, -1), glm::dvec3(1, 1, -1), glm::dvec3(1, 1, 1), glm::dvec3(-1, 1, 1)});
+    if (doubleSided)
+      EXPECT_NEAR(p.lit.pictureMean.x, (1 + 0.5 * 10) / kPi, 1e-6);
+    else {
+      EXPECT_GT(p.lit.pictureMean.x, 0.5 * f / kPi);  // and what goes to and fro
+      EXPECT_LT(p.lit.pictureMean.x, 0.5 * f * 1.1 / kPi);
+    }
+  }
+}
+
+TEST_F(PathTracing, MasksAndTextures) {
+  // A lid over a floor with a texture of four columns of texels, two of which are cut out; nearest texels.
+  SceneBuilder b;
+  const uint32_t grey = b.material(glm::vec3(0.5f)), lid = b.material(glm::vec3(1), glm::vec3(0), true);
+  b.quad(grey, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  b.quad(lid, {-1, 0.5f, 1}, {1, 0.5f, 1}, {1, 0.5f, -1}, {-1, 0.5f, -1});
+  b.sun({0, -1, 0}, 10);
+  Scene scene = b.finish("mask");
+  SceneImage image{.name = "mask", .width = 4, .height = 1, .srgb = true, .rgba = {}};
+  for (const uint8_t alpha : {255, 0, 0, 255})
+    for (const uint8_t c : {uint8_t{188}, uint8_t{0}, uint8_t{255}, alpha}) image.rgba.push_back(c);
+  scene.images = {image};
+  Material& m = scene.materials[lid];
+  m.alpha = AlphaMode::Mask;
+  m.baseColorTexture.image = 0;
+  m.baseColorTexture.sampler.linearMag = false;
+  for (size_t i = 0; i < scene.positions.size(); ++i) scene.uv0[i] = {0.5f * scene.positions[i].x + 0.5f, 0.5f};
+  const auto seen = [&](double x) {
+    return traced(scene, plan({x, 3, 0.3}, {0, -1, 0}, 1e-3f), {1, 1}, {.samples = 2, .centred = true}).lit.mean[0];
+  };
+  const double code = std::pow((188 / 255.0 + 0.055) / 1.055, 2.4);
+  for (const double x : {-0.7, 0.6}) {  // the lid: sRGB 188, 0, and 1 clamped to .98
+    EXPECT_NEAR(seen(x).x, code * 10 / kPi, 1e-6);
+    EXPECT_EQ(seen(x).y, 0);
+    EXPECT_NEAR(seen(x).z, 0.98 * 10 / kPi, 1e-6);
+  }
+  EXPECT_NEAR(seen(0.2).x, 0.5 * 10 / kPi, 0.3);  // the floor, and a little of the lid's underside
+  // Linear: half-way between the middles of texels 0 and 1 (of alpha 1 and 0) alpha is .5.
+  scene.materials[lid].baseColorTexture.sampler.linearMag = true;
+  EXPECT_NEAR(seen(-0.5 - 0.02).z, 0.98 * 10 / kPi, 1e-6);
+  EXPECT_LT(seen(-0.5 + 0.02).z, 0.6 * 10 / kPi);
+}
+
+TEST_F(PathTracing, NothingComesFromBehindAFace) {
+  // Normals that lean towards a sun behind the face: black. Towards one in front: its cosine is the normal's.
+  Scene scene = floorScene();
+  for (glm::vec3& n : scene.normals) n = glm::normalize(glm::vec3(2, 1, 0));
+  scene.lights = {{.type = LightType::Sun, .direction = glm::normalize(glm::vec3(-4, 1, 0)), .intensity = 10}};
+  EXPECT_EQ(radianceOfFloor(scene, 0), 0);
+  scene.lights[0].direction = {0, -1, 0};
+  EXPECT_NEAR(radianceOfFloor(scene, 0), 0.5 * 10 / std::sqrt(5.0) / kPi, 1e-6);
+}
+
+TEST_F(PathTracing, TheSamePictureFromAnyNumberOfThreads) {
+  const Scene scene = mixedRoom();
+  const auto tracer = makePathTracer(scene);
+  const TracedPicture one = tracer->render(scene.cameras[0], {24, 16}, {.samples = 16, .threads = 1}),
+                      three = tracer->render(scene.cameras[0], {24, 16}, {.samples = 16, .threads = 3}),
+                      other = tracer->render(scene.cameras[0], {24, 16}, {.samples = 16, .seed = 2});
+  EXPECT_EQ(one.lit.mean, three.lit.mean);
+  EXPECT_EQ(one.lit.error, three.lit.error);
+  EXPECT_EQ(one.indirect.mean, three.indirect.mean);
+  EXPECT_EQ(one.rays, three.rays);
+  EXPECT_NE(one.lit.mean, other.lit.mean);
+}
+
+TEST_F(PathTracing, StandardErrorsAreWhatRepetitionShows) {
+  const Scene scene = mixedRoom();
+  const auto tracer = makePathTracer(scene);
+  double sum = 0, squares = 0, stated = 0;
+  constexpr int kRuns = 64;
+  for (int run = 0; run < kRuns; ++run) {
+    const TracedPicture p =
+        tracer->render(scene.cameras[0], {8, 8}, {.samples = 16, .seed = static_cast<uint64_t>(run) + 1});
+    sum += p.lit.pictureMean.x;
+    squares += p.lit.pictureMean.x * p.lit.pictureMean.x;
+    stated += p.lit.pictureError.x * p.lit.pictureError.x / kRuns;
+  }
+  const double mean = sum / kRuns, measured = std::sqrt((squares / kRuns - mean * mean) * kRuns / (kRuns - 1));
+  printf("standard error: stated %.3g, measured %.3g\n", std::sqrt(stated), measured);
+  EXPECT_NEAR(measured / std::sqrt(stated), 1, 0.35);  // four standard errors of a standard deviation of 64 numbers
+}
+
+#ifdef IRAD_OIIO
+/// Cycles' pictures of ../shared/scenes/real: diffuse, every material double-sided, 400 samples.
+class AgainstCycles : public PathTracing, public ::testing::WithParamInterface<const char*> {};
+TEST_P(AgainstCycles, SameMean) {
+  const auto scenes = sharedScenes();
+  const std::string name = GetParam();
+  if (!scenes || !std::filesystem::exists(*scenes / "real" / (name + ".glb")))
+    GTEST_SKIP() << "the folder of real scenes is absent: nothing to compare with";
+  const ExrPicture cycles = readExr(*scenes / "real" / (name + ".0.exr"));
+  Scene scene = loadScene(*scenes / "real" / (name + ".glb"), {.lambertian = true, .doubleSided = true});
+  const Camera camera = scene.cameras.at(0);
+  const TracedPicture p = makePathTracer(std::move(scene))
+                              ->render(camera, {cycles.width, cycles.height}, {.samples = everything() ? 256u : 32u});
+  const glm::dvec3 ratio = p.lit.pictureMean / cycles.mean(), error = p.lit.pictureError / cycles.mean();
+  printf("%s.0: %.4f %.4f %.4f of Cycles, standard error %.4f; %.2f Mrays/s\n", name.c_str(), ratio.x, ratio.y, ratio.z,
+         error.y, static_cast<double>(p.rays) / p.seconds * 1e-6);
+  // Cycles has as much noise as 400 samples of ours, at least.
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(ratio[c], 1, 4 * error[c] * (everything() ? 1.5 : 1.1) + 0.003) << c;
+}
+INSTANTIATE_TEST_SUITE_P(Scene, AgainstCycles, ::testing::Values("living_room", "room", "pandora", "zdm2"),
+                         [](const auto& info) { return std::string(info.param); });
+#endif
+
+}  // namespace
+}  // namespace irad::test::path_tracer_suite
