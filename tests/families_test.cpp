@@ -1,0 +1,54 @@
+// Families of hard scenes (gi/check/families.h): sound, of the size that they were asked for, closed where they are
+// meant to be, lit where they are meant to be.
+#include "gi/check/families.h"
+
+#include <algorithm>
+
+#include "gi/check/path_tracer.h"
+#include "tests/support.h"
+
+namespace irad::test::families_suite {
+namespace {
+
+class FamilyOf : public ::testing::TestWithParam<Family> {};
+
+TEST_P(FamilyOf, IsSoundAndOfItsSize) {
+  for (uint64_t seed = 1; seed <= 8; ++seed)
+    for (const uint32_t resolution : {32u, 128u}) {
+      const FamilyMember member = familyMember(GetParam(), seed, resolution);
+      EXPECT_EQ(unsound(member.scene), "") << seed;
+      EXPECT_GE(member.scene.cameras.size(), 2u);
+      EXPECT_EQ(member.sealed.empty(), !GetParam().dark);
+      const FamilyMember again = familyMember(GetParam(), seed, resolution);
+      EXPECT_EQ(again.scene.positions, member.scene.positions);
+      EXPECT_NE(familyMember(GetParam(), seed + 1, resolution).scene.positions, member.scene.positions);
+    }
+}
+
+TEST_P(FamilyOf, IsLitOrDarkAsMeant) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  for (uint64_t seed = 1; seed <= (everything() ? 24u : 6u); ++seed)
+    for (const uint32_t resolution : {32u, 128u}) {
+      FamilyMember member = familyMember(GetParam(), seed, resolution);
+      const std::vector<Camera> cameras = member.scene.cameras;
+      const auto tracer = makePathTracer(std::move(member.scene));
+      for (size_t c = 0; c < cameras.size(); ++c) {
+        const TracedPicture p = tracer->render(cameras[c], {32, 32}, {.samples = 64});
+        const double mean = p.lit.pictureMean.y;
+        if (GetParam().dark)
+          EXPECT_EQ(p.lit.pictureMean, glm::dvec3(0)) << "seed " << seed << ", N " << resolution << ", camera " << c;
+        else
+          EXPECT_GT(mean, 0) << "seed " << seed << ", N " << resolution << ", camera " << c;
+      }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FamilyOf, ::testing::ValuesIn(families().begin(), families().end()),
+                         [](const auto& info) {
+                           std::string name = info.param.name;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace irad::test::families_suite
