@@ -20,7 +20,7 @@ class Catalogue : public GpuTest, public ::testing::WithParamInterface<CheckCase
 
 TEST_P(Catalogue, HoldsItsMark) {
   const CheckCase& check = GetParam();
-  if (check.run == nullptr) GTEST_SKIP() << check.name << ": " << check.pending;
+  if (check.pending != nullptr) GTEST_SKIP() << check.name << ": " << check.pending;
   if (std::ranges::find(kSample, check.name) == std::end(kSample)) IRAD_ONLY_WITH_ALL();
   Settings settings = defaultSettings(context().device.isCpu);
   applyCheckSizes(settings);
@@ -54,7 +54,7 @@ TEST(CatalogueFrame, NamesAreUniqueAndDescribed) {
   for (const CheckCase& check : checkCases()) {
     EXPECT_TRUE(names.insert(check.name).second) << check.name << " twice";
     for (const char* text : {check.setup, check.oracle, check.mark}) EXPECT_GT(std::string_view(text).size(), 0u);
-    EXPECT_NE(check.run == nullptr, check.pending == nullptr) << check.name;
+    EXPECT_TRUE(check.run != nullptr || check.pending != nullptr) << check.name;
   }
   for (const std::string_view sampled : kSample) EXPECT_TRUE(names.contains(std::string(sampled))) << sampled;
 }

@@ -13,9 +13,10 @@ std::vector<CheckCase> energyCases();      ///< conservation, reciprocity, linea
 std::vector<CheckCase> limitCases();       ///< dark, black, white and worse albedos
 std::vector<CheckCase> rangeCases();       ///< emission, scale, rotation, position
 std::vector<CheckCase> inputCases();       ///< degenerate and damaged geometry
-std::vector<CheckCase> leakCases();        ///< thin walls
-std::vector<CheckCase> samplingCases();    ///< encodings, sampler, traversals
-std::vector<CheckCase> stabilityCases();   ///< the same bits over time, under toggling, in other memory and processes
-std::vector<CheckCase> guardCases();       ///< capacities, memory, divergence
+std::vector<CheckCase> leakCases();
+std::vector<CheckCase> roomCases();       ///< families of rooms by seed, against 0 and a path tracer
+std::vector<CheckCase> samplingCases();   ///< encodings, sampler, traversals
+std::vector<CheckCase> stabilityCases();  ///< the same bits over time, under toggling, in other memory and processes
+std::vector<CheckCase> guardCases();      ///< capacities, memory, divergence
 
 }  // namespace irad

@@ -17,13 +17,15 @@ struct CheckCase {
   const char* setup;
   const char* oracle;
   const char* mark;
-  void (*run)(CheckRun&) = nullptr;  ///< none: pending
+  void (*run)(CheckRun&) = nullptr;  ///< none: it cannot be run yet
   /// What `irad view check:NAME` opens; none where the case has no scene (a sampler, an encoding).
   Scene (*scene)() = nullptr;
   /// What H should be in `scene`; none where the oracle does not give it.
   glm::dvec3 (*expected)(const glm::dvec3& position, const glm::dvec3& normal) = nullptr;
-  const char* pending = nullptr;  ///< why it cannot be run yet
-  bool soak = false;              ///< long: CheckRun::quick shortens it
+  /// Why it cannot be run yet or, where there is something to run, until when it is known to fail: then it is run only
+  /// where it is asked for by name.
+  const char* pending = nullptr;
+  bool soak = false;  ///< long: CheckRun::quick shortens it
 };
 
 /// All cases, in the catalogue's order.

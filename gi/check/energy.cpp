@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gi/check/balance.h"
 #include "gi/check/cases.h"
 #include "gi/check/scenes.h"
 #include "gi/lighting.h"
@@ -58,19 +59,9 @@ void reciprocityCase(CheckRun& run) {
 /// Power emitted over power absorbed plus escaped.
 void balance(CheckRun& run, const std::string& name, Scene scene) {
   const auto pipeline = run.prepare(std::move(scene));
-  const HostFacets facets = run.facets(*pipeline);
-  const Lighting& light = pipeline->lighting();
-  const std::vector<glm::vec3> d = run.read(*pipeline, light.direct), h = run.read(*pipeline, light.indirect),
-                               b = run.read(*pipeline, light.radiosity);
-  glm::dvec3 in(0), absorbed(0), escaped(0);
-  forEachRow(run.context, pipeline->matrix(), [&](uint32_t i, const HostRow& row) {
-    const double area = facets.area[i];
-    in += area * glm::dvec3(facets.emission[i] + d[i]);
-    absorbed += area * glm::dvec3(1.0f - facets.albedo[i]) * glm::dvec3(d[i] + h[i]);
-    escaped += area * glm::dvec3(b[i]) * (1 - row.sum());
-  });
-  run.info(name + ": escaped share", escaped.x / in.x);
-  run.near(name + ": (absorbed + escaped) / emitted", (absorbed.x + escaped.x) / in.x, 1, 0.02);
+  const EnergyShares energy = energyShares(run, *pipeline);
+  run.info(name + ": escaped share", energy.escaped);
+  run.near(name + ": (absorbed + escaped) / emitted", energy.accounted, 1, 0.02);
 }
 
 /// A closed room with a lamp in its ceiling and a ball; `open`: without its front.

@@ -19,12 +19,13 @@ FamilyMember doubleShell(uint64_t seed, double voxel) {
   const Opening window{middle - wide, middle + wide, 0.2 * hi.y, 0.8 * hi.y};
   const Opening door{-0.5 * hi.z, 0.4 * hi.z, 0.3 * hi.y, 0.9 * hi.y};
   mason.shell(skin, skin, outerLo, outerHi, outer, {door, std::nullopt, std::nullopt, window});
+  // Cameras are above lamps, whose backs they see through.
   // A lamp of 1 W/m^2 inside, a sun of 1000 outside.
   const double x = mason.between(-0.3, 0.3) * hi.x, y = hi.y - mason.between(0.4, 0.7), half = 0.35;
   mason.builder.quad(lamp, {x - half, y, -half}, {x + half, y, -half}, {x + half, y, half}, {x - half, y, half});
   mason.builder.sun({mason.between(0.4, 1), -mason.between(0.4, 0.8), -1}, 1000);
-  mason.builder.camera({-0.8 * hi.x, 0.4 * hi.y, -0.85 * hi.z}, {0.4 * hi.x, 0.35 * hi.y, hi.z});
-  mason.builder.camera({0.8 * hi.x, 0.8 * hi.y, 0.8 * hi.z}, {-0.5 * hi.x, 0.1 * hi.y, -0.5 * hi.z});
+  mason.builder.camera({-0.8 * hi.x, hi.y - 0.15, -0.85 * hi.z}, {0.4 * hi.x, 0.35 * hi.y, hi.z});
+  mason.builder.camera({0.8 * hi.x, hi.y - 0.2, 0.8 * hi.z}, {-0.5 * hi.x, 0.1 * hi.y, -0.5 * hi.z});
   FamilyMember member;
   member.scene = mason.finish("double-shell", member.sealed);
   return member;
@@ -70,8 +71,8 @@ FamilyMember halfFilled(uint64_t seed, double voxel) {
   const double y = hi.y - 0.5, half = 0.3;
   mason.builder.quad(lamp, {-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half});
   mason.builder.sun({mason.between(-0.3, 0.3), -mason.between(0.3, 0.7), -1}, 100);
-  mason.builder.camera({0.85 * hi.x, 0.6 * hi.y, 0.3 * hi.z}, {lo.x, 0.25 * hi.y, -0.3 * hi.z});
-  mason.builder.camera({0.2 * hi.x, 0.7 * hi.y, -0.92 * hi.z}, {0, 0.3 * hi.y, hi.z});
+  mason.builder.camera({0.85 * hi.x, hi.y - 0.2, 0.3 * hi.z}, {lo.x, 0.25 * hi.y, -0.3 * hi.z});
+  mason.builder.camera({0.2 * hi.x, hi.y - 0.25, -0.92 * hi.z}, {0, 0.3 * hi.y, hi.z});
   FamilyMember member;
   member.scene = mason.finish("half-filled", member.sealed);
   return member;
@@ -90,7 +91,10 @@ FamilyMember lampAtCeiling(uint64_t seed, double voxel) {
   const double high = mason.between(0.4, 1);
   mason.block(box, {0.2 * hi.x, -0.01, -0.6 * hi.z}, {0.7 * hi.x, high, -0.1 * hi.z});
   mason.builder.camera({-0.85 * hi.x, 0.8 * hi.y, 0.85 * hi.z}, {0.4 * hi.x, 0.1 * hi.y, -0.5 * hi.z});
-  mason.builder.camera({0.8 * hi.x, 0.3 * hi.y, 0.8 * hi.z}, {-0.3 * hi.x, hi.y, -0.6 * hi.z});
+  // Straight up at the ceiling beside the lamp.
+  const double low = 0.25 * hi.y, seen = 0.55 * (hi.y - low), side = x > 0 ? -1 : 1;
+  const double beside = std::clamp(x + side * (wide + 1.15 * seen), -0.9 * hi.x, 0.9 * hi.x);
+  mason.builder.camera({beside, low, 0}, {beside, hi.y, 0});
   FamilyMember member;
   member.scene = mason.finish("near-lamp", member.sealed);
   if (reversed) reverseTriangles(member.scene);

@@ -73,4 +73,35 @@ PictureError compare(const Picture& picture, const Picture& reference, double fa
   return {error.mean / n / mean, error.largest / mean, std::abs(sum / total - 1)};
 }
 
+namespace {
+glm::dvec3 blockMean(auto&& value, glm::uvec2 at, uint32_t width) {
+  constexpr uint32_t kBlock = 4;
+  glm::dvec3 sum(0);
+  for (uint32_t y = 0; y < kBlock; ++y)
+    for (uint32_t x = 0; x < kBlock; ++x) sum += value(size_t{at.y * kBlock + y} * width + at.x * kBlock + x);
+  return sum / double{kBlock * kBlock};
+}
+}  // namespace
+
+TruthError compare(const Picture& picture, const TracedLight& truth) {
+  IRAD_CHECK_OP(picture.pixels.size(), ==, truth.mean.size());
+  const auto mean = [](const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; };
+  glm::dvec3 sum(0);
+  for (const glm::vec4& p : picture.pixels) sum += glm::dvec3(p);
+  const double expected = mean(truth.pictureMean), eps = 0.01 * expected * expected;
+  TruthError error{.ratio = mean(sum) / static_cast<double>(picture.pixels.size()) / expected,
+                   .uncertainty = mean(truth.pictureError) / expected};
+  const glm::uvec2 blocks = picture.size / 4u;
+  for (uint32_t y = 0; y < blocks.y; ++y)
+    for (uint32_t x = 0; x < blocks.x; ++x) {
+      const auto of = [&](auto&& value) { return blockMean(value, {x, y}, picture.size.x); };
+      const glm::dvec3 ours = of([&](size_t i) { return glm::dvec3(picture.pixels[i]); }),
+                       first = of([&](size_t i) { return truth.half[0][i]; }),
+                       second = of([&](size_t i) { return truth.half[1][i]; }), middle = 0.5 * (first + second);
+      error.relMse += mean((ours - first) * (ours - second) / (middle * middle + eps));
+    }
+  error.relMse /= double{1} * blocks.x * blocks.y;
+  return error;
+}
+
 }  // namespace irad

@@ -1,6 +1,7 @@
 // Scenes moved about, and pictures held against each other.
 #pragma once
 
+#include "gi/check/path_tracer.h"
 #include "gi/check/run.h"
 
 namespace irad {
@@ -21,5 +22,15 @@ struct PictureError {
 };
 /// `picture` / `factor` against `reference`. NaN where either is.
 PictureError compare(const Picture& picture, const Picture& reference, double factor = 1);
+
+/// How far a picture is from the path tracer's light (path_tracer.h) of the same size.
+struct TruthError {
+  double ratio = 0;  ///< of the means, all channels
+  /// Means of 4 x 4 pixels, squared error over (truth^2 + eps), eps = (.1 x truth's mean)^2. The halves of truth's
+  /// samples stand on either side of the product, so that their noise does not add to it.
+  double relMse = 0;
+  double uncertainty = 0;  ///< standard error of truth's mean over that mean
+};
+TruthError compare(const Picture& picture, const TracedLight& truth);
 
 }  // namespace irad

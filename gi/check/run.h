@@ -27,6 +27,7 @@ struct CheckOptions {
   /// The program, for cases that need another process; empty: they say that they could not.
   std::string program;
   std::vector<std::filesystem::path> scenes;  ///< those shipped with the program
+  uint32_t seeds = 0;                         ///< members of a family, seeds 1 to this; 0: 3, with `quick` 1
 };
 
 /// One RGBA fp32 picture (Targets::linear), top row first.

@@ -1,0 +1,142 @@
+// Families of rooms by seed, each at N = 32, 64, 128 (or at the resolution that was asked for alone): sealed ones
+// against 0, lit ones against the path tracer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gi/check/balance.h"
+#include "gi/check/cases.h"
+#include "gi/check/families.h"
+#include "gi/check/path_tracer.h"
+#include "gi/check/pictures.h"
+#include "gi/lighting.h"
+#include "renderer/base/error.h"
+
+namespace irad {
+namespace {
+
+constexpr glm::uvec2 kPicture(64, 64);
+constexpr uint32_t kJudged = 128;  ///< the resolution that lit families are judged at
+
+/// Goes through the members of a family that this run is about.
+void forEachMember(CheckRun& run, const Family& family, auto&& judge) {
+  std::vector<uint32_t> resolutions{32, 64, 128};
+  if (run.options.quick) resolutions = {32, 128};
+  Settings usual;
+  applyCheckSizes(usual);
+  if (run.settings.voxel.resolution != usual.voxel.resolution) resolutions = {run.settings.voxel.resolution};
+  const uint32_t seeds = run.options.seeds != 0 ? run.options.seeds : run.options.quick ? 1 : 3;
+  for (const uint32_t resolution : resolutions)
+    for (uint32_t seed = 1; seed <= seeds; ++seed) {
+      Settings settings = run.settings;
+      settings.voxel.resolution = resolution;
+      FamilyMember member = familyMember(family, seed, resolution);
+      Scene scene = member.scene;
+      const auto pipeline = run.prepare(std::move(scene), settings);
+      const std::string name = fmt::format("N {}, seed {}", resolution, seed);
+      judge(member, *pipeline, resolution, name);
+      run.near(name + ": (absorbed + escaped) / emitted", energyShares(run, *pipeline).accounted, 1, 0.02);
+    }
+}
+
+void sealedCase(CheckRun& run, const Family& family) {
+  forEachMember(run, family,
+                [&](FamilyMember& member, Pipeline& pipeline, uint32_t resolution, const std::string& name) {
+                  const HostFacets facets = run.facets(pipeline);
+                  const std::vector<glm::vec3> d = run.read(pipeline, pipeline.lighting().direct),
+                                               h = run.read(pipeline, pipeline.lighting().indirect);
+                  // A tenth of a voxel in front of a facet is its side.
+                  double outside = 0, mostD = 0, mostH = 0;
+                  uint64_t lit = 0, inside = 0;
+                  for (size_t i = 0; i < facets.count(); ++i) {
+                    outside = std::max(outside, double{d[i].x});
+                    const glm::dvec3 before = facets.position[i] + facets.normal[i] * (0.1 * double{facets.grid.edge});
+                    if (!std::ranges::any_of(member.sealed, [&](const Room& room) { return room.contains(before); }))
+                      continue;
+                    mostD = std::max(mostD, double{d[i].x});
+                    mostH = std::max(mostH, double{h[i].x});
+                    lit += h[i].x > 0;
+                    ++inside;
+                  }
+                  double pixel = 0;
+                  for (const Camera& camera : member.scene.cameras)
+                    for (const glm::vec4& p : run.picture(pipeline, camera, VIEW_LIT, kPicture).pixels)
+                      pixel = std::max({pixel, double{p.x}, double{p.y}, double{p.z}});
+                  const auto judge = [&](const char* what, double value) {
+                    const double share = value / outside;
+                    resolution >= 64 ? run.near(name + what, share, 0, 0) : run.atMost(name + what, share, 1e-7);
+                  };
+                  judge(": most H inside / most D outside", mostH);
+                  judge(": brightest pixel inside x pi / most D outside", pixel * 3.14159265358979);
+                  run.info(name + ": most D inside / most D outside", mostD / outside);
+                  run.info(name + ": share of the facets inside that are lit",
+                           static_cast<double>(lit) / static_cast<double>(inside));
+                });
+}
+
+void litCase(CheckRun& run, const Family& family) {
+  if (!hasPathTracer()) throw WorkError("could not be judged: this build has no path tracer (IRAD_EMBREE)");
+  forEachMember(run, family,
+                [&](FamilyMember& member, Pipeline& pipeline, uint32_t resolution, const std::string& name) {
+                  const std::vector<Camera> cameras = member.scene.cameras;
+                  const bool judged = resolution >= kJudged;
+                  const auto tracer = makePathTracer(std::move(member.scene));
+                  const TraceOptions options{.samples = judged ? 1024u : 256u, .centred = true};
+                  for (size_t c = 0; c < cameras.size(); ++c) {
+                    const TracedPicture truth = tracer->render(cameras[c], kPicture, options);
+                    const std::string seen = fmt::format("{}, camera {}: ", name, c);
+                    const TruthError lit = compare(run.picture(pipeline, cameras[c], VIEW_LIT, kPicture), truth.lit);
+                    const TruthError indirect =
+                        compare(run.picture(pipeline, cameras[c], VIEW_INDIRECT, kPicture), truth.indirect);
+                    if (judged) {
+                      run.near(seen + "mean / truth", lit.ratio, 1, 0.05);
+                      run.atMost(seen + "relMSE", lit.relMse, 0.02);
+                    } else {
+                      run.info(seen + "mean / truth", lit.ratio);
+                      run.info(seen + "relMSE", lit.relMse);
+                    }
+                    run.info(seen + "indirect mean / truth", indirect.ratio);
+                    run.info(seen + "indirect relMSE", indirect.relMse);
+                    run.info(seen + "truth's standard error / mean", lit.uncertainty);
+                  }
+                });
+}
+
+template <size_t index>
+void familyCase(CheckRun& run) {
+  const Family& family = families()[index];
+  (family.dark ? sealedCase : litCase)(run, family);
+}
+/// The first member, at the resolution that checks usually have.
+template <size_t index>
+Scene familyScene() {
+  return familyMember(families()[index], 1, 64).scene;
+}
+
+template <size_t... index>
+std::vector<CheckCase> casesOf(std::index_sequence<index...>) {
+  std::vector<CheckCase> cases;
+  const auto add = [&](const Family& family, void (*work)(CheckRun&), Scene (*scene)()) {
+    cases.push_back(
+        {.name = family.name,
+         .setup = family.setup,
+         .oracle = family.dark ? "inside 0" : "a path tracer on the triangles",
+         .mark = family.dark ? "0 at N >= 64, <= 1e-7 at 32; energy 2 %" : "N = 128: mean 5 %, relMSE .02; energy 2 %",
+         .run = work,
+         .scene = scene,
+         .pending = "until rays meet the true triangles (matrix.hit_rule)"});
+  };
+  (add(families()[index], familyCase<index>, familyScene<index>), ...);
+  return cases;
+}
+
+}  // namespace
+
+std::vector<CheckCase> roomCases() {
+  constexpr size_t kFamilies = 7;
+  IRAD_CHECK_OP(families().size(), ==, kFamilies);
+  return casesOf(std::make_index_sequence<kFamilies>());
+}
+
+}  // namespace irad
