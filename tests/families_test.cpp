@@ -31,7 +31,18 @@ TEST_P(FamilyOf, IsLitOrDarkAsMeant) {
     for (const uint32_t resolution : {32u, 128u}) {
       FamilyMember member = familyMember(GetParam(), seed, resolution);
       const std::vector<Camera> cameras = member.scene.cameras;
+      // From where the sun shines everything is bright.
+      Camera outside = cameras[0];
+      if (GetParam().dark) {
+        const Light& sun = member.scene.lights.at(0);
+        const glm::dvec3 low(member.scene.boundsMin), high(member.scene.boundsMax);
+        outside.position = 0.5 * (low + high) - glm::length(high - low) * glm::dvec3(sun.direction);
+        outside.orientation = glm::quatLookAt(sun.direction, glm::vec3(0.6f, 0.64f, 0.48f));
+      }
       const auto tracer = makePathTracer(std::move(member.scene));
+      if (GetParam().dark) {
+        EXPECT_GT(tracer->render(outside, {32, 32}, {.samples = 2}).lit.pictureMean.y, 0.1) << "seed " << seed;
+      }
       for (size_t c = 0; c < cameras.size(); ++c) {
         const TracedPicture p = tracer->render(cameras[c], {32, 32}, {.samples = 64});
         const double mean = p.lit.pictureMean.y;

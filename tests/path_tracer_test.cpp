@@ -2,9 +2,11 @@
 // others. Means are held to four of their own standard errors.
 #include "gi/check/path_tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "gi/check/pictures.h"
 #include "gi/check/scenes.h"
 #include "tests/exr.h"
 #include "tests/support.h"
@@ -227,26 +229,39 @@ TEST_F(PathTracing, StandardErrorsAreWhatRepetitionShows) {
 }
 
 #ifdef IRAD_OIIO
-/// Cycles' pictures of ../shared/scenes/real: diffuse, every material double-sided, 400 samples.
+/// Cycles' pictures of ../shared/scenes/real, SCENE.CAMERA: diffuse, every material double-sided, 400 samples.
 class AgainstCycles : public PathTracing, public ::testing::WithParamInterface<const char*> {};
 TEST_P(AgainstCycles, SameMean) {
   const auto scenes = sharedScenes();
-  const std::string name = GetParam();
-  if (!scenes || !std::filesystem::exists(*scenes / "real" / (name + ".glb")))
+  const std::string name = GetParam(), file = name.substr(0, name.size() - 2);
+  if (!scenes || !std::filesystem::exists(*scenes / "real" / (file + ".glb")))
     GTEST_SKIP() << "the folder of real scenes is absent: nothing to compare with";
-  const ExrPicture cycles = readExr(*scenes / "real" / (name + ".0.exr"));
-  Scene scene = loadScene(*scenes / "real" / (name + ".glb"), {.lambertian = true, .doubleSided = true});
-  const Camera camera = scene.cameras.at(0);
+  const ExrPicture cycles = readExr(*scenes / "real" / (name + ".exr"));
+  Scene scene = loadScene(*scenes / "real" / (file + ".glb"), {.lambertian = true, .doubleSided = true});
+  const Camera camera = scene.cameras.at(static_cast<size_t>(name.back() - '0'));
   const TracedPicture p = makePathTracer(std::move(scene))
-                              ->render(camera, {cycles.width, cycles.height}, {.samples = everything() ? 256u : 32u});
+                              ->render(camera, {cycles.width, cycles.height}, {.samples = everything() ? 400u : 32u});
   const glm::dvec3 ratio = p.lit.pictureMean / cycles.mean(), error = p.lit.pictureError / cycles.mean();
-  printf("%s.0: %.4f %.4f %.4f of Cycles, standard error %.4f; %.2f Mrays/s\n", name.c_str(), ratio.x, ratio.y, ratio.z,
-         error.y, static_cast<double>(p.rays) / p.seconds * 1e-6);
-  // Cycles has as much noise as 400 samples of ours, at least.
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(ratio[c], 1, 4 * error[c] * (everything() ? 1.5 : 1.1) + 0.003) << c;
+  Picture theirs{.size = p.size, .pixels = {}};
+  for (const glm::vec3& c : cycles.pixels) theirs.pixels.emplace_back(c, 1);
+  printf("%s: %.4f %.4f %.4f of Cycles, standard error %.4f; relMSE of 4 x 4 %.5f; %.2f Mrays/s\n", name.c_str(),
+         ratio.x, ratio.y, ratio.z, error.y, compare(theirs, p.lit).relMse,
+         static_cast<double>(p.rays) / p.seconds * 1e-6);
+  // living_room.1: the inner side of the window frame, in the sun, is there twice, face on face. Cycles' rays from one
+  // meet the other, and it stays black; here rays start just in front.
+  const double doubled = name == "living_room.1" ? 0.006 : 0;
+  // Of Cycles' own noise all that is known is its 400 samples: as much as ours of as many, at least.
+  const double theirShare = std::sqrt((everything() ? 400.0 : 32.0) / 400);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(ratio[c], 1, 4 * error[c] * (1 + theirShare) + 0.002 + doubled) << c;
 }
-INSTANTIATE_TEST_SUITE_P(Scene, AgainstCycles, ::testing::Values("living_room", "room", "pandora", "zdm2"),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Scene, AgainstCycles,
+                         ::testing::Values("living_room.0", "living_room.1", "room.0", "pandora.0", "pandora.1",
+                                           "zdm2.0"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::ranges::replace(name, '.', '_');
+                           return name;
+                         });
 #endif
 
 }  // namespace
