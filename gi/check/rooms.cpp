@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <numbers>
+#include <optional>
 
 #include "gi/check/balance.h"
 #include "gi/check/cases.h"
@@ -68,11 +69,28 @@ void sealedCase(CheckRun& run, const Family& family) {
                     resolution >= 64 ? run.near(name + what, share, 0, 0) : run.atMost(name + what, share, 1e-7);
                   };
                   judge(": most H inside / most D outside", mostH);
-                  judge(": brightest pixel inside x pi / most D outside", pixel * 3.14159265358979);
+                  judge(": brightest pixel inside x pi / most D outside", pixel * std::numbers::pi);
                   run.info(name + ": most D inside / most D outside", mostD / outside);
                   run.info(name + ": share of the facets inside that are lit",
                            static_cast<double>(lit) / static_cast<double>(inside));
                 });
+}
+
+/// What emissive facets send out over what their triangles do, red channel; none where nothing emits. A facet's area is
+/// its plane's inside the voxel, however little of that the lamp fills.
+std::optional<double> emittedShare(const Scene& scene, const HostFacets& facets) {
+  double truth = 0, ours = 0;
+  for (const Draw& draw : scene.draws) {
+    const Material& m = scene.materials[draw.material];
+    const double exitance = std::numbers::pi * double{m.emission.x} * (m.doubleSided ? 2 : 1);
+    for (uint32_t i = draw.firstIndex; exitance > 0 && i < draw.firstIndex + draw.indexCount; i += 3) {
+      const glm::dvec3 a(scene.positions[scene.indices[i]]), b(scene.positions[scene.indices[i + 1]]),
+          c(scene.positions[scene.indices[i + 2]]);
+      truth += 0.5 * glm::length(glm::cross(b - a, c - a)) * exitance;
+    }
+  }
+  for (size_t i = 0; i < facets.count(); ++i) ours += facets.area[i] * double{facets.emission[i].x};
+  return truth > 0 ? std::optional(ours / truth) : std::nullopt;
 }
 
 void litCase(CheckRun& run, const Family& family) {
@@ -81,6 +99,8 @@ void litCase(CheckRun& run, const Family& family) {
                 [&](FamilyMember& member, Pipeline& pipeline, uint32_t resolution, const std::string& name) {
                   const std::vector<Camera> cameras = member.scene.cameras;
                   const bool judged = resolution >= kJudged;
+                  if (const auto share = emittedShare(member.scene, run.facets(pipeline)))
+                    run.info(name + ": emitted by facets / by triangles", *share);
                   const auto tracer = makePathTracer(std::move(member.scene));
                   const TraceOptions options{.samples = judged ? 1024u : 256u, .centred = true};
                   for (size_t c = 0; c < cameras.size(); ++c) {
