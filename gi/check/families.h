@@ -25,6 +25,7 @@ struct Family {
   /// Builds the member of this seed with voxels of this edge, m. Pure.
   FamilyMember (*build)(uint64_t seed, double voxel);
   bool dark = false;  ///< truth is 0 inside
+  bool met = false;   ///< its marks are met; otherwise the case is pending
 };
 
 std::span<const Family> families();

@@ -20,60 +20,43 @@ namespace {
 constexpr glm::uvec2 kPicture(64, 64);
 constexpr uint32_t kJudged = 128;  ///< the resolution that lit families are judged at
 
-/// Goes through the members of a family that this run is about.
-void forEachMember(CheckRun& run, const Family& family, auto&& judge) {
-  std::vector<uint32_t> resolutions{32, 64, 128};
-  if (run.options.quick) resolutions = {32, 128};
-  Settings usual;
-  applyCheckSizes(usual);
-  if (run.settings.voxel.resolution != usual.voxel.resolution) resolutions = {run.settings.voxel.resolution};
-  const uint32_t seeds = run.options.seeds != 0 ? run.options.seeds : run.options.quick ? 1 : 3;
-  for (const uint32_t resolution : resolutions)
-    for (uint32_t seed = 1; seed <= seeds; ++seed) {
-      Settings settings = run.settings;
-      settings.voxel.resolution = resolution;
-      FamilyMember member = familyMember(family, seed, resolution);
-      Scene scene = member.scene;
-      const auto pipeline = run.prepare(std::move(scene), settings);
-      const std::string name = fmt::format("N {}, seed {}", resolution, seed);
-      judge(member, *pipeline, resolution, name);
-      run.near(name + ": (absorbed + escaped) / emitted", energyShares(run, *pipeline).accounted, 1, 0.02);
-    }
-}
+/// A member of a family with its light.
+struct Lit {
+  const FamilyMember& member;
+  Pipeline& pipeline;
+  uint32_t resolution;
+  std::string name;  ///< of its figures: "N 64, seed 1"
+};
 
-void sealedCase(CheckRun& run, const Family& family) {
-  forEachMember(run, family,
-                [&](FamilyMember& member, Pipeline& pipeline, uint32_t resolution, const std::string& name) {
-                  const HostFacets facets = run.facets(pipeline);
-                  const std::vector<glm::vec3> d = run.read(pipeline, pipeline.lighting().direct),
-                                               h = run.read(pipeline, pipeline.lighting().indirect);
-                  // A tenth of a voxel in front of a facet is its side.
-                  double outside = 0, mostD = 0, mostH = 0;
-                  uint64_t lit = 0, inside = 0;
-                  for (size_t i = 0; i < facets.count(); ++i) {
-                    outside = std::max(outside, double{d[i].x});
-                    const glm::dvec3 before = facets.position[i] + facets.normal[i] * (0.1 * double{facets.grid.edge});
-                    if (!std::ranges::any_of(member.sealed, [&](const Room& room) { return room.contains(before); }))
-                      continue;
-                    mostD = std::max(mostD, double{d[i].x});
-                    mostH = std::max(mostH, double{h[i].x});
-                    lit += h[i].x > 0;
-                    ++inside;
-                  }
-                  double pixel = 0;
-                  for (const Camera& camera : member.scene.cameras)
-                    for (const glm::vec4& p : run.picture(pipeline, camera, VIEW_LIT, kPicture).pixels)
-                      pixel = std::max({pixel, double{p.x}, double{p.y}, double{p.z}});
-                  const auto judge = [&](const char* what, double value) {
-                    const double share = value / outside;
-                    resolution >= 64 ? run.near(name + what, share, 0, 0) : run.atMost(name + what, share, 1e-7);
-                  };
-                  judge(": most H inside / most D outside", mostH);
-                  judge(": brightest pixel inside x pi / most D outside", pixel * std::numbers::pi);
-                  run.info(name + ": most D inside / most D outside", mostD / outside);
-                  run.info(name + ": share of the facets inside that are lit",
-                           static_cast<double>(lit) / static_cast<double>(inside));
-                });
+void judgeSealed(CheckRun& run, const Lit& lit) {
+  const HostFacets facets = run.facets(lit.pipeline);
+  const std::vector<glm::vec3> d = run.read(lit.pipeline, lit.pipeline.lighting().direct),
+                               h = run.read(lit.pipeline, lit.pipeline.lighting().indirect);
+  // A tenth of a voxel in front of a facet is its side.
+  double outside = 0, mostD = 0, mostH = 0;
+  uint64_t reached = 0, inside = 0;
+  for (size_t i = 0; i < facets.count(); ++i) {
+    outside = std::max(outside, double{d[i].x});
+    const glm::dvec3 before = facets.position[i] + facets.normal[i] * (0.1 * double{facets.grid.edge});
+    if (!std::ranges::any_of(lit.member.sealed, [&](const Room& room) { return room.contains(before); })) continue;
+    mostD = std::max(mostD, double{d[i].x});
+    mostH = std::max(mostH, double{h[i].x});
+    reached += h[i].x > 0;
+    ++inside;
+  }
+  double pixel = 0;
+  for (const Camera& camera : lit.member.scene.cameras)
+    for (const glm::vec4& p : run.picture(lit.pipeline, camera, VIEW_LIT, kPicture).pixels)
+      pixel = std::max({pixel, double{p.x}, double{p.y}, double{p.z}});
+  const auto judge = [&](const char* what, double value) {
+    const double share = value / outside;
+    lit.resolution >= 64 ? run.near(lit.name + what, share, 0, 0) : run.atMost(lit.name + what, share, 1e-7);
+  };
+  judge(": most H inside / most D outside", mostH);
+  judge(": brightest pixel inside x pi / most D outside", pixel * std::numbers::pi);
+  run.info(lit.name + ": most D inside / most D outside", mostD / outside);
+  run.info(lit.name + ": share of the facets inside that light reaches",
+           static_cast<double>(reached) / static_cast<double>(inside));
 }
 
 /// What emissive facets send out over what their triangles do, red channel; none where nothing emits. A facet's area is
@@ -93,40 +76,56 @@ std::optional<double> emittedShare(const Scene& scene, const HostFacets& facets)
   return truth > 0 ? std::optional(ours / truth) : std::nullopt;
 }
 
-void litCase(CheckRun& run, const Family& family) {
-  if (!hasPathTracer()) throw WorkError("could not be judged: this build has no path tracer (IRAD_EMBREE)");
-  forEachMember(run, family,
-                [&](FamilyMember& member, Pipeline& pipeline, uint32_t resolution, const std::string& name) {
-                  const std::vector<Camera> cameras = member.scene.cameras;
-                  const bool judged = resolution >= kJudged;
-                  if (const auto share = emittedShare(member.scene, run.facets(pipeline)))
-                    run.info(name + ": emitted by facets / by triangles", *share);
-                  const auto tracer = makePathTracer(std::move(member.scene));
-                  const TraceOptions options{.samples = judged ? 1024u : 256u, .centred = true};
-                  for (size_t c = 0; c < cameras.size(); ++c) {
-                    const TracedPicture truth = tracer->render(cameras[c], kPicture, options);
-                    const std::string seen = fmt::format("{}, camera {}: ", name, c);
-                    const TruthError lit = compare(run.picture(pipeline, cameras[c], VIEW_LIT, kPicture), truth.lit);
-                    const TruthError indirect =
-                        compare(run.picture(pipeline, cameras[c], VIEW_INDIRECT, kPicture), truth.indirect);
-                    if (judged) {
-                      run.near(seen + "mean / truth", lit.ratio, 1, 0.05);
-                      run.atMost(seen + "relMSE", lit.relMse, 0.02);
-                    } else {
-                      run.info(seen + "mean / truth", lit.ratio);
-                      run.info(seen + "relMSE", lit.relMse);
-                    }
-                    run.info(seen + "indirect mean / truth", indirect.ratio);
-                    run.info(seen + "indirect relMSE", indirect.relMse);
-                    run.info(seen + "truth's standard error / mean", lit.uncertainty);
-                  }
-                });
+void judgeLit(CheckRun& run, const Lit& lit) {
+  const Scene& scene = lit.member.scene;
+  const bool judged = lit.resolution >= kJudged;
+  if (const auto share = emittedShare(scene, run.facets(lit.pipeline)))
+    run.info(lit.name + ": emitted by facets / by triangles", *share);
+  const auto tracer = makePathTracer(scene);
+  const TraceOptions options{.samples = judged ? 1024u : 256u, .centred = true};
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    const Camera& camera = scene.cameras[c];
+    const TracedPicture truth = tracer->render(camera, kPicture, options);
+    const std::string seen = fmt::format("{}, camera {}: ", lit.name, c);
+    const TruthError all = compare(run.picture(lit.pipeline, camera, VIEW_LIT, kPicture), truth.lit),
+                     indirect = compare(run.picture(lit.pipeline, camera, VIEW_INDIRECT, kPicture), truth.indirect);
+    if (judged) {
+      run.near(seen + "mean / truth", all.ratio, 1, 0.05);
+      run.atMost(seen + "relMSE", all.relMse, 0.02);
+    } else {
+      run.info(seen + "mean / truth", all.ratio);
+      run.info(seen + "relMSE", all.relMse);
+    }
+    run.info(seen + "indirect mean / truth", indirect.ratio);
+    run.info(seen + "indirect relMSE", indirect.relMse);
+    run.info(seen + "truth's standard error / mean", all.uncertainty);
+  }
+}
+
+void judgeFamily(CheckRun& run, const Family& family) {
+  if (!family.dark && !hasPathTracer())
+    throw WorkError("could not be judged: this build has no path tracer (IRAD_EMBREE)");
+  std::vector<uint32_t> resolutions{32, 64, 128};
+  if (run.options.quick) resolutions = {32, 128};
+  Settings usual;
+  applyCheckSizes(usual);
+  if (run.settings.voxel.resolution != usual.voxel.resolution) resolutions = {run.settings.voxel.resolution};
+  const uint32_t seeds = run.options.seeds != 0 ? run.options.seeds : run.options.quick ? 1 : 3;
+  for (const uint32_t resolution : resolutions)
+    for (uint32_t seed = 1; seed <= seeds; ++seed) {
+      Settings settings = run.settings;
+      settings.voxel.resolution = resolution;
+      const FamilyMember member = familyMember(family, seed, resolution);
+      const auto pipeline = run.prepare(member.scene, settings);
+      const Lit lit{member, *pipeline, resolution, fmt::format("N {}, seed {}", resolution, seed)};
+      (family.dark ? judgeSealed : judgeLit)(run, lit);
+      run.near(lit.name + ": (absorbed + escaped) / emitted", energyShares(run, *pipeline).accounted, 1, 0.02);
+    }
 }
 
 template <size_t index>
 void familyCase(CheckRun& run) {
-  const Family& family = families()[index];
-  (family.dark ? sealedCase : litCase)(run, family);
+  judgeFamily(run, families()[index]);
 }
 /// The first member, at the resolution that checks usually have.
 template <size_t index>
