@@ -1,6 +1,5 @@
 #include "gi/indirect.h"
 
-#include "gi/thesis/volume.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
 
@@ -42,8 +41,8 @@ void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shado
   ForwardEffects drawn = effects;
   drawn.indirect = fromVolume || fromFacets;
   targets.fit(frame.context(), &Targets::emitted, emitted);
-  drawForward(frame, scene, shadows, camera, shade, targets, drawn);
-  if (fromVolume) lookUpVolume(frame, *indirect.volume, *indirect.grid, indirect.sample, targets);
+  const VolumeLookup lookup{fromVolume ? indirect.volume : nullptr, indirect.grid, indirect.sample};
+  drawForward(frame, scene, shadows, camera, shade, targets, drawn, lookup);
   if (fromFacets) lookUpFacets(frame, indirect, camera, emitted, targets);
 }
 

@@ -22,7 +22,7 @@ struct IndirectInputs {
   SampleParams sample{};
 };
 
-/// drawForward, and then the lookup of indirect light ("RE Forward", too).
+/// drawForward with the lookup of indirect light: in the facets by a pass of its own ("RE Forward", too).
 void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
                const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects = {});
 

@@ -18,7 +18,9 @@ layout(location = 3) out vec4 outF0;
 layout(location = 4) out vec4 outDirect;
 layout(location = 5) out vec4 outHighlight;
 layout(location = 6) out vec4 outIndirect;
+#ifndef IRAD_VOLUME
 layout(location = 7) out vec4 outLookup;
+#endif
 
 void main() {
   uvDx = dFdx(uv);
@@ -31,6 +33,8 @@ void main() {
   outDirect = o.direct;
   if (HIGHLIGHTS || EMISSION) outHighlight = o.highlight;
   if (!INDIRECT) return;
-  outIndirect = o.position;
+  outIndirect = o.indirect;
+#ifndef IRAD_VOLUME
   outLookup = o.lookup;
+#endif
 }

@@ -1,4 +1,4 @@
-// Push constants of indirect light in pictures (gi/indirect.cpp, gi/thesis/volume.cpp, gi/specular.cpp).
+// Push constants of indirect light in pictures (gi/indirect.cpp, gi/specular.cpp).
 #ifndef IRAD_SHARED_INDIRECT_H
 #define IRAD_SHARED_INDIRECT_H
 #include "shared/emitters.h"
@@ -16,13 +16,6 @@ struct IndirectPush {
   UintArray shape, reverse, around;  ///< of FacetArrays
   Vec4Array shaded;                  ///< H per facet
   Vec4Array shadedEmitted;           ///< F M per facet
-  SampleParams sampling;
-  uvec2 size;
-};
-
-/// "RE Forward", thesis/indirect_volume.comp.
-struct VolumeIndirectPush {
-  GridArray grid;
   SampleParams sampling;
   uvec2 size;
 };
