@@ -14,6 +14,7 @@
 #include "renderer/frame/record.h"
 #include "renderer/gpu_scene.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/energy.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -48,6 +49,7 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
     push.shape = pass.out(list.shape);
     push.albedo = pass.out(list.albedo);
     push.emission = pass.out(list.emission);
+    push.area = pass.out(list.area);
     push.clamped = pass.out(clamped);
     pass.shader(raster ? "thesis/facet_shade_raster.comp" : "gi/facet_shade.comp")
         .constant(CONSTANT_SAMPLES_TEXTURES, textured)
@@ -75,6 +77,7 @@ void allocateFacets(const Device& device, FacetList& list) {
   list.albedo = Buffer(device, "facet albedo", Subsystem::Facets, 8 * n);
   list.emission = Buffer(device, "facet emission", Subsystem::Facets, list.hasEmission ? 12 * n : 0);
   list.triangle = Buffer(device, "facet triangles", Subsystem::Facets, 4 * n);
+  list.area = Buffer(device, "facet areas", Subsystem::Facets, 4 * n);
   list.reverse = Buffer(device, "facet reverse map", Subsystem::Facets, 4ull * list.grid.voxels);
 }
 
@@ -187,6 +190,9 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
   list.albedo = make("facet albedo", albedo);
   list.emission = make("facet emission", list.hasEmission ? emission : std::vector<glm::vec3>{});
   list.reverse = make("facet reverse map", reverse);
+  std::vector<float> area;
+  for (const uint32_t s : shape) area.push_back(facetArea(decodeNormal(s & 0xFFFFu, encoding), facetOffset(s)));
+  list.area = make("facet areas", area);
   recordFacets(context, list);
   markCorners(context, list, /*slots=*/2);
   return list;

@@ -25,6 +25,7 @@ struct FacetList {
   uint32_t clampedAlbedo = 0;         ///< facets whose albedo was outside [0, .98] or not a number
   Buffer voxel, shape, albedo, emission, reverse, around;
   Buffer triangle;  ///< which triangle won, | BACK_SIDE where its back did, for the inspector; none of uploaded lists
+  Buffer area;      ///< voxel faces: of the surface that the facet stands for
   Buffer record;    ///< one FacetArrays
   Surface surface;  ///< what the facets are classes of, where the hit rule is `triangles`
   bool hasEmission = false;

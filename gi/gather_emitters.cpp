@@ -58,6 +58,7 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
   push.emitters = pass.in(source.emitters->record);
   push.emitted = pass.out(light.emitted);
   push.correction = pass.out(light.correction);
+  push.surface = pass.inIfAny(facets.surface.record);
   push.dims = facets.grid.dims;
   push.jfaMax = source.field->jumpFlood.largest;
   push.samples = settings.matrix.emitterSamples;

@@ -6,7 +6,6 @@
 #include "renderer/base/error.h"
 #include "renderer/frame/transfer.h"
 #include "renderer/resources.h"
-#include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 
 namespace irad {
@@ -17,6 +16,7 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
   if (list.count == 0) return host;
   const auto voxel = downloadAs<uint32_t>(context, list.voxel), shape = downloadAs<uint32_t>(context, list.shape);
   const auto albedo = downloadAs<glm::uvec2>(context, list.albedo);
+  const auto area = downloadAs<float>(context, list.area);
   for (uint32_t i = 0; i < list.count; ++i) {
     host.voxel.push_back(unpackVoxel(voxel[i]));
     host.normal.emplace_back(decodeNormal(shape[i] & 0xFFFFu, list.encoding));
@@ -24,8 +24,7 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
                             double{list.grid.edge} *
                                 (glm::dvec3(host.voxel[i]) + 0.5 + double{facetOffset(shape[i])} * host.normal[i]));
     host.albedo.push_back(unpackAlbedo(albedo[i]));
-    host.area.push_back(double{list.grid.edge} * list.grid.edge *
-                        double{facetArea(glm::vec3(host.normal[i]), facetOffset(shape[i]))});
+    host.area.push_back(double{list.grid.edge} * list.grid.edge * double{area[i]});
   }
   host.emission = list.hasEmission ? downloadAs<glm::vec3>(context, list.emission)
                                    : std::vector<glm::vec3>(list.count, glm::vec3(0));

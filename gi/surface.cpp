@@ -1,6 +1,7 @@
 #include "gi/surface.h"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "gi/facets.h"
@@ -153,14 +154,17 @@ void classify(Frame& frame, const SceneOnDevice& scene, const Buffer& gridRecord
     push.voxel = pass.out(list->voxel);
     push.triangle = pass.out(list->triangle);
     push.reverse = pass.out(list->reverse);
-    for (const Buffer* made : {&surface.firstPiece, &surface.sides, &surface.surfels, &surface.area}) pass.out(*made);
+    for (const Buffer& made : {std::cref(surface.firstPiece), std::cref(surface.sides), std::cref(surface.surfels)})
+      pass.out(made);
+    pass.out(list->area);
   }
   push.count = pieces.solid;
   push.makes = list != nullptr;
   pass.shader("gi/class_facets.comp").push(push).dispatchWorkgroups(pieces.solid);
 }
 
-void makeRecord(Context& context, Surface& s) {
+void makeRecord(Context& context, FacetList& list) {
+  Surface& s = list.surface;
   RecordMaker record(context, "surface record", Subsystem::Facets, sizeof(SurfaceArrays));
   SurfaceArrays arrays{};
   arrays.corners = record.of(s.corners);
@@ -169,7 +173,8 @@ void makeRecord(Context& context, Surface& s) {
     arrays.pieces = record.of(s.pieces);
     arrays.sides = record.of(s.sides);
     arrays.surfels = record.of(s.surfels);
-    arrays.area = record.of(s.area);
+    arrays.area = record.of(list.area);
+    arrays.links = record.of(s.links);
   }
   s.record = record.make(arrays);
 }
@@ -245,7 +250,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   Surface& surface = list.surface;
   surface.corners = words(device, "triangles' corners", 9ull * triangles);
-  makeRecord(context, surface);
+  makeRecord(context, list);
   {
     Frame frame = context.begin();
     Pass pass = frame.pass(kVoxelizeStage);
@@ -278,12 +283,23 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   surface.sides = words(device, "pieces' sides", pieces.count);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
   surface.surfels = Buffer(device, "surfels", Subsystem::Facets, sizeof(Surfel) * FACET_SURFELS * uint64_t{list.count});
-  surface.area = words(device, "facet areas", list.count);
-  makeRecord(context, surface);
+  surface.links = words(device, "links of facets", uint64_t{FACET_LINKS} * list.count);
+  makeRecord(context, list);
   Frame frame = context.begin();
   frame.pass(kListStage).fill(list.reverse, NO_FACET);
   frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
   if (pieces.solid > 0) classify(frame, scene, grid, pieces, surface.pieces, surface, start, &list);
+  if (list.count > 0) {
+    Pass pass = frame.pass(kListStage);
+    LinkFacetsPush push{};
+    push.surface = pass.in(surface.record);
+    push.voxel = pass.in(list.voxel);
+    push.reverse = pass.in(list.reverse);
+    push.links = pass.out(surface.links);
+    push.dims = list.grid.dims;
+    push.count = list.count;
+    pass.shader("gi/link_facets.comp").push(push).dispatch(uint64_t{FACET_LINKS} * list.count);
+  }
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, surface, list);
   recordFacets(context, list);

@@ -13,8 +13,8 @@ struct Settings;
 /// What rays meet: the triangles that have a piece in a voxel, which facet each side of a piece belongs to, and points
 /// of every facet. Empty where facets are planes (matrix.hit_rule is not triangles).
 struct Surface {
-  Buffer corners, firstPiece, pieces, sides, surfels, area;  ///< of SurfaceArrays
-  Buffer record;                                             ///< one SurfaceArrays
+  Buffer corners, firstPiece, pieces, sides, surfels, links;  ///< of SurfaceArrays
+  Buffer record;                                              ///< one SurfaceArrays
   uint32_t pieceCount = 0, solidVoxels = 0;
   uint32_t mostPieces = 0;  ///< of a voxel
   explicit operator bool() const { return static_cast<bool>(record); }

@@ -10,6 +10,7 @@ layout(location = 3) in vec4 uv;
 layout(location = 4) in vec4 tint;
 layout(location = 5) flat in vec3 faceNormal;
 layout(location = 6) in vec3 towardsEye;
+layout(location = 7) flat in uint triangle;
 
 layout(location = 0) out vec4 outNormal;
 layout(location = 1) out vec4 outGeometric;
@@ -25,7 +26,7 @@ layout(location = 7) out vec4 outLookup;
 void main() {
   uvDx = dFdx(uv);
   uvDy = dFdy(uv);
-  Shaded o = shade(Interpolants(local, normal, tangent, uv, tint, faceNormal, towardsEye));
+  Shaded o = shade(Interpolants(local, normal, tangent, uv, tint, faceNormal, towardsEye, triangle));
   outNormal = o.normal;
   outGeometric = o.geometric;
   outAlbedo = o.albedo;

@@ -29,6 +29,7 @@ Interpolants interpolate(uint triangle, ivec2 pixel) {
   vec3 pa = scene.positions.at[a], pb = scene.positions.at[b], pc = scene.positions.at[c];
   PixelWeights w = pixelWeights(vec4[3](project(m, pa), project(m, pb), project(m, pc)), pixel, camera.size);
   Interpolants v;
+  v.triangle = triangle;
   v.local = weighted(pa, pb, pc, w.here);
   v.normal = weighted(scene.normals.at[a], scene.normals.at[b], scene.normals.at[c], w.here);
   v.tangent = weighted(scene.tangents.at[a], scene.tangents.at[b], scene.tangents.at[c], w.here);

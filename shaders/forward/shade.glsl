@@ -40,6 +40,7 @@ struct Interpolants {
   vec4 tint;
   vec3 faceNormal;  ///< of the triangle, not unit
   vec3 towardsEye;  ///< not unit
+  uint triangle;
 };
 
 /// Per target (renderer/targets.h); what the constants leave out is not set.
@@ -48,7 +49,7 @@ struct Shaded {
 #ifdef IRAD_VOLUME
   vec4 indirect;
 #else
-  vec4 indirect, lookup;  ///< where indirect light is looked up, local space, and the normal for that; w = 1
+  vec4 indirect, lookup;  ///< where indirect light is looked up, local space, w = 1; the normal for that, seenAs(triangle)
 #endif
 };
 
@@ -147,7 +148,7 @@ Shaded shade(Interpolants v) {
   o.indirect = vec4(volumeIndirect(grid, push.sampling, p, lookup), 1.0);
 #else
   o.indirect = vec4(v.local, 1.0);
-  o.lookup = vec4(lookup, 1.0);
+  o.lookup = vec4(lookup, seenAs(v.triangle));
 #endif
   return o;
 }

@@ -30,16 +30,24 @@ bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2)
   return true;
 }
 
-/// `a` on a triangle, with the unit normal of the side; `b` alike. Over a convex surface the way is lifted as high as the
-/// surface bulges between them.
-bool sameSide(VoxelPieces voxel, vec3 a, vec3 normalA, uint triangleA, vec3 b, vec3 normalB, uint triangleB) {
+/// What two points and the unit normals of their sides say by themselves; `lift`: how far above the surface a way from
+/// one to the other passes over what bulges between them, where it is convex.
+bool mayBeSameSide(vec3 a, vec3 normalA, vec3 b, vec3 normalB, out float lift) {
+  lift = ABOVE_SURFACE;
   float alike = dot(normalA, normalB);
   if (alike < SAME_SIDE_COSINE) return false;
   vec3 chord = b - a;
   float above = dot(normalA, chord), below = -dot(normalB, chord);
   if (max(above, below) > SAME_SIDE_LEVEL && min(above, below) < -SAME_SIDE_LEVEL) return false;
-  float lift = ABOVE_SURFACE;
   if (min(above, below) < 0.0) lift += 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
+  return true;
+}
+
+/// Points of triangles in one voxel.
+bool sameSide(VoxelPieces voxel, vec3 a, vec3 normalA, uint triangleA, vec3 b, vec3 normalB, uint triangleB) {
+  float lift;
+  if (!mayBeSameSide(a, normalA, b, normalB, lift)) return false;
+  vec3 chord = b - a;
   if (dot(chord, chord) < 1e-10) return true;
   vec3 from = a + normalA * lift, to = b + normalB * lift;
   if (lift > 2.0 * ABOVE_SURFACE &&

@@ -6,6 +6,7 @@
 #include "shared/gi_params.h"
 #include "shared/grid.h"
 #include "shared/scene_gpu.h"
+#include "shared/surface.h"
 #include "shared/trace.h"
 IRAD_BEGIN
 
@@ -13,7 +14,8 @@ IRAD_BEGIN
 struct IndirectPush {
   CameraArray camera;
   GridArray grid;
-  UintArray shape, reverse, around;  ///< of FacetArrays
+  UintArray shape, reverse, around, voxel;  ///< of FacetArrays
+  SurfaceRecord surface;                    ///< gi/indirect_links.comp
   Vec4Array shaded;                  ///< H per facet
   Vec4Array shadedEmitted;           ///< F M per facet
   SampleParams sampling;

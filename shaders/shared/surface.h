@@ -30,6 +30,11 @@ IRAD_FN vec2 unpackPlace(uint place) { return vec2(float(place & 0xFFFFu), float
 IRAD_CONST uint PIECE_BLACK = 0xFFFFu;  ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_SPLIT = 0xFFFEu;  ///< several: the nearest surfel that is seen from the point decides
 
+/// Links of a facet: a byte for each of the 3 x 3 x 3 voxels around (x + 3 y + 9 z): which of that voxel's facets
+/// continues the surface on the same side, or NO_LINK.
+IRAD_CONST uint FACET_LINKS = 7u;
+IRAD_CONST uint NO_LINK = 255u;
+
 /// Voxels that more triangles than this have a piece in keep so many.
 IRAD_CONST uint MAX_PIECES = 4096u;
 
@@ -40,8 +45,29 @@ struct SurfaceArrays {
   UintArray sides;        ///< per piece
   SurfelArray surfels;    ///< FACET_SURFELS per facet
   FloatArray area;        ///< per facet, voxel faces
+  UintArray links;        ///< per facet FACET_LINKS words: the facets of the voxels around that go on on its side
 };
 IRAD_ARRAY(SurfaceRecord, SurfaceArrays, 16)
+
+/// gi/link_facets.comp.
+struct LinkFacetsPush {
+  SurfaceRecord surface;
+  UintArray voxel, reverse;
+  UintArray links;
+  uvec3 dims;
+  uint count;
+};
+
+/// gi/blur_links.comp: H (and F M) averaged over linked facets, as shading samples them.
+struct BlurLinksPush {
+  SurfaceRecord surface;
+  UintArray voxel, reverse;
+  Vec4Array indirect, emitted;
+  Vec4Array blurred, blurredEmitted;
+  UintArray change;  ///< [0]: float bits of the largest |blurred - H|, W/m^2
+  uvec3 dims;
+  uint count;
+};
 
 /// gi/surface_corners.comp.
 struct SurfaceCornersPush {
