@@ -169,7 +169,8 @@ void main() {
         middle += cell;
         vec3 facing = facingOf(a, b, c, s == 1u);
         float nearest = 1e30;
-        for (uint k = 0u; k < classes; ++k) {
+        bool few = pieces.end - pieces.first <= POINTS / 2u;
+        for (uint k = 0u; few && k < classes; ++k) {
           uint lead = leader[k];
           if (sameSide(pieces, pointAt[lead], pointFacing[lead], pieces.pieces.at[pointPiece[lead] & ~BACK], middle, facing, of)) {
             result = k;

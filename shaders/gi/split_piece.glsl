@@ -10,19 +10,17 @@ VoxelPieces piecesOf(SurfaceArrays surface, uint entry) {
                      surface.firstPiece.at[first + facetsOf(entry)]);
 }
 
-/// The facet of a piece's side (as Surfel::triangle) at a point of it: that of the nearest surfel which is seen from
-/// there, or NO_FACET.
-uint splitFacet(SurfaceArrays surface, uint entry, uint side, vec3 point) {
+/// The facet at a point of a triangle's side in a voxel: that of the nearest surfel which lies on the same side, or
+/// NO_FACET.
+uint nearestOnSide(SurfaceArrays surface, uint entry, uint triangle, vec3 facing, vec3 point) {
   VoxelPieces voxel = piecesOf(surface, entry);
   uint first = firstFacet(entry) * FACET_SURFELS, end = first + facetsOf(entry) * FACET_SURFELS;
   uint facet = NO_FACET;
   float nearest = 1e30;
   for (uint i = first; i < end; ++i) {
-    Surfel s = surface.surfels.at[i];
-    if (s.triangle != side) continue;
-    SurfelPoint p = surfelOf(surface, s);
+    SurfelPoint p = surfelOf(surface, surface.surfels.at[i]);
     vec3 d = p.position - point;
-    if (dot(d, d) >= nearest || !sameSide(voxel, point, p.facing, p.triangle, p.position, p.facing, p.triangle)) continue;
+    if (dot(d, d) >= nearest || !sameSide(voxel, point, facing, triangle, p.position, p.facing, p.triangle)) continue;
     nearest = dot(d, d);
     facet = i / FACET_SURFELS;
   }

@@ -13,7 +13,7 @@ struct SurfaceTaps {
 
 /// The facet of a triangle's side (as Surfel::triangle) in one voxel at `p`; NO_FACET where the triangle has no piece
 /// there, or no part of it that is seen from p.
-uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side) {
+uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side, vec3 facing) {
   uint triangle = side & ~SURFEL_BACK;
   uint first = surface.firstPiece.at[firstFacet(entry)], end = surface.firstPiece.at[firstFacet(entry) + facetsOf(entry)];
   uint last = end;
@@ -24,7 +24,7 @@ uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side) {
   }
   if (first == last || surface.pieces.at[first] != triangle) return NO_FACET;
   uint of = (side & SURFEL_BACK) != 0u ? surface.sides.at[first] >> 16 : surface.sides.at[first] & 0xFFFFu;
-  if (of == PIECE_SPLIT) return splitFacet(surface, entry, side, p);
+  if (of == PIECE_SPLIT) return nearestOnSide(surface, entry, triangle, facing, p);
   return of == PIECE_BLACK ? NO_FACET : firstFacet(entry) + of;
 }
 
@@ -45,7 +45,7 @@ uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint 
     if (any(notEqual(corner * abs(beside), corner))) continue;
     uint entry = entryOf(reverse, dims, cell + corner * beside);
     if (entry == NO_FACET) continue;
-    uint facet = facetInVoxel(surface, entry, p, side);
+    uint facet = facetInVoxel(surface, entry, p, side, facing);
     if (facet != NO_FACET) return facet;
   }
   uint found = NO_FACET;

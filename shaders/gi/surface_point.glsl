@@ -19,6 +19,14 @@ SurfelPoint surfelOf(SurfaceArrays surface, Surfel s) {
   return SurfelPoint(a + b * weights.x + c * weights.y, facing, triangle);
 }
 
+/// The unit normal of a triangle's side (as Surfel::triangle).
+vec3 triangleFacing(SurfaceArrays surface, uint side) {
+  uint triangle = side & ~SURFEL_BACK;
+  vec3 a = surface.corners.at[3u * triangle];
+  vec3 n = normalize(cross(surface.corners.at[3u * triangle + 1u] - a, surface.corners.at[3u * triangle + 2u] - a));
+  return (side & SURFEL_BACK) != 0u ? -n : n;
+}
+
 SurfelPoint surfelOf(SurfaceArrays surface, uint facet, uint k) {
   return surfelOf(surface, surface.surfels.at[FACET_SURFELS * facet + k]);
 }

@@ -53,7 +53,8 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
   uint side = metFront ? sides & 0xFFFFu : sides >> 16;
   hit.facet = side == PIECE_BLACK ? TRACE_BLOCKED : firstFacet(metEntry) + side;
   if (side == PIECE_SPLIT) {
-    hit.facet = splitFacet(surface, metEntry, met | (metFront ? 0u : SURFEL_BACK), origin + w.direction * nearest);
+    vec3 facing = triangleFacing(surface, met | (metFront ? 0u : SURFEL_BACK));
+    hit.facet = nearestOnSide(surface, metEntry, met, facing, origin + w.direction * nearest);
     if (hit.facet == NO_FACET) hit.facet = TRACE_BLOCKED;
   }
   return hit;
