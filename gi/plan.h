@@ -81,12 +81,11 @@ struct EffectPlan {
   uint64_t bytesNotAllocated() const;
 };
 
-/// `before`: the plan until now, so that effects do not flicker at their triggers: one that is on goes off only where a
-/// wider trigger lets go of it too. blur: half of effects.blur_noise; lights: LightTraits::nears; field for specular
-/// rays: materials up to 0.05 rougher than specular.max_roughness.
+/// `before`: the plan until now, so that effects do not flicker at their triggers: one that is on goes off only at half
+/// of what it comes on at (lights: at twice the distance; field for specular rays: at 0.05 more roughness).
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before = nullptr);
 
-/// automatic where nothing forces it. (emitterSampling is forced by matrix.emitter_sampling.)
+/// automatic where nothing forces it.
 EffectMode forcedMode(const Settings& settings, Effect effect);
 /// Sets every effect that effects.* can force.
 void forceEffects(Settings& settings, EffectMode mode);
@@ -110,8 +109,6 @@ class Planned {
   bool on(Effect effect) const { return plan_.on(effect); }
   /// obeyed() for the plan as it is.
   const Settings& settings() const { return settings_; }
-  /// How often an effect went on or off since the scene was loaded.
-  uint64_t flips() const { return flips_; }
 
   /// Decides anew.
   void decide(const Settings& wanted);
@@ -126,7 +123,6 @@ class Planned {
  private:
   EffectPlan plan_;
   Settings settings_;
-  uint64_t flips_ = 0;
 };
 
 }  // namespace irad
