@@ -82,7 +82,7 @@ struct EffectPlan {
 };
 
 /// `before`: the plan until now, so that effects do not flicker at their triggers: one that is on goes off only at half
-/// of what it comes on at (lights: at twice the distance; field for specular rays: at 0.05 more roughness).
+/// of the share that it comes on at. (Lights: twice as far; field for specular rays: 0.05 rougher.)
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before = nullptr);
 
 /// automatic where nothing forces it.

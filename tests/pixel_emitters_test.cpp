@@ -271,7 +271,7 @@ TEST_F(PixelEmitters, ComeAndGoWithTheSetting) {
   Pipeline pipeline(context(), lampAboveFloor(), settings(EmitterLookup::facets));
   const auto facets = draw(pipeline, above(2), VIEW_LIT);
   recorded();
-  EXPECT_FALSE(holds("seen share of emitters"));
+  EXPECT_FALSE(any(facts(pipeline), "has seen share of emitters"));
   EXPECT_GT(pipeline.set(settings()), Redo::Scatter) << "nothing is built again";
   const auto pixels = draw(pipeline, above(2), VIEW_LIT);
   timings().endFrame(0, /*setup=*/false, 0);
