@@ -38,7 +38,10 @@ constexpr const char *kTimes = "rebuild_ms relight_ms frame_ms", *kWork = "mib d
                      *kEnergy =
                          "idle_ms_per_s idle_dispatches_per_s idle_draws_per_s "
                          "camera_ms_per_s camera_dispatches_per_s camera_draws_per_s "
-                         "light_ms_per_s light_dispatches_per_s light_draws_per_s";
+                         "light_ms_per_s light_dispatches_per_s light_draws_per_s",
+                     *kProven =
+                         "scene effect state reason skip epsilon pixels_different largest_difference "
+                         "mean_difference allowed_difference not_proven mib_not_allocated";
 
 /// A whole number, or three decimals.
 std::string numberText(double value) {
@@ -53,8 +56,8 @@ std::map<std::string, std::string> cellsOf(const ProofRow& row) {
     cells["state"] = effect->stateName();
     cells["reason"] = effect->reason;
     cells["skip"] = effect->skipName();
-    if (effect->threshold) cells["epsilon"] = fmt::format("{}", effect->epsilon);
-    if (effect->threshold) cells["epsilon_of"] = effect->of;
+    if (effect->epsilon > 0)
+      cells.insert({{"epsilon", fmt::format("{}", effect->epsilon)}, {"epsilon_of", effect->of}});
     cells["mib_not_allocated"] = numberText(inMebibytes(effect->bytesNotAllocated));
   }
   if (const auto& difference = row.difference) {
@@ -101,13 +104,6 @@ std::string proofTables(const Proof& proof, Format format) {
   return table(sets, fmt::format("scene effect difference {} {}", kTimes, kWork), format) + "\n" +
          table(sets, fmt::format("scene effect {}", kEnergy), format) + "\n" +
          table(effects, "scene effect state skip difference not_proven mib_not_allocated", format);
-}
-
-std::string proofCsv(const Proof& proof) {
-  constexpr const char* kOther =
-      "scene effect state reason skip epsilon pixels_different largest_difference mean_difference allowed_difference "
-      "not_proven mib_not_allocated";
-  return table(proof, fmt::format("{} {} {} {}", kOther, kTimes, kWork, kEnergy), Format::Csv);
 }
 
 void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, const DeviceInfo& device) {
@@ -165,7 +161,8 @@ void run(const PlanArguments& arguments) {
   }
   if (arguments.prove) {
     print("{}", proofTables(proof, Format::Aligned));
-    if (arguments.csv) writeFile(*arguments.csv, proofCsv(proof));
+    const std::string all = fmt::format("{} {} {} {}", kProven, kTimes, kWork, kEnergy);
+    if (arguments.csv) writeFile(*arguments.csv, table(proof, all, Format::Csv));
     if (arguments.markdown) writeFile(*arguments.markdown, proofTables(proof, Format::Markdown));
     require(proof);
   }

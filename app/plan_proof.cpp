@@ -41,7 +41,7 @@ PictureDifference compare(std::span<const glm::vec4> a, std::span<const glm::vec
 /// By how much a row's skip may change the picture, as radiance: its share of the largest H, times at most 1 / pi,
 /// since reflectances are <= 1.
 float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
-  return row.threshold ? row.epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float> : 0;
+  return row.epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float>;
 }
 
 /// Prepares, compiles pipelines and touches pages.
@@ -204,8 +204,8 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
     }
     if (row.effect == Effect::rebuild) bench.rebuild();
     if (proven.reason.empty()) {
-      const bool ofMean = row.effect == Effect::emitterSampling && row.threshold;
-      const auto compared = row.threshold ? views.first(1) : views;
+      const bool ofMean = row.effect == Effect::emitterSampling && row.epsilon > 0;
+      const auto compared = row.epsilon > 0 ? views.first(1) : views;
       proven.difference = compare(before, asLit ? bench.picturesAsLit(compared) : bench.pictures(compared),
                                   ofMean ? row.epsilon : allowedRadiance(pipeline, row));
       proven.difference->ofMean = ofMean;

@@ -77,13 +77,6 @@ class Planner {
     shines_ |= lights;
     return lights;
   }
-  EffectRow& threshold(Effect effect, float epsilon) {
-    EffectRow& r = row(effect);
-    r.threshold = true;
-    r.epsilon = epsilon;
-    return r;
-  }
-
   /// Hysteresis of triggers that an edit may cross back and forth. `share`: of what the effect comes on at.
   bool held(Effect effect, double share) const {
     return share > (before_ != nullptr && before_->on(effect) ? 0.5 : 1.0);
@@ -175,7 +168,8 @@ class Planner {
     const uint64_t bytes = facets() * 16;
     if (!emits_ || !plan_.on(Effect::matrix))
       return without(Effect::emitterSampling, emits_ ? "no matrix, no first gather" : "nothing emits", bytes);
-    EffectRow& r = threshold(Effect::emitterSampling, kEmitterAgreement);
+    EffectRow& r = row(Effect::emitterSampling);
+    r.epsilon = kEmitterAgreement;
     r.of = "the sum of F M";
     if (!t_.build) return decide(Effect::emitterSampling, true, "known once the emissive facets are counted", bytes);
     const BuildTraits& b = *t_.build;
@@ -228,7 +222,7 @@ class Planner {
 
   void relight() {
     if (plan_.off(Effect::matrix)) return without(Effect::relight, "no indirect light");
-    threshold(Effect::relight, s_.solver.tolerance);
+    row(Effect::relight).epsilon = s_.solver.tolerance;
     const LightState& l = t_.light;
     const bool due = l.due <= Redo::Scatter;
     // Light at rest is kept, unless relighting is switched off.
@@ -261,7 +255,7 @@ class Planner {
     if (plan_.off(Effect::matrix)) return without(Effect::blur, "no indirect light");
     if (const SampleFilter filter = s_.sample.gpu.filter_; filter != SampleFilter::blur)
       return without(Effect::blur, fmt::format("sample.filter = {}", nameOf(filter)));
-    const float epsilon = threshold(Effect::blur, s_.effects.blurNoise).epsilon;
+    const float epsilon = row(Effect::blur).epsilon = s_.effects.blurNoise;
     const uint64_t copies = facets() * (plan_.on(Effect::emission) ? 32 : 16);
     if (!t_.light.noise) return decide(Effect::blur, true, "what it changes is known after a relight", copies);
     const float noise = *t_.light.noise;

@@ -56,10 +56,9 @@ IRAD_ENUM(EffectState, IRAD_EFFECT_STATES)
 struct EffectRow {
   Effect effect{};
   EffectState state = EffectState::on;
-  std::string reason;  ///< with the figures: "2 of 14 materials emit, 12 W/(m^2 sr) at most"
+  std::string reason;  ///< with the figures: "2 of 14 materials with emission, 12 W/(m^2 sr) at most"
   /// How the picture may differ from that with the effect forced on. Exact: not in one bit, what is left out is
-  /// provably 0; threshold: by no more than `epsilon`, a share of `of`.
-  bool threshold = false;
+  /// provably 0 (`epsilon` 0); threshold: by no more than `epsilon`, a share of `of`.
   float epsilon = 0;
   /// emitterSampling: that of the sum over all facets; rays and samples of single ones differ by their noise.
   const char* of = "the largest H";
@@ -67,7 +66,7 @@ struct EffectRow {
 
   const EffectInfo& info() const { return effectInfo(effect); }
   const char* stateName() const { return nameOf(state); }
-  const char* skipName() const { return threshold ? "threshold" : "exact"; }
+  const char* skipName() const { return epsilon > 0 ? "threshold" : "exact"; }
 };
 
 struct EffectPlan {

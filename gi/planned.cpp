@@ -62,7 +62,7 @@ std::string planJson(const EffectPlan& plan, int indent) {
   for (const EffectRow& r : plan.rows) {
     nlohmann::ordered_json row{
         {"effect", r.info().name}, {"state", r.stateName()}, {"reason", r.reason}, {"skip", r.skipName()}};
-    if (r.threshold) {
+    if (r.epsilon > 0) {
       row["epsilon"] = nlohmann::ordered_json::parse(fmt::format("{}", r.epsilon));
       row["epsilon_of"] = r.of;
     }

@@ -33,10 +33,10 @@ LightTraits light(LightType type, bool shines = true, float gap = 0) {
   return {.type = type, .shines = shines, .gap = gap};
 }
 
-/// A row in words: "off, 22000 B: none of 1 material emits", "asleep, within 0.0005 of the largest H: error bound ...".
+/// A row in words: "off, 22000 B: none of 1 material with emission", "asleep, within 0.0005 of the largest H: error bound ...".
 std::string text(const EffectRow& row) {
   return fmt::format("{}{}{}: {}", row.stateName(),
-                     row.threshold ? fmt::format(", within {:.3g} of {}", row.epsilon, row.of) : "",
+                     row.epsilon > 0 ? fmt::format(", within {:.3g} of {}", row.epsilon, row.of) : "",
                      row.bytesNotAllocated > 0 ? fmt::format(", {} B", row.bytesNotAllocated) : "", row.reason);
 }
 
@@ -183,9 +183,10 @@ TEST(Plan, WithoutLightItSaysWhy) {
   S s = usual();
   EXPECT_TRUE(plan(t, s).noLight.empty());
   turnedDown(t, s);
-  const std::vector<std::string> reasons{"no sun", plan(t, s).row(E::point).reason, "no spot light",
-                                         "none of 2 materials with emission"};
-  EXPECT_EQ(plan(t, s).noLight, reasons);
+  const EffectPlan p = plan(t, s);
+  std::vector<std::string> reasons;
+  for (const E e : {E::sun, E::point, E::spot, E::emission}) reasons.push_back(p.row(e).reason);
+  EXPECT_EQ(p.noLight, reasons);
 }
 
 TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {

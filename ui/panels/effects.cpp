@@ -53,8 +53,8 @@ class EffectsPanel : public Panel {
     ImGui::EndGroup();
     helpTooltip(fmt::format(
         "{}: {}\n{}\n{}{}", info.label, row.stateName(), row.reason,
-        row.threshold ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
-                      : "Exact: forced on it gives the same bits.",
+        row.epsilon > 0 ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
+                        : "Exact: forced on it gives the same bits.",
         row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
     if (*info.setting != 0) {
       ImGui::SameLine(end);
