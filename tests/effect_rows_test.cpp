@@ -14,22 +14,11 @@ const Scene kEmpty = room(/*emits=*/false), kGlossy = glossy(kEmpty), kLamp = ro
             kTextured = room(/*emits=*/true, {lamp(0.3)}, /*textured=*/true),
             kEven = furnaceBox(0.5f);  // H is the same everywhere but for what lights add to it
 
-using Flip = std::array<Edit, 2>;  // the scene no longer calls for the effect; it does
-Flip flip(std::vector<Light> always, Light flipped) {
-  std::vector<Light> all = always;
-  all.push_back(std::move(flipped));
-  return {lights(std::move(always)), lights(std::move(all))};
-}
-/// Back to what the scene calls for.
-Flip flip(const std::string& name, const std::string& off = "off", const std::string& on = "auto") {
-  return {setting(name + "=" + off), setting(name + "=" + on)};
-}
-
 /// How one effect is called for, and what it brings along.
 struct Row {
   Effect effect;
   const Scene& scene;
-  Flip flip;
+  Edit off, on;         ///< the scene no longer calls for the effect; it does
   std::string terms{};  ///< of EffectsTest::expect(), for the effect alone
 };
 using E = Effect;
@@ -37,21 +26,27 @@ std::string forwardWith(uint32_t constant) {
   return fmt::format("forward with {}.", constant);
 }
 const Row kRows[] = {
-    {E::emission, kLamp, flip("effects.emission"),
+    {E::emission, kLamp, setting("effects.emission=off"), setting("effects.emission=auto"),
      "GI Solve Emitters, has emitted share F M, " + forwardWith(FORWARD_EMISSION)},
-    {E::emitterSampling, kLamp, flip("matrix.emitter_sampling", "off", "on"),
+    {E::emitterSampling, kLamp, setting("matrix.emitter_sampling=off"), setting("matrix.emitter_sampling=on"),
      "has emitters' correction, shader gi/sample_emitters"},
-    {E::sun, kEmpty, flip({lamp(0.3)}, sun()), "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SUN)},
-    {E::point, kEmpty, flip({sun()}, lamp(0.3)), "has shadow cubes, " + forwardWith(FORWARD_LIGHTS + LIGHT_POINT)},
-    {E::spot, kEmpty, flip({lamp(0.3)}, spot()), "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SPOT)},
-    {E::matrix, kEmpty, flip({}, lamp(0.3)),
+    {E::sun, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), sun()}),
+     "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SUN)},
+    {E::point, kEmpty, lights({sun()}), lights({sun(), lamp(0.3)}),
+     "has shadow cubes, " + forwardWith(FORWARD_LIGHTS + LIGHT_POINT)},
+    {E::spot, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), spot()}),
+     "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SPOT)},
+    {E::matrix, kEmpty, lights({}), lights({lamp(0.3)}),
      "GI BuildMatrix, has indirect irradiance H, " + forwardWith(FORWARD_INDIRECT)},
-    {E::specular, kGlossy, flip({}, lamp(0.3)), "RE Specular, has specular radiance, " + forwardWith(FORWARD_F0)},
-    {E::secondFacet, kLamp, flip("effects.second_facet"), "second facets"},
-    {E::field, kLamp, flip("matrix.traversal", "dda", "sdf"), "GI SDF, has chebyshev field"},
-    {E::alphaTest, kTextured, flip("effects.alpha_test"), "shader forward/depth_masked.frag"},
-    {E::normalMap, kTextured, flip("effects.normal_map"), forwardWith(FORWARD_NORMAL_MAP)},
-    {E::blur, kEven, flip({}, spot()), "has blurred H"},
+    {E::specular, kGlossy, lights({}), lights({lamp(0.3)}),
+     "RE Specular, has specular radiance, " + forwardWith(FORWARD_F0)},
+    {E::secondFacet, kLamp, setting("effects.second_facet=off"), setting("effects.second_facet=auto"), "second facets"},
+    {E::field, kLamp, setting("matrix.traversal=dda"), setting("matrix.traversal=sdf"), "GI SDF, has chebyshev field"},
+    {E::alphaTest, kTextured, setting("effects.alpha_test=off"), setting("effects.alpha_test=auto"),
+     "shader forward/depth_masked.frag"},
+    {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
+     forwardWith(FORWARD_NORMAL_MAP)},
+    {E::blur, kEven, lights({}), lights({spot()}), "has blurred H"},
 };
 
 class Rows : public EffectsTest {
@@ -74,7 +69,7 @@ TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
   std::array<uint64_t, 2> bytes{};
   for (const bool again : {false, true})
     for (const bool wanted : {false, true}) {
-      row.flip[wanted](pipeline);
+      (wanted ? row.on : row.off)(pipeline);
       facts(pipeline);
       // One prepare and one picture: with all that the effect brings where it is wanted, else with nothing of it.
       pipeline.darken();  // so that the light does not depend on what was there before
@@ -90,7 +85,7 @@ TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
       bytes[wanted] = usedBytes();
     }
   EXPECT_TRUE(row.terms.find("has ") == std::string::npos || bytes[1] > bytes[0]);
-  row.flip[false](pipeline);
+  row.off(pipeline);
   pipeline.prepare();
   app::require(app::proveEach(effectInfo(row.effect).name, *bench, kViews));
 }

@@ -33,7 +33,7 @@ LightTraits light(LightType type, bool shines = true, float gap = 0) {
   return {.type = type, .shines = shines, .gap = gap};
 }
 
-/// A row in words: "off, 22000 B: none of 1 material with emission", "asleep, within 0.0005 of the largest H: error bound ...".
+/// A row in words: "off, 4000 B: voxel.facets = 1", "asleep, within 0.0005 of the largest H: error bound ...".
 std::string text(const EffectRow& row) {
   return fmt::format("{}{}{}: {}", row.stateName(),
                      row.epsilon > 0 ? fmt::format(", within {:.3g} of {}", row.epsilon, row.of) : "",
