@@ -331,9 +331,6 @@ EffectPlan Pipeline::plan(std::optional<bool> redraw) const {
 const SceneTraits& Pipeline::traits() const {
   return impl_->planned.traits;
 }
-uint64_t Pipeline::flips() const {
-  return impl_->planned.flips();
-}
 
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
