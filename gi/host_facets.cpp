@@ -26,6 +26,14 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
     host.albedo.push_back(unpackAlbedo(albedo[i]));
     host.area.push_back(double{list.grid.edge} * list.grid.edge * double{area[i]});
   }
+  if (list.surface) {  // what a facet stands for may lie to one side of its voxel
+    const oracle::Facets surface = oracleFacets(context, list);
+    for (uint32_t i = 0; i < list.count; ++i) {
+      glm::dvec3 sum(0);
+      for (uint32_t k = 0; k < FACET_SURFELS; ++k) sum += surface.point(FACET_SURFELS * i + k);
+      host.position[i] = glm::dvec3(list.grid.origin) + double{list.grid.edge} / FACET_SURFELS * sum;
+    }
+  }
   host.emission = list.hasEmission ? downloadAs<glm::vec3>(context, list.emission)
                                    : std::vector<glm::vec3>(list.count, glm::vec3(0));
   host.emission.resize(list.count);
@@ -33,12 +41,20 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
 }
 
 oracle::Facets oracleFacets(Context& context, const FacetList& list) {
-  return {list.grid,
-          list.encoding,
-          downloadAs<uint32_t>(context, list.voxel),
-          downloadAs<uint32_t>(context, list.shape),
-          downloadAs<uint32_t>(context, list.reverse),
-          downloadAs<uint32_t>(context, list.around)};
+  oracle::Facets host{.grid = list.grid,
+                      .encoding = list.encoding,
+                      .voxel = downloadAs<uint32_t>(context, list.voxel),
+                      .shape = downloadAs<uint32_t>(context, list.shape),
+                      .reverse = downloadAs<uint32_t>(context, list.reverse),
+                      .around = downloadAs<uint32_t>(context, list.around)};
+  if (const Surface& s = list.surface) {
+    host.corners = downloadAs<glm::vec3>(context, s.corners);
+    host.firstPiece = downloadAs<uint32_t>(context, s.firstPiece);
+    host.pieces = downloadAs<uint32_t>(context, s.pieces);
+    host.sides = downloadAs<uint32_t>(context, s.sides);
+    host.surfels = downloadAs<Surfel>(context, s.surfels);
+  }
+  return host;
 }
 
 std::vector<glm::vec3> perFacet(Context& context, const FacetList& list, const Buffer& values) {

@@ -240,8 +240,15 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
 }  // namespace
 
 FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  if (settings.voxel.method != VoxelMethod::conservative || settings.thesis.literal)
+    throw UsageError("matrix.hit_rule=triangles needs voxel.method=conservative and thesis.literal=false");
+  if (settings.matrix.format != MatrixFormat::csr)
+    throw UsageError("matrix.hit_rule=triangles needs matrix.format=csr");
   const Device& device = context.device;
   const uint32_t triangles = scene.scene.triangleCount();
+  if (triangles > MAX_TRIANGLES)
+    throw InputError(fmt::format("{}: {} triangles; voxelization takes at most {}", scene.scene.path.string(),
+                                 triangles, MAX_TRIANGLES));
   FacetList list;
   list.grid = makeGrid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
   list.encoding = settings.voxel.normals;

@@ -195,8 +195,11 @@ void main() {
   // Surfels: points of equal shares of each class's area.
   for (uint i = me; i < classes * FACET_SURFELS; i += POINTS) {
     uint class_ = i / FACET_SURFELS, k = i % FACET_SURFELS;
-    float area = 0.0;
-    for (uint j = 0u; j < POINTS; ++j) area += pointClass[j] == class_ ? pointWeight[j] : 0.0;
+    float area = 0.0, all_ = 0.0;
+    for (uint j = 0u; j < POINTS; ++j) {
+      area += pointClass[j] == class_ ? pointWeight[j] : 0.0;
+      all_ += pointWeight[j];
+    }
     float at = (float(k) + 0.5) / float(FACET_SURFELS) * area;
     uint chosen = leader[class_];
     float upTo = 0.0;
@@ -212,7 +215,7 @@ void main() {
     if (k == 0u) {
       uint facet = base + class_;
       uint lead = pointPiece[leader[class_]];
-      surface.area.at[facet] = area;
+      surface.area.at[facet] = area * (whole / all_);  // pieces that no point fell on have area, too
       surface.firstPiece.at[facet] = pieces.first;
       push.voxel.at[facet] = packedVoxel;
       push.triangle.at[facet] = pieces.pieces.at[lead & ~BACK] | ((lead & BACK) != 0u ? SURFEL_BACK : 0u);
