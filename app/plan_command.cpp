@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/device_session.h"
 #include "app/devices.h"
@@ -30,109 +33,86 @@ struct PlanArguments {
   bool json = false, measure = false, prove = false;
 };
 
-using Costs = std::optional<std::map<Effect, Times>>;  ///< where they were measured
 using Cells = std::vector<std::string>;
+constexpr const char *kTimes = "rebuild_ms relight_ms frame_ms", *kWork = "mib dispatches draws instructions",
+                     *kEnergy =
+                         "idle_ms_per_s idle_dispatches_per_s idle_draws_per_s "
+                         "camera_ms_per_s camera_dispatches_per_s camera_draws_per_s "
+                         "light_ms_per_s light_dispatches_per_s light_draws_per_s",
+                     *kProven =
+                         "scene effect state reason skip epsilon pixels_different largest_difference "
+                         "mean_difference allowed_difference not_proven mib_not_allocated";
 
-std::string mebibyteCell(uint64_t bytes) {
-  return bytes == 0 ? "-" : fmt::format("{:.2f}", inMebibytes(bytes));
+/// A whole number, or three decimals.
+std::string numberText(double value) {
+  return fmt::format("{:.{}f}", value, value == std::round(value) ? 0 : 3);
 }
 
-void printTable(const EffectPlan& plan, const Costs& costs) {
-  std::vector<Cells> rows{{"effect", "state", "difference", "MiB not allocated"}};
-  if (costs) rows[0].insert(rows[0].end(), {"rebuild ms", "relight ms", "frame ms"});
-  rows[0].push_back("reason");
-  for (const EffectRow& row : plan.rows) {
-    rows.push_back({row.info().name, row.stateName(),
-                    row.threshold ? fmt::format("{:.2g} of {}", row.epsilon, row.of) : row.skipName(),
-                    mebibyteCell(row.bytesNotAllocated)});
-    for (size_t i = 0; costs && i < Times{}.size(); ++i)
-      rows.back().push_back(costs->contains(row.effect) ? fmt::format("{:.2f}", costs->at(row.effect)[i]) : "-");
-    rows.back().push_back(row.reason);
+/// What applies to the row, by the names of columns.
+std::map<std::string, std::string> cellsOf(const ProofRow& row) {
+  std::map<std::string, std::string> cells{{"scene", row.scene}, {"effect", row.name}, {"not_proven", row.reason}};
+  for (const auto& [name, value] : row.figures) cells[name] = numberText(value);
+  if (const auto& effect = row.effect) {
+    cells["state"] = effect->stateName();
+    cells["reason"] = effect->reason;
+    cells["skip"] = effect->skipName();
+    if (effect->epsilon > 0)
+      cells.insert({{"epsilon", fmt::format("{}", effect->epsilon)}, {"epsilon_of", effect->of}});
+    cells["mib_not_allocated"] = numberText(inMebibytes(effect->bytesNotAllocated));
   }
-  std::vector<bool> numeric(rows[0].size() - 1, true);
-  std::fill_n(numeric.begin(), 3, false);
-  print("{}", formatTable(rows, numeric));
-  print("{} MiB not allocated in all{}\n", mebibyteCell(plan.bytesNotAllocated()),
-        costs ? "; milliseconds that the effect would take, by the median" : "");
+  if (const auto& difference = row.difference) {
+    cells["difference"] = difference->text();
+    cells["pixels_different"] = fmt::format("{}", difference->pixels);
+    cells["largest_difference"] = fmt::format("{}", difference->largest);
+    cells["mean_difference"] = fmt::format("{}", difference->mean);
+    cells["allowed_difference"] = fmt::format("{}", difference->allowed);
+  }
+  return cells;
 }
 
-void printJson(const EffectPlan& plan, const Scene& scene, const DeviceInfo& device, const Costs& costs) {
-  nlohmann::ordered_json out{{"scene", scene.path.string()}, {"device", device.name}};
-  out["effects"] = nlohmann::ordered_json::parse(planJson(plan));
-  if (costs)
-    for (const auto& [effect, ms] : *costs)
-      out["effects"][static_cast<size_t>(effect)]["ms_not_spent"] = {
-          {"rebuild", ms[0]}, {"relight", ms[1]}, {"frame", ms[2]}};
-  print("{}\n", out.dump(2));
-}
+enum class Format { Aligned, Markdown, Csv };
 
-/// The first `words` columns to the left, the others, numbers, to the right.
-std::string table(const std::vector<Cells>& rows, size_t words, bool markdown) {
-  std::vector<bool> numeric(words, false);
-  numeric.resize(rows[0].size(), true);
-  if (!markdown) return formatTable(rows, numeric);
+std::string table(const Proof& proof, const std::string& names, Format format) {
+  std::istringstream in(names);
+  const Cells columns{std::istream_iterator<std::string>(in), {}};
+  std::vector<Cells> rows{columns};
+  for (const ProofRow& row : proof) {
+    auto cells = cellsOf(row);
+    Cells& line = rows.emplace_back();
+    for (const std::string& column : columns) line.push_back(cells[column]);
+  }
+  if (format == Format::Aligned) {
+    std::vector<bool> numeric;
+    for (const std::string& cell : rows.back())
+      numeric.push_back(cell.find_first_not_of("0123456789.-") == std::string::npos);
+    return formatTable(rows, numeric);
+  }
+  if (format == Format::Markdown) rows.insert(rows.begin() + 1, Cells(columns.size(), "---"));
   std::string out;
-  for (const Cells& row : rows) {
-    out += fmt::format("| {} |\n", fmt::join(row, " | "));
-    if (&row == &rows.front()) out += fmt::format("|{}\n", fmt::join(Cells(row.size(), "---|"), ""));
+  for (Cells& row : rows) {
+    if (format == Format::Csv) std::ranges::transform(row, row.begin(), csvField);
+    out += format == Format::Csv ? fmt::format("{}\n", fmt::join(row, ","))
+                                 : fmt::format("| {} |\n", fmt::join(row, " | "));
   }
   return out;
 }
 
-std::string proofTables(const Proof& proof, bool markdown) {
-  std::vector<Cells> cost{{"scene", "effects", "difference"}}, energy{{"scene", "effects"}},
-      effects{{"scene", "not on", "state", "skip", "difference when done", "MiB not allocated"}};
-  const auto tableOf = [&](size_t figure) -> auto& {
-    return figure < kCostFigures ? cost : energy;
-  };
-  for (size_t i = 0; i < std::size(kFigures); ++i) tableOf(i)[0].push_back(kFigures[i].heading);
-  for (const ProofRow& row : proof) {
-    std::string difference = row.difference ? row.difference->text() : "";
-    if (const auto& effect = row.effect) {
-      if (!row.difference) difference = "not done: " + row.reason;
-      effects.push_back({row.scene, row.name, effect->stateName(), effect->skipName(), difference,
-                         mebibyteCell(effect->bytesNotAllocated)});
-      continue;
-    }
-    cost.push_back({row.scene, row.name, difference});
-    energy.push_back({row.scene, row.name});
-    for (size_t i = 0; i < row.figures.size(); ++i)
-      tableOf(i).back().push_back(row.figures[i] ? fmt::format("{:.{}f}", *row.figures[i], kFigures[i].decimals) : "-");
-  }
-  return table(cost, 3, markdown) + "\n" + table(energy, 2, markdown) + "\n" + table(effects, 5, markdown);
+std::string proofTables(const Proof& proof, Format format) {
+  Proof effects, sets;
+  std::ranges::partition_copy(proof, std::back_inserter(effects), std::back_inserter(sets),
+                              [](const ProofRow& row) { return row.effect.has_value(); });
+  return table(sets, fmt::format("scene effect difference {} {}", kTimes, kWork), format) + "\n" +
+         table(sets, fmt::format("scene effect {}", kEnergy), format) + "\n" +
+         table(effects, "scene effect state skip difference not_proven mib_not_allocated", format);
 }
 
-std::string proofCsv(const Proof& proof) {
-  std::string header, lines;
-  for (const ProofRow& row : proof) {
-    Cells columns, cells;  // those that do not apply to a row are empty
-    const auto cell = [&](const char* column, bool applies, const auto& value) {
-      columns.push_back(column);
-      cells.push_back(applies ? csvField(fmt::format("{}", value)) : "");
-    };
-    const bool isEffect = row.effect.has_value(), compared = row.difference.has_value();
-    const EffectRow effect = row.effect.value_or(EffectRow{});
-    const PictureDifference difference = row.difference.value_or(PictureDifference{});
-    cell("scene", true, row.scene);
-    cell("effect", true, row.name);
-    cell("state", isEffect, effect.stateName());
-    cell("reason", isEffect, effect.reason);
-    cell("skip", isEffect, effect.skipName());
-    cell("epsilon", effect.threshold, effect.epsilon);
-    cell("pixels_different", compared, difference.pixels);
-    cell("largest_difference", compared, difference.largest);
-    cell("mean_difference", compared, difference.mean);
-    cell("allowed_difference", compared, difference.allowed);
-    cell("not_proven", true, row.reason);
-    cell("mib_not_allocated", isEffect, fmt::format("{:.3f}", inMebibytes(effect.bytesNotAllocated)));
-    for (size_t i = 0; i < std::size(kFigures); ++i) {
-      const auto figure = i < row.figures.size() ? row.figures[i] : std::nullopt;
-      cell(kFigures[i].column, figure.has_value(), fmt::format("{:.{}f}", figure.value_or(0), kFigures[i].csvDecimals));
-    }
-    header = fmt::format("{}\n", fmt::join(columns, ","));
-    lines += fmt::format("{}\n", fmt::join(cells, ","));
-  }
-  return header + lines;
+void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, const DeviceInfo& device) {
+  nlohmann::ordered_json out{{"scene", scene.path.string()}, {"device", device.name}};
+  out["effects"] = nlohmann::ordered_json::parse(planJson(plan));
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (const auto& [name, ms] : rows[i].figures)
+      out["effects"][i]["ms_not_spent"][name.substr(0, name.find('_'))] = ms;
+  print("{}\n", out.dump(2));
 }
 
 void show(const Subject& subject, const PlanArguments& arguments) {
@@ -144,13 +124,16 @@ void show(const Subject& subject, const PlanArguments& arguments) {
   pipeline.render(frame, subject.camera, VIEW_LIT, targets);
   frame.submitAndWait();
   const EffectPlan plan = pipeline.plan();
-  Costs costs;
-  if (arguments.measure) costs = measureCosts(subject, plan);
+  const Proof rows = rowsOf(subject, plan, arguments.measure);
   session.progress.finish();
-  if (arguments.json)
-    printJson(plan, subject.scene, session.device->info, costs);
-  else
-    printTable(plan, costs);
+  if (arguments.json) {
+    printJson(rows, plan, subject.scene, session.device->info);
+  } else {
+    constexpr const char* kColumns = "effect state skip epsilon epsilon_of mib_not_allocated {} reason";
+    print("{}", table(rows, fmt::format(kColumns, arguments.measure ? kTimes : ""), Format::Aligned));
+    print("{} MiB not allocated in all{}\n", numberText(inMebibytes(plan.bytesNotAllocated())),
+          arguments.measure ? "; milliseconds that the effect would take, by the median" : "");
+  }
   session.checkNumbers(pipeline);
 }
 
@@ -177,9 +160,10 @@ void run(const PlanArguments& arguments) {
     session.progress.finish();
   }
   if (arguments.prove) {
-    print("{}", proofTables(proof, /*markdown=*/false));
-    if (arguments.csv) writeFile(*arguments.csv, proofCsv(proof));
-    if (arguments.markdown) writeFile(*arguments.markdown, proofTables(proof, /*markdown=*/true));
+    print("{}", proofTables(proof, Format::Aligned));
+    const std::string all = fmt::format("{} {} {} {}", kProven, kTimes, kWork, kEnergy);
+    if (arguments.csv) writeFile(*arguments.csv, table(proof, all, Format::Csv));
+    if (arguments.markdown) writeFile(*arguments.markdown, proofTables(proof, Format::Markdown));
     require(proof);
   }
   session.checkValidation();

@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -41,7 +41,7 @@ PictureDifference compare(std::span<const glm::vec4> a, std::span<const glm::vec
 /// By how much a row's skip may change the picture, as radiance: its share of the largest H, times at most 1 / pi,
 /// since reflectances are <= 1.
 float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
-  return row.threshold ? row.epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float> : 0;
+  return row.epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float>;
 }
 
 /// Prepares, compiles pipelines and touches pages.
@@ -56,28 +56,28 @@ std::unique_ptr<Bench> open(const Subject& subject, const Settings& settings) {
   return bench;
 }
 
-/// Each one's medians of `ms` of a call. Both work in turn, so that other load on the machine falls on both alike.
-template <class Ms>
-std::array<Times, 2> timesInTurn(std::array<Bench*, 2> benches, uint32_t frames, Ms ms,
-                                 const std::function<void(float)>& progress) {
+/// Each one's times. Both work in turn, so that other load on the machine falls on both alike.
+std::array<Figures, 2> timesInTurn(const Subject& subject, std::array<Bench*, 2> benches) {
   constexpr int kRebuilds = 3;
   for (int i = 0; i < kRebuilds; ++i)
     for (Bench* bench : benches) bench->rebuild();
-  for (uint32_t i = 0; i < frames; ++i)
+  for (uint32_t i = 0; i < subject.frames; ++i)
     for (Bench* bench : benches) {
-      progress(static_cast<float>(i) / static_cast<float>(frames));
+      subject.session.progress(subject.name.c_str(), static_cast<float>(i) / static_cast<float>(subject.frames));
       bench->relight();
       bench->cameraFrame();
     }
-  std::array<Times, 2> out;
-  constexpr std::array kKinds{WorkKind::Setup, WorkKind::Relight, WorkKind::Camera};
+  const auto median = [](const Bench& bench, WorkKind kind) {
+    std::vector<double> samples;
+    for (const FrameSample& call : bench.frames())
+      if (call.kind == kind) samples.push_back(call.gpuMs());
+    return samples.empty() ? 0 : statistics(samples).p50;
+  };
+  std::array<Figures, 2> out;
   for (size_t i = 0; i < benches.size(); ++i)
-    for (size_t k = 0; k < kKinds.size(); ++k) {
-      std::vector<double> samples;
-      for (const FrameSample& call : benches[i]->frames())
-        if (call.kind == kKinds[k]) samples.push_back(std::invoke(ms, call));
-      out[i][k] = samples.empty() ? 0 : statistics(samples).p50;
-    }
+    out[i] = {{"rebuild_ms", median(*benches[i], WorkKind::Setup)},
+              {"relight_ms", median(*benches[i], WorkKind::Relight)},
+              {"frame_ms", median(*benches[i], WorkKind::Camera)}};
   return out;
 }
 
@@ -90,8 +90,7 @@ uint64_t heldBytes(const DeviceSession& session) {
   return bytes;
 }
 
-/// MiB of device memory (beside `before` bytes that were in use), dispatches, draws and instructions of a
-/// relight and a picture.
+/// Device memory (beside `before` bytes that were in use) and the work of a relight and a picture.
 Figures workOf(DeviceSession& session, Bench& bench, uint64_t before) {
   Context& context = *session.context;
   const double mebibytes = inMebibytes(heldBytes(session) - before);
@@ -101,25 +100,32 @@ Figures workOf(DeviceSession& session, Bench& bench, uint64_t before) {
   bench.cameraFrame();
   const Counters work = context.counters().since(counters);
   bench.forget();
-  return {mebibytes, static_cast<double>(work.dispatches), static_cast<double>(work.draws),
-          static_cast<double>(specializedInstructions(context.shaders, context.pipelinesUsed()))};
+  return {{"mib", mebibytes},
+          {"dispatches", static_cast<double>(work.dispatches)},
+          {"draws", static_cast<double>(work.draws)},
+          {"instructions", static_cast<double>(specializedInstructions(context.shaders, context.pipelinesUsed()))}};
 }
 
-/// Milliseconds of the GPU, dispatches and draws per second. `everything`: nothing sleeps, every tick relights and
-/// draws.
-Figures energyOf(Bench& bench, Moving moving, uint32_t ticks, bool everything) {
+/// The figures per second. `everything`: nothing sleeps, every tick relights and draws.
+Figures energyOf(Bench& bench, uint32_t ticks, bool everything) {
   Pipeline& pipeline = bench.pipeline();
-  if (moving == Moving::Lights && pipeline.scene().lights.empty()) return Figures(3);
   const Settings settings = pipeline.settings();
   Settings restless = settings;
   if (everything) restless.effects.relight = EffectMode::on;
   pipeline.set(restless);
-  const TickWork work = bench.ticks(moving, ticks, everything);
+  Figures out;
+  for (const auto& [moving, name] :
+       {std::pair(Moving::Nothing, "idle"), {Moving::Camera, "camera"}, {Moving::Lights, "light"}}) {
+    if (moving == Moving::Lights && pipeline.scene().lights.empty()) continue;
+    const TickWork work = bench.ticks(moving, ticks, everything);
+    const double perSecond = 60.0 / ticks;
+    out[fmt::format("{}_ms_per_s", name)] = perSecond * work.gpuMs;
+    out[fmt::format("{}_dispatches_per_s", name)] = perSecond * static_cast<double>(work.dispatches);
+    out[fmt::format("{}_draws_per_s", name)] = perSecond * static_cast<double>(work.draws);
+  }
   pipeline.set(settings);
   pipeline.prepare();
-  const double perSecond = 60.0 / ticks;
-  return {perSecond * work.gpuMs, perSecond * static_cast<double>(work.dispatches),
-          perSecond * static_cast<double>(work.draws)};
+  return out;
 }
 
 }  // namespace
@@ -139,18 +145,19 @@ void require(const Proof& proof) {
   if (!wrong.empty()) throw WorkError(fmt::format("{}", fmt::join(wrong, "\n")));
 }
 
-std::map<Effect, Times> measureCosts(const Subject& subject, const EffectPlan& plan) {
-  std::map<Effect, Times> costs;
+Proof rowsOf(const Subject& subject, const EffectPlan& plan, bool measure) {
+  Proof rows;
   for (const EffectRow& row : plan.rows) {
-    if (row.state != EffectState::off || !row.info().mode) continue;
+    ProofRow& out = rows.emplace_back(ProofRow{.scene = subject.name, .name = row.info().name, .effect = row});
+    if (!measure || row.state != EffectState::off || !row.info().mode) continue;
     Settings forced = subject.session.settings;
     forced.effects.*row.info().mode = EffectMode::on;
     const auto without = open(subject, subject.session.settings), with = open(subject, forced);
     if (!with->pipeline().plan().on(row.effect)) continue;  // another setting has it off
-    const auto [off, on] = timesInTurn({without.get(), with.get()}, subject.frames, &FrameSample::cpuMs, [](float) {});
-    for (size_t i = 0; i < on.size(); ++i) costs[row.effect][i] = on[i] - off[i];
+    const auto [off, on] = timesInTurn(subject, {without.get(), with.get()});
+    for (const auto& [name, ms] : on) out.figures[name] = ms - off.at(name);
   }
-  return costs;
+  return rows;
 }
 
 Settings allForcedOn(const Settings& settings) {
@@ -197,8 +204,8 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
     }
     if (row.effect == Effect::rebuild) bench.rebuild();
     if (proven.reason.empty()) {
-      const bool ofMean = row.effect == Effect::emitterSampling && row.threshold;
-      const auto compared = row.threshold ? views.first(1) : views;
+      const bool ofMean = row.effect == Effect::emitterSampling && row.epsilon > 0;
+      const auto compared = row.epsilon > 0 ? views.first(1) : views;
       proven.difference = compare(before, asLit ? bench.picturesAsLit(compared) : bench.pictures(compared),
                                   ofMean ? row.epsilon : allowedRadiance(pipeline, row));
       proven.difference->ofMean = ofMean;
@@ -220,13 +227,10 @@ Proof prove(const Subject& subject) {
     figures[i] = workOf(session, *benches[i], before);
   }
   Bench &forced = *benches[0], &planned = *benches[1];
-  const auto times = timesInTurn({&forced, &planned}, subject.frames, &FrameSample::gpuMs,
-                                 [&](float share) { session.progress(subject.name.c_str(), share); });
+  const auto times = timesInTurn(subject, {&forced, &planned});
   for (const size_t i : {1, 0}) {
-    figures[i].insert(figures[i].begin(), times[i].begin(), times[i].end());
-    for (const Moving moving : {Moving::Nothing, Moving::Camera, Moving::Lights})
-      std::ranges::copy(energyOf(*benches[i], moving, subject.frames, /*everything=*/i == 0),
-                        std::back_inserter(figures[i]));
+    figures[i].insert(times[i].begin(), times[i].end());
+    figures[i].merge(energyOf(*benches[i], subject.frames, /*everything=*/i == 0));
   }
   constexpr View kPicture[]{VIEW_LIT};
   Proof proof{proveAll(subject.name, planned, forced, kPicture), {subject.name, "as planned", figures[1]}};

@@ -2,7 +2,6 @@
 // suites of the plan, which prove their scenes with it.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -25,13 +24,6 @@ struct Subject {
   uint32_t frames;  ///< relights, pictures and ticks of each set
 };
 
-/// Medians of milliseconds: of a rebuild, a relight, a frame.
-using Times = std::array<double, 3>;
-
-/// Milliseconds, by the wall's clock, that each effect of `plan` that is off and can be forced on takes beyond those
-/// without it.
-std::map<Effect, Times> measureCosts(const Subject& subject, const EffectPlan& plan);
-
 /// How far a picture is from the one that the plan makes.
 struct PictureDifference {
   uint64_t pixels = 0;  ///< that differ in any bit
@@ -45,37 +37,17 @@ struct PictureDifference {
   std::string text() const;
 };
 
-/// What is measured with a set of effects, in order: heading in tables, column in the CSV, decimals in each. Times are
-/// the GPU's; dispatches, draws and (specialized) SPIR-V instructions are those of a relight and a picture. The figures
-/// per second are those of a window at 60 ticks per second; none where the scene has no lights to move.
-struct Figure {
-  const char *heading, *column;
-  int decimals, csvDecimals;
-};
-inline constexpr Figure kFigures[]{{"rebuild ms", "rebuild_ms", 2, 4},
-                                   {"relight ms", "relight_ms", 2, 4},
-                                   {"frame ms", "frame_ms", 2, 4},
-                                   {"MiB", "mib", 1, 3},
-                                   {"dispatches", "dispatches", 0, 0},
-                                   {"draws", "draws", 0, 0},
-                                   {"instructions", "instructions", 0, 0},
-                                   {"idle ms/s", "idle_ms_per_s", 2, 3},
-                                   {"idle dispatches/s", "idle_dispatches_per_s", 0, 1},
-                                   {"idle draws/s", "idle_draws_per_s", 0, 1},
-                                   {"camera ms/s", "camera_ms_per_s", 2, 3},
-                                   {"camera dispatches/s", "camera_dispatches_per_s", 0, 1},
-                                   {"camera draws/s", "camera_draws_per_s", 0, 1},
-                                   {"light ms/s", "light_ms_per_s", 2, 3},
-                                   {"light dispatches/s", "light_dispatches_per_s", 0, 1},
-                                   {"light draws/s", "light_draws_per_s", 0, 1}};
-inline constexpr size_t kCostFigures = 7;  ///< the others are energy
-using Figures = std::vector<std::optional<double>>;
+/// What is measured, by the names of columns: "rebuild_ms", "relight_ms" and "frame_ms", medians of the GPU's; "mib";
+/// "dispatches", "draws" and "instructions" (specialized SPIR-V) of a relight and a picture; and of a window at 60
+/// ticks per second "idle_ms_per_s", "idle_dispatches_per_s", "idle_draws_per_s", and likewise with a "camera" and with
+/// a "light" that moves, where there are lights.
+using Figures = std::map<std::string, double>;
 
-/// What is proven of a scene: a set of effects, "all forced on" or "as planned", with what it takes; or one effect that
-/// is not on, run all the same, with all others as planned.
+/// A set of effects, "all forced on" or "as planned", with what it takes; or one effect: what it takes while it is off,
+/// or the proof that it may be: it runs all the same, with all others as planned.
 struct ProofRow {
   std::string scene, name;
-  Figures figures{};                              ///< of a set, in `irad plan`
+  Figures figures{};                              ///< of a set: all; of an effect: times that it would take
   std::optional<EffectRow> effect{};              ///< as planned
   std::optional<PictureDifference> difference{};  ///< from the picture as planned
   std::string reason{};                           ///< why there is none: the effect cannot be put on
@@ -83,6 +55,10 @@ struct ProofRow {
 using Proof = std::vector<ProofRow>;
 /// WorkError naming what does not hold.
 void require(const Proof& proof);
+
+/// A row for each effect of `plan`. `measure`: with the milliseconds that each one which is off and can be forced on
+/// takes beyond those without it.
+Proof rowsOf(const Subject& subject, const EffectPlan& plan, bool measure);
 
 /// With every effect on; but the light sleeps where it is at rest.
 Settings allForcedOn(const Settings& settings);

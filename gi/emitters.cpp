@@ -41,6 +41,7 @@ Emitters listEmitters(Context& context, const FacetList& list) {
   Emitters emitters;
   if (!list.hasEmission || list.count == 0) return emitters;
   const std::vector<uint32_t> shapes = downloadAs<uint32_t>(context, list.shape);
+  const std::vector<float> areas = downloadAs<float>(context, list.area);
   const std::vector<glm::vec3> emission = downloadAs<glm::vec3>(context, list.emission);
   std::vector<uint32_t> facets;
   std::vector<double> powers;
@@ -49,7 +50,8 @@ Emitters listEmitters(Context& context, const FacetList& list) {
     if (!(exitance > 0)) continue;
     emitters.brightest = std::max(emitters.brightest, exitance);
     facets.push_back(i);
-    powers.push_back(static_cast<double>(exitance) * footprintArea(decodeNormal(shapes[i] & 0xFFFFu, list.encoding)));
+    const float area = list.surface ? areas[i] : footprintArea(decodeNormal(shapes[i] & 0xFFFFu, list.encoding));
+    powers.push_back(static_cast<double>(exitance) * area);
   }
   if (facets.empty()) return emitters;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "gi/group_by_material.h"
 #include "gi/mark_corners.h"
 #include "gi/scan.h"
 #include "gi/settings.h"
@@ -13,6 +14,7 @@
 #include "renderer/frame/record.h"
 #include "renderer/gpu_scene.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/energy.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
@@ -20,65 +22,13 @@ namespace {
 
 constexpr const char* kFacetsStage = "GI CompactList";
 
-void allocate(const Device& device, FacetList& list) {
-  const uint64_t n = list.count;
-  list.voxel = Buffer(device, "facet voxel", Subsystem::Facets, 4 * n);
-  list.shape = Buffer(device, "facet shape", Subsystem::Facets, 4 * n);
-  list.albedo = Buffer(device, "facet albedo", Subsystem::Facets, 8 * n);
-  list.emission = Buffer(device, "facet emission", Subsystem::Facets, list.hasEmission ? 12 * n : 0);
-  list.reverse = Buffer(device, "facet reverse map", Subsystem::Facets, 4ull * list.grid.voxels);
-}
-
-void makeRecord(Context& context, FacetList& list) {
-  list.around = Buffer(context.device, "facet neighbours", Subsystem::Facets, 4ull * list.count);
-  RecordMaker record(context, "facet record", Subsystem::Facets, sizeof(FacetArrays));
-  list.record = record.make(list.arrays([&](const Buffer& buffer) { return record.of(buffer); }));
-}
-
-/// Facets that one dispatch of gi/facet_shade.glsl takes.
-struct Group {
-  uint32_t material;  // whose set is bound
-  bool textured;
-  uint32_t first = 0, count = 0;  // within the order
-};
-struct Order {
-  std::vector<Group> groups;
-  std::vector<uint32_t> facets;
-};
-
-/// Groups facets by material, those that sample no texture together: a counting sort on the host, since each material's
-/// textures have to be bound by themselves and a dispatch over all facets for each would mostly idle.
-Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles) {
-  constexpr uint32_t kSampled =
-      MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
-  Order order;
-  order.groups.push_back({0, false});
-  std::vector<uint32_t> groupOf(scene.scene.triangleCount(), 0);
-  for (const Draw& draw : scene.scene.draws) {
-    if ((scene.materialValues.at(draw.material).flags & kSampled) == 0) continue;
-    std::fill_n(groupOf.begin() + draw.firstIndex / 3, draw.indexCount / 3, static_cast<uint32_t>(order.groups.size()));
-    order.groups.push_back({draw.material, true});
-  }
-  for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~BACK_SIDE]].count;
-  std::vector<uint32_t> next;
-  uint32_t first = 0;
-  for (Group& group : order.groups) {
-    group.first = first;
-    next.push_back(first);
-    first += group.count;
-  }
-  order.facets.resize(triangles.size());
-  for (uint32_t i = 0; i < triangles.size(); ++i) order.facets[next[groupOf[triangles[i] & ~BACK_SIDE]]++] = i;
-  return order;
-}
-
 /// Attributes of all facets ("GI Voxelization": in the thesis the voxelizer writes them). Returns how many albedos had
 /// to be clamped.
 uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& list, const Settings& settings) {
   const SceneOnDevice& scene = *voxels.scene;
   const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, list.triangle));
   const Buffer facets =
-      makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.facets));
+      makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
   const Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
   ShadeFacetsPush push{};
   push.encoding = list.encoding;
@@ -88,7 +38,7 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
   Frame frame = context.begin();
   frame.pass(kFacetsStage).fill(clamped, 0);
   for (const bool textured : {false, true}) {
-    const auto takes = [=](const Group& g) { return g.textured == textured && g.count > 0; };
+    const auto takes = [=](const MaterialGroup& g) { return g.textured == textured && g.count > 0; };
     if (std::none_of(order.groups.begin(), order.groups.end(), takes)) continue;
     Pass pass = frame.pass("GI Voxelization");
     push.scene = pass.in(scene.record);
@@ -99,11 +49,12 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
     push.shape = pass.out(list.shape);
     push.albedo = pass.out(list.albedo);
     push.emission = pass.out(list.emission);
+    push.area = pass.out(list.area);
     push.clamped = pass.out(clamped);
     pass.shader(raster ? "thesis/facet_shade_raster.comp" : "gi/facet_shade.comp")
         .constant(CONSTANT_SAMPLES_TEXTURES, textured)
         .run([&](Commands& commands) {
-          for (const Group& group : order.groups) {
+          for (const MaterialGroup& group : order.groups) {
             if (!takes(group)) continue;
             commands.bindMaterial(scene.materialSets.at(group.material));
             push.first = group.first;
@@ -118,6 +69,23 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
 }
 
 }  // namespace
+
+void allocateFacets(const Device& device, FacetList& list) {
+  const uint64_t n = list.count;
+  list.voxel = Buffer(device, "facet voxel", Subsystem::Facets, 4 * n);
+  list.shape = Buffer(device, "facet shape", Subsystem::Facets, 4 * n);
+  list.albedo = Buffer(device, "facet albedo", Subsystem::Facets, 8 * n);
+  list.emission = Buffer(device, "facet emission", Subsystem::Facets, list.hasEmission ? 12 * n : 0);
+  list.triangle = Buffer(device, "facet triangles", Subsystem::Facets, 4 * n);
+  list.area = Buffer(device, "facet areas", Subsystem::Facets, 4 * n);
+  list.reverse = Buffer(device, "facet reverse map", Subsystem::Facets, 4ull * list.grid.voxels);
+}
+
+void recordFacets(Context& context, FacetList& list) {
+  list.around = Buffer(context.device, "facet neighbours", Subsystem::Facets, 4ull * list.count);
+  RecordMaker record(context, "facet record", Subsystem::Facets, sizeof(FacetArrays));
+  list.record = record.make(list.arrays([&](const Buffer& buffer) { return record.of(buffer); }));
+}
 
 FacetArrays FacetList::arrays(const std::function<uint64_t(const Buffer&)>& addressOf) const {
   FacetArrays arrays{};
@@ -165,8 +133,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   if (list.count > MAX_FACETS)
     throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, MAX_FACETS));
 
-  allocate(context.device, list);
-  list.triangle = Buffer(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
+  allocateFacets(context.device, list);
   Frame frame = context.begin();
   Pass pass = frame.pass(kFacetsStage);
   push.grid = pass.in(voxels.gridRecord);
@@ -179,7 +146,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   pass.shader("gi/facet_emit.comp").push(push).dispatch(push.blocks);
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, settings);
-  makeRecord(context, list);
+  recordFacets(context, list);
   if (settings.matrix.gpu.hitRule == HitRule::robust)
     markCorners(context, list, settings.voxel.facets);  // the thesis's rule asks for none
   voxels.keys = Buffer();
@@ -223,7 +190,10 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
   list.albedo = make("facet albedo", albedo);
   list.emission = make("facet emission", list.hasEmission ? emission : std::vector<glm::vec3>{});
   list.reverse = make("facet reverse map", reverse);
-  makeRecord(context, list);
+  std::vector<float> area;
+  for (const uint32_t s : shape) area.push_back(facetArea(decodeNormal(s & 0xFFFFu, encoding), facetOffset(s)));
+  list.area = make("facet areas", area);
+  recordFacets(context, list);
   markCorners(context, list, /*slots=*/2);
   return list;
 }

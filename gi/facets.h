@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "gi/surface.h"
 #include "renderer/resources.h"
 #include "shaders/shared/facets.h"
 #include "shaders/shared/grid.h"
@@ -12,6 +13,7 @@
 namespace irad {
 
 class Context;
+class Device;
 struct Settings;
 struct Voxels;
 
@@ -23,7 +25,9 @@ struct FacetList {
   uint32_t clampedAlbedo = 0;         ///< facets whose albedo was outside [0, .98] or not a number
   Buffer voxel, shape, albedo, emission, reverse, around;
   Buffer triangle;  ///< which triangle won, | BACK_SIDE where its back did, for the inspector; none of uploaded lists
+  Buffer area;      ///< voxel faces: of the surface that the facet stands for
   Buffer record;    ///< one FacetArrays
+  Surface surface;  ///< what the facets are classes of, where the hit rule is `triangles`
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
   /// What the record holds; `addressOf` gives the addresses: a pass's in() or a RecordMaker's of().
@@ -31,6 +35,9 @@ struct FacetList {
 };
 /// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
+/// Room for the attributes of list.count facets, and the record of it.
+void allocateFacets(const Device& device, FacetList& list);
+void recordFacets(Context& context, FacetList& list);
 /// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.
 FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uint32_t>& voxel,
                        const std::vector<uint32_t>& shape, const std::vector<glm::uvec2>& albedo,

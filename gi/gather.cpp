@@ -19,6 +19,7 @@ void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows,
   GatherPush push{};
   push.scene = pass.in(scene.record);
   push.facets = pass.in(facets.record);
+  push.surface = pass.inIfAny(facets.surface.record);
   push.direct = pass.out(light.direct);
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;

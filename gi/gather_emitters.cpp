@@ -24,8 +24,8 @@ constexpr const char* kGatherEmittersStage = "GI Solve Emitters";
 /// Whether the emitters are few enough to be low-probability, high-energy (T 5.6).
 bool sampleEmitters(const Settings& settings, const EmitterSource& source, uint32_t facets) {
   if (!source.emitters || source.emitters->count == 0) return false;
-  if (settings.matrix.emitterSampling != EmitterSampling::automatic)
-    return settings.matrix.emitterSampling == EmitterSampling::on;
+  if (settings.matrix.emitterSampling != EffectMode::automatic)
+    return settings.matrix.emitterSampling == EffectMode::on;
   return emittersAreFew(source.emitters->count, facets);
 }
 
@@ -58,6 +58,7 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
   push.emitters = pass.in(source.emitters->record);
   push.emitted = pass.out(light.emitted);
   push.correction = pass.out(light.correction);
+  push.surface = pass.inIfAny(facets.surface.record);
   push.dims = facets.grid.dims;
   push.jfaMax = source.field->jumpFlood.largest;
   push.samples = settings.matrix.emitterSamples;
@@ -92,7 +93,7 @@ void gatherEmitters(Context& context, const FacetList& facets, const FormFactors
     Frame frame = context.begin();
     recordSamples(frame, facets, matrix, source, settings, light);
     frame.submitAndWait();
-    const bool forced = settings.matrix.emitterSampling == EmitterSampling::on;
+    const bool forced = settings.matrix.emitterSampling == EffectMode::on;
     if (!agrees(context, matrix, *source.emitters, light) && !forced) {
       light.correction = Buffer();
       byRays();

@@ -6,7 +6,6 @@
 #include "renderer/base/error.h"
 #include "renderer/frame/transfer.h"
 #include "renderer/resources.h"
-#include "shaders/shared/energy.h"
 #include "shaders/shared/normals.h"
 
 namespace irad {
@@ -17,6 +16,7 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
   if (list.count == 0) return host;
   const auto voxel = downloadAs<uint32_t>(context, list.voxel), shape = downloadAs<uint32_t>(context, list.shape);
   const auto albedo = downloadAs<glm::uvec2>(context, list.albedo);
+  const auto area = downloadAs<float>(context, list.area);
   for (uint32_t i = 0; i < list.count; ++i) {
     host.voxel.push_back(unpackVoxel(voxel[i]));
     host.normal.emplace_back(decodeNormal(shape[i] & 0xFFFFu, list.encoding));
@@ -24,8 +24,15 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
                             double{list.grid.edge} *
                                 (glm::dvec3(host.voxel[i]) + 0.5 + double{facetOffset(shape[i])} * host.normal[i]));
     host.albedo.push_back(unpackAlbedo(albedo[i]));
-    host.area.push_back(double{list.grid.edge} * list.grid.edge *
-                        double{facetArea(glm::vec3(host.normal[i]), facetOffset(shape[i]))});
+    host.area.push_back(double{list.grid.edge} * list.grid.edge * double{area[i]});
+  }
+  if (list.surface) {  // what a facet stands for may lie to one side of its voxel
+    const oracle::Facets surface = oracleFacets(context, list);
+    for (uint32_t i = 0; i < list.count; ++i) {
+      glm::dvec3 sum(0);
+      for (uint32_t k = 0; k < FACET_SURFELS; ++k) sum += surface.point(FACET_SURFELS * i + k);
+      host.position[i] = glm::dvec3(list.grid.origin) + double{list.grid.edge} / FACET_SURFELS * sum;
+    }
   }
   host.emission = list.hasEmission ? downloadAs<glm::vec3>(context, list.emission)
                                    : std::vector<glm::vec3>(list.count, glm::vec3(0));
@@ -34,12 +41,20 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
 }
 
 oracle::Facets oracleFacets(Context& context, const FacetList& list) {
-  return {list.grid,
-          list.encoding,
-          downloadAs<uint32_t>(context, list.voxel),
-          downloadAs<uint32_t>(context, list.shape),
-          downloadAs<uint32_t>(context, list.reverse),
-          downloadAs<uint32_t>(context, list.around)};
+  oracle::Facets host{.grid = list.grid,
+                      .encoding = list.encoding,
+                      .voxel = downloadAs<uint32_t>(context, list.voxel),
+                      .shape = downloadAs<uint32_t>(context, list.shape),
+                      .reverse = downloadAs<uint32_t>(context, list.reverse),
+                      .around = downloadAs<uint32_t>(context, list.around)};
+  if (const Surface& s = list.surface) {
+    host.corners = downloadAs<glm::vec3>(context, s.corners);
+    host.firstPiece = downloadAs<uint32_t>(context, s.firstPiece);
+    host.pieces = downloadAs<uint32_t>(context, s.pieces);
+    host.sides = downloadAs<uint32_t>(context, s.sides);
+    host.surfels = downloadAs<Surfel>(context, s.surfels);
+  }
+  return host;
 }
 
 std::vector<glm::vec3> perFacet(Context& context, const FacetList& list, const Buffer& values) {

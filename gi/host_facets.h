@@ -18,7 +18,8 @@ struct Field;
 struct HostFacets {
   Grid grid;
   std::vector<glm::uvec3> voxel;
-  std::vector<glm::dvec3> position;         ///< the point of the facet's plane nearest to its voxel's centre, local
+  /// The point of the facet's plane nearest to its voxel's centre, or the middle of its surfels; local.
+  std::vector<glm::dvec3> position;
   std::vector<glm::dvec3> normal;           ///< as stored
   std::vector<glm::vec3> albedo, emission;  ///< rho; M, W/m^2
   std::vector<double> area;                 ///< of the plane inside the voxel, m^2

@@ -1,6 +1,5 @@
 #include "gi/indirect.h"
 
-#include "gi/thesis/volume.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
 
@@ -15,12 +14,17 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
   push.grid = pass.in(*from.grid);
   push.shape = pass.in(*from.shape);
   push.reverse = pass.in(*from.reverse);
-  push.around = pass.in(*from.around);
+  if (from.surface) {
+    push.voxel = pass.in(*from.voxel);
+    push.surface = pass.in(*from.surface);
+  } else {
+    push.around = pass.in(*from.around);
+  }
   push.shaded = pass.in(*from.shaded);
   if (emitted) push.shadedEmitted = pass.in(*from.shadedEmitted);
   push.sampling = from.sample;
   push.size = targets.size;
-  pass.shader("gi/indirect.comp")
+  pass.shader(from.surface ? "gi/indirect_links.comp" : "gi/indirect.comp")
       .constant(CONSTANT_NORMALS, from.normalEncoding)
       .constant(CONSTANT_EMITTED, emitted)
       .constant(CONSTANT_KEEPS_POSITION, from.keepPosition)
@@ -42,8 +46,8 @@ void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shado
   ForwardEffects drawn = effects;
   drawn.indirect = fromVolume || fromFacets;
   targets.fit(frame.context(), &Targets::emitted, emitted);
-  drawForward(frame, scene, shadows, camera, shade, targets, drawn);
-  if (fromVolume) lookUpVolume(frame, *indirect.volume, *indirect.grid, indirect.sample, targets);
+  const VolumeLookup lookup{fromVolume ? indirect.volume : nullptr, indirect.grid, indirect.sample};
+  drawForward(frame, scene, shadows, camera, shade, targets, drawn, lookup);
   if (fromFacets) lookUpFacets(frame, indirect, camera, emitted, targets);
 }
 

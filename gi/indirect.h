@@ -14,6 +14,8 @@ struct IndirectInputs {
   const Buffer* shape = nullptr;          ///< facet words
   const Buffer* reverse = nullptr;        ///< voxel -> facet
   const Buffer* around = nullptr;         ///< corners' neighbours
+  const Buffer* voxel = nullptr;          ///< of the facets
+  const Buffer* surface = nullptr;        ///< one SurfaceArrays: lookups go by its links; null: by the facets' planes
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
   const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, no Targets::emitted
   bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
@@ -22,7 +24,7 @@ struct IndirectInputs {
   SampleParams sample{};
 };
 
-/// drawForward, and then the lookup of indirect light ("RE Forward", too).
+/// drawForward with the lookup of indirect light: in the facets by a pass of its own ("RE Forward", too).
 void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
                const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects = {});
 

@@ -177,9 +177,13 @@ struct Pipeline::Impl {
     // compacted in Morton order, with the map back from voxels.
     if (first <= Redo::Voxels) {
       report("GI Voxelization", 0);
-      Voxels voxels = voxelize(context, onDevice, obeyed);
-      report("GI CompactList", 0);
-      p.facets = compactFacets(context, voxels, obeyed);
+      if (obeyed.matrix.gpu.hitRule == HitRule::triangles) {
+        p.facets = listFacets(context, onDevice, obeyed);
+      } else {
+        Voxels voxels = voxelize(context, onDevice, obeyed);
+        report("GI CompactList", 0);
+        p.facets = compactFacets(context, voxels, obeyed);
+      }
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
       p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
@@ -326,9 +330,6 @@ EffectPlan Pipeline::plan(std::optional<bool> redraw) const {
 }
 const SceneTraits& Pipeline::traits() const {
   return impl_->planned.traits;
-}
-uint64_t Pipeline::flips() const {
-  return impl_->planned.flips();
 }
 
 Redo Pipeline::set(const Settings& settings) {

@@ -58,8 +58,6 @@ class Pipeline {
   EffectPlan plan(std::optional<bool> redraw = {}) const;
   /// What the plan was decided on.
   const SceneTraits& traits() const;
-  /// How often an effect has gone on or off.
-  uint64_t flips() const;
   /// Takes new settings; returns the first stage that the next prepare() will redo: Redo::Nothing where the settings,
   /// or what has come of them, are those that the products were made with.
   Redo set(const Settings& settings);

@@ -38,8 +38,8 @@ class Planner {
     field();
     relight();
     rebuild();
-    materialFeature(Effect::alphaTest, &MaterialTraits::alphaTest, "is cut out by its alpha", "are cut out by alpha");
-    materialFeature(Effect::normalMap, &MaterialTraits::normalMap, "has a normal map", "have a normal map");
+    materialFeature(Effect::alphaTest, &MaterialTraits::alphaTest, "cut out by alpha");
+    materialFeature(Effect::normalMap, &MaterialTraits::normalMap, "with a normal map");
     blur();
     redraw();
     return plan_;
@@ -49,19 +49,26 @@ class Planner {
   EffectRow& row(Effect effect) { return plan_.rows[static_cast<size_t>(effect)]; }
 
   /// Sets the state by need and by what forces it; `bytes`: what being off saves.
-  void decide(Effect effect, bool calledFor, std::string reason, uint64_t bytes = 0,
-              std::optional<EffectMode> forced = {}) {
-    EffectRow& r = row(effect);
-    const EffectMode mode = forced.value_or(forcedMode(s_, effect));
+  void decide(Effect effect, bool calledFor, std::string reason, uint64_t bytes = 0) {
+    const EffectMode mode = forcedMode(s_, effect);
     const bool on = mode == EffectMode::automatic ? calledFor : mode == EffectMode::on;
-    r.state = on ? EffectState::on : EffectState::off;
-    r.reason = on == calledFor ? std::move(reason) : fmt::format("forced {}: {}", nameOf(mode), reason);
-    if (!on) r.bytesNotAllocated = bytes;
+    if (on != calledFor) reason = fmt::format("forced {}: {}", nameOf(mode), reason);
+    set(effect, on ? EffectState::on : EffectState::off, std::move(reason), bytes);
   }
   /// The same, but what is not due sleeps.
   void sleeps(Effect effect, bool due, std::string reason) {
     decide(effect, due, std::move(reason));
     if (plan_.off(effect) && !due) row(effect).state = EffectState::asleep;
+  }
+  /// Off because of another setting or effect, whatever forces it on.
+  void without(Effect effect, std::string reason, uint64_t bytes = 0) {
+    set(effect, EffectState::off, std::move(reason), bytes);
+  }
+  void set(Effect effect, EffectState state, std::string reason, uint64_t bytes) {
+    EffectRow& r = row(effect);
+    r.state = state;
+    r.reason = std::move(reason);
+    r.bytesNotAllocated = state == EffectState::off ? bytes : 0;
   }
   /// Whether there is light of a kind, once its effect is decided.
   bool lit(Effect effect, bool calledFor) {
@@ -70,31 +77,17 @@ class Planner {
     shines_ |= lights;
     return lights;
   }
-  /// Off because of another setting or effect, whatever forces it on.
-  void without(Effect effect, std::string reason, uint64_t bytes = 0) {
-    decide(effect, false, std::move(reason), bytes, EffectMode::off);
-  }
-  EffectRow& threshold(Effect effect, float epsilon) {
-    EffectRow& r = row(effect);
-    r.threshold = true;
-    r.epsilon = epsilon;
-    return r;
+  /// Hysteresis of triggers that an edit may cross back and forth. `share`: of what the effect comes on at.
+  bool held(Effect effect, double share) const {
+    return share > (before_ != nullptr && before_->on(effect) ? 0.5 : 1.0);
   }
 
-  /// Hysteresis of a trigger that an edit may cross back and forth: what `trigger` has put on stays on while the wider
-  /// `keeps` holds.
-  bool held(Effect effect, bool trigger, bool keeps) const {
-    return trigger || (keeps && before_ != nullptr && before_->on(effect));
-  }
-
-  /// "none of 25 materials", "2 of 3 materials".
-  std::string ofMaterials(size_t n) const {
-    const std::string all = counted(used_.size(), "material", "materials");
-    return used_.empty() ? all : fmt::format("{} of {}", n == 0 ? "none" : std::to_string(n), all);
-  }
+  /// "none of 25 materials with a normal map", "2 of 3 materials with a normal map".
   template <class Has>
-  size_t with(Has&& has) const {
-    return static_cast<size_t>(std::ranges::count_if(used_, [&](const auto* m) { return has(*m); }));
+  std::pair<size_t, std::string> materials(Has&& has, const char* what) const {
+    const auto n = static_cast<size_t>(std::ranges::count_if(used_, [&](const auto* m) { return has(*m); }));
+    const std::string all = counted(used_.size(), "material", "materials");
+    return {n, used_.empty() ? all : fmt::format("{} of {} {}", n == 0 ? "none" : std::to_string(n), all, what)};
   }
   float most(float MaterialTraits::*value) const {
     float out = 0;
@@ -105,17 +98,18 @@ class Planner {
   uint64_t voxels() const { return t_.build ? t_.build->voxels : 0; }
 
   void emission() {
-    const size_t emitting = with([](const MaterialTraits& m) { return m.emission > 0; });
-    std::string reason = ofMaterials(emitting) + (emitting > 1 ? " emit" : " emits");
-    if (emitting > 0) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", most(&MaterialTraits::emission));
+    const float emission = most(&MaterialTraits::emission);
+    std::string reason = materials([](const MaterialTraits& m) { return m.emission > 0; }, "with emission").second;
+    if (emission > 0) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", emission);
     // M in the list, F M, and that as shading samples it.
-    decide(Effect::emission, emitting > 0, std::move(reason), facets() * (12 + 16 + 16));
-    emits_ = lit(Effect::emission, emitting > 0);
+    decide(Effect::emission, emission > 0, std::move(reason), facets() * (12 + 16 + 16));
+    emits_ = lit(Effect::emission, emission > 0);
   }
 
   void light(const LightKind& kind) {
     const Effect effect = effectOf(kind.type);
     size_t all = 0, shining = 0, lighting = 0, near = 0;
+    double share = 0;
     uint64_t maps = 0;
     const uint64_t flat = 4ull * s_.light.shadowResolution * s_.light.shadowResolution;
     for (const LightTraits& l : t_.lights) {
@@ -124,55 +118,40 @@ class Planner {
       shining += l.shines;
       lighting += l.lights();
       near += l.mayLight();
+      if (l.shines) share = std::max(share, LightTraits::kNear / double{l.gap});
       maps += l.cube ? flat / 4 * 6 : flat;
     }
     std::string reason = counted(all, kind.one, kind.many);
-    const bool calledFor = held(effect, lighting > 0, near > 0);
-    if (lighting > 0)
-      reason = fmt::format("{} of {} {} the scene", lighting, reason, lighting == 1 ? "lights" : "light");
-    else if (calledFor)
-      reason += fmt::format(": {} just out of the scene's reach", near);
-    else if (shining > 0)
-      reason += fmt::format(": {} with an intensity, none reaches the scene", shining);
-    else if (all > 0)
-      reason += ", none with an intensity";
+    if (all > 0)
+      reason += fmt::format(": {} with an intensity, of these {} in reach of the scene and {} nearly", shining,
+                            lighting, near - lighting);
+    const bool calledFor = held(effect, share);
     decide(effect, calledFor, std::move(reason), maps);
     lit(effect, calledFor);
   }
 
   void specular() {
-    const float limit = s_.specular.gpu.maxRoughness;
+    const SpecularParams& rays = s_.specular.gpu;
     const uint64_t bytes = t_.pixels * (16 + 4);  // reflected radiance, the list of pixels that trace
     if (s_.specular.mode == SpecularMode::off) return without(Effect::specular, "specular.mode = off", bytes);
-    const size_t lobes = with([](const MaterialTraits& m) { return m.f0 > 0; });
-    const auto smootherThan = [&](float roughness) {
-      return with([&](const MaterialTraits& m) { return m.f0 > 0 && m.leastRoughness < roughness; });
-    };
-    const size_t traced = smootherThan(limit);
-    std::string reason;
-    if (lobes == 0)
-      reason = "every material is Lambertian";
-    else if (!shines_)
-      reason = "no light to reflect";
-    else if (traced == 0)
-      reason = fmt::format("{} of {}, all rougher than {:.3g}: no rays, H alone is reflected", lobes,
-                           counted(used_.size(), "material reflects", "materials reflect"), limit);
-    else
-      reason = fmt::format("{} smoother than {:.3g}: rays where F0 H is above {:.3g} of the largest H",
-                           ofMaterials(traced), limit, s_.specular.gpu.threshold);
+    auto [lobes, reason] = materials([](const MaterialTraits& m) { return m.f0 > 0; }, "with a specular lobe");
+    float least = 1;
+    for (const MaterialTraits* m : used_) least = m->f0 > 0 ? std::min(least, m->leastRoughness) : least;
+    if (lobes > 0)
+      reason +=
+          fmt::format("{}; roughness {:.3g} at least, rays up to {:.3g} where F0 H is above {:.3g} of the largest H",
+                      shines_ ? "" : ", no light to reflect", least, rays.maxRoughness, rays.threshold);
     decide(Effect::specular, lobes > 0 && shines_, std::move(reason), bytes);
-    constexpr float kMargin = 0.05f;
-    tracesSpecular_ = plan_.on(Effect::specular) && (traced > 0 || s_.effects.specular == EffectMode::on);
-    nearlyTraces_ = plan_.on(Effect::specular) && smootherThan(limit + kMargin) > 0;
+    if (lobes > 0) smoothness_ = 1 + 10 * (double{rays.maxRoughness} - least);
+    if (s_.effects.specular == EffectMode::on) smoothness_ = INFINITY;
   }
 
   void matrix() {
     const float albedo = most(&MaterialTraits::albedo);
     const bool reads = albedo > 0 || plan_.on(Effect::specular);
     const bool built = t_.build && t_.build->matrix;
-    std::string reason = !shines_ ? "no light at all: H is 0 everywhere"
-                         : !reads ? "light, but every albedo is 0: no surface shows H, and its views are black"
-                                  : fmt::format("light, and albedos of up to {:.3g}", albedo);
+    std::string reason =
+        shines_ ? fmt::format("light, and albedos of up to {:.3g}", albedo) : "no light at all: H is 0 everywhere";
     if (built) reason += fmt::format("; {:.3g} % of the rays escape", 100 * t_.build->escaped);
     // csr keeps 4 B per distinct column, of which there are at most as many as rays.
     const uint64_t rays = s_.matrix.gpu.rays,
@@ -181,80 +160,69 @@ class Planner {
     decide(Effect::matrix, shines_ && reads, std::move(reason), facets() * (rowBytes + kLight));
     // Lights that are there may be turned up again: what was built for them is kept.
     EffectRow& r = row(Effect::matrix);
-    if (r.state == EffectState::off && s_.effects.matrix == EffectMode::automatic && !t_.lights.empty() && built) {
-      r.state = EffectState::asleep;
-      r.reason += "; kept for the lights that there are";
-      r.bytesNotAllocated = 0;
-    }
+    if (r.state == EffectState::off && s_.effects.matrix == EffectMode::automatic && !t_.lights.empty() && built)
+      set(Effect::matrix, EffectState::asleep, r.reason + "; kept for the lights that there are", 0);
   }
 
   void emitterSampling() {
     const uint64_t bytes = facets() * 16;
     if (!emits_ || !plan_.on(Effect::matrix))
       return without(Effect::emitterSampling, emits_ ? "no matrix, no first gather" : "nothing emits", bytes);
-    EffectRow& r = threshold(Effect::emitterSampling, kEmitterAgreement);
+    EffectRow& r = row(Effect::emitterSampling);
+    r.epsilon = kEmitterAgreement;
     r.of = "the sum of F M";
-    constexpr EffectMode kModes[]{EffectMode::off, EffectMode::automatic, EffectMode::on};  // of EmitterSampling
-    const EffectMode mode = kModes[static_cast<size_t>(s_.matrix.emitterSampling)];
-    const auto said = [&](bool calledFor, std::string reason) {
-      decide(Effect::emitterSampling, calledFor, std::move(reason), bytes, mode);
-    };
-    if (!t_.build) return said(true, "known once the emissive facets are counted");
+    if (!t_.build) return decide(Effect::emitterSampling, true, "known once the emissive facets are counted", bytes);
     const BuildTraits& b = *t_.build;
-    const std::string share = fmt::format("{} of {} facets emit", b.emitters, b.facets);
-    if (!emittersAreFew(b.emitters, b.facets)) return said(false, share + ", a tenth or more: rays find them");
+    const bool few = emittersAreFew(b.emitters, b.facets),
+               automatic = s_.matrix.emitterSampling == EffectMode::automatic;
+    std::string reason =
+        fmt::format("{} of {} facets emit, {} a tenth", b.emitters, b.facets, few ? "less than" : "not less than");
     // F M does not depend on the lights: once the samples were tried, the outcome holds until the matrix is another
     // one.
-    const bool tried = b.sampled || b.sampledShare > 0 || (mode == EffectMode::automatic && t_.light.due > Redo::Solve);
-    if (!tried) return said(true, share + ", less than a tenth");
-    r.epsilon = std::max(r.epsilon, std::abs(1 - b.sampledShare));
-    said(b.sampled, fmt::format("{}; their samples bring {:.4g} of what the rays do", share, b.sampledShare));
+    const bool tried = few && (b.sampled || b.sampledShare > 0 || (automatic && t_.light.due > Redo::Solve));
+    if (tried) {
+      r.epsilon = std::max(r.epsilon, std::abs(1 - b.sampledShare));
+      reason += fmt::format("; their samples bring {:.4g} of what the rays do", b.sampledShare);
+    }
+    decide(Effect::emitterSampling, tried ? b.sampled : few, std::move(reason), bytes);
   }
 
   void pixelEmitters() {
     if (s_.sample.emitters != EmitterLookup::pixels || !plan_.on(Effect::emission)) return;
     uint64_t triangles = 0;
     for (const MaterialTraits& m : t_.materials) triangles += m.emission > 0 ? m.triangles : 0;
-    const bool few = triangles <= MAX_EMISSIVE_TRIANGLES, gated = s_.sample.gpu.gated != 0;
-    plan_.pixelEmitters = triangles > 0 && few && gated && !plan_.off(Effect::matrix);
-    std::string& reason = row(Effect::emission).reason;
-    if (plan_.pixelEmitters)
-      reason += fmt::format("; pixels look for {}", counted(triangles, "triangle", "triangles"));
-    else if (!few)
-      reason += fmt::format("; {} triangles, more than {} that pixels could look for: facets serve", triangles,
-                            MAX_EMISSIVE_TRIANGLES);
-    else if (triangles > 0 && !gated)
-      reason += "; pixels cannot look for it, sample.gated = false: the volume does not tell it from other light";
+    if (triangles == 0 || plan_.off(Effect::matrix)) return;
+    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && s_.sample.gpu.gated != 0;
+    row(Effect::emission).reason +=
+        fmt::format("; {} look for {} triangles: {} at most, with sample.gated alone",
+                    plan_.pixelEmitters ? "pixels" : "pixels do not", triangles, MAX_EMISSIVE_TRIANGLES);
   }
 
   void secondFacet() {
     const uint64_t keys = 4 * voxels();
     if (s_.voxel.facets < 2) return without(Effect::secondFacet, "voxel.facets = 1", keys);
-    if (t_.facesOneWay) return decide(Effect::secondFacet, false, "all faces look one way: no voxel has two", keys);
     if (!t_.build) return decide(Effect::secondFacet, true, "known once the scene is voxelized", keys);
     const uint32_t second = t_.build->facets - t_.build->solidVoxels;
     decide(Effect::secondFacet, second > 0,
-           fmt::format("{} of {} solid voxels {} a second facet", second == 0 ? "none" : std::to_string(second),
-                       t_.build->solidVoxels, second > 1 ? "hold" : "holds"),
-           keys);
+           fmt::format("{} of {} solid voxels with a second facet", second, t_.build->solidVoxels), keys);
   }
 
   void field() {
     const bool byMatrix = !plan_.off(Effect::matrix) && s_.matrix.gpu.traversal == Traversal::sdf;
-    const bool skips = s_.specular.gpu.traversal == Traversal::sdf, bySpecular = tracesSpecular_ && skips;
-    const bool calledFor = held(Effect::field, byMatrix || bySpecular, nearlyTraces_ && skips);
+    const bool skips = plan_.on(Effect::specular) && s_.specular.gpu.traversal == Traversal::sdf;
+    const bool bySpecular = skips && smoothness_ > 1,
+               calledFor = byMatrix || (skips && held(Effect::field, smoothness_));
     decide(Effect::field, calledFor,
-           byMatrix && bySpecular ? "rays of the matrix and specular rays skip by it"
-           : byMatrix             ? "rays of the matrix skip by it"
-           : bySpecular           ? "specular rays skip by it"
-           : calledFor            ? "kept: materials are barely too rough for specular rays"
-                                  : "no ray reads it; views make their own",
+           fmt::format("rays of the matrix {} by it, specular rays {}", byMatrix ? "skip" : "do not skip",
+                       bySpecular               ? "do"
+                       : calledFor && !byMatrix ? "may soon"
+                                                : "do not"),
            s_.field.method == FieldMethod::chebyshev ? voxels() : 5 * voxels());
   }
 
   void relight() {
     if (plan_.off(Effect::matrix)) return without(Effect::relight, "no indirect light");
-    threshold(Effect::relight, s_.solver.tolerance);
+    row(Effect::relight).epsilon = s_.solver.tolerance;
     const LightState& l = t_.light;
     const bool due = l.due <= Redo::Scatter;
     // Light at rest is kept, unless relighting is switched off.
@@ -278,24 +246,25 @@ class Planner {
                         : "camera, scene, settings and light are as drawn");
   }
 
-  void materialFeature(Effect effect, bool MaterialTraits::*has, const char* one, const char* many) {
-    const size_t n = with([&](const MaterialTraits& m) { return m.*has; });
-    decide(effect, n > 0, fmt::format("{} {}", ofMaterials(n), n > 1 ? many : one));
+  void materialFeature(Effect effect, bool MaterialTraits::*has, const char* what) {
+    auto [n, reason] = materials([&](const MaterialTraits& m) { return m.*has; }, what);
+    decide(effect, n > 0, std::move(reason));
   }
 
   void blur() {
     if (plan_.off(Effect::matrix)) return without(Effect::blur, "no indirect light");
     if (const SampleFilter filter = s_.sample.gpu.filter_; filter != SampleFilter::blur)
       return without(Effect::blur, fmt::format("sample.filter = {}", nameOf(filter)));
-    const float epsilon = threshold(Effect::blur, s_.effects.blurNoise).epsilon;
+    const float epsilon = row(Effect::blur).epsilon = s_.effects.blurNoise;
     const uint64_t copies = facets() * (plan_.on(Effect::emission) ? 32 : 16);
     if (!t_.light.noise) return decide(Effect::blur, true, "what it changes is known after a relight", copies);
     const float noise = *t_.light.noise;
-    const bool quiet = noise <= epsilon, noisy = held(Effect::blur, !quiet, !(noise <= 0.5f * epsilon));
-    decide(Effect::blur, noisy,
-           fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}{}", noise, quiet ? "<=" : ">", epsilon,
-                       noisy && quiet ? "; once on it stays so above half of that" : ""),
-           copies);
+    const bool noisy = held(Effect::blur, double{noise} / epsilon);
+    decide(
+        Effect::blur, noisy,
+        fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}{}", noise, noise <= epsilon ? "<=" : ">",
+                    epsilon, noisy && noise <= epsilon ? "; once on it stays so above half of that" : ""),
+        copies);
   }
 
   const SceneTraits& t_;
@@ -304,8 +273,7 @@ class Planner {
   EffectPlan plan_;
   std::vector<const MaterialTraits*> used_;  ///< by any triangle
   bool emits_ = false, shines_ = false;      ///< surfaces; any light enters the scene
-  bool tracesSpecular_ = false;              ///< some pixels may
-  bool nearlyTraces_ = false;                ///< if specular.max_roughness were a little higher
+  double smoothness_ = 0;                    ///< above 1 some pixels may trace; 0.5: materials are rougher by 0.05
 };
 
 }  // namespace

@@ -56,10 +56,9 @@ IRAD_ENUM(EffectState, IRAD_EFFECT_STATES)
 struct EffectRow {
   Effect effect{};
   EffectState state = EffectState::on;
-  std::string reason;  ///< with the figures: "2 of 14 materials emit, 12 W/(m^2 sr) at most"
+  std::string reason;  ///< with the figures: "2 of 14 materials with emission, 12 W/(m^2 sr) at most"
   /// How the picture may differ from that with the effect forced on. Exact: not in one bit, what is left out is
-  /// provably 0; threshold: by no more than `epsilon`, a share of `of`.
-  bool threshold = false;
+  /// provably 0 (`epsilon` 0); threshold: by no more than `epsilon`, a share of `of`.
   float epsilon = 0;
   /// emitterSampling: that of the sum over all facets; rays and samples of single ones differ by their noise.
   const char* of = "the largest H";
@@ -67,7 +66,7 @@ struct EffectRow {
 
   const EffectInfo& info() const { return effectInfo(effect); }
   const char* stateName() const { return nameOf(state); }
-  const char* skipName() const { return threshold ? "threshold" : "exact"; }
+  const char* skipName() const { return epsilon > 0 ? "threshold" : "exact"; }
 };
 
 struct EffectPlan {
@@ -81,12 +80,11 @@ struct EffectPlan {
   uint64_t bytesNotAllocated() const;
 };
 
-/// `before`: the plan until now, so that effects do not flicker at their triggers: one that is on goes off only where a
-/// wider trigger lets go of it too. blur: half of effects.blur_noise; lights: LightTraits::nears; field for specular
-/// rays: materials up to 0.05 rougher than specular.max_roughness.
+/// `before`: the plan until now, so that effects do not flicker at their triggers: one that is on goes off only at half
+/// of the share that it comes on at. (Lights: twice as far; field for specular rays: 0.05 rougher.)
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before = nullptr);
 
-/// automatic where nothing forces it. (emitterSampling is forced by matrix.emitter_sampling.)
+/// automatic where nothing forces it.
 EffectMode forcedMode(const Settings& settings, Effect effect);
 /// Sets every effect that effects.* can force.
 void forceEffects(Settings& settings, EffectMode mode);
@@ -110,8 +108,6 @@ class Planned {
   bool on(Effect effect) const { return plan_.on(effect); }
   /// obeyed() for the plan as it is.
   const Settings& settings() const { return settings_; }
-  /// How often an effect went on or off since the scene was loaded.
-  uint64_t flips() const { return flips_; }
 
   /// Decides anew.
   void decide(const Settings& wanted);
@@ -126,7 +122,6 @@ class Planned {
  private:
   EffectPlan plan_;
   Settings settings_;
-  uint64_t flips_ = 0;
 };
 
 }  // namespace irad

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "gi/plan.h"
 #include "gi/stage_keys.h"
@@ -36,6 +35,7 @@ uint64_t EffectPlan::bytesNotAllocated() const {
 }
 
 EffectMode forcedMode(const Settings& settings, Effect effect) {
+  if (effect == Effect::emitterSampling) return settings.matrix.emitterSampling;
   const auto mode = effectInfo(effect).mode;
   return mode ? settings.effects.*mode : EffectMode::automatic;
 }
@@ -62,7 +62,7 @@ std::string planJson(const EffectPlan& plan, int indent) {
   for (const EffectRow& r : plan.rows) {
     nlohmann::ordered_json row{
         {"effect", r.info().name}, {"state", r.stateName()}, {"reason", r.reason}, {"skip", r.skipName()}};
-    if (r.threshold) {
+    if (r.epsilon > 0) {
       row["epsilon"] = nlohmann::ordered_json::parse(fmt::format("{}", r.epsilon));
       row["epsilon_of"] = r.of;
     }
@@ -78,13 +78,10 @@ Planned::Planned(const Scene& scene, const Settings& settings)
       settings_(obeyed(settings, plan_)) {}
 
 void Planned::decide(const Settings& wanted) {
-  const EffectPlan before = std::exchange(plan_, irad::plan(traits, wanted, &plan_));
+  plan_ = irad::plan(traits, wanted, &plan_);
   const Settings next = obeyed(wanted, plan_);
   const Redo first = firstDifference(settings_, next);
   settings_ = next;
-  for (const EffectRow& row : plan_.rows)
-    if (*row.info().setting != 0 && row.effect != Effect::relight)
-      flips_ += plan_.on(row.effect) != before.on(row.effect) ? 1 : 0;
   // What was learned from the voxels holds for the settings that they were made with.
   if (first <= Redo::Voxels && traits.build) {
     traits.build.reset();

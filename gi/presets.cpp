@@ -16,7 +16,7 @@ void thesis(Settings& s) {
   s.field.method = FieldMethod::jfa;
   s.matrix.format = MatrixFormat::padded;
   s.matrix.gpu.rays = 384;
-  s.matrix.emitterSampling = EmitterSampling::off;
+  s.matrix.emitterSampling = EffectMode::off;
   s.matrix.gpu.hitRule = HitRule::thesis;
   s.matrix.gpu.traversal = Traversal::dda;
   s.matrix.gpu.jitter = 1;  // "a jittered Hammersley sequence" (T 5.4)

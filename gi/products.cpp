@@ -21,6 +21,8 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   in.shape = &p.facets->shape;
   in.reverse = &p.facets->reverse;
   in.around = &p.facets->around;
+  in.voxel = &p.facets->voxel;
+  if (p.facets->surface) in.surface = &p.facets->surface.record;
   in.shaded = &p.light->shaded();
   in.keepPosition = pixelEmitters && p.light->emitted;
   const ViewInfo* info = viewInfo(view);

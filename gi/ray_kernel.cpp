@@ -49,6 +49,7 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.rays = params.rays;
   push.jitter = params.jitter;
   push.seed = params.seed;
+  push.surface = pass.inIfAny(kernel.facets.surface.record);
   kernel.configure(pass, frame.context().device, "gi/trace_rays").push(push).dispatch(uint64_t{rows} * params.rays);
 }
 

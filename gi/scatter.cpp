@@ -26,22 +26,32 @@ void blur(Frame& frame, const FacetList& facets, Lighting& light) {
   const bool stores = static_cast<bool>(light.blurred), emitted = stores && light.emitted;
   frame.pass(kScatterStage).fill(light.blurChange, 0);
   Pass pass = frame.pass(kScatterStage);
-  ScatterFacetsPush push{};
-  push.facets = pass.in(facets.record);
-  push.indirect = pass.in(light.indirect);
-  if (stores) push.blurred = pass.out(light.blurred);
-  if (emitted) {
-    push.emitted = pass.in(light.emitted);
-    push.blurredEmitted = pass.out(light.blurredEmitted);
+  const auto fill = [&](auto& push) {
+    push.indirect = pass.in(light.indirect);
+    if (stores) push.blurred = pass.out(light.blurred);
+    if (emitted) {
+      push.emitted = pass.in(light.emitted);
+      push.blurredEmitted = pass.out(light.blurredEmitted);
+    }
+    push.change = pass.out(light.blurChange);
+    push.dims = facets.grid.dims;
+    pass.constant(CONSTANT_EMITTED, emitted).constant(CONSTANT_SCATTER_STORES, stores).push(push);
+  };
+  if (facets.surface) {
+    BlurLinksPush push{};
+    push.surface = pass.in(facets.surface.record);
+    push.voxel = pass.in(facets.voxel);
+    push.reverse = pass.in(facets.reverse);
+    push.count = facets.count;
+    pass.shader("gi/blur_links.comp");
+    fill(push);
+  } else {
+    ScatterFacetsPush push{};
+    push.facets = pass.in(facets.record);
+    pass.shader("gi/scatter_facets.comp").constant(CONSTANT_NORMALS, facets.encoding);
+    fill(push);
   }
-  push.change = pass.out(light.blurChange);
-  push.dims = facets.grid.dims;
-  pass.shader("gi/scatter_facets.comp")
-      .constant(CONSTANT_NORMALS, facets.encoding)
-      .constant(CONSTANT_EMITTED, emitted)
-      .constant(CONSTANT_SCATTER_STORES, stores)
-      .push(push)
-      .dispatch(facets.count);
+  pass.dispatch(facets.count);
   frame.readback(light.blurChange, 0, sizeof(float), [&change = light.report.blurChange](std::span<const uint8_t> b) {
     std::memcpy(&change.emplace(), b.data(), sizeof(float));
   });

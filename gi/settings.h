@@ -24,7 +24,6 @@ namespace irad {
 #define IRAD_VOXEL_METHODS(X) X(raster, "raster") X(conservative, "conservative")
 #define IRAD_FIELD_METHODS(X) X(chebyshev, "chebyshev") X(jfa, "jfa")
 #define IRAD_SPECULAR_MODES(X) X(off, "off") X(fragment, "fragment") X(compute, "compute")
-#define IRAD_EMITTER_SAMPLINGS(X) X(off, "off") X(automatic, "auto") X(on, "on")
 #define IRAD_EMITTER_LOOKUPS(X) X(facets, "facets") X(pixels, "pixels")
 #define IRAD_SOLVER_KERNELS(X) X(automatic, "auto") X(tree, "tree") X(subgroup, "subgroup") X(row, "row")
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
@@ -37,7 +36,6 @@ namespace irad {
 IRAD_ENUM(VoxelMethod, IRAD_VOXEL_METHODS)
 IRAD_ENUM(FieldMethod, IRAD_FIELD_METHODS)
 IRAD_ENUM(SpecularMode, IRAD_SPECULAR_MODES)
-IRAD_ENUM(EmitterSampling, IRAD_EMITTER_SAMPLINGS)
 /// Who gives a pixel the light that comes straight from emissive faces: the facets around it, or their triangles.
 IRAD_ENUM(EmitterLookup, IRAD_EMITTER_LOOKUPS)
 IRAD_ENUM(SolverKernel, IRAD_SOLVER_KERNELS)
@@ -63,7 +61,7 @@ struct FieldSettings {
 struct MatrixSettings {
   MatrixFormat format = MatrixFormat::csr;
   MatrixParams gpu{128, HitRule::robust, Traversal::sdf, true, 0};
-  EmitterSampling emitterSampling = EmitterSampling::automatic;
+  EffectMode emitterSampling = EffectMode::automatic;
   uint32_t emitterSamples = 32;  ///< per facet
   bool operator==(const MatrixSettings&) const = default;
 };

@@ -65,10 +65,12 @@ constexpr Setting kTable[] = {
             Matrix),
     SETTING(matrix.gpu.rays, "matrix.rays", {1, 4096, "rays"},
             "Rays traced per facet; the noise of a form factor falls with their square root.", Matrix),
-    SETTING(matrix.gpu.hitRule, "matrix.hit_rule",
-            "Where rays start and what they meet. thesis: one voxel above the facet, the first solid voxel with a "
-            "front face; robust: on the facet, the planes of the facets on the way.",
-            Voxels),
+    SETTING(
+        matrix.gpu.hitRule, "matrix.hit_rule",
+        "Where rays start and what they meet. thesis: one voxel above the facet, the first solid voxel with a "
+        "front face; robust: on the facet, the planes of the facets on the way; triangles (in work: reflections and "
+        "sample.emitters=pixels still ask planes): on the true surface, the first triangle.",
+        Voxels),
     SETTING(matrix.gpu.traversal, "matrix.traversal",
             "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix),
     SETTING(matrix.gpu.jitter, "matrix.jitter",

@@ -5,11 +5,11 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "renderer/gpu_scene.h"
 #include "renderer/scene/texel_range.h"
 #include "shaders/shared/emitters.h"
-#include "shaders/shared/voxelize.h"
 
 namespace irad {
 namespace {
@@ -46,47 +46,18 @@ MaterialTraits measureMaterial(const Material& m, const Texels& texels) {
   return t;
 }
 
-/// Whether every pair of faces is nearer than ELSEWHERE_COSINE: all lie within half that angle about their mean.
-bool allFaceOneWay(const Scene& scene) {
-  for (const Draw& draw : scene.draws)
-    if (scene.materials.at(draw.material).doubleSided) return false;
-  std::vector<glm::dvec3> normals;
-  glm::dvec3 mean(0);
-  for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
-    const glm::dvec3 a = scene.positions[scene.indices[i]], b = scene.positions[scene.indices[i + 1]],
-                     c = scene.positions[scene.indices[i + 2]];
-    const glm::dvec3 n = glm::cross(b - a, c - a);
-    const double area = glm::length(n);
-    if (!(area > 0)) return false;  // it may face anywhere
-    normals.push_back(n / area);
-    mean += normals.back();
-  }
-  if (normals.empty()) return true;
-  const double length = glm::length(mean);
-  if (!(length > 0)) return false;
-  const double half = std::cos(0.5 * std::acos(double{ELSEWHERE_COSINE})) + 1e-3;  // rounding on the device
-  return std::all_of(normals.begin(), normals.end(),
-                     [&](const glm::dvec3& n) { return glm::dot(n, mean / length) > half; });
-}
-
-/// Whether a light's cone meets the sphere around the bounds.
-bool coneReaches(const GpuLight& light, const glm::dvec3& centre, double radius) {
-  const glm::dvec3 to = centre - glm::dvec3(light.position);
-  const double distance = glm::length(to);
-  if (!(distance > radius)) return true;
-  const double off = std::acos(std::clamp(glm::dot(glm::dvec3(light.direction), to) / distance, -1.0, 1.0));
-  const double outer = std::acos(std::clamp(double{light.outerCos}, -1.0, 1.0));
-  return off - std::asin(radius / distance) <= outer + 1e-3;
-}
-
-bool reachesBounds(const GpuLight& light, const Scene& scene, double margin) {
-  if (scene.triangleCount() == 0) return false;
-  if (lightHas(light.type, LIGHT_DISTANT)) return true;
-  const glm::dvec3 lo = glm::dvec3(scene.boundsMin) - margin, hi = glm::dvec3(scene.boundsMax) + margin;
-  const glm::dvec3 position(light.position);
-  const double distance = glm::distance(glm::clamp(position, lo, hi), position);
-  if (light.range > 0 && !(distance <= double{light.range} * (1 + 1e-5))) return false;
-  return !lightHas(light.type, LIGHT_CONE) || coneReaches(light, 0.5 * (lo + hi), 0.5 * glm::length(hi - lo));
+/// How far the scene's bounds are from what a light's range leaves, and the sphere around them from its cone, m.
+double gapTo(const GpuLight& light, const Scene& scene) {
+  if (scene.triangleCount() == 0) return std::numeric_limits<double>::infinity();
+  if (lightHas(light.type, LIGHT_DISTANT)) return 0;
+  const glm::dvec3 lo(scene.boundsMin), hi(scene.boundsMax), position(light.position), to = 0.5 * (lo + hi) - position;
+  double gap = 0;
+  if (light.range > 0) gap = glm::distance(glm::clamp(position, lo, hi), position) - double{light.range} * (1 + 1e-5);
+  if (!lightHas(light.type, LIGHT_CONE)) return gap;
+  const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+  const double distance = glm::length(to), off = angle(glm::dot(glm::dvec3(light.direction), to) / distance);
+  const double beside = std::clamp(off - angle(double{light.outerCos}) - 1e-3, 0.0, 0.5 * std::numbers::pi);
+  return std::max(gap, distance * std::sin(beside) - 0.5 * glm::length(hi - lo));
 }
 
 }  // namespace
@@ -95,16 +66,14 @@ LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t res
   LightTraits t;
   t.type = static_cast<LightType>(light.type);
   t.shines = light.intensity != glm::vec3(0);  // what is no number, or negative, is left to the numerical watch
-  const double voxel = largest(scene.boundsMax - scene.boundsMin) / resolution;
-  t.reaches = reachesBounds(light, scene, 2 * voxel);
-  t.nears = t.reaches || reachesBounds(light, scene, 4 * voxel);
   t.cube = lightUsesCube(light.type, light.outerCos);
+  const double voxel = largest(scene.boundsMax - scene.boundsMin) / resolution, gap = gapTo(light, scene);
+  if (gap > 0) t.gap = static_cast<float>(gap / voxel);
   return t;
 }
 
 SceneTraits measure(const Scene& scene, uint32_t resolution) {
   SceneTraits traits;
-  traits.facesOneWay = allFaceOneWay(scene);
   std::map<int, TexelRange> images;  // each is read once
   const Texels texels = [&](const TextureUse& use) {
     if (use.image < 0) return TexelRange{glm::vec4(1), glm::vec4(1)};

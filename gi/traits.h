@@ -24,12 +24,14 @@ struct MaterialTraits {
 
 struct LightTraits {
   LightType type = LightType::Sun;
-  bool shines = false;   ///< intensity > 0
-  bool reaches = false;  ///< a point of the scene's bounds; conservative
-  bool nears = false;    ///< a point of bounds widened once more, until it is out of which a light that is on stays on
-  bool cube = false;     ///< six shadow maps instead of one (lightUsesCube)
-  bool lights() const { return shines && reaches; }
-  bool mayLight() const { return shines && nears; }
+  bool shines = false;  ///< intensity > 0
+  bool cube = false;    ///< six shadow maps instead of one (lightUsesCube)
+  /// Voxels between what its range and cone leave and the scene's bounds; conservative. A facet's points may lie one
+  /// outside of the bounds in each axis: two are allowed for, and four where a light that is on stays on.
+  float gap = 0;
+  bool lights() const { return shines && gap < kNear; }
+  bool mayLight() const { return shines && gap < 2 * kNear; }
+  static constexpr float kNear = 2;
 };
 
 /// What the voxels and their matrix have shown, once they are built.
@@ -56,9 +58,6 @@ struct LightState {
 struct SceneTraits {
   std::vector<MaterialTraits> materials;
   std::vector<LightTraits> lights;
-  /// All faces look one way, within half the angle at which a voxel keeps a second one, and none shows its back.
-  bool facesOneWay = false;
-
   std::optional<BuildTraits> build;
   LightState light;
   uint64_t pixels = 0;           ///< of the picture that was drawn last
@@ -68,8 +67,7 @@ struct SceneTraits {
 /// Reads every texel of the images that decide something, once each. `resolution`: voxels along the longest axis.
 SceneTraits measure(const Scene& scene, uint32_t resolution);
 
-/// `light` is in the scene's local space. A facet's points may lie a voxel outside of the scene's bounds: two are
-/// allowed for, and four for `nears`.
+/// `light` is in the scene's local space.
 LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution);
 
 }  // namespace irad

@@ -3,10 +3,12 @@
 
 #include <vector>
 
+#include "renderer/resources.h"
 #include "shaders/shared/voxelize.h"
 
 namespace irad {
 
+class Context;
 class Pass;
 class SceneOnDevice;
 struct Settings;
@@ -22,6 +24,15 @@ struct TriangleRange {
   bool masked;          ///< its alpha decides
 };
 std::vector<TriangleRange> triangleRanges(const SceneOnDevice& scene);
+
+/// The pieces of triangles that workgroups take.
+struct Tiles {
+  Buffer starts;                 ///< of each triangle
+  std::vector<uint32_t> bounds;  ///< of each range: where its tiles start; and the end
+};
+/// Counts the tiles of every triangle and reads back where each range's tiles start. `grid`: one Grid.
+Tiles countTiles(Context& context, const SceneOnDevice& scene, const Buffer& grid,
+                 const std::vector<TriangleRange>& ranges);
 
 /// The part of the push constants that all ranges have in a pass over a facet slot, and what the pass reads and writes.
 VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, const Settings& settings, uint32_t slot, bool masked);

@@ -17,38 +17,6 @@
 namespace irad {
 namespace {
 
-/// The pieces of triangles that workgroups take.
-struct Tiles {
-  Buffer starts;                 ///< of each triangle
-  std::vector<uint32_t> bounds;  ///< of each range: where its tiles start; and the end
-};
-
-/// Counts the tiles of every triangle and reads back where each range's tiles start.
-Tiles countTiles(Context& context, const Voxels& voxels, const std::vector<TriangleRange>& ranges) {
-  const SceneOnDevice& scene = *voxels.scene;
-  const uint32_t triangles = scene.scene.triangleCount();
-  Tiles tiles;
-  tiles.starts = Buffer(context.device, "tile starts", Subsystem::Voxels, 4ull * triangles);
-  Buffer total(context.device, "tile total", Subsystem::Voxels, 4);
-  Buffer bounds(context.device, "tile bounds", Subsystem::Voxels, 4ull * (ranges.size() + 1), Access::Readback);
-  Frame frame = context.begin();
-  Pass pass = frame.pass(kVoxelizeStage);
-  VoxelizePush push{};
-  push.scene = pass.in(scene.record);
-  push.grid = pass.in(voxels.gridRecord);
-  push.tileStart = pass.out(tiles.starts);
-  push.endTriangle = triangles;
-  pass.shader("gi/voxel_tiles.comp").push(push).dispatch(triangles);
-  exclusiveScan(frame, kVoxelizeStage, tiles.starts, triangles, total);
-  for (size_t i = 0; i < ranges.size(); ++i)
-    frame.pass(kVoxelizeStage).copy(tiles.starts, bounds, 4, 4ull * ranges[i].first, 4 * i);
-  frame.pass(kVoxelizeStage).copy(total, bounds, 4, 0, 4 * ranges.size());
-  frame.submitAndWait();
-  const auto* start = static_cast<const uint32_t*>(bounds.mapped);
-  tiles.bounds.assign(start, start + ranges.size() + 1);
-  return tiles;
-}
-
 /// Clips triangles to cells: a workgroup for each tile.
 void clipTriangles(Frame& frame, const Voxels& voxels, const std::vector<TriangleRange>& ranges, const Tiles& tiles,
                    const Settings& settings) {
@@ -91,6 +59,31 @@ std::vector<TriangleRange> triangleRanges(const SceneOnDevice& scene) {
   return ranges;
 }
 
+Tiles countTiles(Context& context, const SceneOnDevice& scene, const Buffer& grid,
+                 const std::vector<TriangleRange>& ranges) {
+  const uint32_t triangles = scene.scene.triangleCount();
+  Tiles tiles;
+  tiles.starts = Buffer(context.device, "tile starts", Subsystem::Voxels, 4ull * triangles);
+  Buffer total(context.device, "tile total", Subsystem::Voxels, 4);
+  Buffer bounds(context.device, "tile bounds", Subsystem::Voxels, 4ull * (ranges.size() + 1), Access::Readback);
+  Frame frame = context.begin();
+  Pass pass = frame.pass(kVoxelizeStage);
+  VoxelizePush push{};
+  push.scene = pass.in(scene.record);
+  push.grid = pass.in(grid);
+  push.tileStart = pass.out(tiles.starts);
+  push.endTriangle = triangles;
+  pass.shader("gi/voxel_tiles.comp").push(push).dispatch(triangles);
+  exclusiveScan(frame, kVoxelizeStage, tiles.starts, triangles, total);
+  for (size_t i = 0; i < ranges.size(); ++i)
+    frame.pass(kVoxelizeStage).copy(tiles.starts, bounds, 4, 4ull * ranges[i].first, 4 * i);
+  frame.pass(kVoxelizeStage).copy(total, bounds, 4, 0, 4 * ranges.size());
+  frame.submitAndWait();
+  const auto* start = static_cast<const uint32_t*>(bounds.mapped);
+  tiles.bounds.assign(start, start + ranges.size() + 1);
+  return tiles;
+}
+
 VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, const Settings& settings, uint32_t slot, bool masked) {
   pass.constant(CONSTANT_SAMPLES_TEXTURES, masked);
   VoxelizePush push{};
@@ -125,7 +118,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
 
   const auto ranges = triangles > 0 ? triangleRanges(scene) : std::vector<TriangleRange>{};
   const bool raster = settings.voxel.method == VoxelMethod::raster;
-  const Tiles tiles = raster || ranges.empty() ? Tiles{} : countTiles(context, voxels, ranges);
+  const Tiles tiles = raster || ranges.empty() ? Tiles{} : countTiles(context, scene, voxels.gridRecord, ranges);
   Frame frame = context.begin();
   frame.pass(kVoxelizeStage).fill(voxels.keys, 0);
   if (raster)

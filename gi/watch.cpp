@@ -76,10 +76,11 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
   push.direct = pass.in(light.direct);
   push.indirect = pass.in(light.indirect);
   push.radiosity = pass.in(light.radiosity);
+  push.area = pass.in(facets.area);
   push.rowSum = pass.in(light.rowSum);
   push.sums = pass.out(sums);
   push.invocations = invocations;
-  pass.shader("gi/energy.comp").constant(CONSTANT_NORMALS, facets.encoding).push(push).dispatch(invocations);
+  pass.shader("gi/energy.comp").push(push).dispatch(invocations);
   frame.readback(sums, 0, sizeof(EnergySums) * uint64_t{invocations}, [&](std::span<const uint8_t> bytes) {
     for (size_t at = 0; at < bytes.size(); at += sizeof(EnergySums)) {
       EnergySums part;

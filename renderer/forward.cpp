@@ -108,10 +108,12 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
 }
 
 void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const Buffer& camera,
-                 const ShadeParams& shade, Targets& targets, const ForwardEffects& effects) {
+                 const ShadeParams& shade, Targets& targets, const ForwardEffects& effects,
+                 const VolumeLookup& lookup) {
   Context& context = frame.context();
   const std::vector<Draw>& draws = scene.scene.draws;
   const bool highlights = effects.highlights && shade.specularDirect != 0;
+  const bool inVolume = lookup.volume != nullptr;
 
   targets.fit(context, &Targets::f0, effects.specular);
   targets.fit(context, &Targets::highlight, highlights || effects.emission);
@@ -144,6 +146,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   // Shading, material by material: by drawing triangles, or over the listed pixels.
   if (effects.kernels) listPixels(frame, scene, targets);
   ForwardPush push{};
+  push.sampling = lookup.sample;
   push.lightCount = static_cast<uint32_t>(scene.shining.size());
   push.shadowBias = shade.shadowBias;
   push.specularDirect = shade.specularDirect;
@@ -159,6 +162,9 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     commands.push(push);
   };
 
+  SamplerDesc trilinear{Wrap::Clamp, Wrap::Clamp};
+  trilinear.mips = trilinear.linearMips = false;
+
   // Untextured materials have a pass of their own: a device that runs both sides of a branch would otherwise fetch five
   // textures in vain.
   for (const bool textured : {false, true}) {
@@ -167,9 +173,9 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     const Image none;
     Pass pass = frame.pass("RE Forward");
     if (effects.kernels)
-      pass.shader("forward/resolve.comp");
+      pass.shader(inVolume ? "forward/resolve_volume.comp" : "forward/resolve.comp");
     else
-      pass.shaders({"forward/forward.vert", "forward/forward.frag"});
+      pass.shaders({"forward/forward.vert", inVolume ? "forward/forward_volume.frag" : "forward/forward.frag"});
     specialize(pass, FORWARD_LIGHTS, effects.lights, scene.shining);
     pass.effect(FORWARD_TEXTURED, textured)
         .effect(FORWARD_NORMAL_MAP, effects.normalMap)
@@ -184,10 +190,15 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     push.materials = pass.in(scene.materials);
     sampleShadows(pass, shadows);
     pass.uniform(scene.shiningLights);
+    if (inVolume) {
+      push.grid = pass.in(*lookup.grid);
+      pass.sample(*lookup.volume, sampler(context.device, trilinear));
+    }
     if (effects.kernels) {
       pass.constant(FORWARD_TARGETS, targets.present() & (TARGET_F0 | TARGET_HIGHLIGHT | TARGET_INDIRECT))
           .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
-                 targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.linear);
+                 targets.bound(&Targets::highlight), targets.bound(&Targets::indirect));
+      if (!inVolume) pass.write(targets.linear);  // the lookup's normal
       push.lists = pass.in(targets.pixelLists);
       push.listed = pass.in(targets.listedPixels);
       pass.indirect(targets.pixelLists).run([&](Commands& commands) {
@@ -207,8 +218,8 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
         .colorIfAny(targets.f0)
         .color(targets.direct)
         .colorIfAny(targets.highlight)
-        .colorIfAny(targets.indirect)
-        .colorIfAny(effects.indirect ? targets.linear : none);  // the lookup's normal
+        .colorIfAny(targets.indirect);
+    if (!inVolume) pass.colorIfAny(effects.indirect ? targets.linear : none);  // the lookup's normal
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
         if (!drawnHere(draw)) continue;

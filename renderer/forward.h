@@ -18,16 +18,25 @@ struct ForwardEffects {
   bool alphaTest = true;  ///< masked materials; false: opaque
   bool normalMap = true;
   bool highlights = true;  ///< the lights' specular lobe
-  /// For a later pass that looks indirect light up: Targets::indirect gets every pixel's position (local space; w = 0
-  /// where nothing is drawn), Targets::linear its normal.
+  /// Without a VolumeLookup for a later pass that looks indirect light up: Targets::indirect gets every pixel's
+  /// position (local space; w = 0 where nothing is drawn), Targets::linear its normal.
   bool indirect = true;
   bool specular = true;  ///< what reflections are traced from: Targets::f0
   bool kernels = false;  ///< not an effect: who rasterizes (renderer/raster.h)
 };
 
+/// The thesis's indirect light (T 5.10, eq. 24), looked up while a pixel is shaded, into Targets::indirect. `volume`
+/// null: there is none.
+struct VolumeLookup {
+  const Image* volume = nullptr;  ///< RGBA16F, one texel per voxel
+  const Buffer* grid = nullptr;   ///< one Grid
+  SampleParams sample{};
+};
+
 GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 size);
 /// Zero in every target where nothing is drawn, in Targets::emitted everywhere.
 void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const Buffer& camera,
-                 const ShadeParams& shade, Targets& targets, const ForwardEffects& effects = {});
+                 const ShadeParams& shade, Targets& targets, const ForwardEffects& effects = {},
+                 const VolumeLookup& lookup = {});
 
 }  // namespace irad

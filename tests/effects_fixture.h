@@ -6,10 +6,13 @@
 #include <set>
 #include <sstream>
 
+#include "app/plan_proof.h"
+#include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/pipeline.h"
 #include "gi/plan.h"
 #include "renderer/targets.h"
+#include "shaders/shared/passes.h"
 #include "tests/gi_fixture.h"
 
 namespace irad::test {
@@ -33,14 +36,18 @@ inline Light spot(float outerCos = 0.85f) {
 }
 
 /// A matt room with a panel and a small lamp; `textured`: the floor has a normal map and the panel holes.
-inline Scene room(bool emits, std::vector<Light> lights = {}, bool textured = false) {
+inline Scene room(bool emits, std::vector<Light> lights = {}, bool textured = false, bool floorAlone = false) {
   irad::SceneBuilder b;
   const uint32_t wall = b.material(glm::vec3(0.6f, 0.5f, 0.4f)), floor = b.material(glm::vec3(0.5f)),
                  lamp = b.material(glm::vec3(0.1f), glm::vec3(emits ? 20 : 0)),
                  panel = b.material(glm::vec3(0.4f), glm::vec3(0), /*doubleSided=*/true);
-  b.box({wall, wall, floor, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  b.quad(lamp, {-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2});
-  b.quad(panel, {-0.6, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.4, -0.2}, {-0.6, 0.4, -0.2});
+  if (floorAlone) {
+    b.quad(floor, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, 2);
+  } else {
+    b.box({wall, wall, floor, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+    b.quad(lamp, {-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2});
+    b.quad(panel, {-0.6, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.4, -0.2}, {-0.6, 0.4, -0.2});
+  }
   b.camera({0.7, 0.3, 0.9}, {-0.2, -0.3, -0.6});
   Scene scene = b.finish("room");
   scene.lights = std::move(lights);
@@ -86,6 +93,7 @@ class EffectsTest : public GiTest {
     View view = VIEW_LIT;
   };
 
+  static constexpr glm::uvec2 kSize{32, 24};
   static Settings small() {
     Settings s = at(16, 32);
     s.light.shadowResolution = 128;
@@ -102,6 +110,12 @@ class EffectsTest : public GiTest {
     pipeline->prepare();
     return pipeline;
   }
+  /// The same to prove with.
+  std::unique_ptr<app::Bench> bench(const Scene& scene, const Settings& settings) {
+    auto made = std::make_unique<app::Bench>(context(), scene, settings, kSize, VIEW_LIT, scene.cameras.at(0));
+    made->prepare({});
+    return made;
+  }
   Timings& timings() { return context().timings; }
   /// Stages recorded since the last call.
   Stages recorded() {
@@ -113,37 +127,40 @@ class EffectsTest : public GiTest {
   static bool any(const Stages& stages, const std::string& prefix) {
     return std::ranges::any_of(stages, [&](const std::string& s) { return s.starts_with(prefix); });
   }
+  /// Without staging, which is kept.
   uint64_t usedBytes() {
-    context().finish();
-    return context().device.memory().used();
-  }
-  /// Of a buffer or image, or of all of a subsystem.
-  uint64_t bytesOf(const std::string& name) {
     context().finish();
     uint64_t sum = 0;
     for (const MemoryRow& row : context().device.memory().rows())
-      if (row.name == name || row.subsystem.text == name) sum += row.bytes;
+      if (row.subsystem != Subsystem::Staging) sum += row.bytes;
     return sum;
   }
-  bool holds(const std::string& name) { return bytesOf(name) > 0; }
-  /// Terms apart by commas: "+STAGE" was recorded, "-STAGE" not; "has MEMORY", "no MEMORY"; "EFFECT STATE". A name that
-  /// some test of a suite finds absent, another of its tests has to find present: it may be misspelt.
-  void expect(const Pipeline& pipeline, const Stages& stages, const std::string& terms) {
+  /// What there is, and was since the last call: "STAGE", "has MEMORY" (a buffer, an image, a subsystem), "EFFECT
+  /// STATE", "shader NAME", "forward with N." (an effect's constant that is not left out), "second facets".
+  Stages facts(const Pipeline& pipeline) {
+    Stages out = recorded();
+    context().finish();
+    for (const MemoryRow& row : context().device.memory().rows())
+      if (row.bytes > 0) out.insert({"has " + row.name, fmt::format("has {}", row.subsystem.text)});
+    for (const EffectRow& row : pipeline.plan().rows)
+      out.insert(fmt::format("{} {}", row.info().name, row.stateName()));
+    for (const PipelineUse& use : context().pipelinesUsed()) {
+      for (const std::string& shader : use.shaders) out.insert("shader " + shader);
+      for (uint32_t id = 0; use.shaders.front() == "forward/forward.vert" && id < FORWARD_PCF; ++id)
+        if (!use.constants.contains(id)) out.insert(fmt::format("forward with {}.", id));
+    }
+    if (pipeline.facets().count > pipeline.facets().solidVoxels) out.insert("second facets");
+    return out;
+  }
+  /// `terms`, apart by commas: how a fact begins; "-": none does. A name that some test of a suite finds absent,
+  /// another of its tests has to find present: it may be misspelt. `there` false: the other way round.
+  void expect(const Stages& facts, const std::string& terms, bool there = true) {
     std::istringstream in(terms);
     for (std::string term; std::getline(in >> std::ws, term, ',');) {
-      SCOPED_TRACE(term);
-      const bool stage = term[0] == '+' || term[0] == '-', memory = term.starts_with("has ") || term.starts_with("no ");
-      if (stage || memory) {
-        const std::string name = term.substr(term.find_first_of(" +-") + 1);
-        const bool wanted = term[0] == '+' || term[0] == 'h';
-        EXPECT_EQ(stage ? any(stages, name) : holds(name), wanted);
-        (wanted ? found_ : absent_).insert(name);
-      } else {
-        const EffectPlan plan = pipeline.plan();
-        EXPECT_TRUE(std::ranges::any_of(plan.rows, [&](const EffectRow& row) {
-          return term == fmt::format("{} {}", row.info().name, row.stateName());
-        }));
-      }
+      const bool wanted = (term[0] != '-') == there;
+      const std::string name = term.substr(term[0] == '-' ? 1 : 0);
+      EXPECT_EQ(any(facts, name), wanted) << name;
+      (wanted ? found_ : absent_).insert(name);
     }
   }
   static void TearDownTestSuite() {
@@ -161,10 +178,10 @@ class EffectsTest : public GiTest {
       const auto before = work();
       const bool slept = pipeline.asleep();
       pipeline.prepare();
-      EXPECT_TRUE(!slept || work() == before);  // there was nothing to do
+      EXPECT_TRUE(!slept || work() == before) << "there was nothing to do";
       EXPECT_NE(pipeline.asleep(), pipeline.plan().on(Effect::relight));
       Pixels picture = draw(pipeline, step.view);
-      expect(pipeline, recorded(), step.terms);
+      expect(facts(pipeline), step.terms);
       EXPECT_TRUE(step.picture != '.' || isBlack(picture));
       if (step.picture == '.' || step.picture == ' ') continue;
       if (pipeline.lighting())
@@ -173,8 +190,8 @@ class EffectsTest : public GiTest {
       pictures_.emplace(step.picture, std::move(picture));
     }
   }
-  Pixels draw(Pipeline& pipeline, View view = VIEW_LIT, glm::uvec2 size = {32, 24}) {
-    Targets targets(context(), size);
+  Pixels draw(Pipeline& pipeline, View view = VIEW_LIT) {
+    Targets targets(context(), kSize);
     return draw(pipeline, targets, view);
   }
   Pixels draw(Pipeline& pipeline, Targets& targets, View view = VIEW_LIT) {

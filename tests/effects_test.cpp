@@ -4,6 +4,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "gi/plan.h"
 #include "renderer/base/csv.h"
@@ -18,24 +19,22 @@ class Effects : public EffectsTest {};
 /// A light brings matrix, field and light in one prepare, keeps the matrix while it is turned down, and takes all of it
 /// along.
 TEST_F(Effects, WithoutLightThereIsNothingOfIt) {
-  const std::string nothing = "matrix off, no matrix, no solver, no field";
+  const std::string nothing = "matrix off, -has matrix, -has solver, -has field";
   const auto pipeline = prepared(furnishedRoom());
   walk(*pipeline,
        {{{},
-         "+GI Voxelization, +GI CompactList, -GI BuildMatrix, -GI SDF, -GI Gather, -GI Solve, -GI Scatter, " + nothing,
+         "GI Voxelization, GI CompactList, -GI BuildMatrix, -GI SDF, -GI Gather, -GI Solve, -GI Scatter, " + nothing,
          '.'}});
-  const uint64_t shadows = bytesOf(Subsystem::Shadow.text);
   for (const ViewInfo& view : views()) draw(*pipeline, view.view);  // those of what is not there too
+  const uint64_t bytes = usedBytes();
   recorded();
-  walk(*pipeline,
-       {{lights({lamp(0)}), "matrix on, has matrix, has solver, has field, +GI SDF, +GI BuildMatrix", 'a'},
-        {{}, "+RE Forward, -GI ", 'a'},  // a camera that moves
-        {lights({lamp(0.1)}), "+GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
-        {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, no solver", '.'},
-        {lights({lamp(0)}), "-GI BuildMatrix, +GI Solve, +GI Scatter", 'a'},  // from the dark, as before
-        {lights({}), nothing, '.'}});
-  EXPECT_EQ(bytesOf(Subsystem::Shadow.text), shadows);
-  EXPECT_GE(pipeline->flips(), 2u);
+  walk(*pipeline, {{lights({lamp(0)}), "matrix on, has matrix, has solver, has field, GI SDF, GI BuildMatrix", 'a'},
+                   {{}, "RE Forward, -GI ", 'a'},  // a camera that moves
+                   {lights({lamp(0.1)}), "GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
+                   {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, -has solver", '.'},
+                   {lights({lamp(0)}), "-GI BuildMatrix, GI Solve, GI Scatter", 'a'},  // from the dark, as before
+                   {lights({}), nothing, '.'}});
+  EXPECT_EQ(usedBytes(), bytes);
   walk(*prepared(litRoom()), {{{}, "", 'a'}});
 }
 
@@ -46,7 +45,7 @@ TEST_F(Effects, LightsThatDoNotReachGetNoShadowMap) {
   scene.lights.push_back(far);
   const auto pipeline = prepared(scene);
   EXPECT_EQ(pipeline->shadows().cubes.desc.layers, 6u);
-  walk(*pipeline, {{lights({far}), "no shadow cubes"}, {setting("effects.point=on"), "has shadow cubes"}});
+  walk(*pipeline, {{lights({far}), "-has shadow cubes"}, {setting("effects.point=on"), "has shadow cubes"}});
 }
 
 TEST_F(Effects, TheFieldIsMadeByItsViewsAndByForceWithoutAnotherMatrix) {
@@ -57,11 +56,11 @@ TEST_F(Effects, TheFieldIsMadeByItsViewsAndByForceWithoutAnotherMatrix) {
     p.invalidate(Redo::Matrix);
     p.darken();
   };
-  walk(*pipeline, {{{}, "no field", 'a'},
+  walk(*pipeline, {{{}, "-has field", 'a'},
                    {{}, "has field", 'b', VIEW_DISTANCE},
-                   {{}, "no field", 'a'},
+                   {{}, "-has field", 'a'},
                    {setting("effects.field=on"), "has field, -GI BuildMatrix", 'a'},
-                   {traceAnew, "has field, +GI BuildMatrix", 'a'}});
+                   {traceAnew, "has field, GI BuildMatrix", 'a'}});
 }
 
 TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
@@ -70,8 +69,8 @@ TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
   walk(*pipeline, {{{}, "relight asleep", 'a', h},
                    {setting("effects.relight=off"), "", 'a', h},
                    {lights({lamp(0.3)}), "-GI Gather", 'a', h},
-                   {setting("effects.relight=auto"), "+GI Gather", 'b', h},
-                   {setting("effects.relight=on"), "+GI Gather", ' '}});
+                   {setting("effects.relight=auto"), "GI Gather", 'b', h},
+                   {setting("effects.relight=on"), "GI Gather", ' '}});
 }
 
 RunResult irad(std::vector<std::string> arguments) {
@@ -88,16 +87,15 @@ TEST(IradPlan, PrintsTheTableWithWhatEachEffectThatIsOffWouldTake) {
   EXPECT_EQ(parsed["effects"][0]["effect"], "emission");
   EXPECT_EQ(parsed["effects"][0]["state"], "on");
   size_t measured = 0;
-  for (size_t i = 0; i < kEffects; ++i) {
-    const auto& row = parsed["effects"][i];
-    const bool canBeOn = row["state"] == "off" && effectInfo(static_cast<Effect>(i)).mode != nullptr;
-    EXPECT_EQ(row.contains("ms_not_spent"), canBeOn) << row;
+  for (const auto& row : parsed["effects"]) {
+    EXPECT_EQ(row.contains("ms_not_spent"), row["state"] == "off") << row;  // each of them can be on
     for (const char* kind : {"rebuild", "relight", "frame"})
-      measured += canBeOn && std::isfinite(row["ms_not_spent"][kind].get<double>()) ? 1 : 0;
+      measured += row.contains("ms_not_spent") && std::isfinite(row["ms_not_spent"][kind].get<double>()) ? 1 : 0;
   }
   EXPECT_GE(measured, 3u);
 }
 
+/// (What is compared and does not hold fails the command.)
 TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
   const std::string file = testing::TempDir() + "/proof.csv";
   irad({"plan", "check:lights-off", "check:plates", "--prove", "--frames", "2", "--csv", file});
@@ -106,6 +104,7 @@ TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
   std::getline(in, line);
   const std::vector<std::string> columns = csvFields(line);
   std::map<std::string, std::map<std::string, std::string>> rows;  // "SCENE EFFECT", column
+  std::set<std::string> notProven;
   while (std::getline(in, line)) {
     const std::vector<std::string> fields = csvFields(line);
     ASSERT_EQ(fields.size(), columns.size()) << line;
@@ -113,7 +112,10 @@ TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
     for (size_t i = 0; i < fields.size(); ++i) row[columns[i]] = fields[i];
     EXPECT_TRUE(row["state"].empty() || row["pixels_different"].empty() != row["not_proven"].empty()) << line;
     EXPECT_EQ(row["state"].empty(), row["reason"].empty()) << line;
+    if (!row["not_proven"].empty()) notProven.insert(fields[1] + ": " + row["not_proven"]);
   }
+  EXPECT_EQ(notProven, (std::set<std::string>{"emitter-sampling: nothing emits", "relight: no indirect light",
+                                              "blur: no indirect light"}));
   for (const std::string scene : {"check:lights-off ", "check:plates "}) {
     // An idle window, as planned, is measured and takes nothing; with everything forced on it does.
     auto &planned = rows.at(scene + "as planned"), &forced = rows.at(scene + "all forced on");
@@ -122,19 +124,15 @@ TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
       EXPECT_GT(std::stod(forced[idle]), 0) << idle;
     }
     EXPECT_GT(std::stod(planned["camera_ms_per_s"]), 0);
+    EXPECT_EQ(forced["pixels_different"], "0");
     EXPECT_EQ(forced["light_ms_per_s"], "");  // there are no lights to move
-    for (const char* same : {"all forced on", "sun", "point", "spot", "rebuild", "redraw"})
-      EXPECT_EQ(rows.at(scene + same)["pixels_different"], "0") << scene << same;
+    for (const char* off : {"sun", "point", "spot", "rebuild", "redraw"})
+      EXPECT_TRUE(rows.contains(scene + off)) << off;
   }
   for (const char* off : {"emission", "matrix", "specular", "field", "alpha-test", "normal-map"})
-    EXPECT_EQ(rows[std::string("check:lights-off ") + off]["pixels_different"], "0") << off;
+    EXPECT_TRUE(rows.contains(std::string("check:lights-off ") + off)) << off;
   EXPECT_GT(std::stod(rows["check:lights-off matrix"]["mib_not_allocated"]), 0);
   EXPECT_EQ(rows["check:lights-off specular"]["mib_not_allocated"], "0.033");  // 48 x 36 x 20 B
-  EXPECT_EQ(rows["check:lights-off blur"]["not_proven"], "no indirect light");
-  auto& relight = rows["check:plates relight"];
-  EXPECT_EQ(relight["skip"], "threshold");
-  EXPECT_LE(std::stod(relight["largest_difference"]), std::stod(relight["allowed_difference"]));
-  EXPECT_LE(std::stod(rows["check:plates emitter-sampling"]["mean_difference"]), 0.05);
 }
 
 }  // namespace

@@ -144,14 +144,14 @@ TEST_F(EmitterSamples, SamplesThatLoseLightAreNotUsed) {
   const World w = world(b.finish("corridor"), settings);
   const Emitters emitters = listEmitters(context(), w.facets);
   const FormFactors f = buildMatrix(context(), w.facets, w.field, settings);
-  const auto solved = [&](EmitterSampling sampling) {
+  const auto solved = [&](EffectMode sampling) {
     settings.matrix.emitterSampling = sampling;
     Lighting light = makeLighting(context(), w.facets, settings);
     gatherEmitters(context(), w.facets, f, {&emitters, &w.field}, settings, light);
     EXPECT_TRUE(solve(context(), w.facets, f, light, settings, 1000).converged);
     return light;
   };
-  const Lighting automatic = solved(EmitterSampling::automatic), rays = solved(EmitterSampling::off);
+  const Lighting automatic = solved(EffectMode::automatic), rays = solved(EffectMode::off);
   fmt::print("corridor: samples see {:.3f} of the rays' light\n", automatic.sampledShare);
   ASSERT_LT(automatic.sampledShare, 0.9f);
   EXPECT_FALSE(automatic.correction);

@@ -35,8 +35,12 @@ class GiTest : public GpuTest {
     w.settings = settings;
     w.scene = std::make_unique<Scene>(std::move(scene));
     w.device = std::make_unique<SceneOnDevice>(context(), *w.scene);
-    Voxels voxels = voxelize(context(), *w.device, settings);
-    w.facets = compactFacets(context(), voxels, settings);
+    if (settings.matrix.gpu.hitRule == HitRule::triangles) {
+      w.facets = listFacets(context(), *w.device, settings);
+    } else {
+      Voxels voxels = voxelize(context(), *w.device, settings);
+      w.facets = compactFacets(context(), voxels, settings);
+    }
     w.field = buildField(context(), w.facets, settings);
     return w;
   }

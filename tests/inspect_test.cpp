@@ -30,7 +30,7 @@ class Inspect : public GiTest {
 TEST_F(Inspect, AFacetOfAFurnace) {
   // B = M / (1 - rho) = 2, H = 2, and every row of the closed room sums to 1.
   Settings settings = at(16, 64);
-  settings.matrix.emitterSampling = EmitterSampling::off;
+  settings.matrix.emitterSampling = EffectMode::off;
   open(furnaceBox(0.5f), settings);
   const InspectedFacet f = inspector_->facet(some());
   EXPECT_EQ(f.facet, some());
@@ -56,7 +56,7 @@ TEST_F(Inspect, AFacetOfAFurnace) {
 
 TEST_F(Inspect, ContributionsAreHAlsoWithSampledEmitters) {
   Settings settings = at(24, 64);
-  settings.matrix.emitterSampling = EmitterSampling::on;
+  settings.matrix.emitterSampling = EffectMode::on;
   open(mixedRoom(), settings);
   const double residual = pipeline_->lighting().report.residual, largest = pipeline_->lighting().report.largestH;
   double corrected = 0;

@@ -63,6 +63,8 @@ struct Lit {
     in.shape = &facets.shape;
     in.reverse = &facets.reverse;
     in.around = &facets.around;
+    in.voxel = &facets.voxel;
+    if (facets.surface) in.surface = &facets.surface.record;
     in.shaded = &light.shaded();
     if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume.image : nullptr;

@@ -3,7 +3,6 @@
 #include <random>
 #include <sstream>
 
-#include "app/plan_proof.h"
 #include "tests/effects_fixture.h"
 
 namespace irad::test::random_effects_suite {
@@ -22,75 +21,53 @@ class Dice {
   std::mt19937 random_;
 };
 
-/// Textures, masks, normal maps, lobes: each on some materials, and in some scenes on none.
-void furnish(Scene& scene, Dice& dice) {
-  const bool textured = dice.one(2), masked = dice.one(3), mapped = dice.one(3), lobes = dice.one(2);
-  const glm::vec4 black(0, 0, 0, 1), white(1);
-  /// With chance 1 : `in`, an image of a few texels between `least` and `most`.
-  const auto maybe = [&](TextureUse& use, uint32_t in, bool srgb, const glm::vec4& least, const glm::vec4& most) {
-    if (!dice.one(in)) return;
-    SceneImage image{
-        .name = "random", .width = 1 + dice.below(8), .height = 1 + dice.below(8), .srgb = srgb, .rgba = {}};
-    for (uint32_t i = 0; i < 4 * image.width * image.height; ++i)
-      image.rgba.push_back(static_cast<uint8_t>(255 * std::clamp(dice.between(least[i % 4], most[i % 4]), 0.0f, 1.0f)));
-    scene.images.push_back(std::move(image));
-    use.image = static_cast<int>(scene.images.size()) - 1;
-    use.uvSet = dice.below(2);
-    if (dice.one(2)) use.transform = {{dice.between(-2, 2), 0.3f}, {-0.2f, dice.between(0.5f, 2)}, {dice.unit(), 0}};
+/// The room, or its floor alone, whose faces all look one way. Emission, textures, masks, normal maps, lobes: each on
+/// some materials, and in some scenes on none.
+Scene randomScene(Dice& dice) {
+  const bool black = dice.one(5), emits = dice.one(2), textured = dice.one(2), masked = dice.one(3),
+             mapped = dice.one(3), lobes = dice.one(2), coloured = dice.one(3), alone = dice.one(4);
+  Scene scene = room(emits, {}, /*textured=*/true, /*floorAlone=*/alone);
+  enum { normals, holes, noise, darkness };  // images: the room's, and two more
+  std::vector<uint8_t> texels(4 * 8 * 2);
+  for (uint8_t& byte : texels) byte = static_cast<uint8_t>(dice.below(256));
+  scene.images.push_back({"noise", 8, 2, /*srgb=*/true, texels});
+  scene.images.push_back({"darkness", 1, 1, /*srgb=*/true, {0, 0, 0, 255}});
+  const auto use = [&](TextureUse& texture, bool used, int image) {
+    texture = {};
+    if (!used) return;
+    texture.image = image;
+    texture.uvSet = dice.below(2);
+    if (dice.one(2))
+      texture.transform = {{dice.between(-2, 2), 0.3f}, {-0.2f, dice.between(0.5f, 2)}, {dice.unit(), 0}};
   };
   for (Material& m : scene.materials) {
+    m.baseColor = black ? glm::vec4(0, 0, 0, 1) : glm::vec4(dice.vec(0, 0.9f), 1);
+    m.emission *= dice.vec(0, 1);
+    m.doubleSided = dice.one(4) && !alone;
     m.lambertian = !lobes || dice.one(2);
     m.metallic = dice.one(2) ? 1.0f : 0.0f;
     m.roughness = dice.unit();
-    if (textured) {
-      maybe(m.baseColorTexture, 2, true, black, white);
-      maybe(m.metallicRoughnessTexture, 2, false, black, white);
-      maybe(m.occlusionTexture, 4, false, black, white);
-      maybe(m.emissiveTexture, 3, true, {-1, -1, -1, 1}, dice.one(2) ? black : white);
-    }
-    if (mapped) maybe(m.normalTexture, 2, false, {0.2f, 0.2f, 0.9f, 1}, {0.8f, 0.8f, 0.9f, 1});
-    if (masked && dice.one(2)) {
-      m.alpha = dice.one(2) ? AlphaMode::Mask : AlphaMode::Blend;
-      m.alphaCutoff = dice.unit();
-      maybe(m.baseColorTexture, 1, true, glm::vec4(0), white);
-    }
+    m.alpha = !masked || dice.one(2) ? AlphaMode::Opaque : dice.one(2) ? AlphaMode::Mask : AlphaMode::Blend;
+    m.alphaCutoff = dice.unit();
+    const bool cut = m.alpha != AlphaMode::Opaque;
+    use(m.baseColorTexture, cut || (textured && dice.one(2)), cut && dice.one(2) ? holes : noise);
+    use(m.metallicRoughnessTexture, textured && dice.one(2), noise);
+    use(m.occlusionTexture, textured && dice.one(4), noise);
+    use(m.emissiveTexture, textured && dice.one(3), dice.one(2) ? darkness : noise);
+    use(m.normalTexture, mapped && dice.one(2), normals);
   }
-  const bool coloured = dice.one(3);
   for (size_t i = 0; i < scene.positions.size(); ++i) {
-    const glm::vec3 p = scene.positions[i], n = glm::abs(scene.normals[i]);
-    scene.uv0[i] = n.x > 0.7f ? glm::vec2(p.y, p.z) : n.y > 0.7f ? glm::vec2(p.x, p.z) : glm::vec2(p);
     scene.uv1[i] = 3.0f * scene.uv0[i];
     if (coloured) scene.colors[i] = glm::vec4(dice.vec(0, 1), dice.one(2) ? 1.0f : dice.unit());
   }
-}
-
-Scene randomScene(Dice& dice) {
-  SceneBuilder b;
-  const bool black = dice.one(5), emits = dice.one(2);
-  std::vector<uint32_t> walls;
-  for (int i = 0; i < 6; ++i)
-    walls.push_back(b.material(black ? glm::vec3(0) : dice.vec(0, 0.9f),
-                               emits && i == 3 ? dice.vec(0, 4) : glm::vec3(0), /*doubleSided=*/dice.one(4)));
-  if (dice.one(4)) {
-    b.quad(walls[0], {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, 2);  // a floor alone: all faces one way
-  } else {
-    b.box(walls, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-    if (dice.one(2)) b.sphere(walls[1], dice.vec(-0.4f, 0.4f), dice.between(0.1f, 0.4f), /*inward=*/false, 8);
-    if (dice.one(3)) b.quad(walls[2], {-0.5, 0, 0.5}, {0.5, 0, 0.5}, {0.5, 0.2, -0.5}, {-0.5, 0.2, -0.5});
-  }
-  b.camera({0.9, 0.6, 0.9}, {-0.5, -0.3, -0.6});
-  Scene scene = b.finish("random");
-  furnish(scene, dice);
   for (uint32_t i = dice.below(4); i > 0; --i) {
-    Light light;
+    Light light = spot(dice.between(0.1f, 0.9f));
     light.type = static_cast<LightType>(dice.below(LIGHT_KINDS));
     light.position = scene.origin + glm::dvec3(dice.vec(-3, 3));
     light.direction = glm::normalize(dice.vec(-1, 1) + glm::vec3(0, 1e-3f, 0));
     light.color = dice.vec(0, 1);
-    light.intensity = dice.one(3) ? 0 : dice.between(0.1f, 5);
+    if (dice.one(3)) light.intensity = 0;
     if (lightKind(light.type).has(LIGHT_RANGE) && dice.one(2)) light.range = dice.between(0.2f, 4);
-    light.innerCos = 0.95f;
-    light.outerCos = dice.between(0.1f, 0.9f);
     scene.lights.push_back(light);
   }
   return scene;
@@ -126,12 +103,7 @@ class RandomEffects : public EffectsTest {
     Dice dice(seed), settingsDice(1000 + seed / 6);
     const Scene scene = randomScene(dice);
     const Settings settings = randomSettings(settingsDice);
-    const auto bench = [&](const Settings& s) {
-      auto made = std::make_unique<app::Bench>(context(), scene, s, glm::uvec2(32, 24), VIEW_LIT, scene.cameras.at(0));
-      made->prepare({});
-      return made;
-    };
-    const auto planned = bench(settings), forced = bench(app::allForcedOn(settings));
+    const auto planned = bench(scene, settings), forced = bench(scene, app::allForcedOn(settings));
     const EffectPlan plan = planned->pipeline().plan(), all = forced->pipeline().plan();
     std::string name = fmt::format("seed {}, left out:", seed);
     for (const EffectRow& row : plan.rows)

@@ -146,7 +146,7 @@ TEST_F(Dirty, LambdaRebuildsNothingAndGathersNothing) {
 TEST_F(Dirty, EmitterSamplesAreTakenAnewOfTheSameMatrix) {
   Scene scene = room();
   scene.materials.at(0).emission = glm::vec3(1);
-  settings_.matrix.emitterSampling = EmitterSampling::on;
+  settings_.matrix.emitterSampling = EffectMode::on;
   Pipeline pipeline(context(), std::move(scene), settings_);
   pipeline.prepare();
   const uint64_t built = pipeline.revision().build;

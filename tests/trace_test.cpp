@@ -28,13 +28,17 @@ class Trace : public GiTest {
   /// Compares what all rays of all facets meet, which it returns, with the oracle.
   std::vector<uint32_t> expectOracle(const World& w, const oracle::Facets& host, const MatrixParams& params) {
     const std::vector<uint32_t> met = hits(w, params);
-    size_t wrong = 0, found = 0;
+    size_t wrong = 0, found = 0, open = 0;  // open: the oracle leaves it to the device
     for (uint32_t f = 0; f < w.facets.count; ++f)
       for (uint32_t k = 0; k < params.rays; ++k) {
         const oracle::Hit expected = oracle::trace(host, oracle::facetRay(host, f, k, params), params.hitRule);
         const uint32_t got = met[size_t{f} * params.rays + k];
         found += got <= TRACE_LAST_FACET;
         if (got == expected.facet) continue;
+        if (expected.margin == 0) {
+          ++open;
+          continue;
+        }
         ++wrong;
         // They may differ only where a decision is too close for fp32: 1e-3 voxels over paths of up to 50.
         EXPECT_LT(expected.margin, 1e-3) << "facet " << f << " ray " << k << ": met " << got << " instead of "
@@ -43,6 +47,7 @@ class Trace : public GiTest {
     fmt::print("rule {}: {} of {} rays differ from the oracle, {} met a facet\n", nameOf(params.hitRule), wrong,
                met.size(), found);
     EXPECT_LE(wrong, met.size() / 10000);
+    EXPECT_LE(open, met.size() / 50);
     EXPECT_GT(found, met.size() / 2);
     return met;
   }
@@ -59,6 +64,19 @@ TEST_F(Trace, HitsEqualTheOracle) {
   for (const HitRule rule : {HIT_RULE_ROBUST, HIT_RULE_THESIS}) {
     params.hitRule = rule;
     ASSERT_GE(expectOracle(w, host, params).size(), 100000u);
+  }
+}
+
+TEST_F(Trace, TrianglesEqualTheOracle) {
+  Settings settings = defaults();
+  settings.voxel.resolution = 24;
+  settings.matrix.gpu.hitRule = HIT_RULE_TRIANGLES;
+  for (const Traversal traversal : {Traversal::sdf, Traversal::dda}) {
+    settings.matrix.gpu.traversal = traversal;
+    const World w = world(furnishedRoom(), settings);
+    MatrixParams params = settings.matrix.gpu;
+    params.rays = 1 + 50000 / w.facets.count;
+    ASSERT_GE(expectOracle(w, oracleFacets(context(), w.facets), params).size(), 50000u);
   }
 }
 

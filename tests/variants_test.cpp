@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <future>
-#include <numeric>
 #include <set>
 
 #include "renderer/base/error.h"
@@ -14,6 +13,8 @@
 
 namespace irad::test::variants_suite {
 namespace {
+
+using Constants = std::map<uint32_t, uint32_t>;
 
 class VariantKeys : public EffectsTest {
  protected:
@@ -41,34 +42,33 @@ TEST_F(VariantKeys, LeftOutEffectsAreInThePipelinesKeyAndTheOthersAreNot) {
 }
 
 TEST_F(VariantKeys, TexturesAreLookedUpWhereAMaterialHasOne) {
-  const auto textured = [&](Scene scene) {
-    std::multiset<bool> out;
-    for (const PipelineUse& use : forward(std::move(scene))) out.insert(!use.constants.contains(FORWARD_TEXTURED));
-    return out;
+  const auto expect = [&](Scene scene, const std::multiset<bool>& wanted) {
+    std::multiset<bool> textured;
+    for (const PipelineUse& use : forward(std::move(scene))) textured.insert(!use.constants.contains(FORWARD_TEXTURED));
+    EXPECT_EQ(textured, wanted);
   };
   Scene all = room(true, {}, /*textured=*/true);
   for (Material& m : all.materials) m.baseColorTexture.image = 1;
-  EXPECT_EQ(textured(room(true)), std::multiset<bool>{false});
-  EXPECT_EQ(textured(room(true, {}, /*textured=*/true)), (std::multiset<bool>{false, true}));
-  EXPECT_EQ(textured(all), std::multiset<bool>{true});
+  expect(room(true), {false});
+  expect(room(true, {}, /*textured=*/true), {false, true});
+  expect(all, {true});
 }
 
 TEST_F(VariantKeys, LeftOutEffectsTakeTheirCodeAlong) {
   std::vector<PipelineUse> all = forward(room(true, {}, /*textured=*/true));
   std::erase_if(all, [](const PipelineUse& use) { return use.constants.contains(FORWARD_TEXTURED); });
-  const auto instructions = [&](const std::vector<uint32_t>& leftOut) {
+  const auto instructions = [&](const Constants& leftOut) {
     std::vector<PipelineUse> variant = all;
-    for (const uint32_t id : leftOut) variant.at(0).constants[id] = 0;
+    for (const auto& [id, value] : leftOut) variant.at(0).constants[id] = value;
     return specializedInstructions(*gpu().shaders, variant);
   };
-  std::vector<uint32_t> every(FORWARD_PCF);
-  std::iota(every.begin(), every.end(), 0);
+  Constants every;
   const uint64_t whole = instructions({});
-  for (const uint32_t id : every) {
-    std::vector<uint32_t> leftOut{id};
+  for (uint32_t id = 0; id < FORWARD_PCF; ++id) {
     // Points share their code with spots, but for their shadow cubes.
-    if (id == FORWARD_LIGHTS + LIGHT_POINT) leftOut.push_back(FORWARD_LIGHTS + LIGHT_CUBE_MAPS);
-    EXPECT_LT(instructions(leftOut), whole) << id;
+    const bool cubes = id == FORWARD_LIGHTS + LIGHT_POINT;
+    EXPECT_LT(instructions({{id, 0}, {cubes ? FORWARD_LIGHTS + LIGHT_CUBE_MAPS : id, 0}}), whole) << id;
+    every[id] = 0;
   }
   EXPECT_LT(4 * instructions(every), whole);
 }
@@ -108,8 +108,6 @@ using Constants = std::map<uint32_t, uint32_t>;
 /// A context of its own, whose second thread waits at a gate before it compiles.
 class Bridge : public GpuTest {
  protected:
-  static constexpr uint32_t kCount = 100;
-
   ShaderLibrary shaders;
   Timings timings;
   std::promise<void> gate;
@@ -130,89 +128,85 @@ class Bridge : public GpuTest {
     const std::filesystem::path root = sourceFolder();
     shaders.add("effects.comp", compileGlsl(root / "shaders", (root / "tests/shaders/effects.comp").string()));
   }
-  /// Runs the shader and returns the constants that its pipeline had; checks what it wrote.
-  Constants run(bool first, bool second) {
+  /// Runs the shader; the constants that its pipeline has to have, and how many are compiled meanwhile.
+  void run(bool first, bool second, const Constants& constants, std::optional<uint64_t> compiled = {}) {
     struct {
       uint64_t to;
-      uint32_t count, nothing;
+      uint32_t count = 100, nothing = 0;
     } push{};
-    const Buffer to(own->device, "out", Subsystem::Staging, 4 * kCount);
-    push.count = kCount;
+    const Buffer to(own->device, "out", Subsystem::Staging, 4 * push.count);
     own->pipelinesUsed();
+    const uint64_t before = own->counters().pipelines;
     Frame frame = own->begin();
     Pass pass = frame.pass("Effects");
     push.to = pass.out(to);
-    pass.shader("effects.comp").effect(0, first).effect(1, second).push(push).dispatch(kCount);
+    pass.shader("effects.comp").effect(0, first).effect(1, second).push(push).dispatch(push.count);
     frame.submitAndWait();
+    EXPECT_EQ(own->counters().pipelines - before, compiled.value_or(own->counters().pipelines - before));
     const std::vector<uint32_t> values = downloadAs<uint32_t>(*own, to);
-    for (uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(values.at(i), i);
+    for (uint32_t i = 0; i < push.count; ++i) EXPECT_EQ(values.at(i), i);
     const std::vector<PipelineUse> used = own->pipelinesUsed();
-    return used.size() == 1 ? used[0].constants : Constants{{99, 99}};
+    ASSERT_EQ(used.size(), 1u);
+    EXPECT_EQ(used[0].constants, constants);
   }
-  uint64_t compiled() { return own->counters().pipelines; }
   /// Until the thread has nothing left to do.
   void settle() {
     while (own->variantsCompiling() > 0) own->begin().submitAndWait();
   }
-  void openAndSettle() {
-    gate.set_value();
-    settle();
-  }
 };
 
 TEST_F(Bridge, TheFirstPictureWaitsForItsOwnAlone) {
-  const uint64_t before = compiled();
-  EXPECT_EQ(run(false, true), (Constants{{0, 0}}));
-  EXPECT_EQ(compiled() - before, 1u);
+  const uint64_t before = own->counters().pipelines;
+  run(false, true, {{0, 0}}, 1);
   EXPECT_EQ(own->variantsCompiling(), 1u);  // the one with all effects, for later
-  // Another variant, before the one with all effects is there: again only its own is compiled.
-  EXPECT_EQ(run(true, false), (Constants{{1, 0}}));
-  EXPECT_EQ(compiled() - before, 2u);
-  openAndSettle();
-  EXPECT_EQ(compiled() - before, 3u);
+  run(true, false, {{1, 0}}, 1);            // another variant before that is there
+  gate.set_value();
+  settle();
+  EXPECT_EQ(own->counters().pipelines - before, 3u);
 }
 
 TEST_F(Bridge, AllEffectsStandInUntilTheVariantIsThere) {
-  EXPECT_EQ(run(true, true), Constants{});
-  const uint64_t before = compiled();
-  for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(run(false, false), Constants{});
+  run(true, true, {});
+  const uint64_t before = own->counters().pipelines;
+  for (int frame = 0; frame < 3; ++frame) run(false, false, {}, 0);
   EXPECT_EQ(own->variantsCompiling(), 1u);
-  EXPECT_EQ(compiled(), before);
-  openAndSettle();
-  EXPECT_EQ(compiled() - before, 1u);
-  EXPECT_EQ(run(false, false), (Constants{{0, 0}, {1, 0}}));
+  gate.set_value();
+  settle();
+  EXPECT_EQ(own->counters().pipelines - before, 1u);
+  run(false, false, {{0, 0}, {1, 0}});
   // Where a picture must not depend on what is ready, every pass waits.
   own->bridgeVariants(false);
-  EXPECT_EQ(run(false, true), (Constants{{0, 0}}));
+  run(false, true, {{0, 0}});
 }
 
 TEST_F(Bridge, WhatTheThreadMeetsIsThrownByTheNextFrame) {
-  run(true, true);
+  run(true, true, {});
   failure = "the compiler gave up";
-  run(false, true);
+  run(false, true, {});
+  gate.set_value();
   try {
-    openAndSettle();
+    settle();
     FAIL() << "no error";
   } catch (const WorkError& error) {
     EXPECT_EQ(std::string(error.what()), failure);
   }
   // The next picture asks again.
   failure.clear();
-  EXPECT_EQ(run(false, true), Constants{});
+  run(false, true, {});
   settle();
-  EXPECT_EQ(run(false, true), (Constants{{0, 0}}));
+  run(false, true, {{0, 0}});
 }
 
 TEST_F(Bridge, OtherShadersDropWhatIsBeingCompiledAndItsEndWaits) {
-  run(true, true);
-  run(false, true);
-  run(true, false);
+  run(true, true, {});
+  run(false, true, {});
+  run(true, false, {});
   EXPECT_EQ(own->variantsCompiling(), 2u);
   addShader();  // as a reload does
-  EXPECT_EQ(run(true, true), Constants{});
+  run(true, true, {});
   EXPECT_EQ(own->variantsCompiling(), 0u);
   gate.set_value();
-  EXPECT_EQ(run(false, false), Constants{});
+  run(false, false, {});
   own.reset();
 }
 

@@ -41,7 +41,7 @@ class Watch : public GiTest {
 
 TEST_F(Watch, AWrongNumberIsTracedToItsStageAndFacet) {
   Settings settings = at(16, 32);
-  settings.matrix.emitterSampling = EmitterSampling::on;
+  settings.matrix.emitterSampling = EffectMode::on;
   const World w = world(room(), settings);
   const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
   const Emitters emitters = listEmitters(context(), w.facets);

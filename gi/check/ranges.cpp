@@ -82,7 +82,7 @@ void tinyEmitterCase(CheckRun& run) {
   run.atMost("RMS of H / (F M) - 1 on the floor", noise, 0.05);
   run.near("mean of H / (F M) on the floor", 1 + bias, 1, 0.002);
   Settings rays = run.settings;
-  rays.matrix.emitterSampling = EmitterSampling::off;
+  rays.matrix.emitterSampling = EffectMode::off;
   pipeline->set(rays);
   pipeline->prepare();
   run.info("RMS without emitter sampling", floorError(run, *pipeline).first);

@@ -1,12 +1,11 @@
 #include "gi/oracle/rays.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "gi/oracle/walk.h"
 #include "shaders/shared/normals.h"
 #include "shaders/shared/sampling.h"
 #include "shaders/shared/trace.h"
@@ -15,71 +14,6 @@ namespace irad::oracle {
 namespace {
 
 using glm::dvec3, glm::ivec3;
-
-/// The cells along a ray: all of them, or those that a distance field leaves.
-struct Walk {
-  Walk(const Facets& in, const Ray& along, const Passage& by)
-      : facets(in), ray(along), passage(by), cell(glm::floor(along.origin)) {
-    arrive();
-  }
-  const Facets& facets;
-  const Ray& ray;
-  const Passage& passage;
-  ivec3 cell;
-  double enter = 0, leave = 0;
-  double margin = 1e9;  ///< least gap between two exits of the cells left so far: a tie of axes
-
-  void arrive() {
-    leave = exits(1)[0].first;
-    if (passage.steps) passage.steps->push_back({cell, enter});
-  }
-  /// Where the ray leaves the cube of cells within k - 1 of its own, by axis, nearest first.
-  std::array<std::pair<double, int>, 3> exits(int k) const {
-    std::array<std::pair<double, int>, 3> t;
-    for (int a = 0; a < 3; ++a) {
-      const double bound = cell[a] + (ray.direction[a] > 0 ? k : 1 - k);
-      t[a] = {
-          ray.direction[a] == 0 ? std::numeric_limits<double>::infinity() : (bound - ray.origin[a]) / ray.direction[a],
-          a};
-    }
-    std::sort(t.begin(), t.end());
-    return t;
-  }
-  /// Goes on from a cell of the grid.
-  void next() {
-    const float empty = passage.field ? passage.field->voxels[voxelIndex(glm::uvec3(cell), facets.grid.dims)] : 0.0f;
-    if (empty > 0 && passage.field->euclidean) {
-      enter += double{empty};
-      cell = glm::floor(ray.origin + enter * ray.direction);
-    } else {
-      const int k = std::max(1, static_cast<int>(empty));
-      const auto sorted = exits(k);
-      margin = std::min(margin, sorted[1].first - sorted[0].first);
-      const int axis = sorted[0].second;
-      enter = sorted[0].first;
-      const int beyond = cell[axis] + (ray.direction[axis] > 0 ? k : -k);
-      cell = glm::clamp(ivec3(glm::floor(ray.origin + enter * ray.direction)), cell - (k - 1), cell + (k - 1));
-      cell[axis] = beyond;
-    }
-    arrive();
-  }
-};
-
-std::vector<uint32_t> facetsAt(const Facets& f, const ivec3& cell) {
-  for (int a = 0; a < 3; ++a)
-    if (cell[a] < 0 || cell[a] >= static_cast<int>(f.grid.dims[a])) return {};
-  const uint32_t entry = f.reverse[voxelIndex(glm::uvec3(cell), f.grid.dims)];
-  if (entry == NO_FACET) return {};
-  std::vector<uint32_t> facets(facetsOf(entry));
-  std::iota(facets.begin(), facets.end(), firstFacet(entry));
-  return facets;
-}
-
-bool inside(const Facets& f, const ivec3& cell) {
-  for (int a = 0; a < 3; ++a)
-    if (cell[a] < 0 || cell[a] >= static_cast<int>(f.grid.dims[a])) return false;
-  return true;
-}
 
 Hit traceThesis(const Facets& facets, const Ray& ray, const Passage& passage) {
   Hit hit{TRACE_ESCAPED};
@@ -284,20 +218,47 @@ double Facets::distance(uint32_t facet, const dvec3& p) const {
   return glm::dot(normal(facet), p - (dvec3(unpackVoxel(voxel[facet])) + 0.5)) - double{facetOffset(shape[facet])};
 }
 
+dvec3 Facets::point(uint32_t surfel) const {
+  const Surfel& s = surfels.at(surfel);
+  const uint32_t triangle = s.triangle & ~SURFEL_BACK;
+  const glm::dvec2 weights = unpackPlace(s.place);
+  const dvec3 a = corner(triangle, 0);
+  return a + (corner(triangle, 1) - a) * weights.x + (corner(triangle, 2) - a) * weights.y;
+}
+
 Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params) {
   const glm::vec3 n = decodeNormal(facets.shape[facet] & 0xFFFFu, facets.encoding);
   const glm::uvec4 shifts = rayShifts(facets.voxel[facet], params.seed, params.jitter);
+  if (params.hitRule == HitRule::triangles) {
+    const float u = facetJitter(k, glm::uvec2(shifts.z, shifts.w)).x;
+    const uint32_t surfel = FACET_SURFELS * facet + static_cast<uint32_t>(u * float{FACET_SURFELS});
+    const Surfel& s = facets.surfels.at(surfel);
+    const uint32_t triangle = s.triangle & ~SURFEL_BACK;
+    const dvec3 a = facets.corner(triangle, 0);
+    const dvec3 facing = glm::normalize(glm::cross(facets.corner(triangle, 1) - a, facets.corner(triangle, 2) - a)) *
+                         ((s.triangle & SURFEL_BACK) != 0 ? -1.0 : 1.0);
+    const dvec3 along(toWorld(cosineDirection(hammersley(k, params.rays, glm::uvec2(shifts))), glm::vec3(facing)));
+    return {facets.point(surfel) + 1e-6 * facing, along, facing, facet, triangle};
+  }
   const glm::vec3 direction = toWorld(cosineDirection(hammersley(k, params.rays, glm::uvec2(shifts))), n);
   const glm::uvec3 voxel = unpackVoxel(facets.voxel[facet]);
   const glm::vec3 origin =
       params.hitRule == HitRule::thesis
           ? glm::vec3(voxel) + 0.5f + n
           : facetPoint(voxel, n, facetOffset(facets.shape[facet]), facetJitter(k, glm::uvec2(shifts.z, shifts.w)));
-  return {dvec3(origin), dvec3(direction), dvec3(n), facet};
+  return {dvec3(origin), dvec3(direction), dvec3(n), facet, kNoTriangle};
 }
 
 Hit trace(const Facets& facets, const Ray& ray, HitRule hitRule, const Passage& passage) {
-  return hitRule == HitRule::thesis ? traceThesis(facets, ray, passage) : traceRobust(facets, ray, passage);
+  switch (hitRule) {
+    case HitRule::thesis:
+      return traceThesis(facets, ray, passage);
+    case HitRule::robust:
+      return traceRobust(facets, ray, passage);
+    case HitRule::triangles:
+      return traceTriangles(facets, ray, passage);
+  }
+  return {};
 }
 
 std::optional<glm::uvec3> firstSolid(const Facets& facets, const Ray& ray) {

@@ -9,6 +9,7 @@
 #include "shaders/shared/gi_params.h"
 #include "shaders/shared/grid.h"
 #include "shaders/shared/normals.h"
+#include "shaders/shared/surface.h"
 
 namespace irad::oracle {
 
@@ -17,6 +18,12 @@ struct Facets {
   Grid grid;
   NormalEncoding encoding = NormalEncoding::oct16;
   std::vector<uint32_t> voxel, shape, reverse, around;
+  // Of lists by classes of surfels (gi/surface.h); else empty.
+  std::vector<glm::vec3> corners;
+  std::vector<uint32_t> firstPiece, pieces, sides;
+  std::vector<Surfel> surfels;
+  glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return corners.at(3 * triangle + i); }
+  glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
   /// The point of the plane nearest to the voxel's centre, voxel units.
   glm::dvec3 middle(uint32_t facet) const;
@@ -24,10 +31,12 @@ struct Facets {
   double distance(uint32_t facet, const glm::dvec3& p) const;
 };
 
+inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 struct Ray {
   glm::dvec3 origin, direction;  ///< voxel units
   glm::dvec3 normal;             ///< of the surface it leaves
   uint32_t facet = NO_FACET;     ///< that it leaves, if it starts on one
+  uint32_t triangle = kNoTriangle;
 };
 /// Ray k of a facet, from the shared sampling functions.
 Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params);
@@ -36,6 +45,7 @@ struct Hit {
   uint32_t facet = 0;  ///< or TRACE_*
   double t = 0;
   /// Least distance (voxels) or cosine by which a decision on the way was taken: below about 1e-3 fp32 may differ.
+  /// 0: a piece of several facets was met, of which the device chooses.
   double margin = 1e9;
 };
 

@@ -5,8 +5,6 @@
 #include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "renderer/frame/frame.h"
-#include "renderer/targets.h"
-#include "shaders/shared/indirect.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -41,16 +39,6 @@ void scatterVolume(Frame& frame, const FacetList& facets, Lighting& light, const
                  [&count = light.report.clampedVoxels](std::span<const uint8_t> b) {
                    std::memcpy(&count, b.data(), sizeof(count));
                  });
-}
-
-void lookUpVolume(Frame& frame, const Image& volume, const Buffer& grid, const SampleParams& sample, Targets& targets) {
-  SamplerDesc linear{Wrap::Clamp, Wrap::Clamp};
-  linear.mips = linear.linearMips = false;
-  Pass pass = frame.pass("RE Forward");
-  pass.write(targets.indirect).read(targets.linear).sample(volume, sampler(frame.context().device, linear));
-  pass.shader("thesis/indirect_volume.comp")
-      .push(VolumeIndirectPush{pass.in(grid), sample, targets.size})
-      .dispatch(targets.size);
 }
 
 }  // namespace irad

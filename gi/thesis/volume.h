@@ -10,9 +10,7 @@ class Frame;
 struct FacetList;
 struct Grid;
 struct Lighting;
-struct SampleParams;
 struct Settings;
-struct Targets;
 
 struct RadianceVolume {
   Image image;     ///< RGBA16F
@@ -24,8 +22,5 @@ RadianceVolume makeVolume(Context& context, const Grid& grid);
 /// W/m^2 in all cases, the first facet of a voxel, alpha 1. `light` must stay where it is until the frame has finished:
 /// light.report.clampedVoxels is read back.
 void scatterVolume(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings);
-/// Indirect light in a picture (T 5.10): Targets::indirect from the positions that it holds, and the normals in
-/// Targets::linear. `grid`: one Grid.
-void lookUpVolume(Frame& frame, const Image& volume, const Buffer& grid, const SampleParams& sample, Targets& targets);
 
 }  // namespace irad

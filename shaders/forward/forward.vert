@@ -14,6 +14,7 @@ layout(location = 3) out vec4 uv;
 layout(location = 4) out vec4 tint;
 layout(location = 5) flat out vec3 faceNormal;  ///< of the triangle, not unit; set by its first vertex
 layout(location = 6) out vec3 towardsEye;       ///< not unit; affine in the position
+layout(location = 7) flat out uint triangle;
 
 void main() {
   GpuScene scene = push.scene.at[0];
@@ -23,6 +24,7 @@ void main() {
   tangent = scene.tangents.at[vertex];
   uv = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
   tint = scene.colors.at[vertex];
+  triangle = uint(gl_VertexIndex) / 3u;
   faceNormal = vec3(0.0);
   if (gl_VertexIndex % 3 == 0) {
     vec3 b = scene.positions.at[scene.indices.at[gl_VertexIndex + 1]];

@@ -8,14 +8,16 @@
 
 layout(local_size_x = RESOLVE_GROUP) in;
 layout(constant_id = FORWARD_TARGETS) const uint TARGETS = TARGETS_ALL;
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D normalTarget;
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D geometricTarget;
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D albedoTarget;
-layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D f0Target;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D directTarget;
-layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D highlightTarget;
-layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D indirectTarget;
-layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D lookupTarget;
+layout(set = 0, binding = SHADE_BINDINGS, rgba16f) uniform writeonly image2D normalTarget;
+layout(set = 0, binding = SHADE_BINDINGS + 1, rgba16f) uniform writeonly image2D geometricTarget;
+layout(set = 0, binding = SHADE_BINDINGS + 2, rgba16f) uniform writeonly image2D albedoTarget;
+layout(set = 0, binding = SHADE_BINDINGS + 3, rgba16f) uniform writeonly image2D f0Target;
+layout(set = 0, binding = SHADE_BINDINGS + 4, rgba32f) uniform writeonly image2D directTarget;
+layout(set = 0, binding = SHADE_BINDINGS + 5, rgba32f) uniform writeonly image2D highlightTarget;
+layout(set = 0, binding = SHADE_BINDINGS + 6, rgba32f) uniform writeonly image2D indirectTarget;
+#ifndef IRAD_VOLUME
+layout(set = 0, binding = SHADE_BINDINGS + 7, rgba32f) uniform writeonly image2D lookupTarget;
+#endif
 
 /// As forward/forward.vert, and the differences of uv within the block of 2 x 2 pixels.
 Interpolants interpolate(uint triangle, ivec2 pixel) {
@@ -27,6 +29,7 @@ Interpolants interpolate(uint triangle, ivec2 pixel) {
   vec3 pa = scene.positions.at[a], pb = scene.positions.at[b], pc = scene.positions.at[c];
   PixelWeights w = pixelWeights(vec4[3](project(m, pa), project(m, pb), project(m, pc)), pixel, camera.size);
   Interpolants v;
+  v.triangle = triangle;
   v.local = weighted(pa, pb, pc, w.here);
   v.normal = weighted(scene.normals.at[a], scene.normals.at[b], scene.normals.at[c], w.here);
   v.tangent = weighted(scene.tangents.at[a], scene.tangents.at[b], scene.tangents.at[c], w.here);
@@ -56,6 +59,8 @@ void main() {
   imageStore(directTarget, pixel, o.direct);
   if ((TARGETS & TARGET_HIGHLIGHT) != 0u) imageStore(highlightTarget, pixel, o.highlight);
   if ((TARGETS & TARGET_INDIRECT) == 0u) return;
-  imageStore(indirectTarget, pixel, o.position);
+  imageStore(indirectTarget, pixel, o.indirect);
+#ifndef IRAD_VOLUME
   imageStore(lookupTarget, pixel, o.lookup);
+#endif
 }

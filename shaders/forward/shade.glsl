@@ -1,5 +1,6 @@
-// "RE Forward": surface and direct light at a visible point, and what a later pass needs to look indirect light up. For
-// the fragment stage (forward/forward.frag) and for the kernel (forward/resolve.comp).
+// "RE Forward": surface and direct light at a visible point, and what a later pass needs to look indirect light up;
+// with IRAD_VOLUME the thesis's lookup itself. For the fragment stage (forward/forward.frag) and for the kernel
+// (forward/resolve.comp).
 #define IRAD_LIGHT_CONSTANTS FORWARD_LIGHTS
 #define IRAD_TEXTURED TEXTURED
 #include "shared/passes.h"
@@ -22,6 +23,13 @@ layout(push_constant, scalar) uniform PushBlock {
 layout(set = 0, binding = 2, scalar) uniform LightsBlock {
   GpuLight lights[UNIFORM_LIGHTS];
 };
+#ifdef IRAD_VOLUME
+layout(set = 0, binding = 3) uniform sampler3D indirectVolume;
+#define SHADE_BINDINGS 4
+#include "thesis/volume_lookup.glsl"
+#else
+#define SHADE_BINDINGS 3
+#endif
 
 /// What the triangle says at the point, interpolated between its corners (forward/forward.vert).
 struct Interpolants {
@@ -32,12 +40,17 @@ struct Interpolants {
   vec4 tint;
   vec3 faceNormal;  ///< of the triangle, not unit
   vec3 towardsEye;  ///< not unit
+  uint triangle;
 };
 
 /// Per target (renderer/targets.h); what the constants leave out is not set.
 struct Shaded {
   vec4 normal, geometric, albedo, f0, direct, highlight;
-  vec4 position, lookup;  ///< where indirect light is looked up, local space, and the normal for that; w = 1
+#ifdef IRAD_VOLUME
+  vec4 indirect;
+#else
+  vec4 indirect, lookup;  ///< where indirect light is looked up, local space, w = 1; the normal for that, seenAs(triangle)
+#endif
 };
 
 /// The triangle's own normal, towards the viewer; a triangle without area takes the vertices'.
@@ -129,7 +142,13 @@ Shaded shade(Interpolants v) {
   o.direct = vec4(direct, 1.0);
   if (HIGHLIGHTS || EMISSION) o.highlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
   if (!INDIRECT) return o;
-  o.position = vec4(v.local, 1.0);
-  o.lookup = vec4(lookup, 1.0);
+#ifdef IRAD_VOLUME
+  Grid grid = push.grid.at[0];
+  vec3 p = (v.local - grid.origin) * grid.inverseEdge;
+  o.indirect = vec4(volumeIndirect(grid, push.sampling, p, lookup), 1.0);
+#else
+  o.indirect = vec4(v.local, 1.0);
+  o.lookup = vec4(lookup, seenAs(v.triangle));
+#endif
   return o;
 }

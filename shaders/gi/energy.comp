@@ -2,12 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI Solve Energy": the light that enters, is absorbed and escapes, summed over some facets per invocation. No atomics,
 // so that the sums are the same bits in every run; the host adds them up in double.
-#include "shared/constants.h"
 #include "shared/energy.h"
-#include "shared/normals.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = CONSTANT_NORMALS) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { EnergyPush p; };
 
 void main() {
@@ -16,8 +13,7 @@ void main() {
   FacetArrays f = p.facets.at[0];
   EnergySums sum = EnergySums(vec3(0.0f), vec3(0.0f), vec3(0.0f));
   for (uint facet = me; facet < f.count; facet += p.invocations) {
-    uint shape = f.shape.at[facet];
-    float area = facetArea(decodeNormal(shape & 0xFFFFu, NORMALS), facetOffset(shape));
+    float area = p.area.at[facet];
     vec3 direct = p.direct.at[facet].xyz;
     vec3 exitance = f.hasEmission != 0u ? f.emission.at[facet] : vec3(0.0f);
     sum.entering += area * (exitance + direct);

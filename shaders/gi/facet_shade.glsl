@@ -1,6 +1,7 @@
 // Attributes of the facets (docs/method.md 1-2): normal, plane offset, albedo = base colour x (1 - metallic) clamped to
 // [0, .98], emitted exitance. One dispatch per textured material, whose set 1 is bound, and one for all facets that sample
 // no texture.
+#include "shared/energy.h"
 #include "shared/normals.h"
 #include "thesis/oct8_literal.h"
 #include "gi/voxel_triangle.glsl"
@@ -38,6 +39,7 @@ void main() {
   uint code = push.literal != 0u && push.encoding == NORMALS_OCT8 ? encodeOct8Literal(normal)
                                                                   : encodeNormal(normal, push.encoding);
   float offset = dot(at - vec3(0.5), decodeNormal(code, push.encoding));
+  push.area.at[facet] = facetArea(decodeNormal(code, push.encoding), facetOffset(packFacetOffset(offset)));
   push.shape.at[facet] =
       code | packFacetOffset(offset) | ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? FACET_DOUBLE_SIDED : 0u);
 

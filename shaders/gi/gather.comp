@@ -7,6 +7,7 @@
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/shadow.glsl"
+#include "gi/surface_point.glsl"
 #include "shared/grid.h"
 #include "shared/normals.h"
 #include "shared/trace.h"
@@ -27,6 +28,21 @@ void main() {
   vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
   GpuScene scene = p.scene.at[0];
   vec3 sum = vec3(0.0f);
+  if (uint64_t(p.surface) != 0ul) {
+    SurfaceArrays surface = p.surface.at[0];
+    for (uint k = 0u; k < FACET_SURFELS; ++k) {
+      SurfelPoint s = surfelOf(surface, facet, k);
+      vec3 position = p.origin + p.edge * s.position;
+      for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
+        GpuLight light = scene.lights.at[i];
+        vec3 irradiance = lightIrradiance(light, position, s.facing);
+        if (irradiance == vec3(0.0f)) continue;
+        sum += irradiance * shadowVisibility(light, position, s.facing, p.shadowBias, p.pcf);
+      }
+    }
+    p.direct.at[facet] = vec4(sum / float(FACET_SURFELS), 0.0f);
+    return;
+  }
   for (uint k = 0u; k < p.samples; ++k) {
     vec2 jitter = hammersley(k, p.samples, uvec2(0u, 0x80000000u / p.samples));
     vec3 position = p.origin + p.edge * facetPoint(voxel, normal, facetOffset(shape), jitter);

@@ -33,6 +33,29 @@ vec3 nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
   return sum * r.weight;
 }
 
+/// As main() below, between surfels.
+vec3 sampleSurfels(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArrays surface, uint facet, uvec3 voxel,
+                   uvec4 shifts) {
+  vec3 sum = vec3(0.0f);
+  for (uint k = 0u; k < p.samples; ++k) {
+    float x;
+    uint emitter = emitterFacet(table, shifts.x + (2u * k + 1u) * (0x80000000u / p.samples), x);
+    if (near(voxel, unpackVoxel(f.voxel.at[emitter]))) continue;
+    SurfelPoint to = surfelPoint(surface, emitter, x);
+    SurfelPoint from = surfelPoint(surface, facet, facetJitter(k, shifts.zw).x);
+    vec3 way = to.position - from.position;
+    float reach = length(way);
+    vec3 direction = way / reach;
+    float cosines = max(dot(from.facing, direction), 0.0f) * max(-dot(to.facing, direction), 0.0f);
+    if (cosines == 0.0f) continue;
+    TraceHit hit = traceTriangles(world, surface, from.position, direction, from.triangle);
+    if (hit.facet != TRACE_ESCAPED && hit.t < reach * (1.0f - 1e-4f)) continue;
+    vec3 exitance = f.emission.at[emitter];
+    sum += exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
+  }
+  return sum / float(p.samples);
+}
+
 void main() {
   uint facet = irad_index();
   FacetArrays f = p.facets.at[0];
@@ -44,6 +67,14 @@ void main() {
   uint shape = f.shape.at[facet];
   vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
   uvec4 shifts = rayShifts(packedVoxel, p.seed ^ 0x5A3D9E71u, 1u);
+
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
+    vec3 light = nearEmitters(f, p.matrix.at[0], facet, voxel) +
+                 sampleSurfels(table, f, world, p.surface.at[0], facet, voxel, shifts);
+    p.correction.at[facet] = vec4(light - p.emitted.at[facet].xyz, 0.0f);
+    p.emitted.at[facet] = vec4(light, 0.0f);
+    return;
+  }
 
   // E = 1/n sum of M cos cos' / (pi r^2) / density, the density of points being luminance(M) / power.
   vec3 sum = vec3(0.0f);

@@ -330,6 +330,7 @@ TraceHit traceRobust(TraceWorld world, TraceWalk w, vec3 ownNormal, vec3 ownMidd
 }
 
 #include "thesis/trace_hit.glsl"  // traceThesis
+#include "gi/trace_triangles.glsl"
 
 TraceHit traceRay(TraceWorld world, vec3 origin, vec3 direction, vec3 normal) {
   TraceWalk w = traceStart(origin, direction);

@@ -19,6 +19,14 @@ void main() {
   uvec3 voxel = unpackVoxel(packedVoxel);
   vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
   uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
+    SurfaceArrays surface = p.surface.at[0];
+    SurfelPoint from = surfelPoint(surface, row, facetJitter(k, shifts.zw).x);
+    vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), from.facing);
+    TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
+    p.hits.at[ray] = traceTriangles(world, surface, from.position, direction, from.triangle).facet;
+    return;
+  }
   vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), normal);
   // T 5.6 starts one voxel along the normal from the centre; docs/method.md 5 on the facet itself.
   vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS

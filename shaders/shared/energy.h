@@ -41,7 +41,7 @@ IRAD_ARRAY(EnergyArray, EnergySums, 4)
 struct EnergyPush {
   FacetRecord facets;
   Vec4Array direct, indirect, radiosity;  ///< D, H, B
-  FloatArray rowSum;
+  FloatArray area, rowSum;
   EnergyArray sums;  ///< one per invocation
   uint invocations;
   uint pad;

@@ -6,14 +6,14 @@
 IRAD_BEGIN
 
 IRAD_CONST uint NO_FACET = 0xFFFFFFFFu;
-/// Reverse map entry: NO_FACET, or in bits 0-29 the index of the voxel's first facet, which the others follow, and in
-/// bits 30-31 how many others.
-IRAD_CONST uint MAX_FACETS = (1u << 30) - 1u;
-IRAD_CONST uint MAX_VOXEL_FACETS = 4u;
-IRAD_FN uint facetEntryOf(uint first, uint facets) { return first | ((facets - 1u) << 30); }
+/// Reverse map entry: NO_FACET, or in bits 0-25 the index of the voxel's first facet, which the others follow, and in
+/// bits 26-31 how many others.
+IRAD_CONST uint MAX_FACETS = (1u << 26) - 1u;
+IRAD_CONST uint MAX_VOXEL_FACETS = 4u;  ///< of voxel.facets
+IRAD_FN uint facetEntryOf(uint first, uint facets) { return first | ((facets - 1u) << 26); }
 IRAD_FN uint firstFacet(uint entry) { return entry & MAX_FACETS; }
 /// For an entry that is not NO_FACET.
-IRAD_FN uint facetsOf(uint entry) { return (entry >> 30) + 1u; }
+IRAD_FN uint facetsOf(uint entry) { return (entry >> 26) + 1u; }
 /// Two faces of a voxel are opposed, the two sides of something thin, where n . n' is below this.
 IRAD_CONST float OPPOSED_COSINE = -0.25f;
 

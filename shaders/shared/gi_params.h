@@ -8,7 +8,8 @@ IRAD_BEGIN
 // thesis: first front face (d.n < 0), from the facet's voxel, back faces let through. robust: docs/method.md 5.
 #define IRAD_HIT_RULES(X, E) \
   X(E, thesis, "thesis", HIT_RULE_THESIS, 0) \
-  X(E, robust, "robust", HIT_RULE_ROBUST, 1)
+  X(E, robust, "robust", HIT_RULE_ROBUST, 1) \
+  X(E, triangles, "triangles", HIT_RULE_TRIANGLES, 2)
 IRAD_SHARED_ENUM(HitRule, IRAD_HIT_RULES)
 
 #define IRAD_TRAVERSALS(X, E) \

@@ -1,4 +1,4 @@
-// Push constants of indirect light in pictures (gi/indirect.cpp, gi/thesis/volume.cpp, gi/specular.cpp).
+// Push constants of indirect light in pictures (gi/indirect.cpp, gi/specular.cpp).
 #ifndef IRAD_SHARED_INDIRECT_H
 #define IRAD_SHARED_INDIRECT_H
 #include "shared/emitters.h"
@@ -6,6 +6,7 @@
 #include "shared/gi_params.h"
 #include "shared/grid.h"
 #include "shared/scene_gpu.h"
+#include "shared/surface.h"
 #include "shared/trace.h"
 IRAD_BEGIN
 
@@ -13,16 +14,10 @@ IRAD_BEGIN
 struct IndirectPush {
   CameraArray camera;
   GridArray grid;
-  UintArray shape, reverse, around;  ///< of FacetArrays
+  UintArray shape, reverse, around, voxel;  ///< of FacetArrays
+  SurfaceRecord surface;                    ///< gi/indirect_links.comp
   Vec4Array shaded;                  ///< H per facet
   Vec4Array shadedEmitted;           ///< F M per facet
-  SampleParams sampling;
-  uvec2 size;
-};
-
-/// "RE Forward", thesis/indirect_volume.comp.
-struct VolumeIndirectPush {
-  GridArray grid;
   SampleParams sampling;
   uvec2 size;
 };

@@ -1,6 +1,8 @@
 // Push constants of the passes that make pictures (renderer/forward.cpp).
 #ifndef IRAD_SHARED_PASSES_H
 #define IRAD_SHARED_PASSES_H
+#include "shared/gi_params.h"
+#include "shared/grid.h"
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
@@ -25,7 +27,7 @@ IRAD_CONST uint FORWARD_NORMAL_MAP = FORWARD_TEXTURED + 1u;           ///< effec
 IRAD_CONST uint FORWARD_EMISSION = FORWARD_TEXTURED + 2u;             ///< effect
 IRAD_CONST uint FORWARD_HIGHLIGHTS = FORWARD_TEXTURED + 3u;           ///< effect: the lights' specular lobe
 IRAD_CONST uint FORWARD_F0 = FORWARD_TEXTURED + 4u;                   ///< effect: reflections are traced
-IRAD_CONST uint FORWARD_INDIRECT = FORWARD_TEXTURED + 5u;             ///< effect: a later pass looks indirect light up
+IRAD_CONST uint FORWARD_INDIRECT = FORWARD_TEXTURED + 5u;             ///< effect: looked up, here or later
 IRAD_CONST uint FORWARD_PCF = FORWARD_TEXTURED + 6u;
 IRAD_CONST uint FORWARD_MANY_LIGHTS = FORWARD_TEXTURED + 7u;  ///< more than UNIFORM_LIGHTS
 IRAD_CONST uint FORWARD_TARGETS = FORWARD_TEXTURED + 8u;      ///< kernels: those of TARGETS_ALL that are there
@@ -62,6 +64,13 @@ struct PixelListPush {
   uint materials;
 };
 
+/// The triangle that a pixel sees, beside the normal for its lookup of indirect light, as a float that no step on the way
+/// takes for a denormal or for no number.
+#ifndef __cplusplus
+float seenAs(uint triangle) { return uintBitsToFloat(triangle + 0x3F800000u); }
+uint seenTriangle(float seen) { return floatBitsToUint(seen) - 0x3F800000u; }
+#endif
+
 /// "RE Forward", shading. What untextured pixels need of the material travels along: as constants it is read once,
 /// not per lane.
 struct ForwardPush {
@@ -70,6 +79,8 @@ struct ForwardPush {
   MaterialArray materials;
   PixelListArray lists;  ///< kernels: per material
   Uvec2Array listed;     ///< kernels: pixels and triangles, list after list
+  GridArray grid;        ///< of the volume that indirect light is looked up in (IRAD_VOLUME)
+  SampleParams sampling;  ///< of that lookup
   vec4 baseColor;
   vec3 emission;
   float metallic, roughness;

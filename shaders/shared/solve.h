@@ -6,6 +6,7 @@
 #include "shared/gi_params.h"
 #include "shared/matrix.h"
 #include "shared/scene_gpu.h"
+#include "shared/surface.h"
 #include "shared/trace.h"
 IRAD_BEGIN
 
@@ -66,6 +67,7 @@ struct GatherPush {
   float shadowBias;  ///< texels
   uint pcf;
   uint pad;
+  SurfaceRecord surface;  ///< 0: facets are planes
 };
 
 /// gi/emission.comp: vec3 exitance -> vec4.
@@ -85,6 +87,7 @@ struct SampleEmittersPush {
   uvec3 dims;
   float jfaMax;
   uint samples, seed;
+  SurfaceRecord surface;  ///< hit rule triangles
 };
 /// Emitters nearer than this, in voxels from centre to centre, are left to the rays: a sample of so near a face would
 /// weigh too much.

@@ -3,6 +3,7 @@
 #define IRAD_SHARED_TRACE_H
 #include "shared/facets.h"
 #include "shared/sampling.h"
+#include "shared/surface.h"
 IRAD_BEGIN
 
 // Specialization constant 0 of every shader that traces.
@@ -84,6 +85,7 @@ struct TraceRaysPush {
   uvec3 dims;
   float jfaMax;
   uint firstRow, rows, rays, jitter, seed, pad;
+  SurfaceRecord surface;
 };
 
 IRAD_END

@@ -83,6 +83,7 @@ struct ShadeFacetsPush {
   UintArray shape;
   Uvec2Array albedo;
   Vec3Array emission;
+  FloatArray area;
   UintArray clamped;  ///< [0]: facets whose albedo had to be clamped
   uint first;         ///< this group, within `order`
   uint count;

@@ -1,8 +1,6 @@
 // The effect plan: what the scene calls for, what not, why, and what that saves; every effect may be forced on or off.
 #include <fmt/format.h>
 
-#include <deque>
-
 #include "gi/plan.h"
 #include "ui/imgui.h"
 #include "ui/panel.h"
@@ -12,26 +10,6 @@
 
 namespace irad {
 namespace {
-
-constexpr double kMinute = 60;  // s
-
-/// How much a counter has grown within the last minute.
-class PerMinute {
- public:
-  uint64_t operator()(uint64_t count, double now) {
-    if (!seen_.empty() && count < seen_.back().count) seen_.clear();  // another scene counts anew
-    seen_.push_back({now, count});
-    while (seen_.size() > 1 && seen_[1].at < now - kMinute) seen_.pop_front();
-    return count - seen_.front().count;
-  }
-
- private:
-  struct Seen {
-    double at;
-    uint64_t count;
-  };
-  std::deque<Seen> seen_;
-};
 
 class EffectsPanel : public Panel {
  public:
@@ -44,18 +22,9 @@ class EffectsPanel : public Panel {
       return;
     }
     // In the middle of a rebuild what the pipeline holds comes and goes.
-    if (!session.work && refresh_.due(session)) {
-      const Pipeline& pipeline = *session.pipeline;
-      plan_ = pipeline.plan(session.viewDirty);
-      rebuilds_ = rebuildsPerMinute_(pipeline.revision().build, ImGui::GetTime());
-      flips_ = flipsPerMinute_(pipeline.flips(), ImGui::GetTime());
-    }
+    if (!session.work && refresh_.due(session)) plan_ = session.pipeline->plan(session.viewDirty);
     valueRow("not allocated", mebibytes(plan_.bytesNotAllocated()));
     helpTooltip("What the effects that are off would take, by the formulas (a csr matrix: at most)");
-    valueRow("last minute", fmt::format("{} rebuilds, {} effects switched", rebuilds_, flips_));
-    helpTooltip(
-        "Builds of voxels, field or matrix, and effects that went on or off: many of them say that something "
-        "wavers about its trigger");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
     for (const EffectRow& row : plan_.rows) drawRow(session.edited, row);
     ImGui::PopStyleVar();
@@ -64,8 +33,6 @@ class EffectsPanel : public Panel {
  private:
   EffectPlan plan_;
   Refresh refresh_;
-  PerMinute rebuildsPerMinute_, flipsPerMinute_;
-  uint64_t rebuilds_ = 0, flips_ = 0;
 
   /// One line: name, state and reason, and where the effect can be forced, the list of modes behind an arrow.
   static void drawRow(Settings& settings, const EffectRow& row) {
@@ -86,8 +53,8 @@ class EffectsPanel : public Panel {
     ImGui::EndGroup();
     helpTooltip(fmt::format(
         "{}: {}\n{}\n{}{}", info.label, row.stateName(), row.reason,
-        row.threshold ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
-                      : "Exact: forced on it gives the same bits.",
+        row.epsilon > 0 ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
+                        : "Exact: forced on it gives the same bits.",
         row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
     if (*info.setting != 0) {
       ImGui::SameLine(end);

@@ -1,15 +1,7 @@
-// "RE Forward", last step with sample.gated off: indirect light from the volume (T 5.10, eq. 24), at the places that the
-// shading has left in the targets, as for gi/indirect.comp.
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#include "forward/tile_pixel.glsl"
-#include "shared/indirect.h"
-
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform PushBlock { VolumeIndirectPush push; };
-layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D lookupTarget;
-layout(set = 0, binding = 2) uniform sampler3D indirectVolume;
+// "RE Forward" with sample.gated off: indirect light from the volume `indirectVolume` (T 5.10, eq. 24), which the
+// including shader binds.
+#include "shared/grid.h"
+#include "shared/gi_params.h"
 
 /// The thesis's lookups in the RGBA16F volume at `p` (voxel units): the texel, the hardware's trilinear filter, or 3 x
 /// 3 x 3 trilinear taps half a voxel apart. Where presence is below 1/256 the nearest solid texel of the 3 x 3 x 3
@@ -41,15 +33,4 @@ vec3 volumeIndirect(Grid grid, SampleParams sampling, vec3 p, vec3 n) {
     }
   }
   return found;
-}
-
-void main() {
-  ivec2 pixel = tilePixel();
-  if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
-  vec4 position = imageLoad(indirectTarget, pixel);
-  if (position.w == 0.0) return;
-  Grid grid = push.grid.at[0];
-  vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
-  vec3 normal = imageLoad(lookupTarget, pixel).xyz;
-  imageStore(indirectTarget, pixel, vec4(volumeIndirect(grid, push.sampling, p, normal), 1.0));
 }

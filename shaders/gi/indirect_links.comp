@@ -1,0 +1,46 @@
+// "RE Forward", last step: indirect light of each visible point from the facet that it lies on and those that continue
+// its surface (docs/method.md 7). The fragment stage has left position and triangle in the targets (forward/shade.glsl).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "forward/camera_view.glsl"
+#include "forward/tile_pixel.glsl"
+#include "gi/surface_lookup.glsl"
+#include "shared/constants.h"
+#include "shared/indirect.h"
+#include "shared/passes.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;  ///< F M too: there is a target for it
+layout(constant_id = CONSTANT_KEEPS_POSITION) const bool KEEPS_POSITION = false;  ///< in the normal's place
+layout(push_constant, scalar) uniform PushBlock {
+  IndirectPush push;
+};
+layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
+layout(set = 0, binding = 1, rgba32f) uniform image2D lookupTarget;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
+
+void main() {
+  Grid grid = push.grid.at[0];
+  SurfaceArrays surface = push.surface.at[0];
+  ivec2 pixel = tilePixel();
+  if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
+  vec4 position = imageLoad(indirectTarget, pixel);
+  uint triangle = seenTriangle(imageLoad(lookupTarget, pixel).w);
+  if (KEEPS_POSITION) imageStore(lookupTarget, pixel, position);
+  if (position.w == 0.0) return;
+  GpuCamera camera = push.camera.at[0];
+  vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
+  vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
+  vec3 a = surface.corners.at[3u * triangle];
+  vec3 facing = normalize(cross(surface.corners.at[3u * triangle + 1u] - a, surface.corners.at[3u * triangle + 2u] - a));
+  bool back = dot(facing, viewer) < 0.0;
+  uint facet = facetAt(surface, push.reverse, grid.dims, p, triangle | (back ? SURFEL_BACK : 0u), back ? -facing : facing);
+  vec3 h = vec3(0.0), e = vec3(0.0);
+  if (facet != NO_FACET) {
+    SurfaceTaps taps = surfaceTaps(surface, push.reverse, push.voxel, grid.dims, facet, p, push.sampling.filter_);
+    h = tapped(taps, push.shaded);
+    if (EMITTED) e = tapped(taps, push.shadedEmitted);
+  }
+  if (EMITTED) imageStore(emittedTarget, pixel, vec4(e, 1.0));
+  imageStore(indirectTarget, pixel, vec4(h, 1.0));
+}

@@ -1,0 +1,35 @@
+// Albedo = base colour x (1 - metallic) clamped to [0, .98] and emitted exitance of each piece, at its middle
+// (docs/method.md 1-2). One dispatch per textured material, whose set 1 is bound, and one for all pieces that sample no
+// texture.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/voxel_triangle.glsl"
+#include "gi/voxel_material.glsl"
+#include "gi/voxel_clip.glsl"
+#include "shared/surface.h"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { PieceShadePush push; };
+
+const float MAX_ALBEDO = 0.98;
+
+void main() {
+  uint index = irad_index();
+  if (index >= push.count) return;
+  uint piece = push.order.at[push.first + index];
+  uint triangle = push.pieces.at[piece];
+  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  vec3 cell = vec3(unpackVoxel(push.pieceVoxel.at[piece]));
+  vec3 centre;
+  clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
+  MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
+  vec3 albedo = baseColorAt(push.scene, p).rgb * (1.0 - metallicAt(push.scene, p));
+  bool clamped = false;
+  for (int i = 0; i < 3; ++i) {
+    float a = albedo[i];
+    albedo[i] = a >= 0.0 ? min(a, MAX_ALBEDO) : 0.0;  // NaN becomes 0
+    if (!(a >= 0.0 && a <= MAX_ALBEDO)) clamped = true;
+  }
+  if (clamped) atomicAdd(push.clamped.at[0], 1u);
+  push.albedo.at[piece] = albedo;
+  if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emittedRadianceAt(push.scene, p));
+}

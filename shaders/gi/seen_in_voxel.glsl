@@ -1,0 +1,60 @@
+// Whether two points of surfaces in a voxel lie on the same side of them, so that one facet may stand for both
+// (docs/method.md 4): their normals are alike, and a way from one to the other crosses no piece of a triangle.
+#ifndef IRAD_SEEN_IN_VOXEL_GLSL
+#define IRAD_SEEN_IN_VOXEL_GLSL
+#include "gi/triangle_hit.glsl"
+#include "shared/surface.h"
+
+struct VoxelPieces {
+  Vec3Array corners;
+  UintArray pieces;
+  uint first, end;
+};
+
+const float SAME_SIDE_COSINE = 0.7;      ///< least between normals
+const float SAME_SIDE_LEVEL = 0.02;      ///< voxels: a face this far above another is another
+const float ABOVE_SURFACE = 1.0 / 256.0; ///< voxels: ways are this far above the surface
+
+/// Whether the segment from `a` to `b` (voxel units) crosses no piece but those of two triangles.
+bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
+  ShearedRay ray = shearedRay(a, b - a);
+  for (uint i = voxel.first; i < voxel.end; ++i) {
+    uint triangle = voxel.pieces.at[i];
+    if (triangle == except1 || triangle == except2) continue;
+    float t;
+    bool front;
+    if (meetsTriangle(ray, voxel.corners.at[3u * triangle], voxel.corners.at[3u * triangle + 1u],
+                      voxel.corners.at[3u * triangle + 2u], t, front) && t > 0.0 && t < 1.0)
+      return false;
+  }
+  return true;
+}
+
+/// What two points and the unit normals of their sides say by themselves; `lift`: how far above the surface a way from
+/// one to the other passes over what bulges between them, where it is convex.
+bool mayBeSameSide(vec3 a, vec3 normalA, vec3 b, vec3 normalB, out float lift) {
+  lift = ABOVE_SURFACE;
+  float alike = dot(normalA, normalB);
+  if (alike < SAME_SIDE_COSINE) return false;
+  vec3 chord = b - a;
+  float above = dot(normalA, chord), below = -dot(normalB, chord);
+  if (max(above, below) > SAME_SIDE_LEVEL && min(above, below) < -SAME_SIDE_LEVEL) return false;
+  if (min(above, below) < 0.0) lift += 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
+  return true;
+}
+
+/// Points of triangles in one voxel.
+bool sameSide(VoxelPieces voxel, vec3 a, vec3 normalA, uint triangleA, vec3 b, vec3 normalB, uint triangleB) {
+  float lift;
+  if (!mayBeSameSide(a, normalA, b, normalB, lift)) return false;
+  vec3 chord = b - a;
+  if (dot(chord, chord) < 1e-10) return true;
+  vec3 from = a + normalA * lift, to = b + normalB * lift;
+  if (lift > 2.0 * ABOVE_SURFACE &&
+      !(clearInVoxel(voxel, a + normalA * ABOVE_SURFACE, from, triangleA, triangleB) &&
+        clearInVoxel(voxel, b + normalB * ABOVE_SURFACE, to, triangleA, triangleB)))
+    return false;
+  return clearInVoxel(voxel, from, to, triangleA, triangleB);
+}
+
+#endif

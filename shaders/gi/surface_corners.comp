@@ -1,0 +1,14 @@
+// The triangles' corners in voxel units, as the voxelizer and the rays see them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/voxel_triangle.glsl"
+#include "shared/surface.h"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { SurfaceCornersPush push; };
+
+void main() {
+  uint triangle = irad_index();
+  if (triangle >= push.triangles) return;
+  VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+  for (uint i = 0u; i < 3u; ++i) push.corners.at[3u * triangle + i] = t.v[i];
+}

@@ -1,0 +1,105 @@
+// Values of facets at a point of the surface (docs/method.md 7): that of the point's own facet and of those which continue
+// it in the voxels around, trilinearly, each as much as it has area. No light comes in from another side.
+#ifndef IRAD_SURFACE_LOOKUP_GLSL
+#define IRAD_SURFACE_LOOKUP_GLSL
+#include "gi/split_piece.glsl"
+#include "shared/gi_params.h"
+
+/// Facets around a point, and their weights, which sum to 1.
+struct SurfaceTaps {
+  uint facet[8];
+  float weight[8];
+};
+
+/// The facet of a triangle's side (as Surfel::triangle) in one voxel at `p`; NO_FACET where the triangle has no piece
+/// there, or no part of it that is seen from p.
+uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side, vec3 facing) {
+  uint triangle = side & ~SURFEL_BACK;
+  uint first = surface.firstPiece.at[firstFacet(entry)], end = surface.firstPiece.at[firstFacet(entry) + facetsOf(entry)];
+  uint last = end;
+  while (first < end) {
+    uint middle = (first + end) / 2u;
+    if (surface.pieces.at[middle] < triangle) first = middle + 1u;
+    else end = middle;
+  }
+  if (first == last || surface.pieces.at[first] != triangle) return NO_FACET;
+  uint of = (side & SURFEL_BACK) != 0u ? surface.sides.at[first] >> 16 : surface.sides.at[first] & 0xFFFFu;
+  if (of == PIECE_SPLIT) return nearestOnSide(surface, entry, triangle, facing, p);
+  return of == PIECE_BLACK ? NO_FACET : firstFacet(entry) + of;
+}
+
+uint entryOf(UintArray reverse, uvec3 dims, ivec3 v) {
+  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(dims)))) return NO_FACET;
+  return reverse.at[voxelIndex(uvec3(v), dims)];
+}
+
+/// The facet on which `p` lies, a point of a triangle's side: in the voxel that holds p or, where rounding has put it
+/// into another, the next one. Where no surfel of the side is seen from p, the nearest surfel around that is.
+uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side, vec3 facing) {
+  const float ROUNDING = 1e-2;
+  ivec3 cell = ivec3(floor(p));
+  vec3 inside = p - vec3(cell);
+  ivec3 beside = ivec3(greaterThan(inside, vec3(1.0 - ROUNDING))) - ivec3(lessThan(inside, vec3(ROUNDING)));
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+    if (any(notEqual(corner * abs(beside), corner))) continue;
+    uint entry = entryOf(reverse, dims, cell + corner * beside);
+    if (entry == NO_FACET) continue;
+    uint facet = facetInVoxel(surface, entry, p, side, facing);
+    if (facet != NO_FACET) return facet;
+  }
+  uint found = NO_FACET;
+  float nearest = 1e30;
+  for (int i = 0; i < 27; ++i) {
+    uint entry = entryOf(reverse, dims, cell + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+    if (entry == NO_FACET) continue;
+    VoxelPieces voxel = piecesOf(surface, entry);
+    uint end = (firstFacet(entry) + facetsOf(entry)) * FACET_SURFELS;
+    for (uint k = firstFacet(entry) * FACET_SURFELS; k < end; ++k) {
+      SurfelPoint s = surfelOf(surface, surface.surfels.at[k]);
+      vec3 d = s.position - p;
+      if (dot(d, d) >= nearest || !sameSide(voxel, p, facing, side & ~SURFEL_BACK, s.position, s.facing, s.triangle)) continue;
+      nearest = dot(d, d);
+      found = k / FACET_SURFELS;
+    }
+  }
+  return found;
+}
+
+SurfaceTaps surfaceTaps(SurfaceArrays surface, UintArray reverse, UintArray voxelOf_, uvec3 dims, uint facet, vec3 p, uint filter_) {
+  SurfaceTaps taps;
+  vec3 base = floor(p - 0.5);
+  vec3 f = p - 0.5 - base;
+  ivec3 own = ivec3(unpackVoxel(voxelOf_.at[facet]));
+  float total = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+    ivec3 v = ivec3(base) + corner;
+    ivec3 step_ = v - own + 1;
+    taps.facet[i] = facet;
+    taps.weight[i] = 0.0;
+    if (filter_ == FILTER_NEAREST || any(lessThan(step_, ivec3(0))) || any(greaterThan(step_, ivec3(2)))) continue;
+    uint link = facetLink(surface, facet, uint(step_.x + 3 * step_.y + 9 * step_.z));
+    if (link == NO_LINK) continue;
+    taps.facet[i] = firstFacet(reverse.at[voxelIndex(uvec3(v), dims)]) + link;
+    vec3 w = mix(1.0 - f, f, vec3(corner));
+    taps.weight[i] = w.x * w.y * w.z * max(surface.area.at[taps.facet[i]], 1e-6);
+    total += taps.weight[i];
+  }
+  if (total < 1e-12) {
+    taps.weight[0] = total = 1.0;
+    taps.facet[0] = facet;
+    for (int i = 1; i < 8; ++i) taps.weight[i] = 0.0;
+  }
+  for (int i = 0; i < 8; ++i) taps.weight[i] /= total;
+  return taps;
+}
+
+vec3 tapped(SurfaceTaps taps, Vec4Array values) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 8; ++i)
+    if (taps.weight[i] > 0.0) sum += taps.weight[i] * values.at[taps.facet[i]].xyz;
+  return sum;
+}
+
+#endif

@@ -1,0 +1,61 @@
+// Hit rule `triangles` (docs/method.md 5): a ray is met by the first triangle of the scene. Cells that hold none are
+// stepped over; in a solid cell its pieces' triangles are asked. Included by gi/trace.glsl.
+#include "gi/seen_in_voxel.glsl"
+#include "gi/split_piece.glsl"
+#include "gi/surface_point.glsl"
+#include "shared/surface.h"
+
+/// A surfel of the facet, for u uniform in (0, 1), lifted off its triangle.
+SurfelPoint surfelPoint(SurfaceArrays surface, uint facet, float u) {
+  SurfelPoint p = surfelOf(surface, facet, uint(u * float(FACET_SURFELS)));
+  p.position = liftedStart(p.position, p.facing);
+  return p;
+}
+
+/// The first triangle along a ray but `own`, from which the ray starts; hit.facet is TRACE_BLOCKED for the back of a
+/// single-sided face.
+TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
+  TraceWalk w = traceStart(origin, direction);
+  ShearedRay ray = shearedRay(origin, w.direction);
+  TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
+  float nearest = 1e30f;
+  uint met = 0xFFFFFFFFu, metPiece = 0u, metEntry = 0u;
+  bool metFront = false;
+  while (traceToSolid(world, w, hit.steps)) {
+    // What was met beyond a cell's end waits until no cell before it is left.
+    if (nearest <= w.t) break;
+    uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
+    uint facet = firstFacet(entry);
+    uint end = surface.firstPiece.at[facet + facetsOf(entry)];
+    for (uint i = surface.firstPiece.at[facet]; i < end; ++i) {
+      uint triangle = surface.pieces.at[i];
+      if (triangle == own) continue;
+      float t;
+      bool front;
+      if (!meetsTriangle(ray, surface.corners.at[3u * triangle], surface.corners.at[3u * triangle + 1u],
+                         surface.corners.at[3u * triangle + 2u], t, front))
+        continue;
+      if (t <= 0.0f || t > nearest || (t == nearest && triangle > met)) continue;
+      nearest = t;
+      met = triangle;
+      metPiece = i;
+      metEntry = entry;
+      metFront = front;
+    }
+    vec3 bounds = traceBounds(w, 1.0f);
+    if (nearest <= min(bounds.x, min(bounds.y, bounds.z))) break;
+    traceAdvance(w, 1.0f);
+    ++hit.steps;
+  }
+  if (met == 0xFFFFFFFFu) return hit;
+  hit.t = nearest;
+  uint sides = surface.sides.at[metPiece];
+  uint side = metFront ? sides & 0xFFFFu : sides >> 16;
+  hit.facet = side == PIECE_BLACK ? TRACE_BLOCKED : firstFacet(metEntry) + side;
+  if (side == PIECE_SPLIT) {
+    vec3 facing = triangleFacing(surface, met | (metFront ? 0u : SURFEL_BACK));
+    hit.facet = nearestOnSide(surface, metEntry, met, facing, origin + w.direction * nearest);
+    if (hit.facet == NO_FACET) hit.facet = TRACE_BLOCKED;
+  }
+  return hit;
+}

@@ -1,0 +1,221 @@
+// Facets as classes of surfels, and rays that meet the triangles (docs/method.md 4, 5): against the scene's own
+// triangles, closed forms, and 0.
+#include "gi/surface.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <map>
+
+#include "gi/host_facets.h"
+#include "gi/lighting.h"
+#include "gi/pipeline.h"
+#include "gi/ray_kernel.h"
+#include "gi/subsystems.h"
+#include "renderer/targets.h"
+#include "shaders/shared/trace.h"
+#include "tests/gi_fixture.h"
+
+namespace irad::test::surface_suite {
+namespace {
+
+double triangleArea(const Scene& scene, size_t t) {
+  const auto corner = [&](size_t i) { return glm::dvec3(scene.positions[scene.indices[3 * t + i]]); };
+  return 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+}
+
+class SurfaceTest : public GiTest {
+ protected:
+  static Settings triangles(uint32_t resolution, uint32_t rays = 128) {
+    Settings s = at(resolution, rays);
+    s.matrix.gpu.hitRule = HitRule::triangles;
+    s.specular.mode = SpecularMode::off;
+    return s;
+  }
+  Pipeline& prepare(Scene scene, const Settings& settings) {
+    pipeline_ = std::make_unique<Pipeline>(context(), std::move(scene), settings);
+    pipeline_->prepare();
+    return *pipeline_;
+  }
+  /// Values per facet, by what `key` makes of position and normal: their area-weighted means.
+  template <class Key>
+  auto means(const Pipeline& p, const Buffer& values, Key key) {
+    const HostFacets f = hostFacets(context(), p.facets());
+    const std::vector<glm::vec3> v = perFacet(context(), p.facets(), values);
+    std::map<decltype(key(glm::dvec3(), glm::dvec3())), std::pair<double, double>> sums;
+    for (size_t i = 0; i < f.count(); ++i) {
+      auto& [sum, area] = sums[key(f.position[i], f.normal[i])];
+      sum += f.area[i] * double{v[i].x};
+      area += f.area[i];
+    }
+    for (auto& [k, sum] : sums) sum.first /= sum.second;
+    return sums;
+  }
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+TEST_F(SurfaceTest, FacetsHaveTheAreaAndThePowerOfTheirTriangles) {
+  for (const bool turned : {false, true}) {
+    SceneBuilder b;
+    const glm::mat3 turn =
+        turned ? glm::mat3(glm::rotate(glm::mat4(1), 0.6f, glm::normalize(glm::vec3(1, 2, 3)))) : glm::mat3(1);
+    const uint32_t wall = b.material(glm::vec3(0.5f)), lamp = b.material(glm::vec3(0.2f), glm::vec3(3)),
+                   sheet = b.material(glm::vec3(0.7f), glm::vec3(0), /*doubleSided=*/true);
+    b.box({wall, wall, wall, wall, wall, lamp}, glm::vec3(-1), glm::vec3(1), /*inward=*/true, turn);
+    b.sphere(wall, {0.3f, -0.2f, 0}, 0.35f, /*inward=*/false, 12);
+    b.sphere(lamp, {-0.5f, 0.5f, 0.1f}, 0.03f, /*inward=*/false, 6);  // less than a voxel
+    b.quad(sheet, {-0.6, -0.5, 0.5}, {0.2, -0.5, 0.5}, {0.2, -0.3, -0.6}, {-0.6, -0.3, -0.6});
+    const Scene scene = b.finish("areas");
+    std::map<uint32_t, double> area;  // by material, both sides where there are two
+    double power = 0;
+    for (const Draw& draw : scene.draws)
+      for (size_t t = draw.firstIndex / 3; t < (draw.firstIndex + draw.indexCount) / 3; ++t) {
+        const double a = triangleArea(scene, t);
+        area[draw.material] += draw.material == sheet ? 2 * a : a;
+        if (draw.material == lamp) power += 3 * a;
+      }
+    for (const uint32_t resolution : {12u, 29u}) {
+      const World w = world(scene, triangles(resolution));
+      const HostFacets f = hostFacets(context(), w.facets);
+      double all = 0, emitted = 0, sheets = 0;
+      for (size_t i = 0; i < f.count(); ++i) {
+        all += f.area[i];
+        emitted += f.area[i] * double{f.emission[i].x};
+        if (f.albedo[i].x > 0.6f) sheets += f.area[i];
+      }
+      EXPECT_NEAR(all / (area[wall] + area[lamp] + area[sheet]), 1, 1e-3) << resolution;
+      EXPECT_NEAR(emitted / power, 1, 1e-3) << resolution;
+      EXPECT_NEAR(sheets / area[sheet], 1, 0.02) << resolution;  // some share a facet with others
+    }
+  }
+}
+
+TEST_F(SurfaceTest, RaysMeetTheFirstOfAllTriangles) {
+  // Of every triangle of the scene, in double precision, without voxels.
+  const Settings settings = triangles(20, 16);
+  const World w = world(furnishedRoom(), settings);
+  const MatrixParams& params = settings.matrix.gpu;
+  const Buffer out(context().device, "hits", Subsystem::Matrix, 4ull * w.facets.count * params.rays);
+  Frame frame = context().begin();
+  traceRows(frame, rayKernel(w.facets, w.field, params), params, 0, w.facets.count, out);
+  frame.submitAndWait();
+  const std::vector<uint32_t> met = downloadAs<uint32_t>(context(), out);
+  const oracle::Facets host = oracleFacets(context(), w.facets);
+  const HostFacets facets = hostFacets(context(), w.facets);
+  const Scene& scene = *w.scene;
+  size_t wrong = 0, compared = 0;
+  for (uint32_t f = 0; f < w.facets.count; f += 3)
+    for (uint32_t k = 0; k < params.rays; ++k) {
+      const oracle::Ray ray = oracle::facetRay(host, f, k, params);
+      double nearest = 1e300, edge = 1;
+      uint32_t first = 0;
+      for (uint32_t t = 0; t < scene.triangleCount(); ++t) {
+        if (t == ray.triangle) continue;
+        const glm::dvec3 a = host.corner(t, 0), b = host.corner(t, 1) - a, c = host.corner(t, 2) - a;
+        const glm::dvec3 p = glm::cross(ray.direction, c), from = ray.origin - a, q = glm::cross(from, b);
+        const double det = glm::dot(b, p);
+        if (std::abs(det) < 1e-12) continue;
+        const double u = glm::dot(from, p) / det, v = glm::dot(ray.direction, q) / det, at = glm::dot(c, q) / det,
+                     least = std::min({u, v, 1 - u - v});
+        if (at <= 0 || at >= nearest || least < -1e-6) continue;
+        nearest = at;
+        edge = std::abs(least);
+        first = t;
+      }
+      if (edge < 1e-4) continue;  // a decision for double precision
+      ++compared;
+      const uint32_t got = met[size_t{f} * params.rays + k];
+      if (nearest > 1e100) {
+        wrong += got != TRACE_ESCAPED;
+        continue;
+      }
+      const glm::dvec3 point = ray.origin + nearest * ray.direction;
+      const glm::dvec3 a = host.corner(first, 0);
+      const glm::dvec3 n = glm::normalize(glm::cross(host.corner(first, 1) - a, host.corner(first, 2) - a));
+      if (got == TRACE_BLOCKED) {  // the back of a single-sided face
+        wrong += glm::dot(n, ray.direction) < 0;
+        continue;
+      }
+      if (got > TRACE_LAST_FACET) {
+        ++wrong;
+        continue;
+      }
+      const glm::dvec3 cell(facets.voxel[got]);
+      const bool inCell =
+          glm::all(glm::greaterThan(point, cell - 1e-3)) && glm::all(glm::lessThan(point, cell + 1.001));
+      const double alike = std::abs(glm::dot(n, facets.normal[got]));
+      wrong += !inCell || glm::dot(facets.normal[got], ray.direction) > 0.5 || alike < 0.5;
+    }
+  fmt::print("{} of {} rays met something else\n", wrong, compared);
+  EXPECT_GT(compared, 10000u);
+  EXPECT_LE(wrong, compared / 2000);
+}
+
+TEST_F(SurfaceTest, FurnacesAreEvenlyLit) {
+  for (Scene (*make)(float) : {furnaceBox, furnaceTilted, furnaceSphere}) {
+    const Pipeline& p = prepare(make(0.8f), triangles(24));
+    const auto mean = means(p, p.lighting().radiosity, [](auto, auto) { return 0; });
+    EXPECT_NEAR(mean.at(0).first * 0.2, 1, 0.01) << p.scene().path;
+    EXPECT_LT(std::abs(p.lighting().report.energy->imbalance()), 0.002);
+  }
+}
+
+TEST_F(SurfaceTest, NothingComesThroughThinWalls) {
+  // Two rooms in one shell: the left one has a lamp. Between them a wall of .2 voxel, which stands on the floor that
+  // both share; on its right another sheet, single-sided, .3 voxel away. Turned, so that no face is along an axis.
+  const float n = 32;
+  for (const float thickness : {0.2f, 1.1f}) {
+    SceneBuilder b;
+    const glm::mat3 turn(glm::rotate(glm::mat4(1), 0.5f, glm::normalize(glm::vec3(2, 1, 3))));
+    const uint32_t wall = b.material(glm::vec3(0.6f)), lamp = b.material(glm::vec3(0.5f), glm::vec3(5));
+    b.box({lamp, wall, wall, wall, wall, wall}, {-16, -6, -6}, {16, 6, 6}, /*inward=*/true, turn);
+    const float from = 0.3f, to = from + thickness;
+    b.box({wall, wall, wall, wall, wall, wall}, {from, -7, -7}, {to, 7, 7}, /*inward=*/false, turn);
+    const auto at = [&](float x, float y, float z) { return turn * glm::vec3(x, y, z); };
+    b.quad(wall, at(to + 0.3f, -7, -7), at(to + 0.3f, 7, -7), at(to + 0.3f, 7, 7), at(to + 0.3f, -7, 7));
+    const Pipeline& p = prepare(b.finish("two rooms"), triangles(static_cast<uint32_t>(n)));
+    const glm::mat3 back = glm::transpose(turn);
+    const HostFacets f = hostFacets(context(), p.facets());
+    const std::vector<glm::vec3> h = perFacet(context(), p.facets(), p.lighting().indirect);
+    const std::vector<glm::vec3> blurred = perFacet(context(), p.facets(), p.lighting().shaded());
+    double dark = 0, darkBlurred = 0, lit = 0;
+    size_t right = 0;
+    for (size_t i = 0; i < f.count(); ++i) {
+      const glm::vec3 at = back * glm::vec3(f.position[i]);
+      if (at.x > to + 0.35f && std::abs(at.y) < 6.1f && std::abs(at.z) < 6.1f) {
+        dark = std::max(dark, double{h[i].x});
+        darkBlurred = std::max(darkBlurred, double{blurred[i].x});
+        ++right;
+      } else if (at.x < 0) {
+        lit = std::max(lit, double{h[i].x});
+      }
+    }
+    EXPECT_GT(right, 1000u);
+    EXPECT_GT(lit, 1);
+    EXPECT_EQ(dark, 0) << thickness;
+    EXPECT_EQ(darkBlurred, 0) << thickness;
+  }
+}
+
+TEST_F(SurfaceTest, TheSameListEveryTime) {
+  const Scene scene = furnishedRoom();
+  const auto bytes = [&](const Buffer& b) { return download(context(), b); };
+  const World a = world(scene, triangles(24)), b = world(scene, triangles(24));
+  ASSERT_EQ(a.facets.count, b.facets.count);
+  EXPECT_EQ(bytes(a.facets.shape), bytes(b.facets.shape));
+  EXPECT_EQ(bytes(a.facets.albedo), bytes(b.facets.albedo));
+  EXPECT_EQ(bytes(a.facets.surface.surfels), bytes(b.facets.surface.surfels));
+  EXPECT_EQ(bytes(a.facets.surface.links), bytes(b.facets.surface.links));
+  EXPECT_EQ(bytes(a.facets.surface.sides), bytes(b.facets.surface.sides));
+}
+
+TEST_F(SurfaceTest, WhatItCannotDoIsAnError) {
+  Settings settings = triangles(8);
+  settings.matrix.format = MatrixFormat::padded;
+  EXPECT_THROW(world(furnaceBox(0.5f), settings), UsageError);
+  settings = triangles(8);
+  settings.voxel.method = VoxelMethod::raster;
+  EXPECT_THROW(world(furnaceBox(0.5f), settings), UsageError);
+}
+
+}  // namespace
+}  // namespace irad::test::surface_suite
