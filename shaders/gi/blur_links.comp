@@ -1,5 +1,5 @@
-// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (docs/method.md 7): averaged with tent
-// weights over the facets of the 3 x 3 x 3 voxels around that continue the surface, each as much as it has area.
+// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (docs/method.md 7): averaged with
+// tent weights over the facets of the 3 x 3 x 3 voxels around that continue the surface, each as much as it has area.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/surface_point.glsl"

@@ -1,6 +1,6 @@
-// The facets of a voxel (docs/method.md 4): one workgroup per solid voxel. Points are spread over both sides of its pieces
-// by area; a facet is a class of those that lie on the same side of the surface as the first of them. Runs twice: to
-// count the facets, and to make them.
+// The facets of a voxel (docs/method.md 4): one workgroup per solid voxel. Points are spread over both sides of its
+// pieces by area; a facet is a class of those that lie on the same side of the surface as the first of them. Runs
+// twice: to count the facets, and to make them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/seen_in_voxel.glsl"
@@ -28,16 +28,10 @@ bool doubleSided(uint triangle) {
   return (scene.materials.at[scene.triangleMaterials.at[triangle]].flags & MATERIAL_DOUBLE_SIDED) != 0u;
 }
 
-vec3 facingOf(vec3 a, vec3 b, vec3 c, bool back) {
-  vec3 n = normalize(cross(b - a, c - a));
-  return back ? -n : n;
-}
-
 /// Weights of the second and third corner at a point of the triangle.
-vec2 weightsAt(vec3 a, vec3 b, vec3 c, vec3 p) {
-  vec3 n = cross(b - a, c - a);
-  float scale = 1.0 / dot(n, n);
-  return vec2(dot(cross(p - a, c - a), n), dot(cross(b - a, p - a), n)) * scale;
+vec2 weightsAt(Triangle t, vec3 p) {
+  vec3 b = t.b - t.a, c = t.c - t.a, d = p - t.a, n = cross(b, c);
+  return vec2(dot(cross(d, c), n), dot(cross(b, d), n)) / dot(n, n);
 }
 
 /// A point of the clipped polygon, uniform over its area for u uniform over the square.
@@ -60,6 +54,32 @@ vec3 polygonPoint(uint from, uint n, float area, vec2 u) {
   return first;
 }
 
+/// The class of a piece's side on which no point fell: the one on whose side its middle lies; in a voxel of more pieces
+/// than points that of the nearest point.
+uint withoutPoints(VoxelPieces pieces, vec3 cell, uint classes, uint piece, Triangle t, vec3 facing) {
+  uint from;
+  uint corners = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 1e-4, from);
+  vec3 middle = (t.a + t.b + t.c) * (1.0 / 3.0) - cell;
+  if (corners > 0u) polygonArea(from, corners, middle);
+  middle += cell;
+  bool few = pieces.end - pieces.first <= POINTS / 2u;
+  for (uint k = 0u; few && k < classes; ++k) {
+    uint lead = leader[k];
+    uint its = pieces.pieces.at[pointPiece[lead] & ~BACK];
+    if (sameSide(pieces, pointAt[lead], pointFacing[lead], its, middle, facing, pieces.pieces.at[piece])) return k;
+  }
+  uint result = PIECE_BLACK;
+  float nearest = 1e30;
+  for (uint k = 0u; push.pieceArea.at[piece] >= LEAST_AREA && k < POINTS; ++k) {
+    vec3 d = pointAt[k] - middle;
+    float distance2 = dot(d, d) + (dot(pointFacing[k], facing) > 0.0 ? 0.0 : 3.0);
+    if (distance2 >= nearest) continue;
+    nearest = distance2;
+    result = pointClass[k];
+  }
+  return result;
+}
+
 void main() {
   uint voxel = irad_workgroup();
   if (voxel >= push.count) return;
@@ -67,7 +87,8 @@ void main() {
   uint packedVoxel = push.solid.at[voxel];
   vec3 cell = vec3(unpackVoxel(packedVoxel));
   SurfaceArrays surface = push.surface.at[0];
-  VoxelPieces pieces = VoxelPieces(surface.corners, push.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+  VoxelPieces pieces =
+      VoxelPieces(surface.corners, push.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
 
   // How much there is of the surface; each piece gets points by its area, and one in two by being there.
   float whole = 0.0, sides = 0.0;
@@ -108,17 +129,16 @@ void main() {
   uint triangle = any_ ? pieces.pieces.at[piece] : 0u;
   pointClass[me] = NO_CLASS;
   if (any_) {
-    vec3 a = surface.corners.at[3u * triangle], b = surface.corners.at[3u * triangle + 1u],
-         c = surface.corners.at[3u * triangle + 2u];
+    Triangle t = triangleAt(surface.corners, triangle);
     uint from;
-    uint n = clipPolygon(a - cell, b - cell, c - cell, 0.0, from);
+    uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
     uint shift = hashUint(packedVoxel ^ 0x2545F491u);
     float across = clamp((wanted - before) / share, 0.0, 1.0);
-    vec2 weights = weightsAt(a, b, c, cell + polygonPoint(from, n, pieceArea, vec2(across, unitFloat(reverseBits(me) + shift))));
-    weights = unpackPlace(packPlace(weights));
-    pointPlace[me] = packPlace(weights);
-    pointAt[me] = a + (b - a) * weights.x + (c - a) * weights.y;
-    pointFacing[me] = facingOf(a, b, c, back);
+    vec3 point = cell + polygonPoint(from, n, pieceArea, vec2(across, unitFloat(reverseBits(me) + shift)));
+    pointPlace[me] = packPlace(weightsAt(t, point));
+    vec2 weights = unpackPlace(pointPlace[me]);
+    pointAt[me] = t.a + (t.b - t.a) * weights.x + (t.c - t.a) * weights.y;
+    pointFacing[me] = facingOf(t, back);
     pointPiece[me] = piece | (back ? BACK : 0u);
     // How many points share the piece's side.
     float first = ceil(before / step_ - 0.5), end = ceil((before + share) / step_ - 0.5);
@@ -153,40 +173,20 @@ void main() {
   // Which facet each side of a piece belongs to.
   for (uint i = pieces.first + me; i < pieces.end; i += POINTS) {
     uint of = pieces.pieces.at[i];
+    Triangle t = triangleAt(surface.corners, of);
     uint found[2] = uint[2](PIECE_BLACK, PIECE_BLACK);
     uint n = doubleSided(of) ? 2u : 1u;
     for (uint s = 0u; s < n; ++s) {
+      vec3 facing = facingOf(t, s == 1u);
       uint side = i | (s == 1u ? BACK : 0u);
       uint result = PIECE_BLACK;
       for (uint k = 0u; k < POINTS; ++k)
-        if (pointPiece[k] == side) result = result == PIECE_BLACK || result == pointClass[k] ? pointClass[k] : PIECE_SPLIT;
-      if (result == PIECE_BLACK) {  // no point fell on it
-        vec3 a = surface.corners.at[3u * of], b = surface.corners.at[3u * of + 1u], c = surface.corners.at[3u * of + 2u];
-        uint from;
-        uint corners = clipPolygon(a - cell, b - cell, c - cell, 1e-4, from);
-        vec3 middle = (a + b + c) * (1.0 / 3.0) - cell;
-        if (corners > 0u) polygonArea(from, corners, middle);
-        middle += cell;
-        vec3 facing = facingOf(a, b, c, s == 1u);
-        float nearest = 1e30;
-        bool few = pieces.end - pieces.first <= POINTS / 2u;
-        for (uint k = 0u; few && k < classes; ++k) {
-          uint lead = leader[k];
-          if (sameSide(pieces, pointAt[lead], pointFacing[lead], pieces.pieces.at[pointPiece[lead] & ~BACK], middle, facing, of)) {
-            result = k;
-            break;
-          }
-        }
-        // In a voxel of more pieces than points the nearest point stands for it.
-        if (result == PIECE_BLACK && push.pieceArea.at[i] >= LEAST_AREA)
-          for (uint k = 0u; k < POINTS; ++k) {
-            vec3 d = pointAt[k] - middle;
-            float distance2 = dot(d, d) + (dot(pointFacing[k], facing) > 0.0 ? 0.0 : 3.0);
-            if (distance2 >= nearest) continue;
-            nearest = distance2;
-            result = pointClass[k];
-          }
-      }
+        if (pointPiece[k] == side)
+          result = result == PIECE_BLACK || result == pointClass[k] ? pointClass[k] : PIECE_SPLIT;
+      if (result == PIECE_BLACK) result = withoutPoints(pieces, cell, classes, i, t, facing);
+      // What stands on it may hide a part on which no point fell.
+      for (uint j = pieces.first; j < pieces.end && result < PIECE_SPLIT; ++j)
+        if (j != i && standsOn(cell, triangleAt(surface.corners, pieces.pieces.at[j]), t, facing)) result = PIECE_SPLIT;
       found[s] = result;
     }
     surface.sides.at[i] = found[0] | (found[1] << 16);

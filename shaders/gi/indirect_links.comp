@@ -1,5 +1,5 @@
 // "RE Forward", last step: indirect light of each visible point from the facet that it lies on and those that continue
-// its surface (docs/method.md 7). The fragment stage has left position and triangle in the targets (forward/shade.glsl).
+// its surface (docs/method.md 7). The forward pass has left position and triangle in the targets (forward/shade.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
@@ -31,10 +31,8 @@ void main() {
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
-  vec3 a = surface.corners.at[3u * triangle];
-  vec3 facing = normalize(cross(surface.corners.at[3u * triangle + 1u] - a, surface.corners.at[3u * triangle + 2u] - a));
-  bool back = dot(facing, viewer) < 0.0;
-  uint facet = facetAt(surface, push.reverse, grid.dims, p, triangle | (back ? SURFEL_BACK : 0u), back ? -facing : facing);
+  bool back = dot(triangleFacing(surface, triangle), viewer) < 0.0;
+  uint facet = facetAt(surface, push.reverse, grid.dims, p, triangle | (back ? SURFEL_BACK : 0u));
   vec3 h = vec3(0.0), e = vec3(0.0);
   if (facet != NO_FACET) {
     SurfaceTaps taps = surfaceTaps(surface, push.reverse, push.voxel, grid.dims, facet, p, push.sampling.filter_);

@@ -1,40 +1,11 @@
 // Which facets of the voxels around continue a facet's surface on the same side (docs/method.md 4): their normals are
-// alike, and from the nearest surfel of the one to that of the other nothing is in between. One invocation per facet and
-// four voxels around.
+// alike, and from the nearest surfel of the one to that of the other nothing is in between. One invocation per facet
+// and four voxels around.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/split_piece.glsl"
+#include "gi/beside.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
-
-uint entryAt(ivec3 v) {
-  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(push.dims)))) return NO_FACET;
-  return push.reverse.at[voxelIndex(uvec3(v), push.dims)];
-}
-
-/// Whether the segment crosses no triangle but two, in any of the voxels that it passes.
-bool clearBetween(SurfaceArrays surface, vec3 a, vec3 b, uint except1, uint except2) {
-  ivec3 lo = ivec3(floor(min(a, b))), hi = ivec3(floor(max(a, b)));
-  for (int z = lo.z; z <= hi.z; ++z)
-    for (int y = lo.y; y <= hi.y; ++y)
-      for (int x = lo.x; x <= hi.x; ++x) {
-        uint entry = entryAt(ivec3(x, y, z));
-        if (entry != NO_FACET && !clearInVoxel(piecesOf(surface, entry), a, b, except1, except2)) return false;
-      }
-  return true;
-}
-
-/// sameSide() across voxels.
-bool continues(SurfaceArrays surface, SurfelPoint a, SurfelPoint b) {
-  float lift;
-  if (!mayBeSameSide(a.position, a.facing, b.position, b.facing, lift)) return false;
-  vec3 from = a.position + a.facing * lift, to = b.position + b.facing * lift;
-  if (lift > 2.0 * ABOVE_SURFACE &&
-      !(clearBetween(surface, a.position + a.facing * ABOVE_SURFACE, from, a.triangle, b.triangle) &&
-        clearBetween(surface, b.position + b.facing * ABOVE_SURFACE, to, a.triangle, b.triangle)))
-    return false;
-  return clearBetween(surface, from, to, a.triangle, b.triangle);
-}
 
 void main() {
   uint index = irad_index();
@@ -46,7 +17,8 @@ void main() {
   for (uint j = 0u; j < 4u; ++j) {
     uint i = 4u * part + j;
     uint link = NO_LINK;
-    uint entry = i < 27u ? entryAt(voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1) : NO_FACET;
+    ivec3 around = voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+    uint entry = i < 27u ? entryOf(push.reverse, push.dims, around) : NO_FACET;
     if (i == 13u) {
       link = facet - firstFacet(entry);
     } else if (entry != NO_FACET) {
@@ -67,7 +39,7 @@ void main() {
             to = b;
           }
         }
-        if (nearest >= best || !continues(surface, from, to)) continue;
+        if (nearest >= best || !continues(surface, push.reverse, push.dims, from, to)) continue;
         best = nearest;
         link = k;
       }

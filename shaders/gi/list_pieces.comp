@@ -1,6 +1,6 @@
-// Which triangles have a piece in which voxel (docs/method.md 2): one invocation per tile of columns along the triangle's
-// dominant axis. The edge tests in the projection and the plane's depth range over a column reject early (Schwarz and
-// Seidel 2010, "Fast Parallel Surface and Solid Voxelization on GPUs"), clipping decides.
+// Which triangles have a piece in which voxel (docs/method.md 2): one invocation per tile of columns along the
+// triangle's dominant axis. The edge tests in the projection and the plane's depth range over a column reject early
+// (Schwarz and Seidel 2010, "Fast Parallel Surface and Solid Voxelization on GPUs"), clipping decides.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"

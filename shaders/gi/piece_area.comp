@@ -1,6 +1,7 @@
 // The area of every piece.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "gi/triangle_hit.glsl"
 #include "gi/voxel_clip.glsl"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;
@@ -10,8 +11,8 @@ void main() {
   uint i = irad_index();
   if (i >= push.count) return;
   vec3 cell = vec3(unpackVoxel(push.pieceVoxel.at[i]));
-  uint t = 3u * push.pieces.at[i];
+  Triangle t = triangleAt(push.corners, push.pieces.at[i]);
   vec3 centre;
-  float area = clipToCell(push.corners.at[t] - cell, push.corners.at[t + 1u] - cell, push.corners.at[t + 2u] - cell, centre);
+  float area = clipToCell(t.a - cell, t.b - cell, t.c - cell, centre);
   push.area.at[i] = max(area, 0.0);
 }

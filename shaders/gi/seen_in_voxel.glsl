@@ -23,11 +23,52 @@ bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2)
     if (triangle == except1 || triangle == except2) continue;
     float t;
     bool front;
-    if (meetsTriangle(ray, voxel.corners.at[3u * triangle], voxel.corners.at[3u * triangle + 1u],
-                      voxel.corners.at[3u * triangle + 2u], t, front) && t > 0.0 && t < 1.0)
+    if (meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0)
       return false;
   }
   return true;
+}
+
+/// Whether a triangle stands on another one's side within a cell: it crosses the plane just above, over that triangle
+/// and away from its edges. `facing`: the side's unit normal.
+bool standsOn(vec3 cell, Triangle standing, Triangle t, vec3 facing) {
+  vec3 other[3] = vec3[3](standing.a, standing.b, standing.c);
+  vec3 height =
+      vec3(dot(facing, other[0] - t.a), dot(facing, other[1] - t.a), dot(facing, other[2] - t.a)) - ABOVE_SURFACE;
+  bvec3 over = greaterThan(height, vec3(0.0));
+  if (all(over) || !any(over)) return false;
+  // The corner that is alone on its side of the plane, and the segment in which the plane cuts the triangle.
+  uint i = over.x != over.y ? (over.x != over.z ? 0u : 1u) : 2u;
+  uint j = (i + 1u) % 3u, k = (i + 2u) % 3u;
+  vec3 from = mix(other[i], other[j], height[i] / (height[i] - height[j]));
+  vec3 along = mix(other[i], other[k], height[i] / (height[i] - height[k])) - from;
+  float first = 0.0, last = 1.0;
+  vec3 corner[3] = vec3[3](t.a, t.b, t.c);
+  for (uint e = 0u; e < 9u; ++e) {
+    // Inside: of the triangle's three edges, and of the cell's six faces.
+    vec3 inward, base;
+    float least = 2e-3;
+    if (e < 3u) {
+      base = corner[e];
+      inward = normalize(cross(facing, corner[(e + 1u) % 3u] - base));
+      if (dot(inward, corner[(e + 2u) % 3u] - base) < 0.0) inward = -inward;
+    } else {
+      uint axis = (e - 3u) / 2u;
+      bool upper = (e & 1u) == 0u;
+      inward = vec3(axis == 0u ? 1.0 : 0.0, axis == 1u ? 1.0 : 0.0, axis == 2u ? 1.0 : 0.0) * (upper ? -1.0 : 1.0);
+      base = upper ? cell + 1.0 : cell;
+      least = 0.0;
+    }
+    float at = dot(inward, from - base) - least, rate = dot(inward, along);
+    if (rate == 0.0) {
+      if (at < 0.0) return false;
+    } else if (rate > 0.0) {
+      first = max(first, -at / rate);
+    } else {
+      last = min(last, -at / rate);
+    }
+  }
+  return first < last;
 }
 
 /// What two points and the unit normals of their sides say by themselves; `lift`: how far above the surface a way from

@@ -1,8 +1,8 @@
-// Values of facets at a point of the surface (docs/method.md 7): that of the point's own facet and of those which continue
-// it in the voxels around, trilinearly, each as much as it has area. No light comes in from another side.
+// Values of facets at a point of the surface (docs/method.md 7): that of the point's own facet and of those which
+// continue it in the voxels around, trilinearly, each as much as it has area. No light comes in from another side.
 #ifndef IRAD_SURFACE_LOOKUP_GLSL
 #define IRAD_SURFACE_LOOKUP_GLSL
-#include "gi/split_piece.glsl"
+#include "gi/beside.glsl"
 #include "shared/gi_params.h"
 
 /// Facets around a point, and their weights, which sum to 1.
@@ -15,8 +15,8 @@ struct SurfaceTaps {
 /// there, or no part of it that is seen from p.
 uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side, vec3 facing) {
   uint triangle = side & ~SURFEL_BACK;
-  uint first = surface.firstPiece.at[firstFacet(entry)], end = surface.firstPiece.at[firstFacet(entry) + facetsOf(entry)];
-  uint last = end;
+  uint first = surface.firstPiece.at[firstFacet(entry)];
+  uint last = surface.firstPiece.at[firstFacet(entry) + facetsOf(entry)], end = last;
   while (first < end) {
     uint middle = (first + end) / 2u;
     if (surface.pieces.at[middle] < triangle) first = middle + 1u;
@@ -28,14 +28,10 @@ uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side, vec3 fac
   return of == PIECE_BLACK ? NO_FACET : firstFacet(entry) + of;
 }
 
-uint entryOf(UintArray reverse, uvec3 dims, ivec3 v) {
-  if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(dims)))) return NO_FACET;
-  return reverse.at[voxelIndex(uvec3(v), dims)];
-}
-
 /// The facet on which `p` lies, a point of a triangle's side: in the voxel that holds p or, where rounding has put it
 /// into another, the next one. Where no surfel of the side is seen from p, the nearest surfel around that is.
-uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side, vec3 facing) {
+uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side) {
+  vec3 facing = triangleFacing(surface, side);
   const float ROUNDING = 1e-2;
   ivec3 cell = ivec3(floor(p));
   vec3 inside = p - vec3(cell);
@@ -48,29 +44,15 @@ uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint 
     uint facet = facetInVoxel(surface, entry, p, side, facing);
     if (facet != NO_FACET) return facet;
   }
-  uint found = NO_FACET;
-  float nearest = 1e30;
-  for (int i = 0; i < 27; ++i) {
-    uint entry = entryOf(reverse, dims, cell + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
-    if (entry == NO_FACET) continue;
-    VoxelPieces voxel = piecesOf(surface, entry);
-    uint end = (firstFacet(entry) + facetsOf(entry)) * FACET_SURFELS;
-    for (uint k = firstFacet(entry) * FACET_SURFELS; k < end; ++k) {
-      SurfelPoint s = surfelOf(surface, surface.surfels.at[k]);
-      vec3 d = s.position - p;
-      if (dot(d, d) >= nearest || !sameSide(voxel, p, facing, side & ~SURFEL_BACK, s.position, s.facing, s.triangle)) continue;
-      nearest = dot(d, d);
-      found = k / FACET_SURFELS;
-    }
-  }
-  return found;
+  return facetBeside(surface, reverse, dims, SurfelPoint(p, facing, side & ~SURFEL_BACK));
 }
 
-SurfaceTaps surfaceTaps(SurfaceArrays surface, UintArray reverse, UintArray voxelOf_, uvec3 dims, uint facet, vec3 p, uint filter_) {
+SurfaceTaps surfaceTaps(SurfaceArrays surface, UintArray reverse, UintArray facetVoxel, uvec3 dims, uint facet, vec3 p,
+                        uint filter_) {
   SurfaceTaps taps;
   vec3 base = floor(p - 0.5);
   vec3 f = p - 0.5 - base;
-  ivec3 own = ivec3(unpackVoxel(voxelOf_.at[facet]));
+  ivec3 own = ivec3(unpackVoxel(facetVoxel.at[facet]));
   float total = 0.0;
   for (int i = 0; i < 8; ++i) {
     ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);

@@ -1,6 +1,7 @@
 // Points of the true surface in voxel units (docs/method.md 4).
 #ifndef IRAD_SURFACE_POINT_GLSL
 #define IRAD_SURFACE_POINT_GLSL
+#include "gi/triangle_hit.glsl"
 #include "shared/surface.h"
 
 struct SurfelPoint {
@@ -10,21 +11,15 @@ struct SurfelPoint {
 
 SurfelPoint surfelOf(SurfaceArrays surface, Surfel s) {
   uint triangle = s.triangle & ~SURFEL_BACK;
-  vec3 a = surface.corners.at[3u * triangle];
-  vec3 b = surface.corners.at[3u * triangle + 1u] - a;
-  vec3 c = surface.corners.at[3u * triangle + 2u] - a;
+  Triangle t = triangleAt(surface.corners, triangle);
   vec2 weights = unpackPlace(s.place);
-  vec3 facing = normalize(cross(b, c));
-  if ((s.triangle & SURFEL_BACK) != 0u) facing = -facing;
-  return SurfelPoint(a + b * weights.x + c * weights.y, facing, triangle);
+  return SurfelPoint(t.a + (t.b - t.a) * weights.x + (t.c - t.a) * weights.y,
+                     facingOf(t, (s.triangle & SURFEL_BACK) != 0u), triangle);
 }
 
 /// The unit normal of a triangle's side (as Surfel::triangle).
 vec3 triangleFacing(SurfaceArrays surface, uint side) {
-  uint triangle = side & ~SURFEL_BACK;
-  vec3 a = surface.corners.at[3u * triangle];
-  vec3 n = normalize(cross(surface.corners.at[3u * triangle + 1u] - a, surface.corners.at[3u * triangle + 2u] - a));
-  return (side & SURFEL_BACK) != 0u ? -n : n;
+  return facingOf(triangleAt(surface.corners, side & ~SURFEL_BACK), (side & SURFEL_BACK) != 0u);
 }
 
 SurfelPoint surfelOf(SurfaceArrays surface, uint facet, uint k) {

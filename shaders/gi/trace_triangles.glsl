@@ -1,7 +1,7 @@
 // Hit rule `triangles` (docs/method.md 5): a ray is met by the first triangle of the scene. Cells that hold none are
 // stepped over; in a solid cell its pieces' triangles are asked. Included by gi/trace.glsl.
 #include "gi/seen_in_voxel.glsl"
-#include "gi/split_piece.glsl"
+#include "gi/beside.glsl"
 #include "gi/surface_point.glsl"
 #include "shared/surface.h"
 
@@ -32,9 +32,7 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
       if (triangle == own) continue;
       float t;
       bool front;
-      if (!meetsTriangle(ray, surface.corners.at[3u * triangle], surface.corners.at[3u * triangle + 1u],
-                         surface.corners.at[3u * triangle + 2u], t, front))
-        continue;
+      if (!meetsTriangle(ray, triangleAt(surface.corners, triangle), t, front)) continue;
       if (t <= 0.0f || t > nearest || (t == nearest && triangle > met)) continue;
       nearest = t;
       met = triangle;
@@ -54,7 +52,10 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
   hit.facet = side == PIECE_BLACK ? TRACE_BLOCKED : firstFacet(metEntry) + side;
   if (side == PIECE_SPLIT) {
     vec3 facing = triangleFacing(surface, met | (metFront ? 0u : SURFEL_BACK));
-    hit.facet = nearestOnSide(surface, metEntry, met, facing, origin + w.direction * nearest);
+    vec3 at = origin + w.direction * nearest;
+    hit.facet = nearestOnSide(surface, metEntry, met, facing, at);
+    if (hit.facet == NO_FACET)
+      hit.facet = facetBeside(surface, world.facets.reverse, world.dims, SurfelPoint(at, facing, met));
     if (hit.facet == NO_FACET) hit.facet = TRACE_BLOCKED;
   }
   return hit;

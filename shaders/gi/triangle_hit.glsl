@@ -2,6 +2,21 @@
 // passes between two triangles with a common edge meets at least one of them. On the edge itself both count.
 #ifndef IRAD_TRIANGLE_HIT_GLSL
 #define IRAD_TRIANGLE_HIT_GLSL
+#include "shared/types.h"
+
+struct Triangle {
+  vec3 a, b, c;
+};
+
+Triangle triangleAt(Vec3Array corners, uint triangle) {
+  return Triangle(corners.at[3u * triangle], corners.at[3u * triangle + 1u], corners.at[3u * triangle + 2u]);
+}
+
+/// The unit normal of the side whose corners turn counter-clockwise, or of the other.
+vec3 facingOf(Triangle t, bool back) {
+  vec3 n = normalize(cross(t.b - t.a, t.c - t.a));
+  return back ? -n : n;
+}
 
 struct ShearedRay {
   vec3 origin;
@@ -18,12 +33,12 @@ ShearedRay shearedRay(vec3 origin, vec3 direction) {
   return ShearedRay(origin, axis, vec3(d.x / d.z, d.y / d.z, 1.0f / d.z));
 }
 
-/// Whether the ray's line meets the triangle; `t`: where, in lengths of the direction; `front`: from in front of it, where
-/// its corners turn counter-clockwise. Nothing here may be contracted: the two triangles of an edge must agree on it.
-bool meetsTriangle(ShearedRay ray, vec3 p0, vec3 p1, vec3 p2, out float t, out bool front) {
-  precise vec3 a = axisLast(p0 - ray.origin, ray.axis);
-  precise vec3 b = axisLast(p1 - ray.origin, ray.axis);
-  precise vec3 c = axisLast(p2 - ray.origin, ray.axis);
+/// Whether the ray's line meets the triangle; `t`: where, in lengths of the direction; `front`: from in front of it.
+/// Nothing here may be contracted: the two triangles of an edge must agree on it.
+bool meetsTriangle(ShearedRay ray, Triangle triangle, out float t, out bool front) {
+  precise vec3 a = axisLast(triangle.a - ray.origin, ray.axis);
+  precise vec3 b = axisLast(triangle.b - ray.origin, ray.axis);
+  precise vec3 c = axisLast(triangle.c - ray.origin, ray.axis);
   precise vec2 fa = a.xy - ray.shear.xy * a.z;
   precise vec2 fb = b.xy - ray.shear.xy * b.z;
   precise vec2 fc = c.xy - ray.shear.xy * c.z;
