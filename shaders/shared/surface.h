@@ -35,9 +35,6 @@ IRAD_CONST uint PIECE_SPLIT = 0xFFFEu;  ///< several: the nearest surfel that is
 IRAD_CONST uint FACET_LINKS = 7u;
 IRAD_CONST uint NO_LINK = 255u;
 
-/// Voxels that more triangles than this have a piece in keep so many.
-IRAD_CONST uint MAX_PIECES = 4096u;
-
 struct SurfaceArrays {
   Vec3Array corners;      ///< three per triangle, voxel units
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
