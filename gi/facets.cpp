@@ -30,17 +30,12 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
   const Buffer facets =
       makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
   const Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
-  ShadeFacetsPush push{};
-  push.encoding = list.encoding;
-  push.hasEmission = list.hasEmission;
-  push.literal = settings.thesis.literal;
   const bool raster = settings.voxel.method == VoxelMethod::raster;
   Frame frame = context.begin();
   frame.pass(kFacetsStage).fill(clamped, 0);
-  for (const bool textured : {false, true}) {
-    const auto takes = [=](const MaterialGroup& g) { return g.textured == textured && g.count > 0; };
-    if (std::none_of(order.groups.begin(), order.groups.end(), takes)) continue;
-    Pass pass = frame.pass("GI Voxelization");
+  const char* shader = raster ? "thesis/facet_shade_raster.comp" : "gi/facet_shade.comp";
+  dispatchByMaterial(frame, "GI Voxelization", shader, scene, order, [&](Pass& pass) {
+    ShadeFacetsPush push{};
     push.scene = pass.in(scene.record);
     push.grid = pass.in(voxels.gridRecord);
     push.order = pass.in(facets);
@@ -51,26 +46,25 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
     push.emission = pass.out(list.emission);
     push.area = pass.out(list.area);
     push.clamped = pass.out(clamped);
-    pass.shader(raster ? "thesis/facet_shade_raster.comp" : "gi/facet_shade.comp")
-        .constant(CONSTANT_SAMPLES_TEXTURES, textured)
-        .run([&](Commands& commands) {
-          for (const MaterialGroup& group : order.groups) {
-            if (!takes(group)) continue;
-            commands.bindMaterial(scene.materialSets.at(group.material));
-            push.first = group.first;
-            push.count = group.count;
-            commands.push(push);
-            commands.dispatch(group.count);
-          }
-        });
-  }
+    push.encoding = list.encoding;
+    push.hasEmission = list.hasEmission;
+    push.literal = settings.thesis.literal;
+    return push;
+  });
   frame.submitAndWait();
   return downloadAs<uint32_t>(context, clamped).at(0);
 }
 
 }  // namespace
 
+bool keepsEmission(const SceneOnDevice& scene, const Settings& settings) {
+  const EffectMode mode = settings.effects.emission;
+  return mode == EffectMode::automatic ? scene.anyEmission : mode == EffectMode::on;
+}
+
 void allocateFacets(const Device& device, FacetList& list) {
+  if (list.count > MAX_FACETS)
+    throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, MAX_FACETS));
   const uint64_t n = list.count;
   list.voxel = Buffer(device, "facet voxel", Subsystem::Facets, 4 * n);
   list.shape = Buffer(device, "facet shape", Subsystem::Facets, 4 * n);
@@ -105,8 +99,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   list.grid = voxels.grid;
   list.encoding = settings.voxel.normals;
   list.slots = voxels.slots;
-  const EffectMode emission = settings.effects.emission;
-  list.hasEmission = emission == EffectMode::automatic ? voxels.scene->anyEmission : emission == EffectMode::on;
+  list.hasEmission = keepsEmission(*voxels.scene, settings);
   const uint32_t bits = voxels.grid.mortonBits.x + voxels.grid.mortonBits.y + voxels.grid.mortonBits.z;
   CompactPush push{};
   push.slots = voxels.slots;
@@ -130,8 +123,6 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   const std::vector<uint32_t> found = downloadAs<uint32_t>(context, totals);
   list.count = found.at(0);
   list.solidVoxels = found.at(1);
-  if (list.count > MAX_FACETS)
-    throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, MAX_FACETS));
 
   allocateFacets(context.device, list);
   Frame frame = context.begin();

@@ -14,6 +14,7 @@ namespace irad {
 
 class Context;
 class Device;
+class SceneOnDevice;
 struct Settings;
 struct Voxels;
 
@@ -35,7 +36,9 @@ struct FacetList {
 };
 /// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
-/// Room for the attributes of list.count facets, and the record of it.
+/// Whether facets have an M.
+bool keepsEmission(const SceneOnDevice& scene, const Settings& settings);
+/// Room for the attributes of list.count facets (WorkError where these are too many), and the record of it.
 void allocateFacets(const Device& device, FacetList& list);
 void recordFacets(Context& context, FacetList& list);
 /// For tests and check scenes: the list from host arrays (already in Morton order), reverse map included.

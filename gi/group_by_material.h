@@ -1,12 +1,15 @@
 // What is shaded by material: each material's textures have to be bound by themselves.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
-namespace irad {
+#include "renderer/frame/frame.h"
+#include "renderer/gpu_scene.h"
+#include "shaders/shared/constants.h"
 
-class SceneOnDevice;
+namespace irad {
 
 /// What one dispatch takes.
 struct MaterialGroup {
@@ -21,5 +24,28 @@ struct Order {
 /// Groups items, given by their triangles (bit 31 is ignored), by material, those that sample no texture together: a
 /// counting sort on the host, since a dispatch over all items for each material would mostly idle.
 Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles);
+
+/// Records a shader over every item, group after group: those that sample no texture in a pass of their own. `push`
+/// makes a pass's push constants; of these `first` and `count` are filled in here.
+template <class MakePush>
+void dispatchByMaterial(Frame& frame, const char* stage, const char* shader, const SceneOnDevice& scene,
+                        const Order& order, MakePush makePush) {
+  for (const bool textured : {false, true}) {
+    const auto takes = [=](const MaterialGroup& g) { return g.textured == textured && g.count > 0; };
+    if (std::ranges::none_of(order.groups, takes)) continue;
+    Pass pass = frame.pass(stage);
+    auto push = makePush(pass);
+    pass.shader(shader).constant(CONSTANT_SAMPLES_TEXTURES, textured).run([&](Commands& commands) {
+      for (const MaterialGroup& group : order.groups) {
+        if (!takes(group)) continue;
+        commands.bindMaterial(scene.materialSets.at(group.material));
+        push.first = group.first;
+        push.count = group.count;
+        commands.push(push);
+        commands.dispatch(group.count);
+      }
+    });
+  }
+}
 
 }  // namespace irad

@@ -191,10 +191,7 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
                emission = words(device, "pieces' exitance", list.hasEmission ? 3ull * pieces.count : 0);
   Frame frame = context.begin();
   frame.pass(kListStage).fill(clamped, 0);
-  for (const bool textured : {false, true}) {
-    const auto takes = [=](const MaterialGroup& g) { return g.textured == textured && g.count > 0; };
-    if (std::ranges::none_of(order.groups, takes)) continue;
-    Pass pass = frame.pass(kVoxelizeStage);
+  dispatchByMaterial(frame, kVoxelizeStage, "gi/piece_shade.comp", scene, order, [&](Pass& pass) {
     PieceShadePush push{};
     push.scene = pass.in(scene.record);
     push.grid = pass.in(gridRecord);
@@ -205,17 +202,8 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
     push.emission = pass.out(emission);
     push.clamped = pass.out(clamped);
     push.hasEmission = list.hasEmission;
-    pass.shader("gi/piece_shade.comp").constant(CONSTANT_SAMPLES_TEXTURES, textured).run([&](Commands& commands) {
-      for (const MaterialGroup& group : order.groups) {
-        if (!takes(group)) continue;
-        commands.bindMaterial(scene.materialSets.at(group.material));
-        push.first = group.first;
-        push.count = group.count;
-        commands.push(push);
-        commands.dispatch(group.count);
-      }
-    });
-  }
+    return push;
+  });
   Pass pass = frame.pass(kVoxelizeStage);
   FacetMeanPush push{};
   push.scene = pass.in(scene.record);
@@ -246,14 +234,10 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
     throw UsageError("matrix.hit_rule=triangles needs matrix.format=csr");
   const Device& device = context.device;
   const uint32_t triangles = scene.scene.triangleCount();
-  if (triangles > MAX_TRIANGLES)
-    throw InputError(fmt::format("{}: {} triangles; voxelization takes at most {}", scene.scene.path.string(),
-                                 triangles, MAX_TRIANGLES));
   FacetList list;
   list.grid = makeGrid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
   list.encoding = settings.voxel.normals;
-  const EffectMode emission = settings.effects.emission;
-  list.hasEmission = emission == EffectMode::automatic ? scene.anyEmission : emission == EffectMode::on;
+  list.hasEmission = keepsEmission(scene, settings);
   const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   Surface& surface = list.surface;
   surface.corners = words(device, "triangles' corners", 9ull * triangles);
@@ -270,8 +254,6 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
     frame.submit();
   }
   Pieces pieces = listPieces(context, scene, list.grid, grid, surface.corners);
-  surface.pieceCount = pieces.count;
-  surface.solidVoxels = pieces.solid;
 
   // How many facets each solid voxel has, and where they start.
   Buffer start = words(device, "facets of voxels", pieces.solid), total = words(device, "facets", 1);
@@ -282,8 +264,6 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
     frame.submitAndWait();
     list.count = downloadAs<uint32_t>(context, total).at(0);
   }
-  if (list.count > MAX_FACETS)
-    throw WorkError(fmt::format("{} facets; the list holds at most {}", list.count, MAX_FACETS));
   list.solidVoxels = pieces.solid;
   allocateFacets(device, list);
   surface.pieces = std::move(pieces.triangle);

@@ -15,8 +15,6 @@ struct Settings;
 struct Surface {
   Buffer corners, firstPiece, pieces, sides, surfels, links;  ///< of SurfaceArrays
   Buffer record;                                              ///< one SurfaceArrays
-  uint32_t pieceCount = 0, solidVoxels = 0;
-  uint32_t mostPieces = 0;  ///< of a voxel
   explicit operator bool() const { return static_cast<bool>(record); }
 };
 

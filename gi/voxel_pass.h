@@ -23,6 +23,7 @@ struct TriangleRange {
   uint32_t material;    ///< whose set is bound
   bool masked;          ///< its alpha decides
 };
+/// InputError where the scene has more triangles than voxelization takes.
 std::vector<TriangleRange> triangleRanges(const SceneOnDevice& scene);
 
 /// The pieces of triangles that workgroups take.

@@ -45,6 +45,10 @@ void clipTriangles(Frame& frame, const Voxels& voxels, const std::vector<Triangl
 }  // namespace
 
 std::vector<TriangleRange> triangleRanges(const SceneOnDevice& scene) {
+  const uint32_t triangles = scene.scene.triangleCount();
+  if (triangles > MAX_TRIANGLES)
+    throw InputError(fmt::format("{}: {} triangles; voxelization takes at most {}", scene.scene.path.string(),
+                                 triangles, MAX_TRIANGLES));
   std::vector<TriangleRange> ranges;
   bool open = false;  // the last range may grow
   for (const Draw& draw : scene.scene.draws) {
@@ -105,9 +109,6 @@ bool rasterizesByKernels(const Device& device, const Settings& settings) {
 
 Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings) {
   const uint32_t triangles = scene.scene.triangleCount();
-  if (triangles > MAX_TRIANGLES)
-    throw InputError(fmt::format("{}: {} triangles; voxelization takes at most {}", scene.scene.path.string(),
-                                 triangles, MAX_TRIANGLES));
   Voxels voxels;
   voxels.scene = &scene;
   voxels.slots = settings.effects.secondFacet == EffectMode::off ? 1 : settings.voxel.facets;

@@ -22,7 +22,7 @@ FamilyMember doubleShell(uint64_t seed, double voxel) {
   // Cameras are above lamps, whose backs they see through.
   // A lamp of 1 W/m^2 inside, a sun of 1000 outside.
   const double x = mason.between(-0.3, 0.3) * hi.x, y = hi.y - mason.between(0.4, 0.7), half = 0.35;
-  mason.builder.quad(lamp, {x - half, y, -half}, {x + half, y, -half}, {x + half, y, half}, {x - half, y, half});
+  mason.lamp(lamp, x, y, half, half);
   mason.builder.sun({mason.between(0.4, 1), -mason.between(0.4, 0.8), -1}, 1000);
   mason.builder.camera({-0.8 * hi.x, hi.y - 0.15, -0.85 * hi.z}, {0.4 * hi.x, 0.35 * hi.y, hi.z});
   mason.builder.camera({0.8 * hi.x, hi.y - 0.2, 0.8 * hi.z}, {-0.5 * hi.x, 0.1 * hi.y, -0.5 * hi.z});
@@ -69,7 +69,7 @@ FamilyMember halfFilled(uint64_t seed, double voxel) {
     }
   mason.block(stone, {-0.3 * hi.x, -0.2 * t, 0.45 * hi.z}, {0.9 * hi.x, 0.5 * voxel, 0.75 * hi.z});
   const double y = hi.y - 0.5, half = 0.3;
-  mason.builder.quad(lamp, {-half, y, -half}, {half, y, -half}, {half, y, half}, {-half, y, half});
+  mason.lamp(lamp, 0, y, half, half);
   mason.builder.sun({mason.between(-0.3, 0.3), -mason.between(0.3, 0.7), -1}, 100);
   mason.builder.camera({0.85 * hi.x, hi.y - 0.2, 0.3 * hi.z}, {lo.x, 0.25 * hi.y, -0.3 * hi.z});
   mason.builder.camera({0.2 * hi.x, hi.y - 0.25, -0.92 * hi.z}, {0, 0.3 * hi.y, hi.z});
@@ -87,7 +87,7 @@ FamilyMember lampAtCeiling(uint64_t seed, double voxel) {
   mason.shell(floor, walls, lo, hi, mason.thickness(0.5, 3));
   const double below = mason.thickness(0.1, 0.8), y = hi.y - below, x = mason.between(-0.3, 0.3) * hi.x;
   const double wide = mason.between(0.3, 0.6), deep = mason.between(0.3, 0.8);
-  mason.builder.quad(lamp, {x - wide, y, -deep}, {x + wide, y, -deep}, {x + wide, y, deep}, {x - wide, y, deep});
+  mason.lamp(lamp, x, y, wide, deep);
   const double high = mason.between(0.4, 1);
   mason.block(box, {0.2 * hi.x, -0.01, -0.6 * hi.z}, {0.7 * hi.x, high, -0.1 * hi.z});
   mason.builder.camera({-0.85 * hi.x, 0.8 * hi.y, 0.85 * hi.z}, {0.4 * hi.x, 0.1 * hi.y, -0.5 * hi.z});

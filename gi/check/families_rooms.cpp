@@ -81,7 +81,7 @@ FamilyMember doorAjar(uint64_t seed, double voxel) {
   // The lamp hangs in the first room.
   const double x = mason.between(0.4, 0.65) * t.lo.x, y = t.hi.y - mason.between(0.3, 0.5), half = 0.25;
   const uint32_t lamp = mason.paint(/*exitance=*/200);
-  mason.builder.quad(lamp, {x - half, y, -half}, {x + half, y, -half}, {x + half, y, half}, {x - half, y, half});
+  mason.lamp(lamp, x, y, half, half);
   camerasAtDoor(mason, t);
   FamilyMember member;
   member.scene = mason.finish("door-ajar", member.sealed);

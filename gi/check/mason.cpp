@@ -58,6 +58,10 @@ void Mason::board(uint32_t material, const glm::dvec3& from, const glm::dvec3& t
     }
 }
 
+void Mason::lamp(uint32_t material, double x, double y, double wide, double deep) {
+  builder.quad(material, {x - wide, y, -deep}, {x + wide, y, -deep}, {x + wide, y, deep}, {x - wide, y, deep});
+}
+
 void Mason::column(uint32_t material, double x, double z, double radius, double low, double high, int sides) {
   const auto at = [&](int k, double y) {
     const double phi = 2 * std::numbers::pi * (k + 0.5) / sides;

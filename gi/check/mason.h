@@ -47,6 +47,8 @@ class Mason {
   /// A board from one edge's middle to the other's: `wide` along `across` (unit), `thick` across both.
   void board(uint32_t material, const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& across, double wide,
              double thick);
+  /// A lamp of 2 `wide` x 2 `deep` at height `y`, its middle at x, 0, that shines downwards.
+  void lamp(uint32_t material, double x, double y, double wide, double deep);
   /// An upright column with `sides` faces, an even number.
   void column(uint32_t material, double x, double z, double radius, double low, double high, int sides);
   /// A wall across axis 0 or 2, from `at` to `at` + `thick`, along the other from `from` to `to`. Beside an opening the

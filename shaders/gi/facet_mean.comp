@@ -1,7 +1,7 @@
 // Attributes of each facet, weighted by the areas of the pieces that it is made of (docs/method.md 4).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/surface.h"
+#include "gi/surface_point.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FacetMeanPush push; };
 
@@ -18,16 +18,11 @@ void main() {
   vec3 normal = vec3(0.0), middle = vec3(0.0);
   uint flags = 0u;
   for (uint k = 0u; k < FACET_SURFELS; ++k) {
-    Surfel s = surface.surfels.at[FACET_SURFELS * facet + k];
-    uint triangle = s.triangle & ~SURFEL_BACK;
-    vec3 a = surface.corners.at[3u * triangle], b = surface.corners.at[3u * triangle + 1u] - a,
-         c = surface.corners.at[3u * triangle + 2u] - a;
-    vec2 weights = unpackPlace(s.place);
-    vec3 facing = normalize(cross(b, c));
-    normal += (s.triangle & SURFEL_BACK) != 0u ? -facing : facing;
-    middle += a + b * weights.x + c * weights.y - vec3(voxel) - 0.5;
+    SurfelPoint s = surfelOf(surface, facet, k);
+    normal += s.facing;
+    middle += s.position - vec3(voxel) - 0.5;
     GpuScene scene = push.scene.at[0];
-    flags |= scene.materials.at[scene.triangleMaterials.at[triangle]].flags;
+    flags |= scene.materials.at[scene.triangleMaterials.at[s.triangle]].flags;
   }
   normal = normalize(normal);
   uint code = encodeNormal(normal, push.encoding);

@@ -12,8 +12,6 @@ layout(push_constant, scalar) uniform Push { ShadeFacetsPush push; };
 /// From the including shader: where in the cell the facet is sampled, relative to its lower corner.
 vec3 sampledAt(VoxelTriangle t, uint triangle, vec3 cell);
 
-const float MAX_ALBEDO = 0.98;
-
 bool finite(float x) { return abs(x) < 3.0e38; }
 
 void main() {
@@ -43,13 +41,8 @@ void main() {
   push.shape.at[facet] =
       code | packFacetOffset(offset) | ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? FACET_DOUBLE_SIDED : 0u);
 
-  vec3 albedo = baseColorAt(push.scene, p).rgb * (1.0 - metallicAt(push.scene, p));
-  bool clamped = false;
-  for (int i = 0; i < 3; ++i) {
-    float a = albedo[i];
-    albedo[i] = a >= 0.0 ? min(a, MAX_ALBEDO) : 0.0;  // NaN becomes 0
-    if (!(a >= 0.0 && a <= MAX_ALBEDO)) clamped = true;
-  }
+  bool clamped;
+  vec3 albedo = albedoAt(push.scene, p, clamped);
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[facet] = packAlbedo(albedo);
 

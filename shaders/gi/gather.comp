@@ -28,30 +28,27 @@ void main() {
   vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
   GpuScene scene = p.scene.at[0];
   vec3 sum = vec3(0.0f);
-  if (uint64_t(p.surface) != 0ul) {
-    SurfaceArrays surface = p.surface.at[0];
-    for (uint k = 0u; k < FACET_SURFELS; ++k) {
-      SurfelPoint s = surfelOf(surface, facet, k);
-      vec3 position = p.origin + p.edge * s.position;
-      for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
-        GpuLight light = scene.lights.at[i];
-        vec3 irradiance = lightIrradiance(light, position, s.facing);
-        if (irradiance == vec3(0.0f)) continue;
-        sum += irradiance * shadowVisibility(light, position, s.facing, p.shadowBias, p.pcf);
-      }
+  bool surfels = uint64_t(p.surface) != 0ul;
+  uint samples = surfels ? FACET_SURFELS : p.samples;
+  for (uint k = 0u; k < samples; ++k) {
+    vec3 position, facing = normal;
+    float lift = LIFT;
+    if (surfels) {
+      SurfelPoint s = surfelOf(p.surface.at[0], facet, k);
+      position = s.position;
+      facing = s.facing;
+      lift = 0.0f;
+    } else {
+      vec2 jitter = hammersley(k, samples, uvec2(0u, 0x80000000u / samples));
+      position = facetPoint(voxel, normal, facetOffset(shape), jitter);
     }
-    p.direct.at[facet] = vec4(sum / float(FACET_SURFELS), 0.0f);
-    return;
-  }
-  for (uint k = 0u; k < p.samples; ++k) {
-    vec2 jitter = hammersley(k, p.samples, uvec2(0u, 0x80000000u / p.samples));
-    vec3 position = p.origin + p.edge * facetPoint(voxel, normal, facetOffset(shape), jitter);
+    position = p.origin + p.edge * position;
     for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
       GpuLight light = scene.lights.at[i];
-      vec3 irradiance = lightIrradiance(light, position, normal);
+      vec3 irradiance = lightIrradiance(light, position, facing);
       if (irradiance == vec3(0.0f)) continue;
-      sum += irradiance * shadowVisibility(light, position + normal * (LIFT * p.edge), normal, p.shadowBias, p.pcf);
+      sum += irradiance * shadowVisibility(light, position + facing * (lift * p.edge), facing, p.shadowBias, p.pcf);
     }
   }
-  p.direct.at[facet] = vec4(sum / float(p.samples), 0.0f);
+  p.direct.at[facet] = vec4(sum / float(samples), 0.0f);
 }

@@ -10,8 +10,6 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
 
-const float MAX_ALBEDO = 0.98;
-
 void main() {
   uint index = irad_index();
   if (index >= push.count) return;
@@ -22,13 +20,8 @@ void main() {
   vec3 centre;
   clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
   MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
-  vec3 albedo = baseColorAt(push.scene, p).rgb * (1.0 - metallicAt(push.scene, p));
-  bool clamped = false;
-  for (int i = 0; i < 3; ++i) {
-    float a = albedo[i];
-    albedo[i] = a >= 0.0 ? min(a, MAX_ALBEDO) : 0.0;  // NaN becomes 0
-    if (!(a >= 0.0 && a <= MAX_ALBEDO)) clamped = true;
-  }
+  bool clamped;
+  vec3 albedo = albedoAt(push.scene, p, clamped);
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[piece] = albedo;
   if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emittedRadianceAt(push.scene, p));

@@ -82,6 +82,19 @@ float metallicAt(SceneArray scenes, MaterialPoint p) {
   return metallic;
 }
 
+/// rho of a facet or a piece: clamped to [0, .98], and 0 where it is not a number.
+vec3 albedoAt(SceneArray scenes, MaterialPoint p, out bool clamped) {
+  const float MAX_ALBEDO = 0.98;
+  vec3 albedo = baseColorAt(scenes, p).rgb * (1.0 - metallicAt(scenes, p));
+  clamped = false;
+  for (int i = 0; i < 3; ++i) {
+    float a = albedo[i];
+    albedo[i] = a >= 0.0 ? min(a, MAX_ALBEDO) : 0.0;
+    if (!(a >= 0.0 && a <= MAX_ALBEDO)) clamped = true;
+  }
+  return albedo;
+}
+
 vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
   vec3 emission = scenes.at[0].materials.at[p.material].emission;
   if (samples(scenes, p, MATERIAL_EMISSIVE_TEXTURE)) {
