@@ -147,7 +147,7 @@ TEST_F(WindowFaultsTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
 
   // One facet's direct light becomes NaN.
   const std::filesystem::path gather = shaders / "gi/gather.comp";
-  const std::string good = slurp(gather), wanted = "vec4(sum / float(p.samples), 0.0f)";
+  const std::string good = slurp(gather), wanted = "vec4(sum / float(samples), 0.0f)";
   std::string bad = good;
   const size_t at = bad.find(wanted);
   ASSERT_NE(at, std::string::npos);
