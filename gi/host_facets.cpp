@@ -48,10 +48,11 @@ oracle::Facets oracleFacets(Context& context, const FacetList& list) {
                       .reverse = downloadAs<uint32_t>(context, list.reverse),
                       .around = downloadAs<uint32_t>(context, list.around)};
   if (const Surface& s = list.surface) {
-    host.corners = downloadAs<glm::vec3>(context, s.corners);
+    host.corners = downloadAs<glm::vec4>(context, s.corners);
     host.firstPiece = downloadAs<uint32_t>(context, s.firstPiece);
     host.pieces = downloadAs<uint32_t>(context, s.pieces);
     host.sides = downloadAs<uint32_t>(context, s.sides);
+    host.cuts = downloadAs<uint32_t>(context, s.cuts);
     host.surfels = downloadAs<Surfel>(context, s.surfels);
   }
   return host;

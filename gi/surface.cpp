@@ -32,8 +32,17 @@ struct Pieces {
   Buffer voxel;                   ///< packVoxel of each solid voxel, in Morton order
   Buffer first;                   ///< of each solid voxel; and the end
   Buffer triangle;                ///< per piece, ascending within a voxel
-  Buffer pieceVoxel;              ///< packVoxel
+  Buffer pieceVoxel;              ///< which solid voxel
   Buffer area;                    ///< float, voxel faces
+  Buffer firstPoint, firstCut;    ///< per piece, and the end: its PiecePoints, and its words of SurfaceArrays::cuts
+  uint32_t points = 0, cuts = 0;
+};
+
+/// Points by which facets are told apart, and what was found of them.
+struct Points {
+  Buffer at;          ///< PiecePoint
+  Buffer classes;     ///< per point
+  Buffer facetStart;  ///< per solid voxel, and the end
 };
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
@@ -62,6 +71,13 @@ void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, c
       }
     });
   }
+}
+
+/// Prefix sums of `values`, and their total behind the last; `sum` is known when the frame is done.
+void scanToEnd(Frame& frame, const Buffer& values, uint32_t count, const Buffer& total, uint32_t& sum) {
+  exclusiveScan(frame, kListStage, values, count, total);
+  frame.pass(kListStage).copy(total, values, 4, 0, 4ull * count);
+  frame.readback(total, 0, 4, [&sum](std::span<const uint8_t> b) { std::memcpy(&sum, b.data(), b.size()); });
 }
 
 Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid, const Buffer& gridRecord,
@@ -112,6 +128,8 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     pass.shader("gi/solid_emit.comp").push(push).dispatch(push.blocks);
   }
   listOrCount(frame, scene, gridRecord, tiles, ranges, counts, &unsorted);
+  p.firstPoint = words(device, "pieces' points", uint64_t{p.count} + 1);
+  p.firstCut = words(device, "pieces' cuts", uint64_t{p.count} + 1);
   if (p.count > 0) {
     {
       Pass pass = frame.pass(kListStage);
@@ -125,42 +143,121 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
       pass.shader("gi/sort_pieces.comp").push(sort).dispatchWorkgroups(p.solid);
     }
     Pass pass = frame.pass(kListStage);
-    PieceAreaPush area{};
-    area.pieceVoxel = pass.in(p.pieceVoxel);
-    area.pieces = pass.in(p.triangle);
-    area.corners = pass.in(corners);
-    area.area = pass.out(p.area);
-    area.count = p.count;
-    pass.shader("gi/piece_area.comp").push(area).dispatch(p.count);
+    PieceShapePush shape{};
+    shape.pieceVoxel = pass.in(p.pieceVoxel);
+    shape.pieces = pass.in(p.triangle);
+    shape.solid = pass.in(p.voxel);
+    shape.firstPiece = pass.in(p.first);
+    shape.corners = pass.in(corners);
+    shape.area = pass.out(p.area);
+    shape.points = pass.out(p.firstPoint);
+    shape.cuts = pass.out(p.firstCut);
+    shape.count = p.count;
+    pass.shader("gi/piece_shape.comp").push(shape).dispatch(p.count);
   }
+  scanToEnd(frame, p.firstPoint, p.count, solid, p.points);
+  scanToEnd(frame, p.firstCut, p.count, pieces, p.cuts);
   frame.submitAndWait();
   return p;
 }
 
-/// Records gi/class_facets.comp, which counts the facets of each solid voxel or makes them.
-void classify(Frame& frame, const SceneOnDevice& scene, const Buffer& gridRecord, const Pieces& pieces,
-              const Buffer& triangles, const Surface& surface, const Buffer& facetStart, FacetList* list) {
-  Pass pass = frame.pass(kListStage);
-  ClassFacetsPush push{};
-  push.scene = pass.in(scene.record);
-  push.grid = pass.in(gridRecord);
-  push.solid = pass.in(pieces.voxel);
-  push.firstPiece = pass.in(pieces.first);
-  push.pieces = pass.in(triangles);
-  push.pieceArea = pass.in(pieces.area);
-  push.surface = pass.in(surface.record);
-  push.facetStart = list ? pass.in(facetStart) : pass.out(facetStart);
-  if (list) {
-    push.voxel = pass.out(list->voxel);
-    push.triangle = pass.out(list->triangle);
-    push.reverse = pass.out(list->reverse);
-    for (const Buffer& made : {std::cref(surface.firstPiece), std::cref(surface.sides), std::cref(surface.surfels)})
-      pass.out(made);
-    pass.out(list->area);
+/// The points of all pieces, in `surface` the cuts of those that others stand on, and each point's facet.
+Points classifyPoints(Context& context, const Pieces& pieces, const Surface& surface, uint32_t& facets) {
+  const Device& device = context.device;
+  Points p;
+  p.at = Buffer(device, "pieces' points", Subsystem::Facets, sizeof(PiecePoint) * uint64_t{pieces.points});
+  p.classes = words(device, "points' facets", pieces.points);
+  p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
+  const Buffer total = words(device, "facets", 1);
+  Frame frame = context.begin();
+  frame.pass(kListStage).fill(surface.sides, 0);
+  {
+    Pass pass = frame.pass(kListStage);
+    PiecePointsPush push{};
+    push.pieceVoxel = pass.in(pieces.pieceVoxel);
+    push.solid = pass.in(pieces.voxel);
+    push.firstPiece = pass.in(pieces.first);
+    push.surface = pass.in(surface.record);
+    push.area = pass.in(pieces.area);
+    push.firstPoint = pass.in(pieces.firstPoint);
+    push.firstCut = pass.in(pieces.firstCut);
+    push.points = pass.out(p.at);
+    push.classes = pass.out(p.classes);
+    push.sides = pass.out(surface.sides);
+    push.cuts = pass.out(surface.cuts);
+    push.count = pieces.count;
+    pass.shader("gi/piece_points.comp").push(push).dispatch(pieces.count);
   }
-  push.count = pieces.solid;
-  push.makes = list != nullptr;
-  pass.shader("gi/class_facets.comp").push(push).dispatchWorkgroups(pieces.solid);
+  const auto classify = [&](const char* shader) {
+    Pass pass = frame.pass(kListStage);
+    ClassPointsPush push{};
+    push.firstPiece = pass.in(pieces.first);
+    push.surface = pass.in(surface.record);
+    push.area = pass.in(pieces.area);
+    push.firstPoint = pass.in(pieces.firstPoint);
+    push.points = pass.in(p.at);
+    push.classes = pass.accumulate(p.classes);
+    push.facets = pass.accumulate(p.facetStart);
+    push.count = pieces.solid;
+    const bool crowd = std::string_view(shader) == "gi/class_crowd.comp";
+    pass.shader(shader).push(push).dispatchWorkgroups(crowd ? pieces.solid : (pieces.solid + 63) / 64);
+  };
+  classify("gi/class_points.comp");
+  classify("gi/class_crowd.comp");
+  scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
+  frame.submitAndWait();
+  return p;
+}
+
+/// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels.
+void makeFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
+                const Surface& surface, const FacetList& list) {
+  {
+    Pass pass = frame.pass(kListStage);
+    PieceSidesPush push{};
+    push.grid = pass.in(gridRecord);
+    push.pieceVoxel = pass.in(pieces.pieceVoxel);
+    push.solid = pass.in(pieces.voxel);
+    push.firstPiece = pass.in(pieces.first);
+    push.firstPoint = pass.in(pieces.firstPoint);
+    push.classes = pass.out(points.classes);
+    push.points = pass.in(points.at);
+    push.facetStart = pass.in(points.facetStart);
+    push.surface = pass.in(surface.record);
+    push.sides = pass.out(surface.sides);
+    push.cuts = pass.out(surface.cuts);
+    push.voxel = pass.out(list.voxel);
+    push.triangle = pass.out(list.triangle);
+    push.reverse = pass.out(list.reverse);
+    push.facetPiece = pass.out(surface.firstPiece);
+    push.count = pieces.count;
+    pass.shader("gi/piece_sides.comp").push(push).dispatch(pieces.count);
+  }
+  {
+    Pass pass = frame.pass(kListStage);
+    FacetSurfelsPush push{};
+    push.surface = pass.in(surface.record);
+    push.voxel = pass.in(list.voxel);
+    push.reverse = pass.in(list.reverse);
+    push.firstPoint = pass.in(pieces.firstPoint);
+    push.classes = pass.in(points.classes);
+    push.points = pass.in(points.at);
+    push.pieceArea = pass.in(pieces.area);
+    push.surfels = pass.out(surface.surfels);
+    push.area = pass.out(list.area);
+    push.dims = list.grid.dims;
+    push.count = list.count;
+    pass.shader("gi/facet_surfels.comp").push(push).dispatch(list.count);
+  }
+  Pass pass = frame.pass(kListStage);
+  LinkFacetsPush push{};
+  push.surface = pass.in(surface.record);
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.links = pass.out(surface.links);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  pass.shader("gi/link_facets.comp").push(push).dispatch(list.count);
 }
 
 void makeRecord(Context& context, FacetList& list) {
@@ -168,10 +265,14 @@ void makeRecord(Context& context, FacetList& list) {
   RecordMaker record(context, "surface record", Subsystem::Facets, sizeof(SurfaceArrays));
   SurfaceArrays arrays{};
   arrays.corners = record.of(s.corners);
+  // As far as the surface has got.
   if (s.pieces) {
-    arrays.firstPiece = record.of(s.firstPiece);
     arrays.pieces = record.of(s.pieces);
     arrays.sides = record.of(s.sides);
+    arrays.cuts = record.of(s.cuts);
+  }
+  if (s.surfels) {
+    arrays.firstPiece = record.of(s.firstPiece);
     arrays.surfels = record.of(s.surfels);
     arrays.area = record.of(list.area);
     arrays.links = record.of(s.links);
@@ -181,7 +282,8 @@ void makeRecord(Context& context, FacetList& list) {
 
 /// Albedo and exitance of the pieces, then of the facets, with normals. Returns how many albedos had to be clamped.
 uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Pieces& pieces,
-               const Surface& surface, FacetList& list) {
+               const Points& points, FacetList& list) {
+  const Surface& surface = list.surface;
   const Device& device = context.device;
   const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces));
   const Buffer ordered =
@@ -197,6 +299,7 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
     push.grid = pass.in(gridRecord);
     push.order = pass.in(ordered);
     push.pieceVoxel = pass.in(pieces.pieceVoxel);
+    push.solid = pass.in(pieces.voxel);
     push.pieces = pass.in(surface.pieces);
     push.albedo = pass.out(albedo);
     push.emission = pass.out(emission);
@@ -206,10 +309,12 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
   });
   Pass pass = frame.pass(kVoxelizeStage);
   FacetMeanPush push{};
-  push.scene = pass.in(scene.record);
   push.surface = pass.in(surface.record);
   push.voxel = pass.in(list.voxel);
   push.reverse = pass.in(list.reverse);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.classes = pass.in(points.classes);
+  push.points = pass.in(points.at);
   push.pieceArea = pass.in(pieces.area);
   push.pieceAlbedo = pass.in(albedo);
   push.pieceEmission = pass.in(emission);
@@ -240,7 +345,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   list.hasEmission = keepsEmission(scene, settings);
   const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   Surface& surface = list.surface;
-  surface.corners = words(device, "triangles' corners", 9ull * triangles);
+  surface.corners = words(device, "triangles' corners", 12ull * triangles);
   makeRecord(context, list);
   {
     Frame frame = context.begin();
@@ -255,19 +360,14 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   }
   Pieces pieces = listPieces(context, scene, list.grid, grid, surface.corners);
 
-  // How many facets each solid voxel has, and where they start.
-  Buffer start = words(device, "facets of voxels", pieces.solid), total = words(device, "facets", 1);
-  if (pieces.solid > 0) {
-    Frame frame = context.begin();
-    classify(frame, scene, grid, pieces, pieces.triangle, surface, start, nullptr);
-    exclusiveScan(frame, kListStage, start, pieces.solid, total);
-    frame.submitAndWait();
-    list.count = downloadAs<uint32_t>(context, total).at(0);
-  }
   list.solidVoxels = pieces.solid;
-  allocateFacets(device, list);
   surface.pieces = std::move(pieces.triangle);
   surface.sides = words(device, "pieces' sides", pieces.count);
+  surface.cuts = words(device, "pieces' cuts", pieces.cuts);
+  makeRecord(context, list);
+  Points points;
+  if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
+  allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
   surface.surfels = Buffer(device, "surfels", Subsystem::Facets, sizeof(Surfel) * FACET_SURFELS * uint64_t{list.count});
   surface.links = words(device, "links of facets", uint64_t{FACET_LINKS} * list.count);
@@ -275,20 +375,9 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   Frame frame = context.begin();
   frame.pass(kListStage).fill(list.reverse, NO_FACET);
   frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
-  if (pieces.solid > 0) classify(frame, scene, grid, pieces, surface.pieces, surface, start, &list);
-  if (list.count > 0) {
-    Pass pass = frame.pass(kListStage);
-    LinkFacetsPush push{};
-    push.surface = pass.in(surface.record);
-    push.voxel = pass.in(list.voxel);
-    push.reverse = pass.in(list.reverse);
-    push.links = pass.out(surface.links);
-    push.dims = list.grid.dims;
-    push.count = list.count;
-    pass.shader("gi/link_facets.comp").push(push).dispatch(uint64_t{FACET_LINKS} * list.count);
-  }
+  if (list.count > 0) makeFacets(frame, grid, pieces, points, surface, list);
   frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, surface, list);
+  if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, points, list);
   recordFacets(context, list);
   return list;
 }

@@ -19,10 +19,10 @@ struct Facets {
   NormalEncoding encoding = NormalEncoding::oct16;
   std::vector<uint32_t> voxel, shape, reverse, around;
   // Of lists by classes of surfels (gi/surface.h); else empty.
-  std::vector<glm::vec3> corners;
-  std::vector<uint32_t> firstPiece, pieces, sides;
+  std::vector<glm::vec4> corners;
+  std::vector<uint32_t> firstPiece, pieces, sides, cuts;
   std::vector<Surfel> surfels;
-  glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return corners.at(3 * triangle + i); }
+  glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return glm::dvec3(corners.at(3 * triangle + i)); }
   glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
   /// The point of the plane nearest to the voxel's centre, voxel units.
@@ -45,7 +45,6 @@ struct Hit {
   uint32_t facet = 0;  ///< or TRACE_*
   double t = 0;
   /// Least distance (voxels) or cosine by which a decision on the way was taken: below about 1e-3 fp32 may differ.
-  /// 0: a piece of several facets was met, of which the device chooses.
   double margin = 1e9;
 };
 

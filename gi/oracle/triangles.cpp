@@ -30,6 +30,29 @@ std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& 
   return Meeting{glm::dot(c, q) / determinant, determinant > 0, least};
 }
 
+/// gi/piece_cuts.glsl.
+uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& at, double& margin) {
+  const uint32_t sides = facets.sides.at(piece), shift = back ? 8 : 0;
+  if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;
+  const uint32_t* cuts = &facets.cuts.at(sides & ~PIECE_CUT);
+  const uint32_t count = *cuts++;
+  uint32_t part = 0;
+  bool cut = false;
+  for (uint32_t i = 0; i < count; ++i) {
+    const dvec3 a = facets.corner(cuts[i], 0);
+    const dvec3 normal = glm::cross(facets.corner(cuts[i], 1) - a, facets.corner(cuts[i], 2) - a);
+    const double side = glm::dot(glm::normalize(normal), at - a);
+    margin = std::min(margin, std::abs(std::abs(side) - CUT_WIDTH));
+    cut = cut || std::abs(side) < CUT_WIDTH;
+    part |= side > 0 ? 1u << i : 0u;
+  }
+  for (uint32_t i = 0; i < CUT_POINTS && !cut; ++i) {
+    const uint32_t point = cuts[count + i], found = (point >> shift) & 0xFFu;
+    if (point >> 16 == part && found != PIECE_UNKNOWN) return found;
+  }
+  return PIECE_UNKNOWN;
+}
+
 }  // namespace
 
 Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage) {
@@ -59,12 +82,8 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
   if (met == kNoTriangle) return hit;
   hit.t = nearest;
   hit.margin = std::min(hit.margin, found.edge);
-  const uint32_t side = found.front ? facets.sides.at(metPiece) & 0xFFFFu : facets.sides.at(metPiece) >> 16;
-  hit.facet = side == PIECE_BLACK ? TRACE_BLOCKED : metFirst + side;
-  if (side == PIECE_SPLIT) {  // which of the facets is the device's to say
-    hit.facet = metFirst;
-    hit.margin = 0;
-  }
+  const uint32_t side = classAt(facets, metPiece, !found.front, ray.origin + nearest * ray.direction, hit.margin);
+  hit.facet = side < PIECE_UNKNOWN ? metFirst + side : (side == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return hit;
 }
 

@@ -1,7 +1,14 @@
 // Which points of different voxels lie on the same side of the surface (gi/seen_in_voxel.glsl says it of one voxel).
 #ifndef IRAD_BESIDE_GLSL
 #define IRAD_BESIDE_GLSL
-#include "gi/split_piece.glsl"
+#include "gi/seen_in_voxel.glsl"
+#include "gi/surface_point.glsl"
+
+VoxelPieces piecesOf(SurfaceArrays surface, uint entry) {
+  uint first = firstFacet(entry);
+  return VoxelPieces(surface.corners, surface.pieces, surface.firstPiece.at[first],
+                     surface.firstPiece.at[first + facetsOf(entry)]);
+}
 
 uint entryOf(UintArray reverse, uvec3 dims, ivec3 v) {
   if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(dims)))) return NO_FACET;

@@ -16,7 +16,7 @@ void main() {
   uint piece = push.order.at[push.first + index];
   uint triangle = push.pieces.at[piece];
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  vec3 cell = vec3(unpackVoxel(push.pieceVoxel.at[piece]));
+  vec3 cell = vec3(unpackVoxel(push.solid.at[push.pieceVoxel.at[piece]]));
   vec3 centre;
   clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
   MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);

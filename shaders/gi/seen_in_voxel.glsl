@@ -6,10 +6,23 @@
 #include "shared/surface.h"
 
 struct VoxelPieces {
-  Vec3Array corners;
+  Vec4Array corners;
   UintArray pieces;
   uint first, end;
 };
+
+const uint NO_PIECE = 0xFFFFFFFFu;
+
+/// The piece of a triangle, or NO_PIECE.
+uint pieceIn(VoxelPieces voxel, uint triangle) {
+  uint first = voxel.first, end = voxel.end;
+  while (first < end) {
+    uint middle = (first + end) / 2u;
+    if (voxel.pieces.at[middle] < triangle) first = middle + 1u;
+    else end = middle;
+  }
+  return first < voxel.end && voxel.pieces.at[first] == triangle ? first : NO_PIECE;
+}
 
 const float SAME_SIDE_COSINE = 0.7;      ///< least between normals
 const float SAME_SIDE_LEVEL = 0.02;      ///< voxels: a face this far above another is another
@@ -69,6 +82,12 @@ bool standsOn(vec3 cell, Triangle standing, Triangle t, vec3 facing) {
     }
   }
   return first < last;
+}
+
+/// The same for the front of a triangle and, where it shows, the back.
+bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
+  vec3 facing = facingOf(t, false);
+  return standsOn(cell, standing, t, facing) || (back && standsOn(cell, standing, t, -facing));
 }
 
 /// What two points and the unit normals of their sides say by themselves; `lift`: how far above the surface a way from

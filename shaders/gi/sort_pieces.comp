@@ -14,6 +14,6 @@ void main() {
     uint place = first;
     for (uint j = first; j < end; ++j) place += push.pieces.at[j] < triangle ? 1u : 0u;
     push.sorted.at[place] = triangle;
-    push.pieceVoxel.at[place] = push.solid.at[voxel];
+    push.pieceVoxel.at[place] = voxel;
   }
 }

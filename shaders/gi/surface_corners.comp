@@ -10,5 +10,8 @@ void main() {
   uint triangle = irad_index();
   if (triangle >= push.triangles) return;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  for (uint i = 0u; i < 3u; ++i) push.corners.at[3u * triangle + i] = t.v[i];
+  GpuScene scene = push.scene.at[0];
+  uint flags = scene.materials.at[scene.triangleMaterials.at[triangle]].flags;
+  float back = (flags & MATERIAL_DOUBLE_SIDED) != 0u ? 1.0 : 0.0;
+  for (uint i = 0u; i < 3u; ++i) push.corners.at[3u * triangle + i] = vec4(t.v[i], back);
 }

@@ -3,6 +3,7 @@
 #ifndef IRAD_SURFACE_LOOKUP_GLSL
 #define IRAD_SURFACE_LOOKUP_GLSL
 #include "gi/beside.glsl"
+#include "gi/piece_cuts.glsl"
 #include "shared/gi_params.h"
 
 /// Facets around a point, and their weights, which sum to 1.
@@ -13,19 +14,11 @@ struct SurfaceTaps {
 
 /// The facet of a triangle's side (as Surfel::triangle) in one voxel at `p`; NO_FACET where the triangle has no piece
 /// there, or no part of it that is seen from p.
-uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side, vec3 facing) {
-  uint triangle = side & ~SURFEL_BACK;
-  uint first = surface.firstPiece.at[firstFacet(entry)];
-  uint last = surface.firstPiece.at[firstFacet(entry) + facetsOf(entry)], end = last;
-  while (first < end) {
-    uint middle = (first + end) / 2u;
-    if (surface.pieces.at[middle] < triangle) first = middle + 1u;
-    else end = middle;
-  }
-  if (first == last || surface.pieces.at[first] != triangle) return NO_FACET;
-  uint of = (side & SURFEL_BACK) != 0u ? surface.sides.at[first] >> 16 : surface.sides.at[first] & 0xFFFFu;
-  if (of == PIECE_SPLIT) return nearestOnSide(surface, entry, triangle, facing, p);
-  return of == PIECE_BLACK ? NO_FACET : firstFacet(entry) + of;
+uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side) {
+  uint piece = pieceIn(piecesOf(surface, entry), side & ~SURFEL_BACK);
+  if (piece == NO_PIECE) return NO_FACET;
+  uint found = classAt(surface, piece, (side & SURFEL_BACK) != 0u, p);
+  return found >= PIECE_UNKNOWN ? NO_FACET : firstFacet(entry) + found;
 }
 
 /// The facet on which `p` lies, a point of a triangle's side: in the voxel that holds p or, where rounding has put it
@@ -41,7 +34,7 @@ uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint 
     if (any(notEqual(corner * abs(beside), corner))) continue;
     uint entry = entryOf(reverse, dims, cell + corner * beside);
     if (entry == NO_FACET) continue;
-    uint facet = facetInVoxel(surface, entry, p, side, facing);
+    uint facet = facetInVoxel(surface, entry, p, side);
     if (facet != NO_FACET) return facet;
   }
   return facetBeside(surface, reverse, dims, SurfelPoint(p, facing, side & ~SURFEL_BACK));

@@ -21,10 +21,9 @@ void main() {
   uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
   if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
     SurfaceArrays surface = p.surface.at[0];
-    SurfelPoint from = surfelPoint(surface, row, facetJitter(k, shifts.zw).x);
-    vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), from.facing);
+    FacetRay r = facetRay(surface, row, packedVoxel, k, p.rays, p.seed, p.jitter);
     TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
-    p.hits.at[ray] = traceTriangles(world, surface, from.position, direction, from.triangle).facet;
+    p.hits.at[ray] = traceTriangles(world, surface, r.from.position, r.direction, r.from.triangle).facet;
     return;
   }
   vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), normal);

@@ -1,9 +1,15 @@
 // Hit rule `triangles` (docs/method.md 5): a ray is met by the first triangle of the scene. Cells that hold none are
 // stepped over; in a solid cell its pieces' triangles are asked. Included by gi/trace.glsl.
-#include "gi/seen_in_voxel.glsl"
-#include "gi/beside.glsl"
+#include "gi/piece_cuts.glsl"
+#include "gi/triangle_hit.glsl"
 #include "gi/surface_point.glsl"
 #include "shared/surface.h"
+
+/// Ray k of a facet: from one of its surfels, lifted off the triangle.
+struct FacetRay {
+  SurfelPoint from;
+  vec3 direction;
+};
 
 /// A surfel of the facet, for u uniform in (0, 1), lifted off its triangle.
 SurfelPoint surfelPoint(SurfaceArrays surface, uint facet, float u) {
@@ -12,8 +18,16 @@ SurfelPoint surfelPoint(SurfaceArrays surface, uint facet, float u) {
   return p;
 }
 
-/// The first triangle along a ray but `own`, from which the ray starts; hit.facet is TRACE_BLOCKED for the back of a
-/// single-sided face.
+FacetRay facetRay(SurfaceArrays surface, uint facet, uint packedVoxel, uint k, uint rays, uint seed, uint jitter) {
+  uvec4 shifts = rayShifts(packedVoxel, seed, jitter);
+  FacetRay ray;
+  ray.from = surfelPoint(surface, facet, facetJitter(k, shifts.zw).x);
+  ray.direction = toWorld(cosineDirection(hammersley(k, rays, shifts.xy)), ray.from.facing);
+  return ray;
+}
+
+/// The first triangle along a ray but `own`, from which the ray starts. A facet, TRACE_ESCAPED, TRACE_BLOCKED at the
+/// back of a single-sided face, or TRACE_INVALID where it is not known which facet (PIECE_UNKNOWN).
 TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
   TraceWalk w = traceStart(origin, direction);
   ShearedRay ray = shearedRay(origin, w.direction);
@@ -47,16 +61,8 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
   }
   if (met == 0xFFFFFFFFu) return hit;
   hit.t = nearest;
-  uint sides = surface.sides.at[metPiece];
-  uint side = metFront ? sides & 0xFFFFu : sides >> 16;
-  hit.facet = side == PIECE_BLACK ? TRACE_BLOCKED : firstFacet(metEntry) + side;
-  if (side == PIECE_SPLIT) {
-    vec3 facing = triangleFacing(surface, met | (metFront ? 0u : SURFEL_BACK));
-    vec3 at = origin + w.direction * nearest;
-    hit.facet = nearestOnSide(surface, metEntry, met, facing, at);
-    if (hit.facet == NO_FACET)
-      hit.facet = facetBeside(surface, world.facets.reverse, world.dims, SurfelPoint(at, facing, met));
-    if (hit.facet == NO_FACET) hit.facet = TRACE_BLOCKED;
-  }
+  uint found = classAt(surface, metPiece, !metFront, origin + w.direction * nearest);
+  hit.facet = found < PIECE_UNKNOWN ? firstFacet(metEntry) + found
+                                    : (found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return hit;
 }

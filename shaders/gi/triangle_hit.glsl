@@ -8,8 +8,14 @@ struct Triangle {
   vec3 a, b, c;
 };
 
-Triangle triangleAt(Vec3Array corners, uint triangle) {
-  return Triangle(corners.at[3u * triangle], corners.at[3u * triangle + 1u], corners.at[3u * triangle + 2u]);
+Triangle triangleAt(Vec4Array corners, uint triangle) {
+  return Triangle(corners.at[3u * triangle].xyz, corners.at[3u * triangle + 1u].xyz, corners.at[3u * triangle + 2u].xyz);
+}
+
+/// Read as a whole: Mesa 22.3 takes x for w where the rest of the vector has been read before.
+bool showsBack(Vec4Array corners, uint triangle) {
+  vec4 first = corners.at[3u * triangle];
+  return first.w > 0.0;
 }
 
 /// The unit normal of the side whose corners turn counter-clockwise, or of the other.

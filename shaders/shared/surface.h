@@ -26,9 +26,29 @@ IRAD_FN uint packPlace(vec2 weights) {
 }
 IRAD_FN vec2 unpackPlace(uint place) { return vec2(float(place & 0xFFFFu), float(place >> 16)) * (1.0f / 65535.0f); }
 
-/// Which facet either side of a piece belongs to, counted from the voxel's first: front in bits 0-15, back in 16-31.
-IRAD_CONST uint PIECE_BLACK = 0xFFFFu;  ///< none: the back of a single-sided face
-IRAD_CONST uint PIECE_SPLIT = 0xFFFEu;  ///< several: the nearest surfel that is seen from the point decides
+/// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
+IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
+IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
+/// Or, where others stand on it, PIECE_CUT | the place in SurfaceArrays::cuts of: how many do (1 to MOST_CUTS); their
+/// triangles; and CUT_POINTS points of the piece, each with the sides of these triangles' planes on which it lies in
+/// bits 16-31 (gi/piece_cuts.glsl) above the facets as for a whole piece.
+IRAD_CONST uint PIECE_CUT = 0x80000000u;
+IRAD_CONST uint MOST_CUTS = 15u;
+IRAD_CONST uint CUT_POINTS = 16u;
+IRAD_CONST float CUT_WIDTH = 2e-3f;  ///< voxels: how close to a cut a point is on neither side
+/// The facets of a voxel are numbered from 0 to this.
+IRAD_CONST uint LAST_CLASS = 61u;
+
+/// A point by which the facets of a voxel are told apart: one for each side of a whole piece, CUT_POINTS of a cut one.
+struct PiecePoint {
+  vec3 position;  ///< voxel units
+  uint side;      ///< the piece, | SURFEL_BACK
+};
+IRAD_ARRAY(PiecePointArray, PiecePoint, 4)
+/// Its facet, counted from the voxel's first; | CLASS_LEADER: the point that the others of its class were compared with.
+IRAD_CONST uint CLASS_LEADER = 0x80000000u;
+IRAD_CONST uint NO_CLASS = 0x7FFFFFFFu;      ///< none, or not known yet
+IRAD_CONST uint CLASS_OF_PART = 0x7FFFFFFEu; ///< that of the first point in the same part of the same cut piece
 
 /// Links of a facet: a byte for each of the 3 x 3 x 3 voxels around (x + 3 y + 9 z): which of that voxel's facets
 /// continues the surface on the same side, or NO_LINK.
@@ -36,10 +56,11 @@ IRAD_CONST uint FACET_LINKS = 7u;
 IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
-  Vec3Array corners;      ///< three per triangle, voxel units
+  Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, ascending within a voxel
   UintArray sides;        ///< per piece
+  UintArray cuts;
   SurfelArray surfels;    ///< FACET_SURFELS per facet
   FloatArray area;        ///< per facet, voxel faces
   UintArray links;        ///< per facet FACET_LINKS words: the facets of the voxels around that go on on its side
@@ -70,7 +91,7 @@ struct BlurLinksPush {
 struct SurfaceCornersPush {
   SceneArray scene;
   GridArray grid;
-  Vec3Array corners;
+  Vec4Array corners;
   uint triangles, pad;
 };
 
@@ -101,29 +122,73 @@ struct SortPiecesPush {
   UintArray solid;
   UintArray firstPiece;  ///< per solid voxel, and one more
   UintArray pieces, sorted;
-  UintArray pieceVoxel;  ///< packVoxel
+  UintArray pieceVoxel;  ///< which solid voxel
   uint count, pad;  ///< solid voxels
 };
 
-/// gi/piece_area.comp.
-struct PieceAreaPush {
+/// gi/piece_shape.comp.
+struct PieceShapePush {
   UintArray pieceVoxel, pieces;
-  Vec3Array corners;
-  FloatArray area;  ///< per piece, voxel faces
+  UintArray solid, firstPiece;
+  Vec4Array corners;
+  FloatArray area;    ///< per piece, voxel faces
+  UintArray points;   ///< per piece: PiecePoints
+  UintArray cuts;     ///< per piece: words of SurfaceArrays::cuts
+  uint count, pad;    ///< pieces
+};
+
+/// gi/piece_points.comp.
+struct PiecePointsPush {
+  UintArray pieceVoxel, solid, firstPiece;
+  SurfaceRecord surface;
+  FloatArray area;
+  UintArray firstPoint;  ///< per piece
+  UintArray firstCut;    ///< per piece; and the end
+  PiecePointArray points;
+  UintArray classes;     ///< per point: NO_CLASS or CLASS_OF_PART
+  UintArray sides, cuts;
   uint count, pad;  ///< pieces
 };
 
-/// gi/class_facets.comp: counts the facets of each solid voxel, or makes them.
-struct ClassFacetsPush {
-  SceneArray scene;
-  GridArray grid;
-  UintArray solid, firstPiece, pieces;
-  FloatArray pieceArea;
-  UintArray facetStart;  ///< per solid voxel: facets, or their exclusive prefix sum
-  UintArray voxel, triangle, reverse;  ///< of FacetArrays
+/// gi/class_points.comp and gi/class_crowd.comp: which points of a voxel belong to one facet.
+struct ClassPointsPush {
+  UintArray firstPiece;  ///< per solid voxel; and the end
   SurfaceRecord surface;
-  uint count;  ///< solid voxels
-  uint makes;
+  FloatArray area;
+  UintArray firstPoint;  ///< per piece; and the end
+  PiecePointArray points;
+  UintArray classes;     ///< per point
+  UintArray facets;      ///< per solid voxel: how many
+  uint count, pad;       ///< solid voxels
+};
+/// Voxels with more points have a workgroup each.
+IRAD_CONST uint CROWD = 32u;
+/// Of voxels with more pieces the points are compared by place and normal alone.
+IRAD_CONST uint MOST_SEEN = 4096u;
+
+/// gi/piece_sides.comp.
+struct PieceSidesPush {
+  GridArray grid;
+  UintArray pieceVoxel, solid, firstPiece, firstPoint, classes;
+  PiecePointArray points;
+  UintArray facetStart;  ///< per solid voxel; and the end
+  SurfaceRecord surface;
+  UintArray sides, cuts;
+  UintArray voxel, triangle, reverse;  ///< of FacetArrays
+  UintArray facetPiece;                ///< SurfaceArrays::firstPiece
+  uint count, pad;
+};
+
+/// gi/facet_surfels.comp.
+struct FacetSurfelsPush {
+  SurfaceRecord surface;
+  UintArray voxel, reverse, firstPoint, classes;
+  PiecePointArray points;
+  FloatArray pieceArea;
+  SurfelArray surfels;
+  FloatArray area;
+  uvec3 dims;
+  uint count;
 };
 
 /// gi/piece_shade.comp: albedo and exitance of each piece at its middle.
@@ -131,7 +196,7 @@ struct PieceShadePush {
   SceneArray scene;
   GridArray grid;
   UintArray order;  ///< pieces grouped by material; all that sample no texture are one group
-  UintArray pieceVoxel;
+  UintArray pieceVoxel, solid;
   UintArray pieces;
   Vec3Array albedo;    ///< per piece, clamped to [0, .98]
   Vec3Array emission;  ///< M per piece
@@ -142,9 +207,10 @@ struct PieceShadePush {
 
 /// gi/facet_mean.comp: area-weighted attributes of each facet.
 struct FacetMeanPush {
-  SceneArray scene;
   SurfaceRecord surface;
   UintArray voxel, reverse;
+  UintArray firstPoint, classes;
+  PiecePointArray points;
   FloatArray pieceArea;
   Vec3Array pieceAlbedo, pieceEmission;
   UintArray shape;

@@ -1,0 +1,53 @@
+// Each facet's area, and its surfels: points of its pieces that stand for equal shares of it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/facet_points.glsl"
+#include "gi/piece_place.glsl"
+#include "shared/grid.h"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { FacetSurfelsPush push; };
+
+void main() {
+  uint facet = irad_index();
+  if (facet >= push.count) return;
+  SurfaceArrays surface = push.surface.at[0];
+  uint packedVoxel = push.voxel.at[facet];
+  uvec3 voxel = unpackVoxel(packedVoxel);
+  vec3 cell = vec3(voxel);
+  FacetPoints points = pointsOf(surface, push.firstPoint, facet, push.reverse.at[voxelIndex(voxel, push.dims)]);
+  float area = 0.0;
+  for (uint i = points.first; i < points.end; ++i)
+    if ((push.classes.at[i] & ~CLASS_LEADER) == points.own)
+      area += areaOfPoint(surface, push.pieceArea, push.firstPoint, push.classes, i, push.points.at[i]);
+  push.area.at[facet] = area;
+
+  uint shift = hashUint(packedVoxel ^ 0x2545F491u);
+  uint k = 0u;
+  float upTo = 0.0;
+  for (uint i = points.first; i < points.end; ++i) {
+    if ((push.classes.at[i] & ~CLASS_LEADER) != points.own) continue;
+    PiecePoint p = push.points.at[i];
+    float before = upTo, share = areaOfPoint(surface, push.pieceArea, push.firstPoint, push.classes, i, p);
+    upTo += share;
+    // The last one takes what rounding leaves.
+    float at = (float(k) + 0.5) / float(FACET_SURFELS) * area;
+    bool last = upTo >= area * 0.999999;
+    if (k == FACET_SURFELS || (at >= upTo && !last)) continue;
+    uint piece = p.side & ~SURFEL_BACK;
+    uint triangle = surface.pieces.at[piece];
+    Triangle t = triangleAt(surface.corners, triangle);
+    bool whole = (surface.sides.at[piece] & PIECE_CUT) == 0u;
+    uint from = 0u, n = 0u;
+    if (whole) n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
+    while (k < FACET_SURFELS && (at < upTo || last)) {
+      vec3 point = p.position;
+      if (whole && n > 0u)
+        point = cell + polygonPoint(from, n, push.pieceArea.at[piece],
+                                    vec2(clamp((at - before) / share, 0.0, 1.0), unitFloat(reverseBits(k) + shift)));
+      push.surfels.at[FACET_SURFELS * facet + k] =
+          Surfel(triangle | (p.side & SURFEL_BACK), packPlace(weightsAt(t, point)));
+      ++k;
+      at = (float(k) + 0.5) / float(FACET_SURFELS) * area;
+    }
+  }
+}

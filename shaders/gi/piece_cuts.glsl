@@ -1,0 +1,38 @@
+// Pieces with others standing on them: which facet a point of such a piece belongs to. The planes of the triangles that
+// stand on it cut a piece into parts, and nothing stands between two points of one part (docs/method.md 4).
+#ifndef IRAD_PIECE_CUTS_GLSL
+#define IRAD_PIECE_CUTS_GLSL
+#include "gi/triangle_hit.glsl"
+#include "shared/surface.h"
+
+const uint NO_PART = 0xFFFFu;
+
+/// The part of a piece, cut by `count` triangles from `place` on in `cuts`, at a point; or NO_PART.
+uint partAt(Vec4Array corners, UintArray cuts, uint place, uint count, vec3 at) {
+  uint part = 0u;
+  for (uint i = 0u; i < count; ++i) {
+    Triangle t = triangleAt(corners, cuts.at[place + i]);
+    float side = dot(facingOf(t, false), at - t.a);
+    if (abs(side) < CUT_WIDTH) return NO_PART;
+    part |= side > 0.0 ? 1u << i : 0u;
+  }
+  return part;
+}
+
+/// Which facet of its voxel, counted from the first, a point of a piece's side belongs to; or PIECE_*.
+uint classAt(SurfaceArrays surface, uint piece, bool back, vec3 at) {
+  uint sides = surface.sides.at[piece];
+  uint shift = back ? 8u : 0u;
+  if ((sides & PIECE_CUT) == 0u) return (sides >> shift) & 0xFFu;
+  uint place = sides & ~PIECE_CUT;
+  uint count = surface.cuts.at[place];
+  uint part = partAt(surface.corners, surface.cuts, place + 1u, count, at);
+  for (uint i = 0u; i < CUT_POINTS && part != NO_PART; ++i) {
+    uint point = surface.cuts.at[place + 1u + count + i];
+    uint found = (point >> shift) & 0xFFu;
+    if ((point >> 16) == part && found != PIECE_UNKNOWN) return found;
+  }
+  return PIECE_UNKNOWN;
+}
+
+#endif

@@ -1,0 +1,40 @@
+// Points of the part of a triangle in a voxel, uniform over its area.
+#ifndef IRAD_PIECE_PLACE_GLSL
+#define IRAD_PIECE_PLACE_GLSL
+#include "gi/triangle_hit.glsl"
+#include "gi/voxel_clip.glsl"
+#include "shared/sampling.h"
+
+/// Weights of the second and third corner at a point of the triangle.
+vec2 weightsAt(Triangle t, vec3 p) {
+  vec3 b = t.b - t.a, c = t.c - t.a, d = p - t.a, n = cross(b, c);
+  return vec2(dot(cross(d, c), n), dot(cross(b, d), n)) / dot(n, n);
+}
+
+/// A point of the clipped polygon, uniform over its area for u uniform over the square.
+vec3 polygonPoint(uint from, uint n, float area, vec2 u) {
+  vec3 first = clipCorners[clipPlace(from, 0u)];
+  float left = u.x * area;
+  vec3 d = vec3(0.0), e = vec3(0.0);
+  [[dont_unroll]] for (uint i = 2u; i < n; ++i) {
+    d = clipCorners[clipPlace(from, i - 1u)] - first;
+    e = clipCorners[clipPlace(from, i)] - first;
+    float fan = 0.5 * length(cross(d, e));
+    if (left < fan || i + 1u == n) {
+      float x = fan > 0.0 ? clamp(left / fan, 0.0, 1.0) : 0.5;
+      // Along the fan by x, from its tip by the root of u.y: uniform.
+      float r = sqrt(u.y);
+      return first + r * mix(d, e, x);
+    }
+    left -= fan;
+  }
+  return first;
+}
+
+/// Where point k of a cut piece is; `again` moves it.
+vec2 cutPlace(uint piece, uint k, uint again) {
+  return vec2((float(k) + unitFloat(hashUint(piece + 0x9E3779B9u * again))) / float(CUT_POINTS),
+              unitFloat(reverseBits(k) + hashUint(piece ^ (again << 28))));
+}
+
+#endif

@@ -1,0 +1,62 @@
+// The points of every piece by which the facets of its voxel are told apart: the middle of a whole piece; of one that
+// others stand on several, and those triangles.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/piece_cuts.glsl"
+#include "gi/piece_place.glsl"
+#include "gi/seen_in_voxel.glsl"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { PiecePointsPush push; };
+
+void main() {
+  uint piece = irad_index();
+  if (piece >= push.count) return;
+  SurfaceArrays surface = push.surface.at[0];
+  uint voxel = push.pieceVoxel.at[piece];
+  vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
+  uint triangle = surface.pieces.at[piece];
+  Triangle t = triangleAt(surface.corners, triangle);
+  uint place = push.firstPoint.at[piece];
+  bool back = showsBack(surface.corners, triangle);
+  uint cut = push.firstCut.at[piece];
+  uint count = push.firstCut.at[piece + 1u] - cut;
+  uint from;
+  uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
+  if (count == 0u) {
+    vec3 middle = (t.a + t.b + t.c) * (1.0 / 3.0) - cell;
+    if (n > 0u) polygonArea(from, n, middle);
+    push.points.at[place] = PiecePoint(cell + middle, piece);
+    push.classes.at[place] = NO_CLASS;
+    if (back) {
+      push.points.at[place + 1u] = PiecePoint(cell + middle, piece | SURFEL_BACK);
+      push.classes.at[place + 1u] = NO_CLASS;
+    }
+    return;
+  }
+
+  push.sides.at[piece] = PIECE_CUT | cut;
+  count -= 1u + CUT_POINTS;
+  uint end = push.firstPiece.at[voxel + 1u], found = 0u;
+  for (uint i = push.firstPiece.at[voxel]; i < end && found < count; ++i)
+    if (i != piece && standsOnSides(cell, triangleAt(surface.corners, surface.pieces.at[i]), t, back))
+      push.cuts.at[cut + 1u + found++] = surface.pieces.at[i];
+  push.cuts.at[cut] = count = found;
+  for (uint k = 0u; k < CUT_POINTS; ++k) {
+    vec3 at;
+    uint part = NO_PART;
+    for (uint again = 0u; again < 4u && part == NO_PART; ++again) {
+      at = cell + polygonPoint(from, n, push.area.at[piece], cutPlace(piece, k, again));
+      part = partAt(surface.corners, push.cuts, cut + 1u, count, at);
+    }
+    // Nothing is between two points of one part: one is enough.
+    bool first = part != NO_PART;
+    for (uint j = 0u; j < k && first; ++j) first = push.cuts.at[cut + 1u + count + j] >> 16 != part;
+    push.cuts.at[cut + 1u + count + k] = part << 16;
+    uint class_ = first ? NO_CLASS : CLASS_OF_PART;
+    push.points.at[place + k] = PiecePoint(at, piece);
+    push.classes.at[place + k] = class_;
+    if (!back) continue;
+    push.points.at[place + CUT_POINTS + k] = PiecePoint(at, piece | SURFEL_BACK);
+    push.classes.at[place + CUT_POINTS + k] = class_;
+  }
+}

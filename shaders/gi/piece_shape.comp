@@ -1,0 +1,26 @@
+// The area of every piece, how many others stand on it, and how many points it needs to tell facets apart.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/seen_in_voxel.glsl"
+#include "gi/voxel_clip.glsl"
+#include "shared/surface.h"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { PieceShapePush push; };
+
+void main() {
+  uint piece = irad_index();
+  if (piece >= push.count) return;
+  uint voxel = push.pieceVoxel.at[piece];
+  vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
+  uint triangle = push.pieces.at[piece];
+  Triangle t = triangleAt(push.corners, triangle);
+  vec3 centre;
+  push.area.at[piece] = max(clipToCell(t.a - cell, t.b - cell, t.c - cell, centre), 0.0);
+  bool back = showsBack(push.corners, triangle);
+  uint cuts = 0u;
+  uint end = push.firstPiece.at[voxel + 1u];
+  for (uint i = push.firstPiece.at[voxel]; i < end && cuts < MOST_CUTS; ++i)
+    if (i != piece && standsOnSides(cell, triangleAt(push.corners, push.pieces.at[i]), t, back)) ++cuts;
+  push.points.at[piece] = (cuts > 0u ? CUT_POINTS : 1u) * (back ? 2u : 1u);
+  push.cuts.at[piece] = cuts > 0u ? 1u + cuts + CUT_POINTS : 0u;
+}

@@ -1,0 +1,56 @@
+// Which facet each side of a piece belongs to, and where facets are: of the first point of each class.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gi/piece_cuts.glsl"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { PieceSidesPush push; };
+
+/// Facets at a point, as in SurfaceArrays::sides.
+uint facetOfPoint(uint point) {
+  uint class_ = push.classes.at[point];
+  return class_ == NO_CLASS ? PIECE_UNKNOWN : class_ & ~CLASS_LEADER;
+}
+
+void main() {
+  uint piece = irad_index();
+  if (piece >= push.count) return;
+  uint voxel = push.pieceVoxel.at[piece];
+  uint packedVoxel = push.solid.at[voxel];
+  uint base = push.facetStart.at[voxel];
+  uint end = push.facetStart.at[voxel + 1u];
+  uint first = push.firstPoint.at[piece], points = push.firstPoint.at[piece + 1u] - first;
+  uint sides = push.sides.at[piece];
+  uint perSide = (sides & PIECE_CUT) != 0u ? CUT_POINTS : 1u;
+  bool back = points > perSide;
+  if (perSide == 1u) {
+    push.sides.at[piece] = facetOfPoint(first) | (back ? facetOfPoint(first + 1u) : PIECE_BLACK) << 8;
+  } else {
+    uint place = sides & ~PIECE_CUT;
+    place += 1u + push.cuts.at[place];
+    for (uint k = 0u; k < CUT_POINTS; ++k) {
+      uint part = push.cuts.at[place + k] >> 16;
+      for (uint s = first + k; s < first + points; s += CUT_POINTS) {
+        if (push.classes.at[s] != CLASS_OF_PART) continue;
+        uint found = NO_CLASS;
+        for (uint j = 0u; j < k && part != NO_PART; ++j)
+          if (push.cuts.at[place + j] >> 16 == part) {
+            found = push.classes.at[s - k + j] & ~CLASS_LEADER;
+            break;
+          }
+        push.classes.at[s] = found;
+      }
+      push.cuts.at[place + k] |=
+          facetOfPoint(first + k) | (back ? facetOfPoint(first + CUT_POINTS + k) : PIECE_BLACK) << 8;
+    }
+  }
+  for (uint i = first; i < first + points; ++i) {
+    uint class_ = push.classes.at[i];
+    if ((class_ & CLASS_LEADER) == 0u) continue;
+    uint facet = base + (class_ & ~CLASS_LEADER);
+    push.voxel.at[facet] = packedVoxel;
+    push.triangle.at[facet] = push.surface.at[0].pieces.at[piece] | (push.points.at[i].side & SURFEL_BACK);
+    push.facetPiece.at[facet] = push.firstPiece.at[voxel];
+    if (facet == base)
+      push.reverse.at[voxelIndex(unpackVoxel(packedVoxel), push.grid.at[0].dims)] = facetEntryOf(base, end - base);
+  }
+}
