@@ -136,9 +136,10 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
       SortPiecesPush sort{};
       sort.solid = pass.in(p.voxel);
       sort.firstPiece = pass.in(p.first);
-      sort.pieces = pass.in(unsorted);
+      sort.pieces = pass.out(unsorted);
       sort.sorted = pass.out(p.triangle);
       sort.pieceVoxel = pass.out(p.pieceVoxel);
+      sort.corners = pass.in(corners);
       sort.count = p.solid;
       pass.shader("gi/sort_pieces.comp").push(sort).dispatchWorkgroups(p.solid);
     }
@@ -285,7 +286,9 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
                const Points& points, FacetList& list) {
   const Surface& surface = list.surface;
   const Device& device = context.device;
-  const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces));
+  std::vector<uint32_t> triangles = downloadAs<uint32_t>(context, surface.pieces);
+  for (uint32_t& piece : triangles) piece &= ~PIECE_SMALL;
+  const Order order = groupByMaterial(scene, triangles);
   const Buffer ordered =
       makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
   const Buffer clamped = words(device, "clamped albedo", 1);

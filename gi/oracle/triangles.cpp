@@ -65,7 +65,7 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
     const std::vector<uint32_t> here = facetsAt(facets, walk.cell);
     if (here.empty()) continue;
     for (uint32_t i = facets.firstPiece.at(here.front()); i < facets.firstPiece.at(here.back() + 1); ++i) {
-      const uint32_t triangle = facets.pieces.at(i);
+      const uint32_t triangle = facets.pieces.at(i) & ~PIECE_SMALL;
       if (triangle == ray.triangle) continue;
       const std::optional<Meeting> m = meet(facets, triangle, ray);
       if (!m || m->t <= 0 || m->t > nearest || (m->t == nearest && triangle > met)) continue;

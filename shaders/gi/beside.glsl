@@ -6,7 +6,7 @@
 
 VoxelPieces piecesOf(SurfaceArrays surface, uint entry) {
   uint first = firstFacet(entry);
-  return VoxelPieces(surface.corners, surface.pieces, surface.firstPiece.at[first],
+  return voxelPieces(surface.corners, surface.pieces, surface.firstPiece.at[first],
                      surface.firstPiece.at[first + facetsOf(entry)]);
 }
 

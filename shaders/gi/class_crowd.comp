@@ -12,10 +12,9 @@ void main() {
   uint me = gl_LocalInvocationID.x;
   SurfaceArrays surface = push.surface.at[0];
   VoxelPieces pieces =
-      VoxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
   if (end - first <= CROWD) return;
-  if (pieces.end - pieces.first > MOST_SEEN) pieces.end = pieces.first;
   uint classes = 0u;
   float least = LEAST_FACET;
   while (classes <= LAST_CLASS) {

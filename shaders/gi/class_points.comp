@@ -10,7 +10,7 @@ void main() {
   if (voxel >= push.count) return;
   SurfaceArrays surface = push.surface.at[0];
   VoxelPieces pieces =
-      VoxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
   if (end - first > CROWD) return;
   uint classes = 0u;

@@ -13,7 +13,7 @@ struct ClassPoint {
 ClassPoint classPoint(SurfaceArrays surface, uint i) {
   PiecePoint p = push.points.at[i];
   uint piece = p.side & ~SURFEL_BACK;
-  uint triangle = surface.pieces.at[piece];
+  uint triangle = triangleOf(surface.pieces, piece);
   return ClassPoint(p.position, facingOf(triangleAt(surface.corners, triangle), (p.side & SURFEL_BACK) != 0u),
                     triangle, p.side, push.area.at[piece]);
 }

@@ -34,7 +34,7 @@ void main() {
     bool last = upTo >= area * 0.999999;
     if (k == FACET_SURFELS || (at >= upTo && !last)) continue;
     uint piece = p.side & ~SURFEL_BACK;
-    uint triangle = surface.pieces.at[piece];
+    uint triangle = triangleOf(surface.pieces, piece);
     Triangle t = triangleAt(surface.corners, triangle);
     bool whole = (surface.sides.at[piece] & PIECE_CUT) == 0u;
     uint from = 0u, n = 0u;

@@ -14,7 +14,7 @@ void main() {
   SurfaceArrays surface = push.surface.at[0];
   uint voxel = push.pieceVoxel.at[piece];
   vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
-  uint triangle = surface.pieces.at[piece];
+  uint triangle = triangleOf(surface.pieces, piece);
   Triangle t = triangleAt(surface.corners, triangle);
   uint place = push.firstPoint.at[piece];
   bool back = showsBack(surface.corners, triangle);
@@ -36,8 +36,10 @@ void main() {
 
   push.sides.at[piece] = PIECE_CUT | cut;
   count -= 1u + CUT_POINTS;
-  uint end = push.firstPiece.at[voxel + 1u], found = 0u;
-  for (uint i = push.firstPiece.at[voxel]; i < end && found < count; ++i)
+  VoxelPieces others =
+      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+  uint found = 0u;
+  for (uint i = others.first; i < others.endLarge && found < count; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(surface.corners, surface.pieces.at[i]), t, back))
       push.cuts.at[cut + 1u + found++] = surface.pieces.at[i];
   push.cuts.at[cut] = count = found;

@@ -14,7 +14,7 @@ void main() {
   uint index = irad_index();
   if (index >= push.count) return;
   uint piece = push.order.at[push.first + index];
-  uint triangle = push.pieces.at[piece];
+  uint triangle = push.pieces.at[piece] & ~PIECE_SMALL;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   vec3 cell = vec3(unpackVoxel(push.solid.at[push.pieceVoxel.at[piece]]));
   vec3 centre;

@@ -12,14 +12,15 @@ void main() {
   if (piece >= push.count) return;
   uint voxel = push.pieceVoxel.at[piece];
   vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
-  uint triangle = push.pieces.at[piece];
+  uint triangle = triangleOf(push.pieces, piece);
   Triangle t = triangleAt(push.corners, triangle);
   vec3 centre;
   push.area.at[piece] = max(clipToCell(t.a - cell, t.b - cell, t.c - cell, centre), 0.0);
   bool back = showsBack(push.corners, triangle);
   uint cuts = 0u;
-  uint end = push.firstPiece.at[voxel + 1u];
-  for (uint i = push.firstPiece.at[voxel]; i < end && cuts < MOST_CUTS; ++i)
+  VoxelPieces others =
+      voxelPieces(push.corners, push.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+  for (uint i = others.first; i < others.endLarge && cuts < MOST_CUTS; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(push.corners, push.pieces.at[i]), t, back)) ++cuts;
   push.points.at[piece] = (cuts > 0u ? CUT_POINTS : 1u) * (back ? 2u : 1u);
   push.cuts.at[piece] = cuts > 0u ? 1u + cuts + CUT_POINTS : 0u;

@@ -48,7 +48,7 @@ void main() {
     if ((class_ & CLASS_LEADER) == 0u) continue;
     uint facet = base + (class_ & ~CLASS_LEADER);
     push.voxel.at[facet] = packedVoxel;
-    push.triangle.at[facet] = push.surface.at[0].pieces.at[piece] | (push.points.at[i].side & SURFEL_BACK);
+    push.triangle.at[facet] = triangleOf(push.surface.at[0].pieces, piece) | (push.points.at[i].side & SURFEL_BACK);
     push.facetPiece.at[facet] = push.firstPiece.at[voxel];
     if (facet == base)
       push.reverse.at[voxelIndex(unpackVoxel(packedVoxel), push.grid.at[0].dims)] = facetEntryOf(base, end - base);

@@ -9,29 +9,42 @@ struct VoxelPieces {
   Vec4Array corners;
   UintArray pieces;
   uint first, end;
+  uint endLarge;  ///< of those that may stand on others or hide them
 };
+
+/// The first of some of a voxel's pieces that is not before `piece`.
+uint pieceFrom(UintArray pieces, uint first, uint end, uint piece) {
+  while (first < end) {
+    uint middle = (first + end) / 2u;
+    if (pieces.at[middle] < piece) first = middle + 1u;
+    else end = middle;
+  }
+  return first;
+}
+
+VoxelPieces voxelPieces(Vec4Array corners, UintArray pieces, uint first, uint end) {
+  return VoxelPieces(corners, pieces, first, end,
+                     end - first <= MOST_LARGE ? end : pieceFrom(pieces, first, end, PIECE_SMALL));
+}
 
 const uint NO_PIECE = 0xFFFFFFFFu;
 
 /// The piece of a triangle, or NO_PIECE.
 uint pieceIn(VoxelPieces voxel, uint triangle) {
-  uint first = voxel.first, end = voxel.end;
-  while (first < end) {
-    uint middle = (first + end) / 2u;
-    if (voxel.pieces.at[middle] < triangle) first = middle + 1u;
-    else end = middle;
-  }
-  return first < voxel.end && voxel.pieces.at[first] == triangle ? first : NO_PIECE;
+  uint place = pieceFrom(voxel.pieces, voxel.first, voxel.endLarge, triangle);
+  if (place < voxel.endLarge && voxel.pieces.at[place] == triangle) return place;
+  place = pieceFrom(voxel.pieces, voxel.endLarge, voxel.end, triangle | PIECE_SMALL);
+  return place < voxel.end && voxel.pieces.at[place] == (triangle | PIECE_SMALL) ? place : NO_PIECE;
 }
 
 const float SAME_SIDE_COSINE = 0.7;      ///< least between normals
 const float SAME_SIDE_LEVEL = 0.02;      ///< voxels: a face this far above another is another
 const float ABOVE_SURFACE = 1.0 / 256.0; ///< voxels: ways are this far above the surface
 
-/// Whether the segment from `a` to `b` (voxel units) crosses no piece but those of two triangles.
+/// Whether the segment from `a` to `b` (voxel units) crosses no large piece but those of two triangles.
 bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
   ShearedRay ray = shearedRay(a, b - a);
-  for (uint i = voxel.first; i < voxel.end; ++i) {
+  for (uint i = voxel.first; i < voxel.endLarge; ++i) {
     uint triangle = voxel.pieces.at[i];
     if (triangle == except1 || triangle == except2) continue;
     float t;

@@ -42,7 +42,7 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
     uint facet = firstFacet(entry);
     uint end = surface.firstPiece.at[facet + facetsOf(entry)];
     for (uint i = surface.firstPiece.at[facet]; i < end; ++i) {
-      uint triangle = surface.pieces.at[i];
+      uint triangle = triangleOf(surface.pieces, i);
       if (triangle == own) continue;
       float t;
       bool front;

@@ -2,11 +2,13 @@
 // passes between two triangles with a common edge meets at least one of them. On the edge itself both count.
 #ifndef IRAD_TRIANGLE_HIT_GLSL
 #define IRAD_TRIANGLE_HIT_GLSL
-#include "shared/types.h"
+#include "shared/surface.h"
 
 struct Triangle {
   vec3 a, b, c;
 };
+
+uint triangleOf(UintArray pieces, uint piece) { return pieces.at[piece] & ~PIECE_SMALL; }
 
 Triangle triangleAt(Vec4Array corners, uint triangle) {
   return Triangle(corners.at[3u * triangle].xyz, corners.at[3u * triangle + 1u].xyz, corners.at[3u * triangle + 2u].xyz);

@@ -26,6 +26,11 @@ IRAD_FN uint packPlace(vec2 weights) {
 }
 IRAD_FN vec2 unpackPlace(uint place) { return vec2(float(place & 0xFFFFu), float(place >> 16)) * (1.0f / 65535.0f); }
 
+/// Of a voxel with more pieces only the largest, at most as many, are taken to stand on others or to hide them: the work
+/// grows with their number to the third power. The others' bit puts them last in the voxel's order.
+IRAD_CONST uint MOST_LARGE = 128u;
+IRAD_CONST uint PIECE_SMALL = 0x80000000u;
+
 /// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
@@ -58,7 +63,7 @@ IRAD_CONST uint NO_LINK = 255u;
 struct SurfaceArrays {
   Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
-  UintArray pieces;       ///< triangles, ascending within a voxel
+  UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray sides;        ///< per piece
   UintArray cuts;
   SurfelArray surfels;    ///< FACET_SURFELS per facet
@@ -123,8 +128,11 @@ struct SortPiecesPush {
   UintArray firstPiece;  ///< per solid voxel, and one more
   UintArray pieces, sorted;
   UintArray pieceVoxel;  ///< which solid voxel
+  Vec4Array corners;
   uint count, pad;  ///< solid voxels
 };
+/// Voxels with more pieces are sorted by merging, others by counting.
+IRAD_CONST uint MOST_COUNTED = 1024u;
 
 /// gi/piece_shape.comp.
 struct PieceShapePush {
@@ -163,8 +171,6 @@ struct ClassPointsPush {
 };
 /// Voxels with more points have a workgroup each.
 IRAD_CONST uint CROWD = 32u;
-/// Of voxels with more pieces the points are compared by place and normal alone.
-IRAD_CONST uint MOST_SEEN = 4096u;
 
 /// gi/piece_sides.comp.
 struct PieceSidesPush {
