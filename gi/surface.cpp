@@ -1,5 +1,7 @@
 #include "gi/surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <vector>
@@ -42,6 +44,7 @@ struct Pieces {
 struct Points {
   Buffer at;          ///< PiecePoint
   Buffer classes;     ///< per point
+  Buffer area;        ///< per point: for how much it stands, voxel faces
   Buffer facetStart;  ///< per solid voxel, and the end
 };
 
@@ -91,16 +94,18 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   push.blocks = 1u << (grid.mortonBits.x + grid.mortonBits.y + grid.mortonBits.z - 6);
   Buffer blockSolid = words(device, "solid voxels of blocks", push.blocks),
          blockPieces = words(device, "pieces of blocks", push.blocks), solid = words(device, "solid voxels", 1),
-         pieces = words(device, "pieces", 1);
+         pieces = words(device, "pieces", 1), most = words(device, "most pieces of a voxel", 1);
   {
     Frame frame = context.begin();
     frame.pass(kVoxelizeStage).fill(counts, 0);
+    frame.pass(kVoxelizeStage).fill(most, 0);
     listOrCount(frame, scene, gridRecord, tiles, ranges, counts, nullptr);
     Pass pass = frame.pass(kListStage);
     push.grid = pass.in(gridRecord);
     push.counts = pass.in(counts);
     push.blockSolid = pass.out(blockSolid);
     push.blockPieces = pass.out(blockPieces);
+    push.most = pass.out(most);
     pass.shader("gi/solid_count.comp").push(push).dispatch(push.blocks);
     exclusiveScan(frame, kListStage, blockSolid, push.blocks, solid);
     exclusiveScan(frame, kListStage, blockPieces, push.blocks, pieces);
@@ -108,6 +113,12 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   }
   p.solid = downloadAs<uint32_t>(context, solid).at(0);
   p.count = downloadAs<uint32_t>(context, pieces).at(0);
+
+  if (const uint32_t n = downloadAs<uint32_t>(context, most).at(0); n > MOST_PIECES)
+    throw WorkError(
+        fmt::format("a voxel holds pieces of {} triangles, more than {}: raise voxel.resolution, or "
+                    "simplify the mesh",
+                    n, MOST_PIECES));
 
   p.voxel = words(device, "solid voxels", p.solid);
   p.first = words(device, "first pieces of voxels", uint64_t{p.solid} + 1);
@@ -120,6 +131,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   {
     Pass pass = frame.pass(kListStage);
     push.grid = pass.in(gridRecord);
+    push.most = 0;
     push.counts = pass.out(counts);
     push.blockSolid = pass.in(blockSolid);
     push.blockPieces = pass.in(blockPieces);
@@ -168,6 +180,7 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   Points p;
   p.at = Buffer(device, "pieces' points", Subsystem::Facets, sizeof(PiecePoint) * uint64_t{pieces.points});
   p.classes = words(device, "points' facets", pieces.points);
+  p.area = words(device, "points' areas", pieces.points);
   p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
   const Buffer total = words(device, "facets", 1);
   Frame frame = context.begin();
@@ -223,10 +236,12 @@ void makeFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
     push.firstPoint = pass.in(pieces.firstPoint);
     push.classes = pass.out(points.classes);
     push.points = pass.in(points.at);
+    push.pieceArea = pass.in(pieces.area);
+    push.pointArea = pass.out(points.area);
     push.facetStart = pass.in(points.facetStart);
     push.surface = pass.in(surface.record);
-    push.sides = pass.out(surface.sides);
-    push.cuts = pass.out(surface.cuts);
+    pass.out(surface.sides);
+    pass.out(surface.cuts);
     push.voxel = pass.out(list.voxel);
     push.triangle = pass.out(list.triangle);
     push.reverse = pass.out(list.reverse);
@@ -243,7 +258,7 @@ void makeFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
     push.firstPoint = pass.in(pieces.firstPoint);
     push.classes = pass.in(points.classes);
     push.points = pass.in(points.at);
-    push.pieceArea = pass.in(pieces.area);
+    push.pointArea = pass.in(points.area);
     push.surfels = pass.out(surface.surfels);
     push.area = pass.out(list.area);
     push.dims = list.grid.dims;
@@ -258,7 +273,7 @@ void makeFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
   push.links = pass.out(surface.links);
   push.dims = list.grid.dims;
   push.count = list.count;
-  pass.shader("gi/link_facets.comp").push(push).dispatch(list.count);
+  pass.shader("gi/link_facets.comp").push(push).dispatch(uint64_t{FACET_LINKS} * list.count);
 }
 
 void makeRecord(Context& context, FacetList& list) {
@@ -318,7 +333,7 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
   push.firstPoint = pass.in(pieces.firstPoint);
   push.classes = pass.in(points.classes);
   push.points = pass.in(points.at);
-  push.pieceArea = pass.in(pieces.area);
+  push.pointArea = pass.in(points.area);
   push.pieceAlbedo = pass.in(albedo);
   push.pieceEmission = pass.in(emission);
   push.shape = pass.out(list.shape);
@@ -373,7 +388,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
   surface.surfels = Buffer(device, "surfels", Subsystem::Facets, sizeof(Surfel) * FACET_SURFELS * uint64_t{list.count});
-  surface.links = words(device, "links of facets", uint64_t{FACET_LINKS} * list.count);
+  surface.links = Buffer(device, "links of facets", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
   makeRecord(context, list);
   Frame frame = context.begin();
   frame.pass(kListStage).fill(list.reverse, NO_FACET);

@@ -15,6 +15,8 @@ void main() {
       voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
   if (end - first <= CROWD) return;
+  uint stride = (end - first + MOST_COMPARED - 1u) / MOST_COMPARED;
+  uint step_ = stride * gl_WorkGroupSize.x;
   uint classes = 0u;
   float least = LEAST_FACET;
   while (classes <= LAST_CLASS) {
@@ -22,7 +24,7 @@ void main() {
     if (me == 0u) next = end;
     barrier();
     bool any = false;
-    for (uint i = first + me; i < end && !any; i += gl_WorkGroupSize.x) {
+    for (uint i = first + me * stride; i < end && !any; i += step_) {
       any = push.classes.at[i] == NO_CLASS && classPoint(surface, i).area >= least;
       if (any) atomicMin(next, i);
     }
@@ -36,10 +38,28 @@ void main() {
       continue;
     }
     ClassPoint leader = classPoint(surface, lead);
-    for (uint i = first + me; i < end; i += gl_WorkGroupSize.x)
+    for (uint i = first + me * stride; i < end; i += step_)
       if (push.classes.at[i] == NO_CLASS && (i == lead || together(pieces, leader, classPoint(surface, i))))
         push.classes.at[i] = classes | (i == lead ? CLASS_LEADER : 0u);
     ++classes;
   }
   if (me == 0u) push.facets.at[voxel] = classes;
+  if (stride == 1u) return;
+  memoryBarrierBuffer();
+  barrier();
+  // Neighbours in the list are neighbours in the mesh: the others go with the next one that faces their way.
+  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
+    if ((i - first) % stride == 0u || push.classes.at[i] != NO_CLASS) continue;
+    vec3 facing = classPoint(surface, i).facing;
+    uint compared = i - (i - first) % stride;
+    for (uint k = 0u; k < 8u; ++k) {
+      uint near = compared + (k % 2u == 0u ? -(k / 2u) * stride : (k / 2u + 1u) * stride);
+      if (near < first || near >= end) continue;
+      uint found = push.classes.at[near];
+      if (found == NO_CLASS || found == CLASS_OF_PART) continue;
+      if (dot(classPoint(surface, near).facing, facing) < SAME_SIDE_COSINE) continue;
+      push.classes.at[i] = found & ~CLASS_LEADER;
+      break;
+    }
+  }
 }

@@ -34,7 +34,7 @@ void main() {
   for (uint i = points.first; i < points.end; ++i) {
     if ((push.classes.at[i] & ~CLASS_LEADER) != points.own) continue;
     PiecePoint p = push.points.at[i];
-    float weight = areaOfPoint(surface, push.pieceArea, push.firstPoint, push.classes, i, p);
+    float weight = push.pointArea.at[i];
     uint piece = p.side & ~SURFEL_BACK;
     weights += weight;
     albedo += weight * push.pieceAlbedo.at[piece];

@@ -17,8 +17,7 @@ void main() {
   FacetPoints points = pointsOf(surface, push.firstPoint, facet, push.reverse.at[voxelIndex(voxel, push.dims)]);
   float area = 0.0;
   for (uint i = points.first; i < points.end; ++i)
-    if ((push.classes.at[i] & ~CLASS_LEADER) == points.own)
-      area += areaOfPoint(surface, push.pieceArea, push.firstPoint, push.classes, i, push.points.at[i]);
+    if ((push.classes.at[i] & ~CLASS_LEADER) == points.own) area += push.pointArea.at[i];
   push.area.at[facet] = area;
 
   uint shift = hashUint(packedVoxel ^ 0x2545F491u);
@@ -27,7 +26,7 @@ void main() {
   for (uint i = points.first; i < points.end; ++i) {
     if ((push.classes.at[i] & ~CLASS_LEADER) != points.own) continue;
     PiecePoint p = push.points.at[i];
-    float before = upTo, share = areaOfPoint(surface, push.pieceArea, push.firstPoint, push.classes, i, p);
+    float before = upTo, share = push.pointArea.at[i];
     upTo += share;
     // The last one takes what rounding leaves.
     float at = (float(k) + 0.5) / float(FACET_SURFELS) * area;
@@ -42,7 +41,7 @@ void main() {
     while (k < FACET_SURFELS && (at < upTo || last)) {
       vec3 point = p.position;
       if (whole && n > 0u)
-        point = cell + polygonPoint(from, n, push.pieceArea.at[piece],
+        point = cell + polygonPoint(from, n, share,
                                     vec2(clamp((at - before) / share, 0.0, 1.0), unitFloat(reverseBits(k) + shift)));
       push.surfels.at[FACET_SURFELS * facet + k] =
           Surfel(triangle | (p.side & SURFEL_BACK), packPlace(weightsAt(t, point)));

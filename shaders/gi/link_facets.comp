@@ -22,71 +22,59 @@ uint wholePiece(SurfaceArrays surface, ivec3 v, uint side) {
   return found < PIECE_UNKNOWN ? found : NO_LINK;
 }
 
-/// Of the 3 x 3 x 3 voxels around, the smallest block that holds the middle one and voxel `i`.
-uint blockTo(uint i) {
-  uint block = 0u;
-  ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+/// Whether a triangle goes on from one voxel to another: nothing stands on it in any voxel of the block between them,
+/// which is convex.
+bool goesOn(SurfaceArrays surface, ivec3 voxel, ivec3 step_, uint side) {
   for (int corner = 0; corner < 8; ++corner) {
-    ivec3 v = step_ * ivec3(corner & 1, (corner >> 1) & 1, corner >> 2) + 1;
-    block |= 1u << (v.x + 3 * v.y + 9 * v.z);
+    ivec3 part = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+    if (all(equal(part * abs(step_), part)) && wholePiece(surface, voxel + part * step_, side) == NO_LINK) return false;
   }
-  return block;
+  return true;
 }
 
 void main() {
-  uint facet = irad_index();
-  if (facet >= push.count) return;
+  uint index = irad_index();
+  if (index >= push.count * FACET_LINKS) return;
+  uint facet = index / FACET_LINKS, i = index % FACET_LINKS;
   SurfaceArrays surface = push.surface.at[0];
   ivec3 voxel = ivec3(unpackVoxel(push.voxel.at[facet]));
+  ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+  uint entry = i < 27u ? entryOf(push.reverse, push.dims, voxel + step_) : NO_FACET;
   uint own = facet - firstFacet(entryOf(push.reverse, push.dims, voxel));
-  // A triangle goes on through a block of voxels, which is convex, if nothing stands on it in any of them.
-  uint side = surface.surfels.at[FACET_SURFELS * facet + FACET_SURFELS / 2u].triangle;
-  bool whole = wholePiece(surface, voxel, side) == own;
-  uint stands = 0u;
-  for (uint i = 0u; i < 27u && whole; ++i) {
-    ivec3 around = voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-    if (wholePiece(surface, around, side) == NO_LINK) stands |= 1u << i;
-  }
-  vec3 position[FACET_SURFELS];
-  for (uint m = 0u; m < FACET_SURFELS; ++m) position[m] = surfelOf(surface, facet, m).position;
-
-  uint word = 0u;
-  for (uint i = 0u; i < 4u * FACET_LINKS; ++i) {
-    uint link = NO_LINK;
-    ivec3 around = voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-    uint entry = i < 27u ? entryOf(push.reverse, push.dims, around) : NO_FACET;
-    if (i == 13u) {
-      link = own;
-    } else if (entry != NO_FACET) {
-      if (whole && (stands & blockTo(i)) == 0u) link = min(wholePiece(surface, around, side), NO_LINK);
-      bool known = link != NO_LINK;
-      float best = 1e30;
-      for (uint k = 0u; k < facetsOf(entry) && !known; ++k) {
-        uint other = firstFacet(entry) + k;
-        float nearest = 1e30;
-        uint from = 0u, to = 0u;
-        for (uint n = 0u; n < FACET_SURFELS; ++n) {
-          vec3 b = surfelOf(surface, other, n).position;
-          for (uint m = 0u; m < FACET_SURFELS; ++m) {
-            vec3 d = position[m] - b;
-            float distance2 = dot(d, d);
-            if (distance2 >= nearest) continue;
-            nearest = distance2;
-            from = m;
-            to = n;
-          }
+  uint link = i == 13u ? own : NO_LINK;
+  if (i != 13u && entry != NO_FACET) {
+    uint side = surface.surfels.at[FACET_SURFELS * facet + FACET_SURFELS / 2u].triangle;
+    if (wholePiece(surface, voxel, side) == own && goesOn(surface, voxel, step_, side))
+      link = min(wholePiece(surface, voxel + step_, side), NO_LINK);
+    bool known = link != NO_LINK;
+    vec3 facing = triangleFacing(surface, side);
+    vec3 position[FACET_SURFELS];
+    if (!known)
+      for (uint m = 0u; m < FACET_SURFELS; ++m) position[m] = surfelOf(surface, facet, m).position;
+    float best = 1e30;
+    for (uint k = 0u; k < facetsOf(entry) && !known; ++k) {
+      uint other = firstFacet(entry) + k;
+      uint otherSide = surface.surfels.at[FACET_SURFELS * other + FACET_SURFELS / 2u].triangle;
+      if (dot(facing, triangleFacing(surface, otherSide)) < SAME_SIDE_COSINE) continue;
+      float nearest = 1e30;
+      uint from = 0u, to = 0u;
+      for (uint n = 0u; n < FACET_SURFELS; ++n) {
+        vec3 b = surfelOf(surface, other, n).position;
+        for (uint m = 0u; m < FACET_SURFELS; ++m) {
+          vec3 d = position[m] - b;
+          float distance2 = dot(d, d);
+          if (distance2 >= nearest) continue;
+          nearest = distance2;
+          from = m;
+          to = n;
         }
-        if (nearest >= best || !continues(surface, push.reverse, push.dims, surfelOf(surface, facet, from),
-                                          surfelOf(surface, other, to)))
-          continue;
-        best = nearest;
-        link = k;
       }
-    }
-    word |= link << (8u * (i % 4u));
-    if (i % 4u == 3u) {
-      push.links.at[FACET_LINKS * facet + i / 4u] = word;
-      word = 0u;
+      if (nearest >= best || !continues(surface, push.reverse, push.dims, surfelOf(surface, facet, from),
+                                        surfelOf(surface, other, to)))
+        continue;
+      best = nearest;
+      link = k;
     }
   }
+  push.links.at[index] = uint8_t(link);
 }

@@ -19,36 +19,44 @@ void main() {
   uint base = push.facetStart.at[voxel];
   uint end = push.facetStart.at[voxel + 1u];
   uint first = push.firstPoint.at[piece], points = push.firstPoint.at[piece + 1u] - first;
-  uint sides = push.sides.at[piece];
+  SurfaceArrays surface = push.surface.at[0];
+  uint sides = surface.sides.at[piece];
   uint perSide = (sides & PIECE_CUT) != 0u ? CUT_POINTS : 1u;
   bool back = points > perSide;
   if (perSide == 1u) {
-    push.sides.at[piece] = facetOfPoint(first) | (back ? facetOfPoint(first + 1u) : PIECE_BLACK) << 8;
+    surface.sides.at[piece] = facetOfPoint(first) | (back ? facetOfPoint(first + 1u) : PIECE_BLACK) << 8;
   } else {
     uint place = sides & ~PIECE_CUT;
-    place += 1u + push.cuts.at[place];
+    place += 1u + surface.cuts.at[place];
     for (uint k = 0u; k < CUT_POINTS; ++k) {
-      uint part = push.cuts.at[place + k] >> 16;
+      uint part = surface.cuts.at[place + k] >> 16;
       for (uint s = first + k; s < first + points; s += CUT_POINTS) {
         if (push.classes.at[s] != CLASS_OF_PART) continue;
         uint found = NO_CLASS;
         for (uint j = 0u; j < k && part != NO_PART; ++j)
-          if (push.cuts.at[place + j] >> 16 == part) {
+          if (surface.cuts.at[place + j] >> 16 == part) {
             found = push.classes.at[s - k + j] & ~CLASS_LEADER;
             break;
           }
         push.classes.at[s] = found;
       }
-      push.cuts.at[place + k] |=
+      surface.cuts.at[place + k] |=
           facetOfPoint(first + k) | (back ? facetOfPoint(first + CUT_POINTS + k) : PIECE_BLACK) << 8;
     }
+  }
+  // A side's area is that of its points which have a facet.
+  for (uint s = first; s < first + points; s += perSide) {
+    uint counted = 0u;
+    for (uint k = s; k < s + perSide; ++k) counted += push.classes.at[k] != NO_CLASS ? 1u : 0u;
+    float share = push.pieceArea.at[piece] / float(max(counted, 1u));
+    for (uint k = s; k < s + perSide; ++k) push.pointArea.at[k] = push.classes.at[k] != NO_CLASS ? share : 0.0;
   }
   for (uint i = first; i < first + points; ++i) {
     uint class_ = push.classes.at[i];
     if ((class_ & CLASS_LEADER) == 0u) continue;
     uint facet = base + (class_ & ~CLASS_LEADER);
     push.voxel.at[facet] = packedVoxel;
-    push.triangle.at[facet] = triangleOf(push.surface.at[0].pieces, piece) | (push.points.at[i].side & SURFEL_BACK);
+    push.triangle.at[facet] = triangleOf(surface.pieces, piece) | (push.points.at[i].side & SURFEL_BACK);
     push.facetPiece.at[facet] = push.firstPiece.at[voxel];
     if (facet == base)
       push.reverse.at[voxelIndex(unpackVoxel(packedVoxel), push.grid.at[0].dims)] = facetEntryOf(base, end - base);

@@ -11,14 +11,16 @@ void main() {
   if (block >= push.blocks) return;
   uvec3 dims = push.grid.at[0].dims;
   uvec3 corner = mortonDecode(block * 64u, push.grid.at[0].mortonBits);
-  uint solid = 0u, pieces = 0u;
+  uint solid = 0u, pieces = 0u, most = 0u;
   for (uint code = 0u; code < 64u; ++code) {
     uvec3 v = corner + inBlock(code);
     if (any(greaterThanEqual(v, dims))) continue;
     uint count = push.counts.at[voxelIndex(v, dims)];
     solid += count > 0u ? 1u : 0u;
     pieces += count;
+    most = max(most, count);
   }
   push.blockSolid.at[block] = solid;
   push.blockPieces.at[block] = pieces;
+  if (most > push.most.at[0]) atomicMax(push.most.at[0], most);
 }

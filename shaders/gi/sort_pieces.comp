@@ -1,13 +1,14 @@
 // Sorts the pieces of each solid voxel: one workgroup per voxel. Where there are many, the small ones come last.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/triangle_hit.glsl"
+#include "gi/seen_in_voxel.glsl"
 #include "gi/voxel_clip.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { SortPiecesPush push; };
 
 /// Sizes by halves of powers of two, the largest first.
 const uint SIZES = 64u;
+const uint SHORT_RUN = 16u;
 shared uint ofSize[SIZES];
 
 uint sizeOf(vec3 cell, uint triangle) {
@@ -30,20 +31,15 @@ void markSmall(vec3 cell, uint first, uint end) {
     if (sizeOf(cell, push.pieces.at[i]) >= large) push.pieces.at[i] |= PIECE_SMALL;
 }
 
-/// How many of a sorted run are before `piece`.
-uint before(UintArray pieces, uint first, uint end, uint piece) {
-  uint from = first;
-  while (first < end) {
-    uint middle = (first + end) / 2u;
-    if (pieces.at[middle] < piece) first = middle + 1u;
-    else end = middle;
-  }
-  return first - from;
-}
-
+/// Makes invocations see what the others have written.
 void between() {
   memoryBarrierBuffer();
   barrier();
+}
+
+/// How many of `count` ascending pieces are before `piece`.
+uint before(UintArray pieces, uint first, uint count, uint piece) {
+  return pieceFrom(pieces, first, first + count, piece) - first;
 }
 
 void main() {
@@ -51,36 +47,35 @@ void main() {
   if (voxel >= push.count) return;
   uint me = gl_LocalInvocationID.x;
   uint first = push.firstPiece.at[voxel], end = push.firstPiece.at[voxel + 1u];
+  uint count = end - first;
   for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) push.pieceVoxel.at[i] = voxel;
-  if (end - first > MOST_LARGE) {
+  if (count > MOST_LARGE && count <= MOST_COUNTED) {
     markSmall(vec3(unpackVoxel(push.solid.at[voxel])), first, end);
     between();
   }
-  if (end - first <= MOST_COUNTED) {
-    // A piece's place is how many are before it.
-    for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
-      uint piece = push.pieces.at[i];
-      uint place = first;
-      for (uint j = first; j < end; ++j) place += push.pieces.at[j] < piece ? 1u : 0u;
-      push.sorted.at[place] = piece;
-    }
-    return;
+  // A piece's place in its run is how many of the run are before it.
+  uint run = count <= MOST_COUNTED ? count : SHORT_RUN;
+  uint all = count <= MOST_COUNTED ? 0u : PIECE_SMALL;
+  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
+    uint piece = push.pieces.at[i];
+    uint start = first + (i - first) / run * run, place = start;
+    for (uint j = start; j < min(start + run, end); ++j) place += push.pieces.at[j] < piece ? 1u : 0u;
+    push.sorted.at[place] = piece | all;
   }
-  // Pairs of sorted runs become one: each piece goes behind those of the other run that are before it.
-  UintArray from = push.pieces, to = push.sorted;
-  for (uint run = 1u; run < end - first; run *= 2u) {
-    for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
-      uint pair = first + (i - first) / (2u * run) * (2u * run);
-      bool second = i - pair >= run;
-      uint other = min(pair + (second ? 0u : run), end);
-      uint piece = from.at[i];
-      to.at[i - (second ? run : 0u) + before(from, other, min(other + run, end), piece)] = piece;
+  // Pairs of runs become one: each piece goes behind those of the other run that are before it. Twice, back and forth.
+  for (; run < count; run *= 4u) {
+    for (uint step = 0u; step < 2u; ++step) {
+      UintArray from = step == 0u ? push.sorted : push.pieces, to = step == 0u ? push.pieces : push.sorted;
+      uint length_ = run << step;
+      between();
+      for (uint i = me; i < count; i += gl_WorkGroupSize.x) {
+        uint pair = i / (2u * length_) * (2u * length_);
+        bool second = i - pair >= length_;
+        uint other = min(second ? pair : pair + length_, count);
+        uint piece = from.at[first + i];
+        uint others = before(from, first + other, min(length_, count - other), piece);
+        to.at[first + i - (second ? length_ : 0u) + others] = piece;
+      }
     }
-    between();
-    UintArray swap = from;
-    from = to;
-    to = swap;
   }
-  if (uint64_t(from) == uint64_t(push.sorted)) return;
-  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) push.sorted.at[i] = from.at[i];
 }

@@ -36,7 +36,7 @@ vec3 liftedStart(vec3 position, vec3 facing) {
 
 /// The link of a facet to the voxel `i` of the 27 around, or NO_LINK.
 uint facetLink(SurfaceArrays surface, uint facet, uint i) {
-  return (surface.links.at[FACET_LINKS * facet + i / 4u] >> (8u * (i % 4u))) & 255u;
+  return uint(surface.links.at[FACET_LINKS * facet + i]);
 }
 
 #endif

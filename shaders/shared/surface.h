@@ -28,8 +28,11 @@ IRAD_FN vec2 unpackPlace(uint place) { return vec2(float(place & 0xFFFFu), float
 
 /// Of a voxel with more pieces only the largest, at most as many, are taken to stand on others or to hide them: the work
 /// grows with their number to the third power. The others' bit puts them last in the voxel's order.
-IRAD_CONST uint MOST_LARGE = 128u;
+IRAD_CONST uint MOST_LARGE = 64u;
 IRAD_CONST uint PIECE_SMALL = 0x80000000u;
+/// Voxels with more pieces than this have no large ones, and with more than MOST_PIECES they are refused.
+IRAD_CONST uint MOST_COUNTED = 1024u;
+IRAD_CONST uint MOST_PIECES = 16384u;
 
 /// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
@@ -55,9 +58,10 @@ IRAD_CONST uint CLASS_LEADER = 0x80000000u;
 IRAD_CONST uint NO_CLASS = 0x7FFFFFFFu;      ///< none, or not known yet
 IRAD_CONST uint CLASS_OF_PART = 0x7FFFFFFEu; ///< that of the first point in the same part of the same cut piece
 
-/// Links of a facet: a byte for each of the 3 x 3 x 3 voxels around (x + 3 y + 9 z): which of that voxel's facets
-/// continues the surface on the same side, or NO_LINK.
-IRAD_CONST uint FACET_LINKS = 7u;
+/// Links of a facet: a byte for each of the 3 x 3 x 3 voxels around (x + 3 y + 9 z), and one without a meaning: which
+/// of that voxel's facets continues the surface on the same side, or NO_LINK.
+IRAD_CONST uint FACET_LINKS = 28u;
+IRAD_ARRAY(LinkArray, uint8_t, 4)
 IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
@@ -68,7 +72,7 @@ struct SurfaceArrays {
   UintArray cuts;
   SurfelArray surfels;    ///< FACET_SURFELS per facet
   FloatArray area;        ///< per facet, voxel faces
-  UintArray links;        ///< per facet FACET_LINKS words: the facets of the voxels around that go on on its side
+  LinkArray links;        ///< FACET_LINKS per facet
 };
 IRAD_ARRAY(SurfaceRecord, SurfaceArrays, 16)
 
@@ -76,7 +80,7 @@ IRAD_ARRAY(SurfaceRecord, SurfaceArrays, 16)
 struct LinkFacetsPush {
   SurfaceRecord surface;
   UintArray voxel, reverse;
-  UintArray links;
+  LinkArray links;
   uvec3 dims;
   uint count;
 };
@@ -119,6 +123,7 @@ struct SolidPush {
   UintArray blockPieces;
   UintArray solid;        ///< packVoxel
   UintArray firstPiece;   ///< per solid voxel
+  UintArray most;         ///< [0]: pieces of the voxel that has most
   uint blocks, pad;
 };
 
@@ -131,8 +136,6 @@ struct SortPiecesPush {
   Vec4Array corners;
   uint count, pad;  ///< solid voxels
 };
-/// Voxels with more pieces are sorted by merging, others by counting.
-IRAD_CONST uint MOST_COUNTED = 1024u;
 
 /// gi/piece_shape.comp.
 struct PieceShapePush {
@@ -169,17 +172,19 @@ struct ClassPointsPush {
   UintArray facets;      ///< per solid voxel: how many
   uint count, pad;       ///< solid voxels
 };
-/// Voxels with more points have a workgroup each.
+/// Voxels with more points have a workgroup each, which compares about MOST_COMPARED of them; the others go with those.
 IRAD_CONST uint CROWD = 32u;
+IRAD_CONST uint MOST_COMPARED = 4096u;
 
 /// gi/piece_sides.comp.
 struct PieceSidesPush {
   GridArray grid;
   UintArray pieceVoxel, solid, firstPiece, firstPoint, classes;
   PiecePointArray points;
+  FloatArray pieceArea;
+  FloatArray pointArea;  ///< for how much of its facet's area a point stands, voxel faces
   UintArray facetStart;  ///< per solid voxel; and the end
   SurfaceRecord surface;
-  UintArray sides, cuts;
   UintArray voxel, triangle, reverse;  ///< of FacetArrays
   UintArray facetPiece;                ///< SurfaceArrays::firstPiece
   uint count, pad;
@@ -190,7 +195,7 @@ struct FacetSurfelsPush {
   SurfaceRecord surface;
   UintArray voxel, reverse, firstPoint, classes;
   PiecePointArray points;
-  FloatArray pieceArea;
+  FloatArray pointArea;
   SurfelArray surfels;
   FloatArray area;
   uvec3 dims;
@@ -217,7 +222,7 @@ struct FacetMeanPush {
   UintArray voxel, reverse;
   UintArray firstPoint, classes;
   PiecePointArray points;
-  FloatArray pieceArea;
+  FloatArray pointArea;
   Vec3Array pieceAlbedo, pieceEmission;
   UintArray shape;
   Uvec2Array albedo;
