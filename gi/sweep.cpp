@@ -50,7 +50,7 @@ void Sweep::begin(Frame& frame, const char* stage, const Buffer& input) {
 }
 
 void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
-                   const Lighting& light) {
+                   const Lighting& light, uint32_t record) {
   Pass pass = frame.pass(stage);
   SolvePush push{};
   push.matrix = pass.in(matrix_.record);
@@ -60,7 +60,7 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
   push.output_ = pass.out(output);
   if (work != SOLVE_PRODUCT) push.indirect = pass.out(light.indirect);
   if (work == SOLVE_WATCH) {
-    push.residual = pass.out(light.residual);
+    push.residual = pass.out(light.residual, sizeof(SolveResidual) * record);
     push.rowSum = pass.out(light.rowSum);
   }
   push.correction = pass.inIfAny(light.correction);

@@ -21,9 +21,9 @@ class Sweep {
 
   /// Before the first record(): `input` is what it will be called with. Later ones take their predecessor's output.
   void begin(Frame& frame, const char* stage, const Buffer& input);
-  /// `work`: SOLVE_SWEEP, SOLVE_WATCH or SOLVE_PRODUCT of shared/solve.h.
+  /// `work`: SOLVE_SWEEP, SOLVE_WATCH or SOLVE_PRODUCT of shared/solve.h. `record`: of light.residual, SOLVE_WATCH.
   void record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
-              const Lighting& light);
+              const Lighting& light, uint32_t record = 0);
 
   float omega, flush;  ///< of the sweeps recorded next: relaxation; W/m^2 below which light is put out
 

@@ -5,7 +5,8 @@
 #include "gi/solve.glsl"
 
 layout(local_size_x = 64) in;
-shared vec4 partial[64];
+shared vec3 partial[64];
+shared vec2 partialWatched[64];  // what SOLVE_WATCH adds
 
 void main() {
   MatrixArrays m = p.matrix.at[0];
@@ -13,16 +14,21 @@ void main() {
   if (row >= m.rows) return;
   uint me = gl_LocalInvocationID.x;
   Row r = openRow(m, row);
-  vec4 sum = vec4(0.0f);
-  for (uint i = me; i < r.count; i += 64u) sum += entryTerm(r, m.columnBits, i);
-  partial[me] = sum;
+  Sum sum = NO_SUM;
+  for (uint i = me; i < r.count; i += 64u) addEntry(sum, r, m.columnBits, i);
+  partial[me] = sum.light.xyz;
+  if (WORK == SOLVE_WATCH) partialWatched[me] = vec2(sum.light.w, sum.row);
   barrier();
   for (uint width = 32u; width > 0u; width >>= 1) {
-    if (me < width) partial[me] += partial[me + width];
+    if (me < width) {
+      partial[me] += partial[me + width];
+      if (WORK == SOLVE_WATCH) partialWatched[me] += partialWatched[me + width];
+    }
     barrier();
   }
   if (me == 0u) {
-    Watch w = finishRow(row, partial[0] * r.weight);
+    vec2 watched = WORK == SOLVE_WATCH ? partialWatched[0] : vec2(0.0f);
+    Watch w = finishRow(row, Sum(vec4(partial[0], watched.x), watched.y), r.weight);
     report(w);
   }
 }
