@@ -82,11 +82,11 @@ void makeHistory(Context& context, const FacetList& facets, Lighting& light, boo
         accelerated ? Buffer(context.device, names[i], Subsystem::Solver, 16ull * facets.count) : Buffer();
 }
 
-void Acceleration::keep(bool watched) {
+void Acceleration::keep(bool gains) {
   if (!on_) return;
   if (swept_ < light_.history.size()) std::swap(light_.radiosityNext, light_.history[swept_]);
   ++swept_;
-  reachKept_ = reachKept_ && watched;
+  reachKept_ = reachKept_ && gains;
 }
 
 std::array<const Buffer*, SOLVE_VECTORS + 1> Acceleration::vectors() const {

@@ -41,8 +41,8 @@ class Acceleration {
   /// Sweeps until it is time to mix.
   uint32_t left() const { return SOLVE_VECTORS - swept_; }
   bool on() const { return on_; }
-  /// After a sweep from radiosityNext to radiosity: keeps what it began with. `watched`: it iterated the gains' answer.
-  void keep(bool watched);
+  /// After a sweep from radiosityNext to radiosity: keeps what it began with. `gains`: it iterated the gains' answer.
+  void keep(bool gains);
   /// Records the sums of the light as it is, and with `mixing` those that mix() needs; `sums` is read when they are
   /// there.
   void recordSums(Frame& frame, const char* stage, bool mixing, SweepSums& sums);

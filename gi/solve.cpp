@@ -49,7 +49,6 @@ void judge(SolveReport& report, const SolveResidual& r, double meanH, float omeg
   report.negative = r.negative;
   report.dark = r.maxSource == 0;
   report.omega = omega;
-  judgeGains(report, r);
   // The error of B before the sweep is at most kappa |dB| / omega, and so is that of H, row sums being <= 1.
   const float reach = report.kappa / omega * report.residual;
   report.bound = report.residual == 0 ? 0 : reach - report.residual;
@@ -149,8 +148,10 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     batch = std::min(sweepsToGo(before, guard.omega, settings.solver.tolerance), longest);
   bool fresh = true;    // B is new to the kernel
   bool steady = false;  // B held lambda when the history began
-  bool tight = before.kappaSlack <= kTight;
-  float last = 0;  // residual, of this solve's last sweep or mix
+  report.kappa = before.kappa;
+  report.kappaSlack = before.kappaSlack;
+  bool proven = false;  // kappa, in this call, in which the matrix stays as it is
+  float left = 0;       // residual, of this call's last sweep or mix
   while (report.sweeps < maxSweeps && !report.settled()) {
     const uint32_t count =
         std::min({batch, maxSweeps - report.sweeps, history.on() ? history.left() : SOLVE_RESIDUALS});
@@ -162,11 +163,11 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
       steady = std::abs(light.gain.radiosity - params.lambda) <= 1e-6f * params.lambda;
     for (uint32_t i = 0; i < count; ++i) {
       // As long as little is known of the gains' answer, every sweep goes on with it.
-      const bool watched = i + 1 == count || !tight;
-      sweep.record(frame, kSolveStage, watched ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext, light,
-                   i);
+      const bool last = i + 1 == count, gains = report.kappaSlack > kTight || (last && !proven);
+      const uint32_t work = gains ? SOLVE_GAINS : last ? SOLVE_WATCH : SOLVE_SWEEP;
+      sweep.record(frame, kSolveStage, work, light.radiosity, light.radiosityNext, light, i);
       std::swap(light.radiosity, light.radiosityNext);
-      history.keep(watched);
+      history.keep(gains);
       SourceGain& gain = light.gain;
       gain.indirect = gain.radiosity;
       gain.radiosity += sweep.omega * (params.lambda - gain.radiosity);
@@ -179,14 +180,15 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     frame.readback(light.residual, 0, sizeof(residuals),
                    [&](std::span<const uint8_t> b) { std::memcpy(residuals.data(), b.data(), b.size()); });
     frame.submitAndWait();
+    if (report.kappaSlack > kTight || !proven) judgeGains(report, residuals[count - 1]);
+    proven = true;
     judge(report, residuals[count - 1], sums.meanH, sweep.omega, settings.solver.tolerance);
-    tight = report.kappaSlack <= kTight;
     const float previous = count > 1 ? std::bit_cast<float>(residuals[count - 2].maxDelta) : 0;
     if (previous > 0)
       report.contraction = report.residual / previous;
-    else if (last > 0)
-      report.contraction = std::pow(report.residual / last, 1.0f / static_cast<float>(count));
-    last = report.residual;
+    else if (left > 0)
+      report.contraction = std::pow(report.residual / left, 1.0f / static_cast<float>(count));
+    left = report.residual;
     if (report.nonFinite == 0) guard.judge(report.largestGain, report.residual);
     report.growth = guard.growth;
     report.damped = guard.damped;
@@ -204,7 +206,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
       const float mixed = mixes ? history.mix(kSolveStage, sums, report.residual) : 0;
       history.forget();
       if (mixed > 0) {
-        last = mixed;
+        left = mixed;
         fresh = true;
         batch = std::min(batch, 2u);
       }

@@ -1,5 +1,5 @@
 // One Jacobi sweep (docs/method.md 1): H = F B, then B' = lambda (M + rho (D + H)), relaxed by omega. What the three
-// kernels share: reading a row's entries, and what follows a row's sum. A watched sweep also iterates the gains' answer.
+// kernels share: reading a row's entries, and what follows a row's sum. With SOLVE_GAINS it also iterates the gains' answer.
 #ifndef IRAD_SOLVE_GLSL
 #define IRAD_SOLVE_GLSL
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -9,6 +9,8 @@
 layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
 layout(constant_id = CONSTANT_SOLVE_WORK) const uint WORK = SOLVE_WATCH;
 layout(push_constant, scalar) uniform Push { SolvePush p; };
+const bool GAINS = WORK == SOLVE_GAINS;
+const bool WATCHES = WORK == SOLVE_WATCH || GAINS;
 
 #ifdef IRAD_SOLVE_IMAGES
 // B also as an image: lavapipe loads from memory lane by lane, but from images all lanes at once.
@@ -16,7 +18,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D inputImage;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D outputImage;
 vec4 inputAt(uint j) { return imageLoad(inputImage, solveTexel(j)); }
 #else
-vec4 inputAt(uint j) { return WORK == SOLVE_WATCH ? p.input_.at[j] : vec4(p.input_.at[j].xyz, 0.0f); }
+vec4 inputAt(uint j) { return GAINS ? p.input_.at[j] : vec4(p.input_.at[j].xyz, 0.0f); }
 #endif
 
 void putOutput(uint row, vec4 value) {
@@ -28,7 +30,7 @@ void putOutput(uint row, vec4 value) {
 
 #include "gi/matrix_row.glsl"
 
-/// A row's sums. Without SOLVE_WATCH xyz alone counts.
+/// A row's sums, as far as they are wanted: xyz; with WATCHES `row`; with GAINS w.
 struct Sum {
   vec4 light;  ///< sum_j F_ij x_j
   float row;   ///< sum_j F_ij
@@ -39,7 +41,7 @@ const Sum NO_SUM = Sum(vec4(0.0f), 0.0f);
 void addEntry(inout Sum sum, Row r, uint columnBits, uint i) {
   RowEntry e = rowEntry(r, columnBits, i);
   sum.light += inputAt(e.column) * e.weight;
-  if (WORK == SOLVE_WATCH) sum.row += e.weight;
+  if (WATCHES) sum.row += e.weight;
 }
 
 /// What a row hands to the reductions.
@@ -84,18 +86,16 @@ Watch finishRow(uint row, Sum sum, float weight) {
   }
   h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
   vec3 now = p.lambda * (source + rho * h);
-  vec4 before = p.input_.at[row];
+  vec4 before = p.input_.at[row];  // all of it: glslang 12 takes a component's address for aligned to 16 bytes
   vec3 old = before.xyz;
   if (p.omega != 1.0f) now = mix(old, now, p.omega);
   now = mix(now, vec3(0.0f), lessThan(abs(now), vec3(p.flush)));
   float reach = before.w;
-  if (WORK == SOLVE_WATCH) {
-    sum.row *= weight;
-    reach = nextReach(before.w, p.lambda * largest(rho), sum, w);
-  }
+  sum.row *= weight;
+  if (GAINS) reach = nextReach(reach, p.lambda * largest(rho), sum, w);
   putOutput(row, vec4(now, reach));
   p.indirect.at[row] = vec4(h, 0.0f);
-  if (WORK == SOLVE_WATCH) {
+  if (WATCHES) {
     p.rowSum.at[row] = sum.row;
     w.nan = trues(isnan(now));
     w.nonFinite = w.nan + trues(isinf(now));
@@ -113,14 +113,14 @@ Watch finishRow(uint row, Sum sum, float weight) {
 
 /// All invocations of the subgroup that are still here call this once.
 void report(Watch w) {
-  if (WORK != SOLVE_WATCH) return;
+  if (!WATCHES) return;
   float delta = subgroupMax(w.delta);
   float h = subgroupMax(w.h);
   float gain = subgroupMax(w.gain);
   float source = subgroupMax(w.source);
-  float rise = subgroupMax(w.rise);
-  float fall = subgroupMax(w.fall);
-  float reach = subgroupMax(w.reach);
+  float rise = GAINS ? subgroupMax(w.rise) : 0.0f;
+  float fall = GAINS ? subgroupMax(w.fall) : 0.0f;
+  float reach = GAINS ? subgroupMax(w.reach) : 0.0f;
   uint nonFinite = subgroupAdd(w.nonFinite);
   uint nan = subgroupAdd(w.nan);
   uint negative = subgroupAdd(w.negative);

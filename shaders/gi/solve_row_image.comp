@@ -21,7 +21,7 @@ Sum rowSums(Row r, uint columnBits) {
     if (2u * pair + 1u >= end) e.y = 0u;
     ivec2 h = ivec2(e >> columnBits);  // signed: AVX2 converts no unsigned integers
     hits += h.x + h.y;
-    if (WORK == SOLVE_WATCH) {
+    if (GAINS) {
       sum += inputAt(e.x & mask) * float(h.x);
       sum += inputAt(e.y & mask) * float(h.y);
     } else {

@@ -15,10 +15,8 @@ void main() {
     Sum sum = NO_SUM;
     for (uint i = gl_SubgroupInvocationID; i < r.count; i += gl_SubgroupSize) addEntry(sum, r, m.columnBits, i);
     sum.light.xyz = subgroupAdd(sum.light.xyz);
-    if (WORK == SOLVE_WATCH) {
-      sum.light.w = subgroupAdd(sum.light.w);
-      sum.row = subgroupAdd(sum.row);
-    }
+    if (WATCHES) sum.row = subgroupAdd(sum.row);
+    if (GAINS) sum.light.w = subgroupAdd(sum.light.w);
     if (subgroupElect()) {
       Watch next = finishRow(row, sum, r.weight);
       w.delta = max(w.delta, next.delta);

@@ -31,8 +31,9 @@ IRAD_ARRAY(ResidualArray, SolveResidual, 16)
 
 // Specialization constant 1 of gi/solve_*.comp (0: the matrix's format): what is computed.
 IRAD_CONST uint SOLVE_SWEEP = 0u;    ///< H = F B, then B'; v stays
-IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with v', and the reductions of SolveResidual
+IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with the reductions of SolveResidual, but for those of v
 IRAD_CONST uint SOLVE_PRODUCT = 2u;  ///< output = F input alone
+IRAD_CONST uint SOLVE_GAINS = 3u;    ///< SOLVE_WATCH with v', and all of the reductions
 
 struct SolvePush {
   MatrixRecord matrix;
@@ -42,7 +43,7 @@ struct SolvePush {
   Vec4Array output_;   ///< B', v' (or F input)
   Vec4Array indirect;  ///< H
   ResidualArray residual;
-  FloatArray rowSum;     ///< sum_j F_ij, written with SOLVE_WATCH
+  FloatArray rowSum;     ///< sum_j F_ij, written where it is watched
   Vec4Array correction;  ///< F M by samples of the emitters less that by rays
   float lambda, omega, flush;
   float correctionGain;  ///< the factor on M in B, and so on the correction to F B. 0: there is none
