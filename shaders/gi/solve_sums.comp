@@ -12,11 +12,11 @@ layout(push_constant, scalar) uniform Push { SolveSumsPush p; };
 void main() {
   uint me = irad_index();
   if (me >= p.invocations) return;
-  vec4 mean = vec4(0.0f);
+  vec4 mean = vec4(0.0f);  // of |H|: what is wrong, and negative, is solved to the same tolerance
   vec4 s00 = vec4(0.0f), s10 = s00, s11 = s00, s20 = s00, s21 = s00, s22 = s00, s30 = s00, s31 = s00, s32 = s00,
        s33 = s00;
   for (uint facet = me; facet < p.count; facet += p.invocations) {
-    mean += p.area.at[facet] * vec4(p.indirect.at[facet].xyz, 1.0f);
+    mean += p.area.at[facet] * vec4(abs(p.indirect.at[facet].xyz), 1.0f);
     if (VECTORS < 2u) continue;
     vec4 x1 = p.x1.at[facet];
     vec4 x2 = p.x2.at[facet];
