@@ -202,7 +202,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     if (mayMix) {
       // Not where sweeps may grow, which the guard has to see; not while B still takes up another lambda; and not in
       // the dark, which is to end in zero by itself.
-      const bool mixes = !report.settled() && report.largestGain < 1 && !report.dark && steady;
+      const bool mixes = !report.settled() && report.negative == 0 && report.largestGain < 1 && !report.dark && steady;
       const float mixed = mixes ? history.mix(kSolveStage, sums, report.residual) : 0;
       history.forget();
       if (mixed > 0) {
