@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI Solve": the sweeps' results mixed (docs/method.md 1, Acceleration), in the place of x_0: what a sweep would make of
-// the mix of their inputs, whose residual is therefore known without a product.
+// "GI Solve": the sweeps' results mixed (docs/method.md 1, Acceleration), in the place of x_0: what a sweep would make
+// of the mix of their inputs, whose residual is therefore known without a product.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/constants.h"
 #include "shared/solve.h"

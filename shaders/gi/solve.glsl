@@ -1,5 +1,6 @@
 // One Jacobi sweep (docs/method.md 1): H = F B, then B' = lambda (M + rho (D + H)), relaxed by omega. What the three
-// kernels share: reading a row's entries, and what follows a row's sum. With SOLVE_GAINS it also iterates the gains' answer.
+// kernels share: reading a row's entries, and what follows a row's sum.
+// With SOLVE_GAINS it also iterates the gains' answer.
 #ifndef IRAD_SOLVE_GLSL
 #define IRAD_SOLVE_GLSL
 #extension GL_KHR_shader_subgroup_arithmetic : require
