@@ -38,10 +38,12 @@ PictureDifference compare(std::span<const glm::vec4> a, std::span<const glm::vec
   return out;
 }
 
-/// By how much a row's skip may change the picture, as radiance: its share of the largest H, times at most 1 / pi,
-/// since reflectances are <= 1.
+/// By how much a row's skip may change the picture, as radiance: its share of H (`relight`, which the solver's
+/// tolerance decides: of the mean; others: of the largest), times at most 1 / pi, since reflectances are <= 1.
 float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
-  return row.epsilon * pipeline.lighting().report.largestH / std::numbers::pi_v<float>;
+  const SolveReport& report = pipeline.lighting().report;
+  const float share = row.effect == Effect::relight ? report.meanH : report.largestH;
+  return row.epsilon * share / std::numbers::pi_v<float>;
 }
 
 /// Prepares, compiles pipelines and touches pages.

@@ -95,8 +95,8 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   if (buildMs > 0)
     print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
           static_cast<double>(matrix.rays) * 1e-3 / buildMs);
-  print("solve       {} sweeps, bound {:.3g} W/m^2 of largest H {:.4g} W/m^2{}\n", solve.sweeps, solve.bound,
-        solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+  print("solve       {} sweeps, bound {:.3g} W/m^2 of mean H {:.4g}, largest {:.4g} W/m^2{}\n", solve.sweeps,
+        solve.bound, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");
   if (solve.energy) print("energy      {}\n", describe(*solve.energy, facets.grid.edge));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);  // ru_maxrss: KiB

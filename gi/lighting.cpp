@@ -1,6 +1,7 @@
 // The buffers of light per facet.
 #include "gi/lighting.h"
 
+#include "gi/acceleration.h"
 #include "gi/facets.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
@@ -20,8 +21,9 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
   light.indirect = Buffer(device, "indirect irradiance H", Subsystem::Solver, bytes);
   light.radiosity = Buffer(device, "radiosity B (a)", Subsystem::Solver, bytes);
   light.radiosityNext = Buffer(device, "radiosity B (b)", Subsystem::Solver, bytes);
-  light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual));
+  light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual) * SOLVE_RESIDUALS);
   light.rowSum = Buffer(device, "row sums of F", Subsystem::Solver, 4ull * facets.count);
+  makeHistory(context, facets, light, settings.solver.acceleration != SolverAcceleration::off);
   Frame frame = context.begin();
   for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
                           &light.residual, &light.rowSum})

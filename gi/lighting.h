@@ -1,6 +1,7 @@
 // Light per facet (docs/method.md 6, T 5.7-5.9).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -36,7 +37,7 @@ struct DivergenceGuard {
   /// After a sweep: its largest row gain and residual.
   void judge(float gain, float residual);
 };
-/// Per-facet light, fp32 vec4 (xyz, w unused): W/m^2.
+/// Per-facet light, fp32 vec4 (xyz; w is used in B alone): W/m^2.
 struct Lighting {
   Buffer direct;  ///< D
   /// F M: first gather from emissive facets alone (the part of H that is direct light of emitters). None where nothing
@@ -47,12 +48,14 @@ struct Lighting {
   /// (gather_emitters.cpp).
   float sampledShare = 0;
   Buffer indirect;                  ///< H
-  Buffer radiosity, radiosityNext;  ///< B, double buffer
+  Buffer radiosity, radiosityNext;  ///< B, double buffer; w: v, the gains' answer (docs/method.md 1)
+  std::array<Buffer, 3> history;    ///< B of earlier sweeps, where they are accelerated
   SourceGain gain;                  ///< of B and H; for light that is 0 any value is right
   Buffer blurred;         ///< H averaged over neighbours that face the same way; none where shading samples H itself
   Buffer blurredEmitted;  ///< `emitted` likewise
   Buffer blurChange;      ///< largest |blurred - H|, float bits; where scatter() watches it
-  Buffer residual;        ///< solver's reductions, see shared/solve.h
+  Buffer residual;        ///< solver's reductions, see shared/solve.h: a record per sweep of a batch
+  Buffer sums;            ///< gi/solve_sums.comp's
   Buffer rowSum;          ///< sum_j F_ij, one float each
   RadianceVolume volume;  ///< only where sampling is ungated
   SolveReport report;

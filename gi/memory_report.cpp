@@ -59,9 +59,13 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   for (const Buffer* b : {&lighting.direct, &lighting.emitted, &lighting.indirect, &lighting.radiosity,
                           &lighting.radiosityNext, &lighting.blurred, &lighting.blurredEmitted})
     buffer(*b, 16 * s);
+  for (const Buffer& b : lighting.history) buffer(b, 16 * s);
+  buffer(lighting.sums,
+         sizeof(glm::vec4) * SOLVE_SUMS *
+             std::min<uint64_t>((s + SOLVE_SUMS_FACETS - 1) / SOLVE_SUMS_FACETS, SOLVE_SUMS_INVOCATIONS));
   buffer(lighting.correction, 16 * s);
   buffer(lighting.rowSum, 4 * s);
-  buffer(lighting.residual, sizeof(SolveResidual));
+  buffer(lighting.residual, sizeof(SolveResidual) * SOLVE_RESIDUALS);
   buffer(lighting.blurChange, sizeof(uint32_t));
   image(lighting.volume.image, 8 * V);
   return out;

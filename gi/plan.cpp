@@ -223,6 +223,7 @@ class Planner {
   void relight() {
     if (plan_.off(Effect::matrix)) return without(Effect::relight, "no indirect light");
     row(Effect::relight).epsilon = s_.solver.tolerance;
+    row(Effect::relight).of = "the mean H";
     const LightState& l = t_.light;
     const bool due = l.due <= Redo::Scatter;
     // Light at rest is kept, unless relighting is switched off.

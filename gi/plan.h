@@ -60,7 +60,8 @@ struct EffectRow {
   /// How the picture may differ from that with the effect forced on. Exact: not in one bit, what is left out is
   /// provably 0 (`epsilon` 0); threshold: by no more than `epsilon`, a share of `of`.
   float epsilon = 0;
-  /// emitterSampling: that of the sum over all facets; rays and samples of single ones differ by their noise.
+  /// relight: the mean H, by area. emitterSampling: that of the sum over all facets; rays and samples of single ones
+  /// differ by their noise.
   const char* of = "the largest H";
   uint64_t bytesNotAllocated = 0;  ///< while it is off, by the formulas of docs/method.md 10; 0: unknown before a build
 

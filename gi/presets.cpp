@@ -23,6 +23,7 @@ void thesis(Settings& s) {
   s.gather.samples = 1;
   s.solver.gpu.lambda = 0.8f;
   s.solver.kernel = SolverKernel::tree;
+  s.solver.acceleration = SolverAcceleration::off;
   s.scatter.edgeRemoval = false;
   s.sample.gpu.filter_ = SampleFilter::blur;
   s.sample.gpu.premultiplied = 1;
@@ -42,7 +43,7 @@ void fast(Settings& s, bool cpuDevice) {
   s.voxel.resolution = cpuDevice ? 48 : 128;
   s.matrix.gpu.rays = cpuDevice ? 64 : 128;
   s.gather.samples = 1;
-  s.solver.tolerance = 1e-2f;
+  s.solver.tolerance = 2e-2f;
   s.specular.gpu.rays = 1;
   s.light.shadowResolution = 1024;
 }
@@ -51,7 +52,7 @@ void reference(Settings& s, bool cpuDevice) {
   s.voxel.resolution = cpuDevice ? 128 : 320;
   s.matrix.gpu.rays = cpuDevice ? 512 : 1024;
   s.gather.samples = 16;
-  s.solver.tolerance = 1e-5f;
+  s.solver.tolerance = 1e-4f;
   s.sample.emitters = EmitterLookup::pixels;
   s.sample.emitterRays = 32;
   s.specular.gpu.rays = 32;

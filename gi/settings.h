@@ -26,6 +26,7 @@ namespace irad {
 #define IRAD_SPECULAR_MODES(X) X(off, "off") X(fragment, "fragment") X(compute, "compute")
 #define IRAD_EMITTER_LOOKUPS(X) X(facets, "facets") X(pixels, "pixels")
 #define IRAD_SOLVER_KERNELS(X) X(automatic, "auto") X(tree, "tree") X(subgroup, "subgroup") X(row, "row")
+#define IRAD_SOLVER_ACCELERATIONS(X) X(off, "off") X(anderson, "anderson")
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
 #define IRAD_EFFECT_MODES(X) X(automatic, "auto") X(on, "on") X(off, "off")
 #define IRAD_REDOS(X) \
@@ -39,6 +40,8 @@ IRAD_ENUM(SpecularMode, IRAD_SPECULAR_MODES)
 /// Who gives a pixel the light that comes straight from emissive faces: the facets around it, or their triangles.
 IRAD_ENUM(EmitterLookup, IRAD_EMITTER_LOOKUPS)
 IRAD_ENUM(SolverKernel, IRAD_SOLVER_KERNELS)
+/// What becomes of the sweeps' results (docs/method.md 1): the next sweep's input, or a mix of them.
+IRAD_ENUM(SolverAcceleration, IRAD_SOLVER_ACCELERATIONS)
 /// Who turns triangles into pixels: the graphics pipeline, or compute kernels (shaders/raster).
 IRAD_ENUM(Rasterizer, IRAD_RASTERIZERS)
 /// Whether an effect (gi/plan.h) runs. automatic: where the scene calls for it; on: always; off: never.
@@ -71,10 +74,11 @@ struct GatherSettings {
 };
 struct SolverSettings {
   SolverParams gpu{1.0f, 1.0f, 1e-12f};
-  float tolerance = 5e-4f;      ///< stop when the error bound is below this share of the largest H
+  float tolerance = 2e-3f;      ///< stop when the error bound is below this share of the mean H
   uint32_t sweepsPerFrame = 4;  ///< interactive; headless runs until the tolerance or maxSweeps
   uint32_t maxSweeps = 1000;
   SolverKernel kernel = SolverKernel::automatic;
+  SolverAcceleration acceleration = SolverAcceleration::anderson;
   bool operator==(const SolverSettings&) const = default;
 };
 struct ScatterSettings {

@@ -90,13 +90,17 @@ constexpr Setting kTable[] = {
     SETTING(solver.gpu.flush, "solver.flush", {0, 1e-3, "W/m^2", /*logarithmic=*/true},
             "Smaller values become exact zero.", Solve),
     SETTING(solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
-            "The solver stops when its error bound is below this share of the largest H.", Solve),
+            "The solver stops when its error bound on H is below this share of the mean H, by the facets' areas.",
+            Solve),
     SETTING(solver.sweepsPerFrame, "solver.sweeps_per_frame", {1, 1000, "sweeps"},
             "Jacobi sweeps per frame of the window.", Solve),
     SETTING(solver.maxSweeps, "solver.max_sweeps", {1, 100000, "sweeps"}, "Most sweeps of a headless solve.", Solve),
     SETTING(solver.kernel, "solver.kernel",
             "tree: 64 threads per row and a sum in shared memory, as the thesis does it; subgroup: one subgroup per "
             "row; row: one invocation per row.",
+            Solve),
+    SETTING(solver.acceleration, "solver.acceleration",
+            "anderson: every 4 sweeps their results are mixed, so that the least residual is left; off: Jacobi alone.",
             Solve),
     SETTING(scatter.edgeRemoval, "scatter.edge_removal",
             "Subtract direct and emitted light from the volume that ungated lookups sample, as the thesis does it: no "

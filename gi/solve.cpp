@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <utility>
 
+#include "gi/acceleration.h"
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
@@ -20,25 +23,46 @@ namespace irad {
 namespace {
 
 constexpr const char* kSolveStage = "GI Solve";
-constexpr uint32_t kBatch = 16;           ///< sweeps per submission at most; the last one is watched
 constexpr float kDark = 1e-6f;            ///< share of the last lit H below which an unlit scene is put out
 constexpr float kTameLambda = 1 / 0.98f;  ///< albedos are <= .98 and row sums of F <= 1: no divergence up to here
+constexpr float kRounding = 4e-6f;        ///< of a row's sum in fp32
+constexpr float kTight = 1.25f;           ///< kappa is known well enough when it is known to this factor
+constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-/// How far B may still be from its fixed point, and H from F times it. q: the contraction; |dB|: the last change.
-void judge(SolveReport& report, const SolveResidual& r, float omega, float tolerance) {
+/// kappa, from a sweep of the gains' answer w = 1 + v. A w = w' - 1 for the matrix A of the gains; where w - A w >= s >
+/// 0 in every row, (I - A)^-1 1 exists and is at most w / s, since A has no negative entry.
+void judgeGains(SolveReport& report, const SolveResidual& r) {
+  const float reach = 1 + std::bit_cast<float>(r.maxReach);
+  const float least = 1 - std::bit_cast<float>(r.maxRise) - kRounding * reach;
+  report.kappa = least > 0 ? reach / least : kUnknown;
+  report.kappaSlack = least > 0 ? (1 + std::bit_cast<float>(r.maxFall)) / least : kUnknown;
+}
+
+/// How far B may still be from its fixed point, and H from F times it. |dB|: the last change.
+void judge(SolveReport& report, const SolveResidual& r, double meanH, float omega, float tolerance) {
   report.residual = std::bit_cast<float>(r.maxDelta);
   report.largestH = std::bit_cast<float>(r.maxH);
   report.largestGain = std::bit_cast<float>(r.maxGain);
+  report.meanH = static_cast<float>(meanH);
   report.nonFinite = r.nonFinite;
   report.nan = r.nan;
   report.negative = r.negative;
+  report.dark = r.maxSource == 0;
   report.omega = omega;
-  const float q = (1 - omega) + omega * report.largestGain;
-  const float reach = q < 1 ? report.residual / (1 - q) : std::numeric_limits<float>::infinity();
-  report.bound = report.residual == 0 ? 0 : q * reach;
-  report.allowed = q * tolerance * report.largestH;
-  // H is one product behind B: its error is bounded by |dB| / (1 - q), row sums being <= 1.
-  report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.largestH);
+  // The error of B before the sweep is at most kappa |dB| / omega, and so is that of H, row sums being <= 1.
+  const float reach = report.kappa / omega * report.residual;
+  report.bound = report.residual == 0 ? 0 : reach - report.residual;
+  report.allowed = (1 - omega / report.kappa) * tolerance * report.meanH;
+  report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.meanH);
+}
+
+/// Sweeps until the tolerance holds, if the residual goes on as it was last seen to.
+uint32_t sweepsToGo(const SolveReport& report, float omega, float tolerance) {
+  const double wanted = double{tolerance} * report.meanH * omega / report.kappa;
+  if (!(report.contraction > 0 && report.contraction < 1 && wanted > 0 && report.residual > 0))
+    return std::numeric_limits<uint32_t>::max();
+  const double sweeps = std::ceil(std::log(wanted / report.residual) / std::log(report.contraction));
+  return static_cast<uint32_t>(std::clamp(sweeps, 1.0, 1e6));
 }
 
 /// Makes the guard of a solve that begins, or that goes on: the window calls for a few sweeps at a time.
@@ -110,39 +134,84 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   begin(context, facets, light, params);
   DivergenceGuard& guard = light.guard;
   const float litBefore = light.litH;
+  const bool accelerated = settings.solver.acceleration != SolverAcceleration::off;
+  makeHistory(context, facets, light, accelerated);
+  Acceleration history(context, facets, light, accelerated);
 
-  // A CPU device sweeps slowly, so its submissions are short. The first is short everywhere: a warm start is often at
-  // its goal.
-  const uint32_t longest = context.device.isCpu ? 4 : kBatch;
-  uint32_t batch = std::min(2u, longest);
+  // A CPU device sweeps slowly, so its submissions are short. The first is short everywhere, unless a solve goes on: a
+  // warm start is often at its goal, and only after it the dark is put out.
+  const uint32_t longest = context.device.isCpu ? 4 : SOLVE_RESIDUALS;
+  const SolveReport& before = light.report;
+  report.contraction = before.contraction;
+  uint32_t batch = 2;
+  if (!before.settled() && before.sweeps > 0 && before.largestGain < 1 && !before.dark)
+    batch = std::min(sweepsToGo(before, guard.omega, settings.solver.tolerance), longest);
+  bool fresh = true;    // B is new to the kernel
+  bool steady = false;  // B held lambda when the history began
+  report.kappa = before.kappa;
+  report.kappaSlack = before.kappaSlack;
+  bool proven = false;  // kappa, in this call, in which the matrix stays as it is
+  float left = 0;       // residual, of this call's last sweep or mix
   while (report.sweeps < maxSweeps && !report.settled()) {
-    const uint32_t count = std::min(batch, maxSweeps - report.sweeps);
+    const uint32_t count =
+        std::min({batch, maxSweeps - report.sweeps, history.on() ? history.left() : SOLVE_RESIDUALS});
     sweep.omega = guard.omega;
     Frame frame = context.begin();
     frame.pass(kSolveStage).fill(light.residual, 0);
-    if (report.sweeps == 0) sweep.begin(frame, kSolveStage, light.radiosity);
+    if (std::exchange(fresh, false)) sweep.begin(frame, kSolveStage, light.radiosity);
+    if (history.left() == SOLVE_VECTORS)
+      steady = std::abs(light.gain.radiosity - params.lambda) <= 1e-6f * params.lambda;
     for (uint32_t i = 0; i < count; ++i) {
-      sweep.record(frame, kSolveStage, i + 1 == count ? SOLVE_WATCH : SOLVE_SWEEP, light.radiosity, light.radiosityNext,
-                   light);
+      // As long as little is known of the gains' answer, every sweep goes on with it.
+      const bool last = i + 1 == count, gains = report.kappaSlack > kTight || (last && !proven);
+      const uint32_t work = gains ? SOLVE_GAINS : last ? SOLVE_WATCH : SOLVE_SWEEP;
+      sweep.record(frame, kSolveStage, work, light.radiosity, light.radiosityNext, light, i);
       std::swap(light.radiosity, light.radiosityNext);
+      history.keep(gains);
       SourceGain& gain = light.gain;
       gain.indirect = gain.radiosity;
       gain.radiosity += sweep.omega * (params.lambda - gain.radiosity);
     }
-    SolveResidual residual{};
-    frame.readback(light.residual, 0, sizeof(residual),
-                   [&](std::span<const uint8_t> b) { std::memcpy(&residual, b.data(), b.size()); });
-    frame.submitAndWait();
     report.sweeps += count;
-    judge(report, residual, sweep.omega, settings.solver.tolerance);
+    const bool mayMix = history.ready() && (history.left() == 0 || report.sweeps == maxSweeps);
+    SweepSums sums;
+    history.recordSums(frame, kSolveStage, mayMix, sums);
+    std::array<SolveResidual, SOLVE_RESIDUALS> residuals{};
+    frame.readback(light.residual, 0, sizeof(residuals),
+                   [&](std::span<const uint8_t> b) { std::memcpy(residuals.data(), b.data(), b.size()); });
+    frame.submitAndWait();
+    if (report.kappaSlack > kTight || !proven) judgeGains(report, residuals[count - 1]);
+    proven = true;
+    judge(report, residuals[count - 1], sums.meanH, sweep.omega, settings.solver.tolerance);
+    const float previous = count > 1 ? std::bit_cast<float>(residuals[count - 2].maxDelta) : 0;
+    if (previous > 0)
+      report.contraction = report.residual / previous;
+    else if (left > 0)
+      report.contraction = std::pow(report.residual / left, 1.0f / static_cast<float>(count));
+    left = report.residual;
     if (report.nonFinite == 0) guard.judge(report.largestGain, report.residual);
     report.growth = guard.growth;
     report.damped = guard.damped;
     report.diverging = guard.gaveUp;
     // Where light may grow it is checked often, and while it does grow after every sweep.
-    batch = report.largestGain < 1 ? longest : guard.growing > 0 || guard.damped ? 1 : std::min(4u, longest);
+    if (report.largestGain >= 1)
+      batch = guard.growing > 0 || guard.damped ? 1 : std::min(4u, longest);
+    else
+      batch = std::min(sweepsToGo(report, sweep.omega, settings.solver.tolerance), longest);
 
-    if (residual.maxSource != 0) {
+    if (mayMix) {
+      // Not where sweeps may grow, which the guard has to see; not while B still takes up another lambda; and not in
+      // the dark, which is to end in zero by itself.
+      const bool mixes = !report.settled() && report.negative == 0 && report.largestGain < 1 && !report.dark && steady;
+      const float mixed = mixes ? history.mix(kSolveStage, sums, report.residual) : 0;
+      history.forget();
+      if (mixed > 0) {
+        left = mixed;
+        fresh = true;
+        batch = std::min(batch, 2u);
+      }
+    }
+    if (!report.dark) {
       light.litH = report.largestH;
       sweep.flush = params.flush;
     } else {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 
 namespace irad {
@@ -27,12 +28,17 @@ struct EnergyBalance {
 struct SolveReport {
   uint32_t sweeps = 0;
   float residual = 0;  ///< max |dB| of the last sweep, W/m^2
-  float bound = 0;     ///< q/(1-q) max|dB|: error bound on B (docs/method.md 1), W/m^2
+  float bound = 0;     ///< (kappa/omega - 1) max|dB|: error bound on B (docs/method.md 1), W/m^2
   float allowed = 0;   ///< bound at which the solver sleeps, W/m^2
   float largestH = 0;
+  float meanH = 0;                                       ///< by the facets' areas, of the brightest channel
+  float kappa = std::numeric_limits<float>::infinity();  ///< the largest value of the gains' answer is at most this
+  float kappaSlack = std::numeric_limits<float>::infinity();  ///< and at least kappa / kappaSlack
+  float contraction = 0;            ///< of the residual by a sweep, as last seen; 0: not seen yet
   float largestGain = 0;            ///< rho-bar: largest row gain
   uint32_t nonFinite = 0, nan = 0;  ///< components of B that are NaN or infinite; of those, NaN
   uint32_t negative = 0;            ///< components of M + rho D, H or B, and row sums, below zero
+  bool dark = false;                ///< nothing shone in the last sweep
   bool converged = false;
   bool diverging =
       false;            ///< growing under any relaxation (solver.lambda too large): stopped, the light before is back

@@ -25,7 +25,8 @@ Sweep::Sweep(Context& context, const FacetList& facets, const FormFactors& matri
       facets_(facets),
       matrix_(matrix),
       lambda_(settings.gpu.lambda),
-      kernel_(chooseKernel(context.device, settings.kernel)) {
+      kernel_(chooseKernel(context.device, settings.kernel)),
+      gains_(kernel_ == SolverKernel::tree ? chooseKernel(context.device, SolverKernel::automatic) : kernel_) {
   const uint32_t height = (facets.count + SOLVE_IMAGE_WIDTH - 1) / SOLVE_IMAGE_WIDTH;
   images_ = context.device.isCpu && kernel_ == SolverKernel::row && matrix.format == MatrixFormat::csr &&
             height <= context.device.limits.maxImageDimension2D;
@@ -50,7 +51,7 @@ void Sweep::begin(Frame& frame, const char* stage, const Buffer& input) {
 }
 
 void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
-                   const Lighting& light) {
+                   const Lighting& light, uint32_t record) {
   Pass pass = frame.pass(stage);
   SolvePush push{};
   push.matrix = pass.in(matrix_.record);
@@ -59,8 +60,8 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
   push.input_ = pass.in(input);
   push.output_ = pass.out(output);
   if (work != SOLVE_PRODUCT) push.indirect = pass.out(light.indirect);
-  if (work == SOLVE_WATCH) {
-    push.residual = pass.out(light.residual);
+  if (work == SOLVE_WATCH || work == SOLVE_GAINS) {
+    push.residual = pass.out(light.residual, sizeof(SolveResidual) * record);
     push.rowSum = pass.out(light.rowSum);
   }
   push.correction = pass.inIfAny(light.correction);
@@ -69,7 +70,7 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
   push.omega = omega;
   push.flush = flush;
   pass.constant(CONSTANT_MATRIX_FORMAT, matrix_.format).constant(CONSTANT_SOLVE_WORK, work).push(push);
-  switch (kernel_) {
+  switch (work == SOLVE_GAINS ? gains_ : kernel_) {
     case SolverKernel::row:
       if (images_) {
         pass.read(vectors_[current_]).write(vectors_[1 - current_]);

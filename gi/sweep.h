@@ -21,9 +21,10 @@ class Sweep {
 
   /// Before the first record(): `input` is what it will be called with. Later ones take their predecessor's output.
   void begin(Frame& frame, const char* stage, const Buffer& input);
-  /// `work`: SOLVE_SWEEP, SOLVE_WATCH or SOLVE_PRODUCT of shared/solve.h.
+  /// `work`: SOLVE_SWEEP, SOLVE_WATCH, SOLVE_GAINS or SOLVE_PRODUCT of shared/solve.h. `record`: of light.residual,
+  /// where it is watched.
   void record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
-              const Lighting& light);
+              const Lighting& light, uint32_t record = 0);
 
   float omega, flush;  ///< of the sweeps recorded next: relaxation; W/m^2 below which light is put out
 
@@ -31,7 +32,8 @@ class Sweep {
   const FacetList& facets_;
   const FormFactors& matrix_;
   float lambda_;
-  SolverKernel kernel_;
+  SolverKernel kernel_;  ///< of all work but SOLVE_GAINS, which the thesis's does not do
+  SolverKernel gains_;
   bool images_ = false;           ///< the vectors as images too, see gi/solve.glsl
   std::array<Image, 2> vectors_;  ///< input and output, in turn
   uint32_t current_ = 0;

@@ -39,8 +39,8 @@ void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth)
   DepthPush push{opaque.in(scene.record), opaque.in(depth.projections, depth.offset), 0, 0};
   opaque.shaders({"forward/depth.vert", "forward/depth.frag"})
       .indices(scene.indices)
-      .depth(depth.target, /*write*/ true, depth.clear, depth.layer)
-      .depthCompare(depth.compare)
+      .depth(depth.target, /*write*/ true, /*clear*/ 0.0f, depth.layer)
+      .depthCompare(VK_COMPARE_OP_GREATER_OR_EQUAL)
       .run([&](Commands& commands) {
         commands.push(push);
         for (const Range& range : ranges(scene, depth, /*masked*/ false)) {
@@ -55,7 +55,7 @@ void drawDepth(Frame& frame, const SceneOnDevice& scene, const DepthPass& depth)
   masked.shaders({"forward/depth_masked.vert", "forward/depth_masked.frag"})
       .indices(scene.indices)
       .depth(depth.target, /*write*/ true, {}, depth.layer)
-      .depthCompare(depth.compare)
+      .depthCompare(VK_COMPARE_OP_GREATER_OR_EQUAL)
       .run([&](Commands& commands) {
         for (const Range& range : ranges(scene, depth, /*masked*/ true)) {
           push.material = range.material;

@@ -8,12 +8,10 @@ namespace irad {
 
 struct DepthPass {
   const char* stage;
-  const Image& target;  ///< D32, cleared to `clear`
+  const Image& target;  ///< D32, cleared to 0: the far plane's depth; the near plane's is 1
   int layer = 0;
   const Buffer& projections;
-  uint64_t offset = 0;  ///< of the Projection in `projections`, bytes
-  float clear = 1;
-  VkCompareOp compare = VK_COMPARE_OP_LESS_OR_EQUAL;
+  uint64_t offset = 0;    ///< of the Projection in `projections`, bytes
   bool cull = false;      ///< backs of single-sided materials
   bool alphaTest = true;  ///< false: masked materials are opaque
 };

@@ -59,7 +59,9 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
   }
   if (!camera.orthographic && !(nearPlane > 0.0)) nearPlane = farPlane / 4096.0;
 
-  // Clip = projection x view, Vulkan depth 0..1, y up (the frame flips the viewport).
+  // Clip = projection x view, y up (the frame flips the viewport). Depth is reversed, 1 at the near plane and 0 at the
+  // far one: what fp32 keeps near 0 makes up for what the division takes, so that depths are told apart alike
+  // everywhere.
   const double aspect = static_cast<double>(size.x) / size.y;
   const double halfHeight = camera.orthographic ? camera.ymag : std::tan(0.5 * camera.yfov);
   const double sx = 1.0 / (halfHeight * aspect), sy = 1.0 / halfHeight;
@@ -70,13 +72,13 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
   rows[0] = row(right, sx);
   rows[1] = row(up, sy);
   if (camera.orthographic) {
-    rows[2] = row(forward, 1.0 / (farPlane - nearPlane));
-    rows[2].w -= nearPlane / (farPlane - nearPlane);
+    rows[2] = row(forward, -1.0 / (farPlane - nearPlane));
+    rows[2].w += farPlane / (farPlane - nearPlane);
     rows[3] = {0, 0, 0, 1};
   } else {
-    const double scale = farPlane / (farPlane - nearPlane);
-    rows[2] = row(forward, scale);
-    rows[2].w -= nearPlane * scale;
+    const double scale = nearPlane / (farPlane - nearPlane);
+    rows[2] = row(forward, -scale);
+    rows[2].w += farPlane * scale;
     rows[3] = row(forward, 1.0);
   }
   const glm::dmat4 clip = glm::transpose(rows);
@@ -86,13 +88,13 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
   viewFromClip[0][0] = 1.0 / sx;
   viewFromClip[1][1] = 1.0 / sy;
   if (camera.orthographic) {
-    viewFromClip[2][2] = farPlane - nearPlane;
-    viewFromClip[3][2] = nearPlane;
+    viewFromClip[2][2] = nearPlane - farPlane;
+    viewFromClip[3][2] = farPlane;
     viewFromClip[3][3] = 1.0;
   } else {
     viewFromClip[3][2] = 1.0;  // depth along the view = clip w
-    viewFromClip[3][3] = 1.0 / nearPlane;
-    viewFromClip[2][3] = 1.0 / farPlane - 1.0 / nearPlane;
+    viewFromClip[3][3] = 1.0 / farPlane;
+    viewFromClip[2][3] = 1.0 / nearPlane - 1.0 / farPlane;
   }
   const glm::dmat4 localFromView(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(forward, 0), glm::dvec4(eye, 1));
 
@@ -128,7 +130,6 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
               {.stage = "RE Depth",
                .target = targets.depth,
                .projections = camera,
-               .clear = 1,
                .cull = true,
                .alphaTest = effects.alphaTest});
 

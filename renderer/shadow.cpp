@@ -137,8 +137,6 @@ void drawByHardware(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& 
                .layer = faces[i].layer,
                .projections = projections,
                .offset = i * sizeof(Projection),
-               .clear = 0,
-               .compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                .alphaTest = alphaTest});
 }
 

@@ -30,7 +30,7 @@ struct Targets {
                     ///< unknown. No picture is composed from it
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   // Where kernels rasterize:
-  Buffer visible;  ///< uint64 per pixel, row by row: bits of the depth << 32 | triangle of what is seen, all bits set
+  Buffer visible;  ///< uint64 per pixel, row by row: ~bits of the depth << 32 | triangle of what is seen, all bits set
                    ///< where nothing is
   Buffer rasterQueue;   ///< renderer/raster.h
   Buffer pixelLists;    ///< a PixelList per material and one more

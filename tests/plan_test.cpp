@@ -33,7 +33,7 @@ LightTraits light(LightType type, bool shines = true, float gap = 0) {
   return {.type = type, .shines = shines, .gap = gap};
 }
 
-/// A row in words: "off, 4000 B: voxel.facets = 1", "asleep, within 0.0005 of the largest H: error bound ...".
+/// A row in words: "off, 4000 B: voxel.facets = 1", "asleep, within 0.002 of the mean H: error bound ...".
 std::string text(const EffectRow& row) {
   return fmt::format("{}{}{}: {}", row.stateName(),
                      row.epsilon > 0 ? fmt::format(", within {:.3g} of {}", row.epsilon, row.of) : "",
@@ -118,9 +118,9 @@ const Case kCases[]{
     {E::field, EDIT(rough(t, s), dda(t, s)), "off, 1000 B: *"},
     {E::field, turnedDown, "on: rays of the matrix skip by it, *"},
     {E::field, dark, "off: rays of the matrix do not *"},
-    {E::relight, none, "asleep, within 0.0005 of the largest H: error bound 0.0001 <= 0.0002 W/m^2"},
+    {E::relight, none, "asleep, within 0.002 of the mean H: error bound 0.0001 <= 0.0002 W/m^2"},
     {E::relight, EDIT(t.light.settled = false, t.light.bound = 1), "on, *: error bound 1 > 0.0002 W/m^2"},
-    {E::relight, EDIT(t.light.due = Redo::Gather), "on, within 0.0005 of the largest H: gather is due"},
+    {E::relight, EDIT(t.light.due = Redo::Gather), "on, within 0.002 of the mean H: gather is due"},
     {E::relight, EDIT(t.light.due = Redo::Shade), "asleep, *: error bound 0.0001 <= *"},
     {E::relight, EDIT(s.effects.relight = EffectMode::on), "on, *: forced on: error bound *"},
     {E::relight, dark, "off: no indirect light"},
@@ -292,8 +292,8 @@ TEST(Plan, Json) {
     "reason": "rays of the matrix do not skip by it, specular rays do not", "skip": "exact",
     "bytes_not_allocated": 1000})"));
   EXPECT_EQ(json[static_cast<size_t>(E::relight)], nlohmann::json::parse(R"({"effect": "relight", "state": "asleep",
-    "reason": "error bound 0.0001 <= 0.0002 W/m^2", "skip": "threshold", "epsilon": 0.0005,
-    "epsilon_of": "the largest H", "bytes_not_allocated": 0})"));
+    "reason": "error bound 0.0001 <= 0.0002 W/m^2", "skip": "threshold", "epsilon": 0.002,
+    "epsilon_of": "the mean H", "bytes_not_allocated": 0})"));
 }
 
 }  // namespace

@@ -78,15 +78,15 @@ std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& p
   const auto cell = [&](std::optional<uint32_t> facet) {
     return facet ? std::optional(SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
   };
-  const glm::dvec3 start = at(0), direction = glm::normalize(at(1) - start);
+  const glm::dvec3 start = at(1), direction = glm::normalize(at(0) - start);  // 1: the near plane
   if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
     if (*shape != ViewShape::slice) return cell(inspector_->facetAlong(start, direction));
     const glm::dvec3 forward(session.shown.orientation * glm::vec3(0, 0, -1));
     return inspector_->inSlice(start, direction, forward, session.edited.view);
   }
-  float depth = 1;
+  float depth = 0;
   std::memcpy(&depth, downloadTexel(session.context, targets.depth, pixel).data(), sizeof(depth));
-  if (depth >= 1) return std::nullopt;
+  if (depth <= 0) return std::nullopt;
   uint64_t packed = 0;
   std::memcpy(&packed, downloadTexel(session.context, targets.geometric, pixel).data(), sizeof(packed));
   return cell(inspector_->facetAt(at(depth), glm::dvec3(glm::unpackHalf4x16(packed))));

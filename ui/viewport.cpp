@@ -28,14 +28,15 @@ glm::vec2 Picture::onScreen(const glm::dvec4& c) const {
 
 std::optional<glm::vec2> Picture::project(const glm::dvec3& world) const {
   const glm::dvec4 c = clip(world);
-  return c.z >= 0 ? std::optional(onScreen(c)) : std::nullopt;
+  return c.z <= c.w ? std::optional(onScreen(c)) : std::nullopt;  // beyond the near plane
 }
 
 std::optional<std::pair<glm::vec2, glm::vec2>> Picture::project(const glm::dvec3& from, const glm::dvec3& to) const {
   glm::dvec4 a = clip(from), b = clip(to);
-  if (a.z < 0 && b.z < 0) return std::nullopt;
-  if (a.z < 0) a = glm::mix(a, b, a.z / (a.z - b.z));
-  if (b.z < 0) b = glm::mix(b, a, b.z / (b.z - a.z));
+  const auto front = [](const glm::dvec4& p) { return p.w - p.z; };  // of the near plane: >= 0
+  if (front(a) < 0 && front(b) < 0) return std::nullopt;
+  if (front(a) < 0) a = glm::mix(a, b, front(a) / (front(a) - front(b)));
+  if (front(b) < 0) b = glm::mix(b, a, front(b) / (front(b) - front(a)));
   return std::pair(onScreen(a), onScreen(b));
 }
 
@@ -46,8 +47,8 @@ std::pair<glm::dvec3, glm::dvec3> Picture::ray(glm::vec2 screen) const {
     const glm::dvec4 p = inverse * glm::dvec4(share.x * 2 - 1, 1 - share.y * 2, depth, 1);
     return glm::dvec3(p) / p.w + origin_;
   };
-  const glm::dvec3 start = at(0);
-  return {start, glm::normalize(at(1) - start)};
+  const glm::dvec3 start = at(1);  // depth is 1 at the near plane
+  return {start, glm::normalize(at(0) - start)};
 }
 
 glm::uvec2 Picture::pixel(glm::vec2 screen) const {

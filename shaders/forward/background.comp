@@ -20,7 +20,7 @@ layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D emittedTarget;
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, textureSize(depthTarget, 0)))) return;
-  if (texelFetch(depthTarget, pixel, 0).r < 1.0) return;
+  if (texelFetch(depthTarget, pixel, 0).r > 0.0) return;
   imageStore(normalTarget, pixel, vec4(0.0));
   imageStore(geometricTarget, pixel, vec4(0.0));
   imageStore(albedoTarget, pixel, vec4(0.0));

@@ -1,16 +1,16 @@
 // Where the points that a camera shows lie, and from where they are seen, in local space.
 #include "shared/scene_gpu.h"
 
-/// Distance along the view direction.
+/// Distance along the view direction, of a depth that is 1 at the near plane and 0 at the far one.
 float viewDepth(GpuCamera camera, float depth) {
-  return camera.orthographic != 0u ? mix(camera.znear, camera.zfar, depth)
-                                   : camera.znear * camera.zfar / (camera.zfar - depth * (camera.zfar - camera.znear));
+  return camera.orthographic != 0u ? mix(camera.zfar, camera.znear, depth)
+                                   : camera.znear * camera.zfar / (camera.znear + depth * (camera.zfar - camera.znear));
 }
 
-/// Direction in which the camera looks: the gradient of clip w, or of clip z where w is constant.
+/// Direction in which the camera looks: the gradient of clip w, or against that of clip z where w is constant.
 vec3 viewAxis(GpuCamera camera) {
   mat4 m = camera.viewProjection;
-  return camera.orthographic != 0u ? normalize(vec3(m[0][2], m[1][2], m[2][2])) : vec3(m[0][3], m[1][3], m[2][3]);
+  return camera.orthographic != 0u ? -normalize(vec3(m[0][2], m[1][2], m[2][2])) : vec3(m[0][3], m[1][3], m[2][3]);
 }
 
 /// Local position of a pixel's centre at view depth z. The first two columns of the inverse span the picture plane at

@@ -33,7 +33,7 @@ void main() {
   }
   GpuCamera camera = push.camera.at[0];
   mat4 m = camera.viewProjection;
-  towardsEye = camera.orthographic != 0u ? -vec3(m[0][2], m[1][2], m[2][2]) : camera.position - local;
+  towardsEye = camera.orthographic != 0u ? vec3(m[0][2], m[1][2], m[2][2]) : camera.position - local;
   precise vec4 clip = project(m, local);
   gl_Position = clip;
 }

@@ -35,7 +35,7 @@ Interpolants interpolate(uint triangle, ivec2 pixel) {
   v.tangent = weighted(scene.tangents.at[a], scene.tangents.at[b], scene.tangents.at[c], w.here);
   v.tint = weighted(scene.colors.at[a], scene.colors.at[b], scene.colors.at[c], w.here);
   v.faceNormal = cross(pb - pa, pc - pa);
-  v.towardsEye = camera.orthographic != 0u ? -vec3(m[0][2], m[1][2], m[2][2]) : camera.position - v.local;
+  v.towardsEye = camera.orthographic != 0u ? vec3(m[0][2], m[1][2], m[2][2]) : camera.position - v.local;
   vec4 ua = vec4(scene.uv0.at[a], scene.uv1.at[a]), ub = vec4(scene.uv0.at[b], scene.uv1.at[b]),
        uc = vec4(scene.uv0.at[c], scene.uv1.at[c]);
   v.uv = weighted(ua, ub, uc, w.here);

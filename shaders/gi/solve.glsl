@@ -1,5 +1,6 @@
 // One Jacobi sweep (docs/method.md 1): H = F B, then B' = lambda (M + rho (D + H)), relaxed by omega. What the three
 // kernels share: reading a row's entries, and what follows a row's sum.
+// With SOLVE_GAINS it also iterates the gains' answer.
 #ifndef IRAD_SOLVE_GLSL
 #define IRAD_SOLVE_GLSL
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -9,53 +10,76 @@
 layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
 layout(constant_id = CONSTANT_SOLVE_WORK) const uint WORK = SOLVE_WATCH;
 layout(push_constant, scalar) uniform Push { SolvePush p; };
+const bool GAINS = WORK == SOLVE_GAINS;
+const bool WATCHES = WORK == SOLVE_WATCH || GAINS;
 
 #ifdef IRAD_SOLVE_IMAGES
 // B also as an image: lavapipe loads from memory lane by lane, but from images all lanes at once.
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D inputImage;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D outputImage;
-vec3 inputAt(uint j) { return imageLoad(inputImage, solveTexel(j)).xyz; }
+vec4 inputAt(uint j) { return imageLoad(inputImage, solveTexel(j)); }
 #else
-vec3 inputAt(uint j) { return p.input_.at[j].xyz; }
+vec4 inputAt(uint j) { return GAINS ? p.input_.at[j] : vec4(p.input_.at[j].xyz, 0.0f); }
 #endif
 
-void putOutput(uint row, vec3 value) {
-  p.output_.at[row] = vec4(value, 0.0f);
+void putOutput(uint row, vec4 value) {
+  p.output_.at[row] = value;
 #ifdef IRAD_SOLVE_IMAGES
-  imageStore(outputImage, solveTexel(row), vec4(value, 0.0f));
+  imageStore(outputImage, solveTexel(row), value);
 #endif
 }
 
 #include "gi/matrix_row.glsl"
 
-/// Entry i's share of the row's sum: xyz = F_ij x_j over the row's weight, w = F_ij likewise.
-vec4 entryTerm(Row r, uint columnBits, uint i) {
+/// A row's sums, as far as they are wanted: xyz; with WATCHES `row`; with GAINS w.
+struct Sum {
+  vec4 light;  ///< sum_j F_ij x_j
+  float row;   ///< sum_j F_ij
+};
+const Sum NO_SUM = Sum(vec4(0.0f), 0.0f);
+
+/// Adds entry i of the row, in units of the row's weight.
+void addEntry(inout Sum sum, Row r, uint columnBits, uint i) {
   RowEntry e = rowEntry(r, columnBits, i);
-  return vec4(inputAt(e.column) * e.weight, e.weight);
+  sum.light += inputAt(e.column) * e.weight;
+  if (WATCHES) sum.row += e.weight;
 }
 
 /// What a row hands to the reductions.
 struct Watch {
-  float delta, h, gain, source;
+  float delta, h, gain, source, rise, fall, reach;
   uint nonFinite, nan, negative;
 };
-const Watch NOTHING = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u, 0u);
+const Watch NOTHING = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u, 0u);
 
 uint trues(bvec3 b) { return uint(b.x) + uint(b.y) + uint(b.z); }
 
 float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-Watch finishRow(uint row, vec4 sum) {
+/// The gains' answer without its 1: v' = a (F v + F 1), a = lambda x the largest albedo of the three channels.
+float nextReach(float before, float a, Sum sum, inout Watch w) {
+  float now = a * (sum.light.w + sum.row);
+  bool sound = now >= 0.0f && now < SOLVE_REACH_MAX && before >= 0.0f;  // false for a NaN
+  if (!sound) now = 0.0f;
+  w.rise = sound ? max(now - before, 0.0f) : SOLVE_REACH_MAX;
+  w.fall = sound ? max(before - now, 0.0f) : 0.0f;
+  w.reach = sound ? before : 0.0f;
+  return now;
+}
+
+/// `sum`, in units of `weight`, is the row's.
+Watch finishRow(uint row, Sum sum, float weight) {
   Watch w = NOTHING;
+  sum.light *= weight;
   if (WORK == SOLVE_PRODUCT) {
-    putOutput(row, sum.xyz);
+    putOutput(row, vec4(sum.light.xyz, 0.0f));
     return w;
   }
   FacetArrays f = p.facets.at[0];
   vec3 rho = unpackAlbedo(f.albedo.at[row]);
   vec3 source = rho * p.direct.at[row].xyz;
   if (f.hasEmission != 0u) source += f.emission.at[row];
-  vec3 h = sum.xyz;
+  vec3 h = sum.light.xyz;
   // The emitters' share of the row's rays replaced by that of the samples; below 0 by rounding alone.
   if (p.correctionGain != 0.0f) {
     h += p.correctionGain * p.correction.at[row].xyz;
@@ -63,22 +87,25 @@ Watch finishRow(uint row, vec4 sum) {
   }
   h = mix(h, vec3(0.0f), lessThan(abs(h), vec3(p.flush)));
   vec3 now = p.lambda * (source + rho * h);
-  vec3 old = vec3(0.0f);
-  if (p.omega != 1.0f || WORK == SOLVE_WATCH) old = inputAt(row);
+  vec4 before = p.input_.at[row];  // all of it: glslang 12 takes a component's address for aligned to 16 bytes
+  vec3 old = before.xyz;
   if (p.omega != 1.0f) now = mix(old, now, p.omega);
   now = mix(now, vec3(0.0f), lessThan(abs(now), vec3(p.flush)));
-  putOutput(row, now);
+  float reach = before.w;
+  sum.row *= weight;
+  if (GAINS) reach = nextReach(reach, p.lambda * largest(rho), sum, w);
+  putOutput(row, vec4(now, reach));
   p.indirect.at[row] = vec4(h, 0.0f);
-  if (WORK == SOLVE_WATCH) {
-    p.rowSum.at[row] = sum.w;
+  if (WATCHES) {
+    p.rowSum.at[row] = sum.row;
     w.nan = trues(isnan(now));
     w.nonFinite = w.nan + trues(isinf(now));
-    w.negative = trues(lessThan(min(min(source, h), now), vec3(0.0f))) + uint(sum.w < 0.0f);
+    w.negative = trues(lessThan(min(min(source, h), now), vec3(0.0f))) + uint(sum.row < 0.0f);
     // A maximum with NaN may be either operand, so what is not finite is counted and left out.
     if (w.nonFinite == 0u) {
       w.delta = largest(abs(now - old));
       w.h = largest(abs(h));
-      w.gain = p.lambda * largest(rho) * sum.w;
+      w.gain = p.lambda * largest(rho) * sum.row;
       w.source = largest(abs(source));
     }
   }
@@ -87,11 +114,14 @@ Watch finishRow(uint row, vec4 sum) {
 
 /// All invocations of the subgroup that are still here call this once.
 void report(Watch w) {
-  if (WORK != SOLVE_WATCH) return;
+  if (!WATCHES) return;
   float delta = subgroupMax(w.delta);
   float h = subgroupMax(w.h);
   float gain = subgroupMax(w.gain);
   float source = subgroupMax(w.source);
+  float rise = GAINS ? subgroupMax(w.rise) : 0.0f;
+  float fall = GAINS ? subgroupMax(w.fall) : 0.0f;
+  float reach = GAINS ? subgroupMax(w.reach) : 0.0f;
   uint nonFinite = subgroupAdd(w.nonFinite);
   uint nan = subgroupAdd(w.nan);
   uint negative = subgroupAdd(w.negative);
@@ -102,6 +132,9 @@ void report(Watch w) {
   if (floatBitsToUint(h) > r.at[0].maxH) atomicMax(r.at[0].maxH, floatBitsToUint(h));
   if (floatBitsToUint(gain) > r.at[0].maxGain) atomicMax(r.at[0].maxGain, floatBitsToUint(gain));
   if (floatBitsToUint(source) > r.at[0].maxSource) atomicMax(r.at[0].maxSource, floatBitsToUint(source));
+  if (floatBitsToUint(rise) > r.at[0].maxRise) atomicMax(r.at[0].maxRise, floatBitsToUint(rise));
+  if (floatBitsToUint(fall) > r.at[0].maxFall) atomicMax(r.at[0].maxFall, floatBitsToUint(fall));
+  if (floatBitsToUint(reach) > r.at[0].maxReach) atomicMax(r.at[0].maxReach, floatBitsToUint(reach));
   if (nonFinite > 0u) atomicAdd(r.at[0].nonFinite, nonFinite);
   if (nan > 0u) atomicAdd(r.at[0].nan, nan);
   if (negative > 0u) atomicAdd(r.at[0].negative, negative);

@@ -11,9 +11,9 @@ void main() {
   Watch w = NOTHING;
   if (row < m.rows) {
     Row r = openRow(m, row);
-    vec4 sum = vec4(0.0f);
-    for (uint i = 0u; i < r.count; ++i) sum += entryTerm(r, m.columnBits, i);
-    w = finishRow(row, sum * r.weight);
+    Sum sum = NO_SUM;
+    for (uint i = 0u; i < r.count; ++i) addEntry(sum, r, m.columnBits, i);
+    w = finishRow(row, sum, r.weight);
   }
   report(w);
 }

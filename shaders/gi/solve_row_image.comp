@@ -8,11 +8,11 @@
 layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer LongArray { uint64_t at[]; };
 
-vec4 rowSum(Row r, uint columnBits) {
+Sum rowSums(Row r, uint columnBits) {
   LongArray pairs = LongArray(uint64_t(r.entries));
   uint mask = (1u << columnBits) - 1u;
   uint end = r.start + r.count;
-  vec3 sum = vec3(0.0f);
+  vec4 sum = vec4(0.0f);
   int hits = 0;
   for (uint pair = r.start >> 1; 2u * pair < end; ++pair) {
     uvec2 e = unpack32(pairs.at[pair]);
@@ -21,10 +21,15 @@ vec4 rowSum(Row r, uint columnBits) {
     if (2u * pair + 1u >= end) e.y = 0u;
     ivec2 h = ivec2(e >> columnBits);  // signed: AVX2 converts no unsigned integers
     hits += h.x + h.y;
-    sum += inputAt(e.x & mask) * float(h.x);
-    sum += inputAt(e.y & mask) * float(h.y);
+    if (GAINS) {
+      sum += inputAt(e.x & mask) * float(h.x);
+      sum += inputAt(e.y & mask) * float(h.y);
+    } else {
+      sum.xyz += inputAt(e.x & mask).xyz * float(h.x);
+      sum.xyz += inputAt(e.y & mask).xyz * float(h.y);
+    }
   }
-  return vec4(sum, float(hits));
+  return Sum(sum, float(hits));
 }
 
 void main() {
@@ -33,7 +38,7 @@ void main() {
   Watch w = NOTHING;
   if (row < m.rows) {
     Row r = openRow(m, row);
-    w = finishRow(row, rowSum(r, m.columnBits) * r.weight);
+    w = finishRow(row, rowSums(r, m.columnBits), r.weight);
   }
   report(w);
 }

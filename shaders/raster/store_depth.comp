@@ -1,4 +1,4 @@
-// "RE Depth" by kernels: the depth target from raster/visible.comp's words.
+// "RE Depth" by kernels: the depth target from raster/visible.comp's words; where nothing is seen those are ~0.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster.h"
@@ -14,5 +14,5 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, size))) return;
   uvec2 seen = unpack32(visible.at[pixel.y * size.x + pixel.x]);
-  imageStore(depthTarget, pixel, vec4(seen.y != 0xFFFFFFFFu ? uintBitsToFloat(seen.y) : 1.0));
+  imageStore(depthTarget, pixel, vec4(uintBitsToFloat(~seen.y)));
 }

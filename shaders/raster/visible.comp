@@ -1,11 +1,12 @@
-// "RE Depth" by kernels: per pixel the least depth's bits << 32 | triangle, so that of equals the first is seen.
+// "RE Depth" by kernels: per pixel the least of ~(bits of the depth) << 32 | triangle: the nearest, depth being 1
+// at the near plane and 0 at the far one, and of equals the first.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raster/scene_triangle.glsl"
 
 void rasterPixel(uint triangle, ivec2 pixel, float depth) {
   uint place = uint(pixel.y) * push.size.x + uint(pixel.x);
-  uint bits = floatBitsToUint(depth);
+  uint bits = ~floatBitsToUint(depth);
   // Reading the depth first (one load reads it whole) pays only where it saves texture reads: nobody waits for the
   // atomics.
   if (MASKED && (push.target.at[2u * place + 1u] < bits || cutOut(pixel))) return;

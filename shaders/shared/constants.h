@@ -23,7 +23,8 @@ IRAD_CONST uint CONSTANT_MERGE_WORKGROUP = 32u;  ///< gi/merge_rows.comp: its si
 IRAD_CONST uint CONSTANT_SORTED = 33u;           ///< gi/merge_rows.comp
 IRAD_CONST uint CONSTANT_SOLVE_WORK = 34u;
 IRAD_CONST uint CONSTANT_SCATTER_STORES = 35u;
-IRAD_CONST uint CONSTANT_EMITTED = 36u;  ///< F M too, beside H
+IRAD_CONST uint CONSTANT_EMITTED = 36u;        ///< F M too, beside H
+IRAD_CONST uint CONSTANT_SOLVE_VECTORS = 37u;  ///< gi/solve_sums.comp, gi/extrapolate.comp: n
 
 // Pictures.
 IRAD_CONST uint CONSTANT_VIEW = 40u;

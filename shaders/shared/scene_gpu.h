@@ -50,7 +50,7 @@ struct GpuLight {
 };
 
 struct GpuCamera {
-  mat4 viewProjection;  ///< local position -> clip, Vulkan depth 0..1
+  mat4 viewProjection;  ///< local position -> clip, depth 1 at znear, 0 at zfar
   mat4 inverseViewProjection;
   vec3 position;  ///< local
   float znear, zfar;

@@ -19,24 +19,31 @@ struct SolveResidual {
   uint nonFinite;  ///< components of B' that are NaN or infinite
   uint nan;        ///< of those, NaN
   uint negative;   ///< components of M + rho D, H or B', and row sums of F, below zero
-  uint pad;
+  // Of the gains' answer w = 1 + v (docs/method.md 1), v being the fourth component of B: v' = a (F v + F 1).
+  uint maxRise;   ///< max v' - v
+  uint maxFall;   ///< max v - v'
+  uint maxReach;  ///< max v
+  uint pad0, pad1;
 };
+IRAD_CONST uint SOLVE_RESIDUALS = 16u;      ///< sweeps of a submission at most: each reduces into a record of its own
+IRAD_CONST float SOLVE_REACH_MAX = 1e20f;  ///< a larger v is given up, and a rise that is no number is this
 IRAD_ARRAY(ResidualArray, SolveResidual, 16)
 
 // Specialization constant 1 of gi/solve_*.comp (0: the matrix's format): what is computed.
-IRAD_CONST uint SOLVE_SWEEP = 0u;    ///< H = F B, then B'
-IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with the reductions of SolveResidual
+IRAD_CONST uint SOLVE_SWEEP = 0u;    ///< H = F B, then B'; v stays
+IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with the reductions of SolveResidual, but for those of v
 IRAD_CONST uint SOLVE_PRODUCT = 2u;  ///< output = F input alone
+IRAD_CONST uint SOLVE_GAINS = 3u;    ///< SOLVE_WATCH with v', and all of the reductions
 
 struct SolvePush {
   MatrixRecord matrix;
   FacetRecord facets;
   Vec4Array direct;    ///< D
-  Vec4Array input_;    ///< B (or any vector, SOLVE_PRODUCT)
-  Vec4Array output_;   ///< B' (or F input)
+  Vec4Array input_;    ///< B, v (or any vector, SOLVE_PRODUCT)
+  Vec4Array output_;   ///< B', v' (or F input)
   Vec4Array indirect;  ///< H
   ResidualArray residual;
-  FloatArray rowSum;     ///< sum_j F_ij, written with SOLVE_WATCH
+  FloatArray rowSum;     ///< sum_j F_ij, written where it is watched
   Vec4Array correction;  ///< F M by samples of the emitters less that by rays
   float lambda, omega, flush;
   float correctionGain;  ///< the factor on M in B, and so on the correction to F B. 0: there is none
@@ -52,6 +59,29 @@ IRAD_CONST uint SOLVE_IMAGE_WIDTH = 1024u;
 IRAD_FN ivec2 solveTexel(uint i) {
   return ivec2(int(i % SOLVE_IMAGE_WIDTH), int(i / SOLVE_IMAGE_WIDTH));
 }
+
+// Acceleration (docs/method.md 1): x_0 ... x_n are B, v before and after n sweeps, r_j = x_j+1 - x_j.
+IRAD_CONST uint SOLVE_VECTORS = 4u;  ///< n at most
+/// gi/solve_sums.comp: what the host adds up after a batch, SOLVE_SUMS arrays with a value per invocation. The first: sum
+/// of A H, and of A; the others: of r_a r_b for a < n, b <= a, component by component.
+struct SolveSumsPush {
+  Vec4Array x0, x1, x2, x3, x4;
+  Vec4Array indirect;
+  FloatArray area;
+  Vec4Array sums;
+  uint count, invocations;
+};
+IRAD_CONST uint SOLVE_SUMS = 11u;  ///< 1 + SOLVE_VECTORS (SOLVE_VECTORS + 1) / 2
+IRAD_CONST uint SOLVE_SUMS_FACETS = 32u;          ///< per invocation, as long as there are not more than these:
+IRAD_CONST uint SOLVE_SUMS_INVOCATIONS = 4096u;
+/// gi/extrapolate.comp: x_0 <- sum_j weight_j x_j+1, and the largest residual of sum_j weight_j x_j.
+struct ExtrapolatePush {
+  Vec4Array x0, x1, x2, x3, x4;
+  ResidualArray residual;  ///< its maxDelta, roundings included
+  vec4 weight0, weight1, weight2, weight3;  ///< by component; each component's sum is 1
+  uint count;
+  uint pad;
+};
 
 /// The first of gi/gather.comp's specialization constants about lights: LIGHT_CONSTANTS of them.
 IRAD_CONST uint GATHER_LIGHTS = 1u;

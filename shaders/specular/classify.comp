@@ -25,7 +25,7 @@ bool classify(GpuCamera camera, ivec2 pixel) {
   vec3 irradiance = imageLoad(indirectTarget, pixel).rgb;
   vec3 result = vec3(0.0);
   bool traces = false;
-  if (depth < 1.0 && f0.w != 0.0) {
+  if (depth > 0.0 && f0.w != 0.0) {
     vec3 axis = viewAxis(camera);
     vec3 view = towardsViewer(camera, pixelPosition(camera, pixel, viewDepth(camera, depth), axis), axis);
     float nv = max(dot(normalize(normal.xyz), view), 1e-3);

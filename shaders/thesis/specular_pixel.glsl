@@ -36,7 +36,7 @@ Reflection reflectionAt(ivec2 pixel) {
   vec4 f0 = imageLoad(f0Target, pixel);
   vec3 irradiance = imageLoad(indirectTarget, pixel).rgb;
   Reflection r;
-  r.shows = depth < 1.0 && f0.w != 0.0;
+  r.shows = depth > 0.0 && f0.w != 0.0;
   r.traces = r.shows && !tracesNothing(f0, normal.w, irradiance);
   if (!r.shows) return r;
   vec3 axis = viewAxis(camera);

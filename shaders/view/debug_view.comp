@@ -30,7 +30,7 @@ void main() {
   if (any(greaterThanEqual(gl_GlobalInvocationID.xy, camera.size))) return;
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   float depth = texelFetch(depthTarget, pixel, 0).r;
-  bool drawn = depth < 1.0;
+  bool drawn = depth > 0.0;
   vec4 albedo = imageLoad(albedoTarget, pixel);
   vec3 direct = imageLoad(directTarget, pixel).rgb;
   vec3 highlight = IRAD_TERM(TARGET_HIGHLIGHT, highlightTarget);
@@ -54,8 +54,8 @@ void main() {
     case VIEW_DEPTH: {
       // Distance along the view direction.
       value = vec3(camera.orthographic != 0u
-                       ? mix(camera.znear, camera.zfar, depth)
-                       : camera.znear * camera.zfar / (camera.zfar - depth * (camera.zfar - camera.znear)));
+                       ? mix(camera.zfar, camera.znear, depth)
+                       : camera.znear * camera.zfar / (camera.znear + depth * (camera.zfar - camera.znear)));
       if (!drawn) value = vec3(0.0);
       break;
     }

@@ -18,7 +18,7 @@ void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, camera.size))) return;
   float depth = texelFetch(depthTarget, ivec2(pixel), 0).r;
-  if (!(depth < 1.0)) {
+  if (!(depth > 0.0)) {
     imageStore(linearTarget, ivec2(pixel), vec4(0.0));
     return;
   }

@@ -17,7 +17,7 @@ void main() {
   if (any(greaterThanEqual(pixel, camera.size))) return;
   float depth = texelFetch(depthTarget, ivec2(pixel), 0).r;
   vec4 drawn = vec4(0.0);
-  if (depth < 1.0) {
+  if (depth > 0.0) {
     GpuLight light = push.lights.at[push.light];
     vec3 p = unproject(camera, pixel, depth);
     vec3 n = imageLoad(geometricTarget, ivec2(pixel)).xyz;

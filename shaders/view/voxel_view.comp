@@ -37,7 +37,7 @@ void main() {
     case SHAPE_CUBES: drawn = drawCubes(facets, ray); break;
     case SHAPE_SLICE: {
       uvec2 middle = camera.size / 2u;
-      drawn = drawSlice(facets, ray, unproject(camera, middle, 1.0) - unproject(camera, middle, 0.0));
+      drawn = drawSlice(facets, ray, unproject(camera, middle, 0.0) - unproject(camera, middle, 1.0));
       break;
     }
     case SHAPE_PROJECTION: drawn = drawProjection(facets, ray); break;

@@ -34,11 +34,15 @@ class SolverPanel : public Panel {
     valueRow("residual", shortNumber(report.residual) + " W/m\u00B2");
     helpTooltip("Largest change of B in the last sweep");
     valueRow("error bound", shortNumber(report.bound) + " W/m\u00B2");
-    helpTooltip("On B: \u03C1/(1\u2212\u03C1) times the residual, \u03C1 the largest row gain");
+    helpTooltip("On B: (\u03BA/\u03C9 \u2212 1) times the residual");
     valueRow("sleeps below", shortNumber(session.built->solve.allowed) + " W/m\u00B2");
-    helpTooltip("The bound at which H is known to solver.tolerance of its largest value");
+    helpTooltip("The bound at which H is known to solver.tolerance of its mean");
+    valueRow("H mean, largest", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
+    helpTooltip("The mean is by the facets' areas, of the brightest colour channel");
     valueRow("row gain \u03C1", shortNumber(report.largestGain));
     helpTooltip("The largest share of its light that a facet's row passes on: below 1 the solver converges");
+    valueRow("\u03BA", shortNumber(report.kappa));
+    helpTooltip("Proven from the gains of all rows together: an error is at most so many times the residual");
     drawCurves();
     drawEnergy(*session.built);
     drawWatch(*session.built);
