@@ -54,6 +54,7 @@ oracle::Facets oracleFacets(Context& context, const FacetList& list) {
     host.sides = downloadAs<uint32_t>(context, s.sides);
     host.cuts = downloadAs<uint32_t>(context, s.cuts);
     host.surfels = downloadAs<Surfel>(context, s.surfels);
+    host.area = downloadAs<float>(context, list.area);
   }
   return host;
 }

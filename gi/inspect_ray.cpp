@@ -16,7 +16,7 @@ std::vector<uint32_t> Inspector::traceOnDevice(uint32_t facet) const {
   traceRows(frame, rayKernel(pipeline_.facets(), field(), params), params, facet, /*rows=*/1, met);
   frame.submitAndWait();
   std::vector<uint32_t> out = downloadAs<uint32_t>(context_, met);
-  out.resize(params.rays);
+  out.resize(oracle::raysOf(list_, facet, params));
   return out;
 }
 
@@ -38,7 +38,7 @@ RayPath Inspector::path(const oracle::Ray& ray, const oracle::DistanceField* fie
 InspectedRay Inspector::ray(uint32_t facet, uint32_t k) const {
   const MatrixParams& params = pipeline_.settings().matrix.gpu;
   IRAD_CHECK_OP(facet, <, facets_.count());
-  IRAD_CHECK_OP(k, <, params.rays);
+  IRAD_CHECK_OP(k, <, oracle::raysOf(list_, facet, params));
   const oracle::Ray ray = oracle::facetRay(list_, facet, k, params);
   InspectedRay r{facet, k, ray.origin, ray.direction, {}, {}, 0, 1e9};
   r.dda = path(ray, nullptr, r.margin);

@@ -23,6 +23,7 @@ void addSums(MatrixStats& stats, const ChunkCounts& sums) {
   stats.hits += sums.hits;
   stats.escaped += sums.escaped;
   stats.invalid += sums.invalid;
+  stats.rays -= sums.notCast;
   stats.largestRow = std::max(stats.largestRow, sums.largestRow);
 }
 

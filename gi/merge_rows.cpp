@@ -47,11 +47,14 @@ std::vector<uint32_t> mergeOnHost(const Chunk& chunk, std::span<uint32_t> hits, 
     }
     const auto count = static_cast<uint32_t>(entries.size()) - start[r];
     const auto invalid = static_cast<uint32_t>(std::count(end, row.end(), TRACE_INVALID));
-    const float weight = invalid < chunk.rays ? 1.0f / static_cast<float>(chunk.rays - invalid) : 0.0f;
+    const auto notCast = static_cast<uint32_t>(std::count(end, row.end(), TRACE_NOT_CAST));
+    const uint32_t cast = chunk.rays - notCast;
+    const float weight = invalid < cast ? 1.0f / static_cast<float>(cast - invalid) : 0.0f;
     info[r] = {count | invalid << 16, std::bit_cast<uint32_t>(weight)};
     sums.hits += static_cast<uint32_t>(end - row.begin());
     sums.escaped += static_cast<uint32_t>(std::count(end, row.end(), TRACE_ESCAPED));
     sums.invalid += invalid;
+    sums.notCast += notCast;
     sums.largestRow = std::max(sums.largestRow, count);
   }
   return entries;

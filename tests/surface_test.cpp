@@ -104,7 +104,7 @@ TEST_F(SurfaceTest, RaysMeetTheFirstOfAllTriangles) {
   const Scene& scene = *w.scene;
   size_t wrong = 0, compared = 0;
   for (uint32_t f = 0; f < w.facets.count; f += 3)
-    for (uint32_t k = 0; k < params.rays; ++k) {
+    for (uint32_t k = 0; k < oracle::raysOf(host, f, params); ++k) {
       const oracle::Ray ray = oracle::facetRay(host, f, k, params);
       double nearest = 1e300, edge = 1;
       uint32_t first = 0;

@@ -30,7 +30,7 @@ class Trace : public GiTest {
     const std::vector<uint32_t> met = hits(w, params);
     size_t wrong = 0, found = 0, open = 0;  // open: the oracle leaves it to the device
     for (uint32_t f = 0; f < w.facets.count; ++f)
-      for (uint32_t k = 0; k < params.rays; ++k) {
+      for (uint32_t k = 0; k < oracle::raysOf(host, f, params); ++k) {
         const oracle::Hit expected = oracle::trace(host, oracle::facetRay(host, f, k, params), params.hitRule);
         const uint32_t got = met[size_t{f} * params.rays + k];
         found += got <= TRACE_LAST_FACET;
@@ -107,7 +107,7 @@ TEST_F(Trace, BetweenASheetAndTheWallBehindIt) {
     const glm::ivec3 v(unpackVoxel(host.voxel[f]));
     if (onSheet(f) || host.normal(f).y > -0.5 || v.z < 13 || v.z > 20) continue;
     auto& [rays, hit] = strips[v.x - 25];  // the sheet ends at x = 25
-    for (uint32_t k = 0; k < params.rays; ++k) {
+    for (uint32_t k = 0; k < oracle::raysOf(host, f, params); ++k) {
       const uint32_t m = met[size_t{f} * params.rays + k];
       ++rays;
       hit += m <= TRACE_LAST_FACET && onSheet(m);
@@ -170,7 +170,7 @@ TEST_F(Trace, FacesEndAtConvexEdges) {
   const glm::dvec3 centre = glm::dvec3(w.facets.grid.dims) * 0.5;
   size_t missing = 0, metBlock = 0, lost = 0, blockRays = 0, invalid = 0;
   for (uint32_t f = 0; f < w.facets.count; ++f)
-    for (uint32_t k = 0; k < params.rays; ++k) {
+    for (uint32_t k = 0; k < oracle::raysOf(host, f, params); ++k) {
       const uint32_t hit = met[size_t{f} * params.rays + k];
       if (onBlock(f)) {
         ++blockRays;

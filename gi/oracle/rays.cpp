@@ -226,6 +226,10 @@ dvec3 Facets::point(uint32_t surfel) const {
   return a + (corner(triangle, 1) - a) * weights.x + (corner(triangle, 2) - a) * weights.y;
 }
 
+uint32_t raysOf(const Facets& facets, uint32_t facet, const MatrixParams& params) {
+  return params.hitRule == HitRule::triangles ? facetRays(facets.area.at(facet), params.rays) : params.rays;
+}
+
 Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params) {
   const glm::vec3 n = decodeNormal(facets.shape[facet] & 0xFFFFu, facets.encoding);
   const glm::uvec4 shifts = rayShifts(facets.voxel[facet], params.seed, params.jitter);
@@ -237,7 +241,8 @@ Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParam
     const dvec3 a = facets.corner(triangle, 0);
     const dvec3 facing = glm::normalize(glm::cross(facets.corner(triangle, 1) - a, facets.corner(triangle, 2) - a)) *
                          ((s.triangle & SURFEL_BACK) != 0 ? -1.0 : 1.0);
-    const dvec3 along(toWorld(cosineDirection(hammersley(k, params.rays, glm::uvec2(shifts))), glm::vec3(facing)));
+    const dvec3 along(
+        toWorld(cosineDirection(hammersley(k, raysOf(facets, facet, params), glm::uvec2(shifts))), glm::vec3(facing)));
     return {facets.point(surfel) + 1e-6 * facing, along, facing, facet, triangle};
   }
   const glm::vec3 direction = toWorld(cosineDirection(hammersley(k, params.rays, glm::uvec2(shifts))), n);

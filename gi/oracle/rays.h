@@ -22,6 +22,7 @@ struct Facets {
   std::vector<glm::vec4> corners;
   std::vector<uint32_t> firstPiece, pieces, sides, cuts;
   std::vector<Surfel> surfels;
+  std::vector<float> area;  ///< voxel faces
   glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return glm::dvec3(corners.at(3 * triangle + i)); }
   glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
@@ -39,6 +40,8 @@ struct Ray {
   uint32_t triangle = kNoTriangle;
 };
 /// Ray k of a facet, from the shared sampling functions.
+uint32_t raysOf(const Facets& facets, uint32_t facet, const MatrixParams& params);
+/// k is less than raysOf.
 Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params);
 
 struct Hit {

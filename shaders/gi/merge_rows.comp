@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { MergeRowsPush p; };
 
 shared uint column[SORTED];
 shared uint heads[gl_WorkGroupSize.x];
-shared uint escapedShared, invalidShared;
+shared uint escapedShared, invalidShared, notCastShared;
 
 void main() {
   uint row = irad_workgroup();
@@ -20,7 +20,7 @@ void main() {
   uint width = gl_WorkGroupSize.x;
   uint base = row * p.rays;
   for (uint i = me; i < SORTED; i += width) column[i] = i < p.rays ? p.hits.at[base + i] : TRACE_ESCAPED;
-  if (me == 0u) escapedShared = invalidShared = 0u;
+  if (me == 0u) escapedShared = invalidShared = notCastShared = 0u;
   barrier();
 
   for (uint size = 2u; size <= SORTED; size <<= 1)
@@ -40,16 +40,18 @@ void main() {
   uint run = (SORTED + width - 1u) / width;
   uint from = min(me * run, SORTED);
   uint to = min(from + run, SORTED);
-  uint mine = 0u, escaped = 0u, invalid = 0u;
+  uint mine = 0u, escaped = 0u, invalid = 0u, notCast = 0u;
   for (uint i = from; i < to; ++i) {
     uint c = column[i];
     if (c <= TRACE_LAST_FACET && (i == 0u || column[i - 1u] != c)) ++mine;
     if (c == TRACE_INVALID) ++invalid;
     if (c == TRACE_ESCAPED) ++escaped;
+    if (c == TRACE_NOT_CAST) ++notCast;
   }
   heads[me] = mine;
   if (escaped > 0u) atomicAdd(escapedShared, escaped);
   if (invalid > 0u) atomicAdd(invalidShared, invalid);
+  if (notCast > 0u) atomicAdd(notCastShared, notCast);
   barrier();
   uint place = 0u, entries = 0u;
   for (uint i = 0u; i < width; ++i) {
@@ -74,11 +76,13 @@ void main() {
       else last = middle;
     }
     p.counts.at[row] = entries;
-    float weight = lost < p.rays ? 1.0f / float(p.rays - lost) : 0.0f;
+    uint cast_ = p.rays - notCastShared;
+    float weight = lost < cast_ ? 1.0f / float(cast_ - lost) : 0.0f;
     p.rowInfo.at[p.firstRow + row] = uvec2(entries | (lost << 16), floatBitsToUint(weight));
     atomicAdd(p.sums.at[0].hits, first);
     atomicAdd(p.sums.at[0].escaped, out_);
     atomicAdd(p.sums.at[0].invalid, lost);
+    if (cast_ < p.rays) atomicAdd(p.sums.at[0].notCast, p.rays - cast_);
     atomicMax(p.sums.at[0].largestRow, entries);
   }
 }

@@ -21,7 +21,12 @@ void main() {
   uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
   if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
     SurfaceArrays surface = p.surface.at[0];
-    FacetRay r = facetRay(surface, row, packedVoxel, k, p.rays, p.seed, p.jitter);
+    uint cast_ = facetRays(surface.area.at[row], p.rays);
+    if (k >= cast_) {
+      p.hits.at[ray] = TRACE_NOT_CAST;
+      return;
+    }
+    FacetRay r = facetRay(surface, row, packedVoxel, k, cast_, p.seed, p.jitter);
     TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
     p.hits.at[ray] = traceTriangles(world, surface, r.from.position, r.direction, r.from.triangle).facet;
     return;

@@ -7,9 +7,9 @@ IRAD_BEGIN
 
 /// Sums over the rows of a chunk; read back by the host.
 struct ChunkCounts {
-  uint hits, escaped, invalid, largestRow;
+  uint hits, escaped, invalid, largestRow, notCast;
 };
-IRAD_ARRAY(ChunkCountsArray, ChunkCounts, 16)
+IRAD_ARRAY(ChunkCountsArray, ChunkCounts, 4)
 
 /// gi/merge_rows.comp: sorts what the rays of each row met and merges equal columns, in place.
 struct MergeRowsPush {

@@ -20,6 +20,14 @@ IRAD_ARRAY(SurfelArray, Surfel, 8)
 /// Surfels of a facet: points that stand for equal shares of its area.
 IRAD_CONST uint FACET_SURFELS = 8u;
 
+/// Rays of a facet of `area` voxel faces, of the `rays` that one voxel face and more has: the same for the same surface,
+/// however it is divided. By whole subgroups, which end together.
+IRAD_CONST uint LEAST_RAYS = 32u;
+IRAD_FN uint facetRays(float area, uint rays) {
+  uint share = uint(float(rays) * min(max(area, 0.0f), 1.0f));
+  return min(rays, share / LEAST_RAYS * LEAST_RAYS + LEAST_RAYS);
+}
+
 IRAD_FN uint packPlace(vec2 weights) {
   vec2 q = clamp(weights, vec2(0.0f), vec2(1.0f)) * 65535.0f + vec2(0.5f);
   return uint(q.x) | (uint(q.y) << 16);

@@ -16,6 +16,7 @@ IRAD_CONST uint TRACE_JFA = 3u;  ///< sphere-marches the UNORM8 Euclidean distan
 IRAD_CONST uint TRACE_ESCAPED = 0xFFFFFFFFu;     ///< left the grid
 IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;     ///< the back of a face, 4 voxels away or more: absorbed
 IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;     ///< started behind a surface: does not count
+IRAD_CONST uint TRACE_NOT_CAST = 0xFFFFFFFCu;    ///< a small facet has fewer rays (facetRays)
 IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
 
 // The robust rule's lengths, in voxels.
