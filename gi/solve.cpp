@@ -38,6 +38,12 @@ void judgeGains(SolveReport& report, const SolveResidual& r) {
   report.kappaSlack = least > 0 ? (1 + std::bit_cast<float>(r.maxFall)) / least : kUnknown;
 }
 
+/// What the error of H is to be below: the tolerance; but no less than what a sweep cannot tell from rounding, half a
+/// unit in the last place of the largest H.
+float target(const SolveReport& report, float omega, float tolerance) {
+  return std::max(tolerance * report.meanH, report.kappa / omega * report.largestH * 0x1p-24f);
+}
+
 /// How far B may still be from its fixed point, and H from F times it. |dB|: the last change.
 void judge(SolveReport& report, const SolveResidual& r, double meanH, float omega, float tolerance) {
   report.residual = std::bit_cast<float>(r.maxDelta);
@@ -52,13 +58,14 @@ void judge(SolveReport& report, const SolveResidual& r, double meanH, float omeg
   // The error of B before the sweep is at most kappa |dB| / omega, and so is that of H, row sums being <= 1.
   const float reach = report.kappa / omega * report.residual;
   report.bound = report.residual == 0 ? 0 : reach - report.residual;
-  report.allowed = (1 - omega / report.kappa) * tolerance * report.meanH;
-  report.converged = report.nonFinite == 0 && (report.residual == 0 || reach <= tolerance * report.meanH);
+  const float wanted = target(report, omega, tolerance);
+  report.allowed = (1 - omega / report.kappa) * wanted;
+  report.converged = report.nonFinite == 0 && (report.residual == 0 || (report.kappa < kUnknown && reach <= wanted));
 }
 
 /// Sweeps until the tolerance holds, if the residual goes on as it was last seen to.
 uint32_t sweepsToGo(const SolveReport& report, float omega, float tolerance) {
-  const double wanted = double{tolerance} * report.meanH * omega / report.kappa;
+  const double wanted = double{target(report, omega, tolerance)} * omega / report.kappa;
   if (!(report.contraction > 0 && report.contraction < 1 && wanted > 0 && report.residual > 0))
     return std::numeric_limits<uint32_t>::max();
   const double sweeps = std::ceil(std::log(wanted / report.residual) / std::log(report.contraction));
