@@ -2,11 +2,7 @@
 // passes between two triangles with a common edge meets at least one of them. On the edge itself both count.
 #ifndef IRAD_TRIANGLE_HIT_GLSL
 #define IRAD_TRIANGLE_HIT_GLSL
-#include "shared/types.h"
-
-struct Triangle {
-  vec3 a, b, c;
-};
+#include "shared/surface.h"
 
 Triangle triangleAt(Vec4Array corners, uint triangle) {
   return Triangle(corners.at[3u * triangle].xyz, corners.at[3u * triangle + 1u].xyz, corners.at[3u * triangle + 2u].xyz);
@@ -18,10 +14,9 @@ bool showsBack(Vec4Array corners, uint triangle) {
   return first.w > 0.0;
 }
 
-/// The unit normal of the side whose corners turn counter-clockwise, or of the other.
-vec3 facingOf(Triangle t, bool back) {
-  vec3 n = normalize(cross(t.b - t.a, t.c - t.a));
-  return back ? -n : n;
+bool hasHoles(Vec4Array corners, uint triangle) {
+  vec4 second = corners.at[3u * triangle + 1u];
+  return second.w > 0.0;
 }
 
 struct ShearedRay {
