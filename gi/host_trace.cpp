@@ -21,6 +21,15 @@ namespace {
 
 /// Rows that a thread takes at once.
 constexpr uint32_t kBlock = 16;
+/// Rays that go down the tree together, in the order of the set, which is spread over the hemisphere: a fifth faster
+/// than one by one; 16, Embree's streams, and rays sorted by direction are no faster than this.
+constexpr uint32_t kPacket = 8;
+
+struct HostRay {
+  glm::vec3 origin, direction;  ///< voxel units
+  uint32_t own;                 ///< triangle
+  glm::vec3 at(float t) const { return origin + direction * t; }
+};
 
 Triangle triangleAt(const oracle::Facets& facets, uint32_t triangle) {
   const glm::vec4* corner = &facets.corners[3 * size_t{triangle}];
@@ -82,24 +91,20 @@ uint32_t classAt(const oracle::Facets& facets, uint32_t piece, bool back, const 
   return PIECE_UNKNOWN;
 }
 
-/// What a ray passes through: the triangle that it leaves, and triangles where they have no piece.
+/// For a ray that passes through the triangle that it leaves, or through triangles where they have no piece.
 struct PassedThrough {
   RTCIntersectContext context;  // first: Embree hands back its address
   const oracle::Facets* facets;
-  uint32_t from;
+  const HostRay* ray;
 };
-
-glm::vec3 along(const RTCRay& ray, float t) {
-  return glm::vec3(ray.org_x, ray.org_y, ray.org_z) + glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z) * t;
-}
 
 void passThrough(const RTCFilterFunctionNArguments* arguments) {
   const auto& passed = *reinterpret_cast<const PassedThrough*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] == 0) continue;
     const uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
-    const RTCRay ray = rtcGetRayFromRayN(arguments->ray, arguments->N, i);
-    if (triangle == passed.from || !pieceAt(*passed.facets, along(ray, ray.tfar), triangle)) arguments->valid[i] = 0;
+    const float t = RTCRayN_tfar(arguments->ray, arguments->N, i);
+    if (triangle == passed.ray->own || !pieceAt(*passed.facets, passed.ray->at(t), triangle)) arguments->valid[i] = 0;
   }
 }
 
@@ -143,32 +148,66 @@ class EmbreeTrace : public HostTrace {
       from[i] = surfelOn(triangleAt(facets_, s.triangle & ~SURFEL_BACK), s);
       from[i].position = liftedStart(from[i].position, from[i].facing);
     }
-    for (uint32_t k = 0; k < params.rays; ++k) {
-      const SurfelPoint& start = from[raySurfel(k, shifts)];
-      hits[k] = trace(start.position, rayDirection(start.facing, k, params.rays, shifts), start.triangle);
+    const uint32_t rays = params.rays;
+    for (uint32_t first = 0; first < rays; first += kPacket) {
+      std::array<HostRay, kPacket> packet;
+      const std::span<HostRay> some(packet.data(), std::min(kPacket, rays - first));
+      for (uint32_t k = first; HostRay & ray : some) {
+        const SurfelPoint& start = from[raySurfel(k, shifts)];
+        ray = {start.position, rayDirection(start.facing, k++, rays, shifts), start.triangle};
+      }
+      trace(some, &hits[first]);
     }
   }
 
-  uint32_t trace(const glm::vec3& origin, const glm::vec3& direction, uint32_t own) const {
-    PassedThrough passed{.context = {}, .facets = &facets_, .from = own};
-    rtcInitIntersectContext(&passed.context);
-    // Few rays come upon something to pass through: they are traced again.
-    for (const RTCFilterFunctionN filter : {RTCFilterFunctionN{}, RTCFilterFunctionN{passThrough}}) {
-      passed.context.filter = filter;
-      RTCRayHit hit{.ray = EmbreeScene::ray(origin, direction, 0, std::numeric_limits<float>::infinity()), .hit = {}};
-      hit.hit.geomID = hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_.handle(), &passed.context, &hit);
-      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return TRACE_ESCAPED;
-      if (hit.hit.primID == own) continue;
-      const glm::vec3 at = along(hit.ray, hit.ray.tfar);
-      const std::optional<Piece> piece = pieceAt(facets_, at, hit.hit.primID);
-      if (!piece) continue;
-      const bool back = glm::dot(glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z), direction) > 0;
-      const uint32_t found = classAt(facets_, piece->index, back, at);
-      if (found < PIECE_UNKNOWN) return piece->firstFacet + found;
-      return found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID;
+  void trace(std::span<const HostRay> rays, uint32_t* hits) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    alignas(32) int valid[kPacket] = {};
+    RTCRayHit8 packet{};
+    for (size_t i = 0; i < rays.size(); ++i) {
+      valid[i] = -1;
+      packet.ray.org_x[i] = rays[i].origin.x;
+      packet.ray.org_y[i] = rays[i].origin.y;
+      packet.ray.org_z[i] = rays[i].origin.z;
+      packet.ray.dir_x[i] = rays[i].direction.x;
+      packet.ray.dir_y[i] = rays[i].direction.y;
+      packet.ray.dir_z[i] = rays[i].direction.z;
+      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+      packet.ray.mask[i] = ~0u;
+      packet.hit.geomID[i] = packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    return TRACE_INVALID;
+    rtcIntersect8(valid, scene_.handle(), &context, &packet);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const glm::vec3 normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+      const std::optional<uint32_t> met = facetMet(rays[i], packet.hit.primID[i], packet.ray.tfar[i], normal);
+      hits[i] = met ? *met : traceThrough(rays[i]);
+    }
+  }
+
+  /// A ray that has come upon something to pass through, as few do.
+  uint32_t traceThrough(const HostRay& ray) const {
+    PassedThrough passed{.context = {}, .facets = &facets_, .ray = &ray};
+    rtcInitIntersectContext(&passed.context);
+    passed.context.filter = passThrough;
+    RTCRayHit met{.ray = EmbreeScene::ray(ray.origin, ray.direction, 0, std::numeric_limits<float>::infinity()),
+                  .hit = {}};
+    met.hit.geomID = met.hit.primID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_.handle(), &passed.context, &met);
+    return facetMet(ray, met.hit.primID, met.ray.tfar, {met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z})
+        .value_or(TRACE_INVALID);
+  }
+
+  /// The facet, or TRACE_*, where a ray meets a triangle; none where it passes through. `normal`: of the front.
+  std::optional<uint32_t> facetMet(const HostRay& ray, uint32_t triangle, float t, const glm::vec3& normal) const {
+    if (triangle == RTC_INVALID_GEOMETRY_ID) return TRACE_ESCAPED;
+    if (triangle == ray.own) return std::nullopt;
+    const glm::vec3 at = ray.at(t);
+    const std::optional<Piece> piece = pieceAt(facets_, at, triangle);
+    if (!piece) return std::nullopt;
+    const uint32_t found = classAt(facets_, piece->index, glm::dot(normal, ray.direction) > 0, at);
+    if (found < PIECE_UNKNOWN) return piece->firstFacet + found;
+    return found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID;
   }
 
   oracle::Facets facets_;
