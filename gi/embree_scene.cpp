@@ -7,7 +7,7 @@
 namespace irad {
 
 EmbreeScene::EmbreeScene(std::span<const glm::vec3> positions, std::span<const uint32_t> corners, uint64_t memory)
-    : left_(static_cast<int64_t>(memory)) {
+    : left_(static_cast<int64_t>(std::min<uint64_t>(memory, std::numeric_limits<int64_t>::max()))) {
   // One thread, so that the tree is the same every time.
   device_.reset(rtcNewDevice("threads=1"));
   if (!device_) throw WorkError("Embree: no device");
@@ -34,8 +34,8 @@ EmbreeScene::EmbreeScene(std::span<const glm::vec3> positions, std::span<const u
   rtcCommitScene(scene_.get());
   const RTCError error = rtcGetDeviceError(device_.get());  // the first one
   if (error == RTC_ERROR_OUT_OF_MEMORY)
-    throw DeviceError(fmt::format("Embree's tree of {} triangles needs more than the {} MiB that are free",
-                                  corners.size() / 3, memory >> 20));
+    throw DeviceError(fmt::format("rays on the host: a tree of {} triangles needs more than the {} KiB that are free",
+                                  corners.size() / 3, memory >> 10));
   if (error != RTC_ERROR_NONE) throw WorkError(fmt::format("Embree could not build its tree (error {})", +error));
 }
 

@@ -17,7 +17,7 @@ class EmbreeScene {
   /// `corners`: three per triangle, by index. Rays pass between no two triangles that share an edge. The tree, and with
   /// it what a ray through an edge meets, is the same every time. DeviceError where it takes more than `memory` bytes.
   EmbreeScene(std::span<const glm::vec3> positions, std::span<const uint32_t> corners,
-              uint64_t memory = std::numeric_limits<int64_t>::max());
+              uint64_t memory = std::numeric_limits<uint64_t>::max());
   RTCScene handle() const { return scene_.get(); }
 
   /// `far`: lengths of `direction`.

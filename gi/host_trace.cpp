@@ -110,17 +110,17 @@ void passThrough(const RTCFilterFunctionNArguments* arguments) {
 
 class EmbreeTrace : public HostTrace {
  public:
-  EmbreeTrace(Context& context, const FacetList& list)
+  EmbreeTrace(Context& context, const FacetList& list, uint64_t memory)
       : facets_(oracleFacets(context, list)),
-        scene_(positions(facets_), corners(facets_), free(context.device.memory())) {}
+        scene_(positions(facets_), corners(facets_), std::min(memory, free(context.device.memory()))) {}
 
   void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
             uint32_t threads) const override {
     IRAD_CHECK_OP(hits.size(), >=, uint64_t{rows} * params.rays);
     std::atomic<uint32_t> next = 0;
     const auto work = [&] {
-      for (uint32_t block; (block = next++) <= (rows - 1) / kBlock;)
-        for (uint32_t r = block * kBlock; r < std::min(rows, (block + 1) * kBlock); ++r)
+      for (uint32_t block; (block = kBlock * next++) < rows;)
+        for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r)
           row(params, firstRow + r, hits.subspan(uint64_t{r} * params.rays, params.rays));
     };
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
@@ -220,8 +220,8 @@ bool canTraceOnHost() {
   return true;
 }
 
-std::unique_ptr<HostTrace> makeHostTrace(Context& context, const FacetList& facets) {
-  return std::make_unique<EmbreeTrace>(context, facets);
+std::unique_ptr<HostTrace> makeHostTrace(Context& context, const FacetList& facets, uint64_t memory) {
+  return std::make_unique<EmbreeTrace>(context, facets, memory);
 }
 
 }  // namespace irad

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -24,8 +25,9 @@ class HostTrace {
 
 /// Whether this build has one (IRAD_EMBREE).
 bool canTraceOnHost();
-/// For a list by classes of surfels (gi/surface.h). DeviceError where memory does not suffice, WorkError where this
-/// build has none.
-std::unique_ptr<HostTrace> makeHostTrace(Context& context, const FacetList& facets);
+/// For a list by classes of surfels (gi/surface.h). DeviceError where it needs more than `memory` bytes or than are
+/// free, WorkError where this build has none.
+std::unique_ptr<HostTrace> makeHostTrace(Context& context, const FacetList& facets,
+                                         uint64_t memory = std::numeric_limits<uint64_t>::max());
 
 }  // namespace irad

@@ -8,7 +8,7 @@ bool canTraceOnHost() {
   return false;
 }
 
-std::unique_ptr<HostTrace> makeHostTrace(Context&, const FacetList&) {
+std::unique_ptr<HostTrace> makeHostTrace(Context&, const FacetList&, uint64_t) {
   throw WorkError("this build cannot trace on the host (IRAD_EMBREE)");
 }
 

@@ -190,5 +190,19 @@ TEST_F(HostTracing, MatricesOfCpuDevicesAreTheHosts) {
   EXPECT_GT(last, 0);
 }
 
+TEST_F(HostTracing, TooLittleMemoryIsSaidInWords) {
+  const World w = world(furnishedRoom(), triangles(12, 8));
+  for (const uint64_t kib : {0u, 4u, 20u, 40u}) {
+    try {
+      makeHostTrace(context(), w.facets, kib << 10);
+      FAIL() << kib << " KiB cannot hold a tree of " << w.scene->triangleCount() << " triangles";
+    } catch (const DeviceError& e) {
+      EXPECT_NE(std::string(e.what()).find(fmt::format("the {} KiB that are free", kib)), std::string::npos)
+          << e.what();
+    }
+  }
+  EXPECT_NE(makeHostTrace(context(), w.facets, 64 << 20), nullptr);
+}
+
 }  // namespace
 }  // namespace irad::test::host_trace_suite
