@@ -57,7 +57,7 @@ uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& a
 
 Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage) {
   Hit hit{TRACE_ESCAPED};
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity(), second = nearest;  // along the ray; of another triangle
   uint32_t met = kNoTriangle, metPiece = 0, metFirst = 0;
   Meeting found;
   Walk walk(facets, ray, passage);
@@ -68,8 +68,15 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
       const uint32_t triangle = facets.pieces.at(i) & ~PIECE_SMALL;
       if (triangle == ray.triangle) continue;
       const std::optional<Meeting> m = meet(facets, triangle, ray);
-      if (!m || m->t <= 0 || m->t > nearest || (m->t == nearest && triangle > met)) continue;
-      hit.margin = std::min(hit.margin, triangle == met ? 1e9 : std::abs(nearest - m->t));
+      if (!m) continue;
+      hit.margin = std::min(hit.margin, std::abs(m->t));
+      if (m->t <= 0) continue;
+      if (facets.hasHoles(triangle)) {  // it is there only where this cell's piece is
+        hit.margin = std::min({hit.margin, std::abs(m->t - walk.enter), std::abs(m->t - walk.leave)});
+        if (m->t < walk.enter || m->t > walk.leave) continue;
+      }
+      if (triangle != met) second = std::min(second, std::max(nearest, m->t));
+      if (m->t > nearest || (m->t == nearest && triangle > met)) continue;
       nearest = m->t;
       met = triangle;
       metPiece = i;
@@ -81,7 +88,7 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
   hit.margin = std::min(hit.margin, walk.margin);
   if (met == kNoTriangle) return hit;
   hit.t = nearest;
-  hit.margin = std::min(hit.margin, found.edge);
+  hit.margin = std::min({hit.margin, found.edge, second - nearest});
   const uint32_t side = classAt(facets, metPiece, !found.front, ray.origin + nearest * ray.direction, hit.margin);
   hit.facet = side < PIECE_UNKNOWN ? metFirst + side : (side == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return hit;

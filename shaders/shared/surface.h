@@ -42,6 +42,36 @@ IRAD_CONST uint PIECE_SMALL = 0x80000000u;
 IRAD_CONST uint MOST_COUNTED = 1024u;
 IRAD_CONST uint MOST_PIECES = 16384u;
 
+/// Corners, voxel units.
+struct Triangle {
+  vec3 a, b, c;
+};
+/// The unit normal of the side whose corners turn counter-clockwise, or of the other.
+IRAD_FN vec3 facingOf(Triangle t, bool back) {
+  vec3 n = normalize(cross(t.b - t.a, t.c - t.a));
+  return back ? -n : n;
+}
+
+struct SurfelPoint {
+  vec3 position, facing;  ///< voxel units
+  uint triangle;
+};
+/// `t`: the surfel's triangle.
+IRAD_FN SurfelPoint surfelOn(Triangle t, Surfel s) {
+  vec2 weights = unpackPlace(s.place);
+  SurfelPoint p;
+  p.position = t.a + (t.b - t.a) * weights.x + (t.c - t.a) * weights.y;
+  p.facing = facingOf(t, (s.triangle & SURFEL_BACK) != 0u);
+  p.triangle = s.triangle & ~SURFEL_BACK;
+  return p;
+}
+/// How far a ray starts above its triangle, as a share of the coordinates: eight times what these round to.
+IRAD_CONST float START_LIFT = 8.0f / 16777216.0f;
+IRAD_FN vec3 liftedStart(vec3 position, vec3 facing) {
+  vec3 size = abs(position);
+  return position + facing * (START_LIFT * max(1.0f, max(size.x, max(size.y, size.z))));
+}
+
 /// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
@@ -73,7 +103,8 @@ IRAD_ARRAY(LinkArray, uint8_t, 4)
 IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
-  Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0
+  Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0; of the
+                          ///< second: 1 where a mask may have cut holes, else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray sides;        ///< per piece
