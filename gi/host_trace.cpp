@@ -39,6 +39,7 @@ Triangle triangleAt(const oracle::Facets& facets, uint32_t triangle) {
 /// A triangle's part in one voxel.
 struct Piece {
   uint32_t index, firstFacet;  ///< firstFacet: of the voxel
+  glm::ivec3 voxel;
 };
 
 std::optional<Piece> pieceIn(const oracle::Facets& facets, const glm::ivec3& voxel, uint32_t triangle) {
@@ -52,14 +53,21 @@ std::optional<Piece> pieceIn(const oracle::Facets& facets, const glm::ivec3& vox
   const auto end = facets.pieces.begin() + facets.firstPiece[facet + facetsOf(entry)];
   for (const uint32_t piece : {triangle, triangle | PIECE_SMALL}) {
     const auto found = std::lower_bound(begin, end, piece);
-    if (found != end && *found == piece) return Piece{static_cast<uint32_t>(found - facets.pieces.begin()), facet};
+    if (found != end && *found == piece)
+      return Piece{static_cast<uint32_t>(found - facets.pieces.begin()), facet, voxel};
   }
   return std::nullopt;
 }
 
+/// gi/piece_cuts.glsl.
+bool isThere(const oracle::Facets& facets, uint32_t piece, const glm::vec3& normal, const glm::vec3& point) {
+  const uint32_t bit = maskBit(normal, point);
+  return (facets.cuts[(facets.sides[piece] & ~PIECE_CUT) + 1 + bit / 32] >> (bit % 32) & 1) != 0;
+}
+
 /// The triangle's piece at one of its points: in the voxel that holds it or, where rounding has put it into another,
 /// the next one. None: a mask has cut a hole there, or the triangle is too thin to be listed.
-std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, uint32_t triangle) {
+std::optional<Piece> listedAt(const oracle::Facets& facets, const glm::vec3& at, uint32_t triangle) {
   const glm::vec3 cell = glm::floor(at), within = at - cell;
   if (const std::optional<Piece> piece = pieceIn(facets, cell, triangle)) return piece;
   const float rounding = facets.hasHoles(triangle) ? 1e-4f : 1e-2f;
@@ -73,12 +81,21 @@ std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, 
   return std::nullopt;
 }
 
+/// The same where a mask leaves it.
+std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, uint32_t triangle) {
+  const std::optional<Piece> piece = listedAt(facets, at, triangle);
+  if (!piece || !facets.hasHoles(triangle)) return piece;
+  const glm::vec3 normal = facingOf(triangleAt(facets, triangle), false);
+  return isThere(facets, piece->index, normal, at - glm::vec3(piece->voxel)) ? piece : std::nullopt;
+}
+
 /// gi/piece_cuts.glsl.
 uint32_t classAt(const oracle::Facets& facets, uint32_t piece, bool back, const glm::vec3& at) {
   const uint32_t sides = facets.sides[piece], shift = back ? 8 : 0;
   if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;
   const uint32_t* cuts = &facets.cuts[sides & ~PIECE_CUT];
-  const uint32_t count = *cuts++;
+  const uint32_t count = *cuts & ~CUT_MASKED;
+  cuts += (*cuts & CUT_MASKED) != 0 ? 3 : 1;
   uint32_t part = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const Triangle t = triangleAt(facets, cuts[i]);

@@ -51,7 +51,10 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
       if (!meetsTriangle(ray, triangleAt(surface.corners, triangle), t, front)) continue;
       if (t <= 0.0f || t > nearest || (t == nearest && triangle > met)) continue;
       // What has holes is there only where this cell's piece is.
-      if ((t < w.t || t > leave) && hasHoles(surface.corners, triangle)) continue;
+      if (hasHoles(surface.corners, triangle)) {
+        vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
+        if (t < w.t || t > leave || !isThere(surface, i, normal, origin + w.direction * t - vec3(w.cell))) continue;
+      }
       nearest = t;
       met = triangle;
       metPiece = i;
