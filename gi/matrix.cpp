@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "gi/facets.h"
+#include "gi/host_trace.h"
 #include "gi/matrix_build.h"
 #include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"
@@ -65,12 +67,7 @@ void mergeAndPackOnDevice(CsrBuild& build, Frame frame, const Chunk& chunk, cons
 }
 
 /// CPU devices: the same by the host in mapped memory.
-void mergeAndPackOnHost(CsrBuild& build, Frame frame, const Chunk& chunk, const Buffer& hits) {
-  // The device's writes are made visible to the host.
-  frame.pass(kMatrixStage)
-      .declare(hits, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT})
-      .record([](VkCommandBuffer) {});
-  frame.submitAndWait();
+void mergeAndPackOnHost(CsrBuild& build, const Chunk& chunk, const Buffer& hits) {
   std::vector<glm::uvec2> info(chunk.rows);
   std::vector<uint32_t> start(chunk.rows);
   ChunkCounts sums{};
@@ -83,6 +80,41 @@ void mergeAndPackOnHost(CsrBuild& build, Frame frame, const Chunk& chunk, const 
   upload(build.context, build.matrix.rowInfo, std::as_bytes(std::span(info)), 8ull * chunk.firstRow);
   upload(build.context, build.matrix.rowStart, std::as_bytes(std::span(start)), 4ull * chunk.firstRow);
 }
+
+/// What the rays of each chunk meet, in mapped memory: of the driver's kernel, or of the host itself where it can.
+class HitsOnHost {
+ public:
+  HitsOnHost(Context& context, const RayKernel& kernel, const MatrixParams& params)
+      : context_(context), kernel_(kernel), params_(params) {
+    if (params.hitRule == HitRule::triangles && canTraceOnHost())
+      timed([&] { host_ = makeHostTrace(context, kernel.facets); });
+  }
+  void trace(const Chunk& chunk, const Buffer& hits) {
+    if (host_) {
+      const std::span<uint32_t> mapped(static_cast<uint32_t*>(hits.mapped), uint64_t{chunk.rows} * chunk.rays);
+      timed([&] { host_->rows(params_, chunk.firstRow, chunk.rows, mapped); });
+      return;
+    }
+    Frame frame = context_.begin();
+    traceRows(frame, kernel_, params_, chunk.firstRow, chunk.rows, hits);
+    // The device's writes are made visible to the host.
+    frame.pass(kMatrixStage)
+        .declare(hits, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT})
+        .record([](VkCommandBuffer) {});
+    frame.submitAndWait();
+  }
+
+ private:
+  void timed(const std::function<void()>& work) {
+    const double began = context_.timings.now();
+    work();
+    context_.timings.add(kMatrixStage, context_.timings.now() - began);
+  }
+  Context& context_;
+  const RayKernel& kernel_;
+  const MatrixParams& params_;
+  std::unique_ptr<HostTrace> host_;
+};
 
 /// csr: each chunk of rows is traced once into a scratch array, and turned into a segment of the exact size.
 void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
@@ -109,14 +141,18 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
   const RayKernel kernel = rayKernel(facets, field, params);
   CsrBuild build{context, matrix, rows, arrays.segmentShift};
+  std::optional<HitsOnHost> onHost;
+  if (device.isCpu) onHost.emplace(context, kernel, params);
   for (uint32_t first = 0; first < rows; first += segmentRows) {
     const Chunk chunk{first, std::min(segmentRows, rows - first), rays, arrays.columnBits};
-    Frame frame = context.begin();
-    traceRows(frame, kernel, params, first, chunk.rows, hits);
-    if (device.isCpu)
-      mergeAndPackOnHost(build, std::move(frame), chunk, hits);
-    else
+    if (onHost) {
+      onHost->trace(chunk, hits);
+      mergeAndPackOnHost(build, chunk, hits);
+    } else {
+      Frame frame = context.begin();
+      traceRows(frame, kernel, params, first, chunk.rows, hits);
       mergeAndPackOnDevice(build, std::move(frame), chunk, hits, counts, total, sums);
+    }
     reportRows(progress, uint64_t{first} + chunk.rows, rows);
   }
   matrix.stats.bytesUsed = 4 * matrix.stats.entries;

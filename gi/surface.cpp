@@ -51,29 +51,26 @@ struct Points {
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
 void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, const Tiles& tiles,
                  const std::vector<TriangleRange>& ranges, const Buffer& counts, const Buffer* pieces) {
-  for (const bool masked : {false, true}) {
-    if (std::ranges::count(ranges, masked, &TriangleRange::masked) == 0) continue;
-    Pass pass = frame.pass(kVoxelizeStage);
-    ListPiecesPush push{};
-    push.scene = pass.in(scene.record);
-    push.grid = pass.in(grid);
-    push.tileStart = pass.in(tiles.starts);
-    push.counts = pass.accumulate(counts);
-    if (pieces) push.pieces = pass.accumulate(*pieces);
-    push.lists = pieces != nullptr;
-    pass.shader("gi/list_pieces.comp").constant(CONSTANT_SAMPLES_TEXTURES, masked).run([&](Commands& commands) {
-      for (size_t i = 0; i < ranges.size(); ++i) {
-        push.firstTriangle = ranges[i].first;
-        push.endTriangle = ranges[i].end;
-        push.firstTile = tiles.bounds[i];
-        push.tileCount = tiles.bounds[i + 1] - tiles.bounds[i];
-        if (ranges[i].masked != masked || push.tileCount == 0) continue;
-        commands.bindMaterial(scene.materialSets.at(ranges[i].material));
-        commands.push(push);
-        commands.dispatch(push.tileCount);
-      }
-    });
-  }
+  if (ranges.empty()) return;
+  Pass pass = frame.pass(kVoxelizeStage);
+  ListPiecesPush push{};
+  push.scene = pass.in(scene.record);
+  push.grid = pass.in(grid);
+  push.tileStart = pass.in(tiles.starts);
+  push.counts = pass.accumulate(counts);
+  if (pieces) push.pieces = pass.accumulate(*pieces);
+  push.lists = pieces != nullptr;
+  pass.shader("gi/list_pieces.comp").run([&](Commands& commands) {
+    for (size_t i = 0; i < ranges.size(); ++i) {
+      push.firstTriangle = ranges[i].first;
+      push.endTriangle = ranges[i].end;
+      push.firstTile = tiles.bounds[i];
+      push.tileCount = tiles.bounds[i + 1] - tiles.bounds[i];
+      if (push.tileCount == 0) continue;
+      commands.push(push);
+      commands.dispatch(push.tileCount);
+    }
+  });
 }
 
 /// Prefix sums of `values`, and their total behind the last; `sum` is known when the frame is done.
@@ -172,6 +169,44 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   scanToEnd(frame, p.firstCut, p.count, pieces, p.cuts);
   frame.submitAndWait();
   return p;
+}
+
+/// What alpha masks leave of the pieces, in `surface`.
+void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid, const Pieces& pieces,
+               const Surface& surface) {
+  std::vector<bool> hasMask(scene.scene.triangleCount());
+  bool any = false;
+  for (const Draw& draw : scene.scene.draws) {
+    if ((scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) == 0) continue;
+    std::fill_n(hasMask.begin() + draw.firstIndex / 3, draw.indexCount / 3, true);
+    any = true;
+  }
+  if (!any) return;
+  std::vector<uint32_t> masked, triangles;  // pieces, and theirs
+  const std::vector<uint32_t> all = downloadAs<uint32_t>(context, surface.pieces);
+  for (uint32_t i = 0; i < all.size(); ++i)
+    if (const uint32_t triangle = all[i] & ~PIECE_SMALL; hasMask[triangle]) {
+      masked.push_back(i);
+      triangles.push_back(triangle);
+    }
+  Order order = groupByMaterial(scene, triangles);
+  for (uint32_t& item : order.items) item = masked[item];
+  const Buffer ordered =
+      makeBuffer<uint32_t>(context, "pieces with masks", Subsystem::Facets, std::span<const uint32_t>(order.items));
+  Frame frame = context.begin();
+  dispatchByMaterial(frame, kVoxelizeStage, "gi/piece_mask.comp", scene, order, [&](Pass& pass) {
+    PieceMaskPush push{};
+    push.scene = pass.in(scene.record);
+    push.grid = pass.in(grid);
+    push.order = pass.in(ordered);
+    push.pieceVoxel = pass.in(pieces.pieceVoxel);
+    push.solid = pass.in(pieces.voxel);
+    push.pieces = pass.in(surface.pieces);
+    push.firstCut = pass.in(pieces.firstCut);
+    push.cuts = pass.out(surface.cuts);
+    return push;
+  });
+  frame.submitAndWait();
 }
 
 /// The points of all pieces, in `surface` the cuts of those that others stand on, and each point's facet.
@@ -301,9 +336,7 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
                const Points& points, FacetList& list) {
   const Surface& surface = list.surface;
   const Device& device = context.device;
-  std::vector<uint32_t> triangles = downloadAs<uint32_t>(context, surface.pieces);
-  for (uint32_t& piece : triangles) piece &= ~PIECE_SMALL;
-  const Order order = groupByMaterial(scene, triangles);
+  const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces));
   const Buffer ordered =
       makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
   const Buffer clamped = words(device, "clamped albedo", 1);
@@ -318,7 +351,7 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
     push.order = pass.in(ordered);
     push.pieceVoxel = pass.in(pieces.pieceVoxel);
     push.solid = pass.in(pieces.voxel);
-    push.pieces = pass.in(surface.pieces);
+    push.surface = pass.in(surface.record);
     push.albedo = pass.out(albedo);
     push.emission = pass.out(emission);
     push.clamped = pass.out(clamped);
@@ -384,6 +417,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   surface.cuts = words(device, "pieces' cuts", pieces.cuts);
   makeRecord(context, list);
   Points points;
+  findMasks(context, scene, grid, pieces, surface);
   if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
   allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);

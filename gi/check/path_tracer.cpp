@@ -1,7 +1,4 @@
-// The one translation unit that knows Embree.
 #include "gi/check/path_tracer.h"
-
-#include <embree3/rtcore.h>
 
 #include <atomic>
 #include <chrono>
@@ -11,6 +8,7 @@
 #include <thread>
 
 #include "gi/check/path_surfaces.h"
+#include "gi/embree_scene.h"
 #include "renderer/base/error.h"
 
 namespace irad {
@@ -49,11 +47,6 @@ void pass(const RTCFilterFunctionNArguments* arguments) {
     if (through) arguments->valid[i] = 0;
   }
 }
-
-struct Freed {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
 
 struct Met {
   uint32_t triangle = kNoTriangle;
@@ -101,17 +94,8 @@ void sumUp(TracedLight& light) {
 
 class EmbreeTracer : public PathTracer {
  public:
-  explicit EmbreeTracer(Scene scene) : surfaces_(std::move(scene)) {
-    // One thread, so that the tree, and with it what a ray through an edge meets, is the same every time.
-    device_.reset(rtcNewDevice("threads=1"));
-    if (!device_) throw WorkError("Embree: no device");
-    scene_.reset(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-    if (!surfaces_.triangles().empty()) attach();
-    rtcCommitScene(scene_.get());
-    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw WorkError("Embree could not build its tree");
-  }
+  explicit EmbreeTracer(Scene scene)
+      : surfaces_(std::move(scene)), scene_(surfaces_.scene().positions, corners(surfaces_)) {}
 
   TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const override {
     IRAD_CHECK(options.samples > 0 && options.samples % 2 == 0, "{} samples", options.samples);
@@ -143,22 +127,11 @@ class EmbreeTracer : public PathTracer {
   }
 
  private:
-  void attach() {
-    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    const std::vector<glm::vec3>& positions = surfaces_.scene().positions;
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 sizeof(glm::vec3), positions.size()));
-    for (size_t i = 0; i < positions.size(); ++i)
-      for (int axis = 0; axis < 3; ++axis) vertices[3 * i + static_cast<size_t>(axis)] = positions[i][axis];
-    auto* corners = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   sizeof(glm::uvec3), surfaces_.triangles().size()));
-    for (const truth::Triangle& t : surfaces_.triangles())
-      for (int k = 0; k < 3; ++k) *corners++ = t.corner[k];
-    rtcSetGeometryIntersectFilterFunction(geometry, pass);
-    rtcSetGeometryOccludedFilterFunction(geometry, pass);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_.get(), geometry);
-    rtcReleaseGeometry(geometry);
+  static std::vector<uint32_t> corners(const Surfaces& surfaces) {
+    std::vector<uint32_t> indices;
+    for (const truth::Triangle& t : surfaces.triangles())
+      for (int k = 0; k < 3; ++k) indices.push_back(t.corner[k]);
+    return indices;
   }
 
   /// The paths of some pixels.
@@ -192,23 +165,12 @@ class EmbreeTracer : public PathTracer {
 
     RTCRay ray(const glm::dvec3& origin, const glm::dvec3& direction, float near, float far) {
       ++rays;
-      const glm::vec3 o(origin), d(direction);
-      return {.org_x = o.x,
-              .org_y = o.y,
-              .org_z = o.z,
-              .tnear = near,
-              .dir_x = d.x,
-              .dir_y = d.y,
-              .dir_z = d.z,
-              .time = 0,
-              .tfar = far,
-              .mask = ~0u,
-              .id = 0,
-              .flags = 0};
+      return EmbreeScene::ray(origin, direction, near, far);
     }
     Passing passing(uint32_t from, uint32_t to, bool fromCamera) const {
       Passing p{.context = {}, .surfaces = &surfaces, .from = from, .to = to, .camera = fromCamera};
       rtcInitIntersectContext(&p.context);
+      p.context.filter = pass;
       return p;
     }
 
@@ -217,7 +179,7 @@ class EmbreeTracer : public PathTracer {
       Passing p = passing(from, kNoTriangle, fromCamera);
       RTCRayHit hit{.ray = ray(origin, direction, near, far), .hit = {}};
       hit.hit.geomID = hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(tracer.scene_.get(), &p.context, &hit);
+      rtcIntersect1(tracer.scene_.handle(), &p.context, &hit);
       if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
       return {hit.hit.primID, {hit.hit.u, hit.hit.v}};
     }
@@ -225,7 +187,7 @@ class EmbreeTracer : public PathTracer {
     bool clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to) {
       Passing p = passing(from, to, /*fromCamera=*/false);
       RTCRay shadow = ray(origin, direction, 0, far);
-      rtcOccluded1(tracer.scene_.get(), &p.context, &shadow);
+      rtcOccluded1(tracer.scene_.handle(), &p.context, &shadow);
       return shadow.tfar >= 0;
     }
 
@@ -316,8 +278,7 @@ class EmbreeTracer : public PathTracer {
   };
 
   Surfaces surfaces_;
-  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Freed> device_;
-  std::unique_ptr<std::remove_pointer_t<RTCScene>, Freed> scene_;
+  EmbreeScene scene_;
 };
 
 }  // namespace

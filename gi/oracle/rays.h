@@ -24,7 +24,8 @@ struct Facets {
   std::vector<Surfel> surfels;
   std::vector<float> area;  ///< voxel faces
   glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return glm::dvec3(corners.at(3 * triangle + i)); }
-  glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
+  bool hasHoles(uint32_t triangle) const { return corners.at(3 * triangle + 1).w > 0; }  ///< cut by a mask
+  glm::dvec3 point(uint32_t surfel) const;                                               ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
   /// The point of the plane nearest to the voxel's centre, voxel units.
   glm::dvec3 middle(uint32_t facet) const;

@@ -35,7 +35,8 @@ uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& a
   const uint32_t sides = facets.sides.at(piece), shift = back ? 8 : 0;
   if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;
   const uint32_t* cuts = &facets.cuts.at(sides & ~PIECE_CUT);
-  const uint32_t count = *cuts++;
+  const uint32_t count = *cuts & ~CUT_MASKED;
+  cuts += (*cuts & CUT_MASKED) != 0 ? 3 : 1;
   uint32_t part = 0;
   bool cut = false;
   for (uint32_t i = 0; i < count; ++i) {
@@ -53,11 +54,21 @@ uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& a
   return PIECE_UNKNOWN;
 }
 
+/// Whether a mask leaves a piece at a point relative to its voxel's lower corner.
+bool isThere(const Facets& facets, uint32_t piece, uint32_t triangle, const dvec3& point, double& margin) {
+  const dvec3 a = facets.corner(triangle, 0);
+  const glm::vec3 normal(glm::cross(facets.corner(triangle, 1) - a, facets.corner(triangle, 2) - a));
+  const glm::dvec2 at = glm::dvec2(maskPlane(glm::vec3(point), maskAxis(normal))) * double{MASK_EDGE};
+  for (int i = 0; i < 2; ++i) margin = std::min(margin, std::abs(at[i] - std::round(at[i])) / double{MASK_EDGE});
+  const uint32_t bit = maskBit(normal, glm::vec3(point));
+  return (facets.cuts.at((facets.sides.at(piece) & ~PIECE_CUT) + 1 + bit / 32) >> (bit % 32) & 1) != 0;
+}
+
 }  // namespace
 
 Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage) {
   Hit hit{TRACE_ESCAPED};
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity(), second = nearest;  // along the ray; of another triangle
   uint32_t met = kNoTriangle, metPiece = 0, metFirst = 0;
   Meeting found;
   Walk walk(facets, ray, passage);
@@ -68,8 +79,16 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
       const uint32_t triangle = facets.pieces.at(i) & ~PIECE_SMALL;
       if (triangle == ray.triangle) continue;
       const std::optional<Meeting> m = meet(facets, triangle, ray);
-      if (!m || m->t <= 0 || m->t > nearest || (m->t == nearest && triangle > met)) continue;
-      hit.margin = std::min(hit.margin, triangle == met ? 1e9 : std::abs(nearest - m->t));
+      if (!m) continue;
+      hit.margin = std::min(hit.margin, std::abs(m->t));
+      if (m->t <= 0) continue;
+      if (facets.hasHoles(triangle)) {  // it is there only where this cell's piece is
+        hit.margin = std::min({hit.margin, std::abs(m->t - walk.enter), std::abs(m->t - walk.leave)});
+        if (m->t < walk.enter || m->t > walk.leave) continue;
+        if (!isThere(facets, i, triangle, ray.origin + m->t * ray.direction - dvec3(walk.cell), hit.margin)) continue;
+      }
+      if (triangle != met) second = std::min(second, std::max(nearest, m->t));
+      if (m->t > nearest || (m->t == nearest && triangle > met)) continue;
       nearest = m->t;
       met = triangle;
       metPiece = i;
@@ -81,7 +100,7 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
   hit.margin = std::min(hit.margin, walk.margin);
   if (met == kNoTriangle) return hit;
   hit.t = nearest;
-  hit.margin = std::min(hit.margin, found.edge);
+  hit.margin = std::min({hit.margin, found.edge, second - nearest});
   const uint32_t side = classAt(facets, metPiece, !found.front, ray.origin + nearest * ray.direction, hit.margin);
   hit.facet = side < PIECE_UNKNOWN ? metFirst + side : (side == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return hit;

@@ -43,7 +43,11 @@ void main() {
         push.classes.at[i] = classes | (i == lead ? CLASS_LEADER : 0u);
     ++classes;
   }
-  if (me == 0u) push.facets.at[voxel] = classes;
+  if (me == 0u) {
+    // Every voxel has a facet: its pieces end where the next one's begin.
+    if (classes == 0u) push.classes.at[first] = CLASS_LEADER;
+    push.facets.at[voxel] = max(classes, 1u);
+  }
   if (stride == 1u) return;
   memoryBarrierBuffer();
   barrier();

@@ -29,5 +29,7 @@ void main() {
       push.classes.at[i] = found;
     }
   }
-  push.facets.at[voxel] = classes;
+  // Every voxel has a facet: its pieces end where the next one's begin.
+  if (classes == 0u) push.classes.at[first] = CLASS_LEADER;
+  push.facets.at[voxel] = max(classes, 1u);
 }

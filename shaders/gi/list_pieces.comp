@@ -5,7 +5,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_clip.glsl"
-#include "gi/voxel_material.glsl"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ListPiecesPush push; };
@@ -28,7 +27,6 @@ void main() {
     else end = middle;
   }
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  uint flags = triangleFlags(push.scene, triangle);
   uvec3 dims = push.grid.at[0].dims;
   ivec3 lo, hi;
   cellBounds(t, dims, lo, hi);
@@ -69,14 +67,11 @@ void main() {
       int z1 = min(hi.z, int(floor(depth + depthHigh + SLACK)));
       for (int z = z0; z <= z1; ++z) {
         vec3 base = vec3(x, y, z);
-        vec3 centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
         if (!oneCell) {
           uint from;
           uint n = clipPolygon(corner[0] - base, corner[1] - base, corner[2] - base, OVERLAP, from);
           if (n == 0u) continue;
-          if (SAMPLES_TEXTURES != 0u) polygonArea(from, n, centre);
         }
-        if (masked(push.scene, t, triangle, flags, originalAxes(centre + base, t.axis))) continue;
         uint voxel = voxelIndex(uvec3(originalAxes(ivec3(x, y, z), t.axis)), dims);
         uint place = atomicAdd(push.counts.at[voxel], 1u);
         if (push.lists != 0u) push.pieces.at[place] = triangle;

@@ -19,16 +19,34 @@ uint partAt(Vec4Array corners, UintArray cuts, uint place, uint count, vec3 at) 
   return part;
 }
 
+struct PieceCuts {
+  uint count;              ///< triangles that stand on the piece
+  uint triangles, points;  ///< places in `cuts`
+};
+
+PieceCuts cutsOf(UintArray cuts, uint sides) {
+  uint place = sides & ~PIECE_CUT;
+  uint word = cuts.at[place], count = word & ~CUT_MASKED;
+  uint triangles = place + ((word & CUT_MASKED) != 0u ? 3u : 1u);
+  return PieceCuts(count, triangles, triangles + count);
+}
+
+/// Whether a piece with a mask is there at a point relative to its voxel's lower corner.
+bool isThere(SurfaceArrays surface, uint piece, vec3 normal, vec3 point) {
+  uint bit = maskBit(normal, point);
+  uint place = (surface.sides.at[piece] & ~PIECE_CUT) + 1u + bit / 32u;
+  return ((surface.cuts.at[place] >> (bit % 32u)) & 1u) != 0u;
+}
+
 /// Which facet of its voxel, counted from the first, a point of a piece's side belongs to; or PIECE_*.
 uint classAt(SurfaceArrays surface, uint piece, bool back, vec3 at) {
   uint sides = surface.sides.at[piece];
   uint shift = back ? 8u : 0u;
   if ((sides & PIECE_CUT) == 0u) return (sides >> shift) & 0xFFu;
-  uint place = sides & ~PIECE_CUT;
-  uint count = surface.cuts.at[place];
-  uint part = partAt(surface.corners, surface.cuts, place + 1u, count, at);
+  PieceCuts cuts = cutsOf(surface.cuts, sides);
+  uint part = partAt(surface.corners, surface.cuts, cuts.triangles, cuts.count, at);
   for (uint i = 0u; i < CUT_POINTS && part != NO_PART; ++i) {
-    uint point = surface.cuts.at[place + 1u + count + i];
+    uint point = surface.cuts.at[cuts.points + i];
     uint found = (point >> shift) & 0xFFu;
     if ((point >> 16) == part && found != PIECE_UNKNOWN) return found;
   }

@@ -35,25 +35,29 @@ void main() {
   }
 
   push.sides.at[piece] = PIECE_CUT | cut;
-  count -= 1u + CUT_POINTS;
+  bool mask = hasHoles(surface.corners, triangle);
+  uint triangles = cut + (mask ? 3u : 1u);
+  count -= triangles - cut + CUT_POINTS;
   VoxelPieces others =
       voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint found = 0u;
   for (uint i = others.first; i < others.endLarge && found < count; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(surface.corners, surface.pieces.at[i]), t, back))
-      push.cuts.at[cut + 1u + found++] = surface.pieces.at[i];
-  push.cuts.at[cut] = count = found;
+      push.cuts.at[triangles + found++] = surface.pieces.at[i];
+  push.cuts.at[cut] = found | (mask ? CUT_MASKED : 0u);
+  uint points = triangles + found;
   for (uint k = 0u; k < CUT_POINTS; ++k) {
     vec3 at;
     uint part = NO_PART;
     for (uint again = 0u; again < 4u && part == NO_PART; ++again) {
       at = cell + polygonPoint(from, n, push.area.at[piece], cutPlace(piece, k, again));
-      part = partAt(surface.corners, push.cuts, cut + 1u, count, at);
+      part = partAt(surface.corners, push.cuts, triangles, found, at);
     }
+    if (mask && !isThere(surface, piece, facingOf(t, false), at - cell)) part = NO_PART;
     // Nothing is between two points of one part: one is enough.
     bool first = part != NO_PART;
-    for (uint j = 0u; j < k && first; ++j) first = push.cuts.at[cut + 1u + count + j] >> 16 != part;
-    push.cuts.at[cut + 1u + count + k] = part << 16;
+    for (uint j = 0u; j < k && first; ++j) first = push.cuts.at[points + j] >> 16 != part;
+    push.cuts.at[points + k] = part << 16;
     uint class_ = first ? NO_CLASS : CLASS_OF_PART;
     push.points.at[place + k] = PiecePoint(at, piece);
     push.classes.at[place + k] = class_;

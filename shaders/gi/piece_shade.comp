@@ -6,7 +6,7 @@
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_material.glsl"
 #include "gi/voxel_clip.glsl"
-#include "shared/surface.h"
+#include "gi/piece_cuts.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
 
@@ -14,7 +14,8 @@ void main() {
   uint index = irad_index();
   if (index >= push.count) return;
   uint piece = push.order.at[push.first + index];
-  uint triangle = push.pieces.at[piece] & ~PIECE_SMALL;
+  SurfaceArrays surface = push.surface.at[0];
+  uint triangle = triangleOf(surface.pieces, piece);
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   vec3 cell = vec3(unpackVoxel(push.solid.at[push.pieceVoxel.at[piece]]));
   vec3 centre;
@@ -22,6 +23,22 @@ void main() {
   MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
   bool clamped;
   vec3 albedo = albedoAt(push.scene, p, clamped);
+  if (SAMPLES_TEXTURES != 0u && hasHoles(surface.corners, triangle)) {
+    // The mean of what the mask leaves.
+    vec3 sum = vec3(0.0);
+    float left = 0.0;
+    uint mask = (surface.sides.at[piece] & ~PIECE_CUT) + 1u;
+    for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
+      if (((surface.cuts.at[mask + bit / 32u] >> (bit % 32u)) & 1u) == 0u) continue;
+      MaterialPoint q = materialPoint(push.scene, t, triangle, cell + maskPoint(t.normal, t.v[0] - cell, bit));
+      q.area *= float(MASK_EDGE * MASK_EDGE);
+      bool clampedHere;
+      sum += albedoAt(push.scene, q, clampedHere);
+      clamped = clamped || clampedHere;
+      left += 1.0;
+    }
+    if (left > 0.0) albedo = sum / left;
+  }
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[piece] = albedo;
   if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emittedRadianceAt(push.scene, p));

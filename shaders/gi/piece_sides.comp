@@ -26,8 +26,7 @@ void main() {
   if (perSide == 1u) {
     surface.sides.at[piece] = facetOfPoint(first) | (back ? facetOfPoint(first + 1u) : PIECE_BLACK) << 8;
   } else {
-    uint place = sides & ~PIECE_CUT;
-    place += 1u + surface.cuts.at[place];
+    uint place = cutsOf(surface.cuts, sides).points;
     for (uint k = 0u; k < CUT_POINTS; ++k) {
       uint part = surface.cuts.at[place + k] >> 16;
       for (uint s = first + k; s < first + points; s += CUT_POINTS) {
@@ -44,11 +43,12 @@ void main() {
           facetOfPoint(first + k) | (back ? facetOfPoint(first + CUT_POINTS + k) : PIECE_BLACK) << 8;
     }
   }
-  // A side's area is that of its points which have a facet.
+  // A side's area is that of its points which have a facet; where a mask leaves nothing there is none.
+  bool mask = perSide > 1u && (surface.cuts.at[sides & ~PIECE_CUT] & CUT_MASKED) != 0u;
   for (uint s = first; s < first + points; s += perSide) {
     uint counted = 0u;
     for (uint k = s; k < s + perSide; ++k) counted += push.classes.at[k] != NO_CLASS ? 1u : 0u;
-    float share = push.pieceArea.at[piece] / float(max(counted, 1u));
+    float share = push.pieceArea.at[piece] / float(mask ? CUT_POINTS : max(counted, 1u));
     for (uint k = s; k < s + perSide; ++k) push.pointArea.at[k] = push.classes.at[k] != NO_CLASS ? share : 0.0;
   }
   for (uint i = first; i < first + points; ++i) {

@@ -41,8 +41,8 @@ vec3 sampleSurfels(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceA
     float x;
     uint emitter = emitterFacet(table, shifts.x + (2u * k + 1u) * (0x80000000u / p.samples), x);
     if (near(voxel, unpackVoxel(f.voxel.at[emitter]))) continue;
-    SurfelPoint to = surfelPoint(surface, emitter, x);
-    SurfelPoint from = surfelPoint(surface, facet, facetJitter(k, shifts.zw).x);
+    SurfelPoint to = liftedSurfel(surface, emitter, uint(x * float(FACET_SURFELS)));
+    SurfelPoint from = liftedSurfel(surface, facet, raySurfel(k, shifts));
     vec3 way = to.position - from.position;
     float reach = length(way);
     vec3 direction = way / reach;

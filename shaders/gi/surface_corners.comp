@@ -13,5 +13,7 @@ void main() {
   GpuScene scene = push.scene.at[0];
   uint flags = scene.materials.at[scene.triangleMaterials.at[triangle]].flags;
   float back = (flags & MATERIAL_DOUBLE_SIDED) != 0u ? 1.0 : 0.0;
-  for (uint i = 0u; i < 3u; ++i) push.corners.at[3u * triangle + i] = vec4(t.v[i], back);
+  float holes = (flags & MATERIAL_ALPHA_MASK) != 0u ? 1.0 : 0.0;
+  for (uint i = 0u; i < 3u; ++i)
+    push.corners.at[3u * triangle + i] = vec4(t.v[i], i == 0u ? back : (i == 1u ? holes : 0.0));
 }

@@ -4,17 +4,8 @@
 #include "gi/triangle_hit.glsl"
 #include "shared/surface.h"
 
-struct SurfelPoint {
-  vec3 position, facing;  ///< voxel units
-  uint triangle;
-};
-
 SurfelPoint surfelOf(SurfaceArrays surface, Surfel s) {
-  uint triangle = s.triangle & ~SURFEL_BACK;
-  Triangle t = triangleAt(surface.corners, triangle);
-  vec2 weights = unpackPlace(s.place);
-  return SurfelPoint(t.a + (t.b - t.a) * weights.x + (t.c - t.a) * weights.y,
-                     facingOf(t, (s.triangle & SURFEL_BACK) != 0u), triangle);
+  return surfelOn(triangleAt(surface.corners, s.triangle & ~SURFEL_BACK), s);
 }
 
 /// The unit normal of a triangle's side (as Surfel::triangle).
@@ -24,14 +15,6 @@ vec3 triangleFacing(SurfaceArrays surface, uint side) {
 
 SurfelPoint surfelOf(SurfaceArrays surface, uint facet, uint k) {
   return surfelOf(surface, surface.surfels.at[FACET_SURFELS * facet + k]);
-}
-
-/// How far a ray starts above its triangle, as a share of the coordinates: eight times what these round to.
-const float START_LIFT = 8.0 / 16777216.0;
-
-vec3 liftedStart(vec3 position, vec3 facing) {
-  vec3 size = abs(position);
-  return position + facing * (START_LIFT * max(1.0, max(size.x, max(size.y, size.z))));
 }
 
 /// The link of a facet to the voxel `i` of the 27 around, or NO_LINK.

@@ -11,9 +11,9 @@ struct FacetRay {
   vec3 direction;
 };
 
-/// A surfel of the facet, for u uniform in (0, 1), lifted off its triangle.
-SurfelPoint surfelPoint(SurfaceArrays surface, uint facet, float u) {
-  SurfelPoint p = surfelOf(surface, facet, uint(u * float(FACET_SURFELS)));
+/// A surfel of the facet, lifted off its triangle.
+SurfelPoint liftedSurfel(SurfaceArrays surface, uint facet, uint k) {
+  SurfelPoint p = surfelOf(surface, facet, k);
   p.position = liftedStart(p.position, p.facing);
   return p;
 }
@@ -21,8 +21,8 @@ SurfelPoint surfelPoint(SurfaceArrays surface, uint facet, float u) {
 FacetRay facetRay(SurfaceArrays surface, uint facet, uint packedVoxel, uint k, uint rays, uint seed, uint jitter) {
   uvec4 shifts = rayShifts(packedVoxel, seed, jitter);
   FacetRay ray;
-  ray.from = surfelPoint(surface, facet, facetJitter(k, shifts.zw).x);
-  ray.direction = toWorld(cosineDirection(hammersley(k, rays, shifts.xy)), ray.from.facing);
+  ray.from = liftedSurfel(surface, facet, raySurfel(k, shifts));
+  ray.direction = rayDirection(ray.from.facing, k, rays, shifts);
   return ray;
 }
 
@@ -41,6 +41,8 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
     uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
     uint facet = firstFacet(entry);
     uint end = surface.firstPiece.at[facet + facetsOf(entry)];
+    vec3 bounds = traceBounds(w, 1.0f);
+    float leave = min(bounds.x, min(bounds.y, bounds.z));
     for (uint i = surface.firstPiece.at[facet]; i < end; ++i) {
       uint triangle = triangleOf(surface.pieces, i);
       if (triangle == own) continue;
@@ -48,14 +50,18 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
       bool front;
       if (!meetsTriangle(ray, triangleAt(surface.corners, triangle), t, front)) continue;
       if (t <= 0.0f || t > nearest || (t == nearest && triangle > met)) continue;
+      // What has holes is there only where this cell's piece is.
+      if (hasHoles(surface.corners, triangle)) {
+        vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
+        if (t < w.t || t > leave || !isThere(surface, i, normal, origin + w.direction * t - vec3(w.cell))) continue;
+      }
       nearest = t;
       met = triangle;
       metPiece = i;
       metEntry = entry;
       metFront = front;
     }
-    vec3 bounds = traceBounds(w, 1.0f);
-    if (nearest <= min(bounds.x, min(bounds.y, bounds.z))) break;
+    if (nearest <= leave) break;
     traceAdvance(w, 1.0f);
     ++hit.steps;
   }

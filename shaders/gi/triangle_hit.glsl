@@ -4,10 +4,6 @@
 #define IRAD_TRIANGLE_HIT_GLSL
 #include "shared/surface.h"
 
-struct Triangle {
-  vec3 a, b, c;
-};
-
 uint triangleOf(UintArray pieces, uint piece) { return pieces.at[piece] & ~PIECE_SMALL; }
 
 Triangle triangleAt(Vec4Array corners, uint triangle) {
@@ -20,10 +16,9 @@ bool showsBack(Vec4Array corners, uint triangle) {
   return first.w > 0.0;
 }
 
-/// The unit normal of the side whose corners turn counter-clockwise, or of the other.
-vec3 facingOf(Triangle t, bool back) {
-  vec3 n = normalize(cross(t.b - t.a, t.c - t.a));
-  return back ? -n : n;
+bool hasHoles(Vec4Array corners, uint triangle) {
+  vec4 second = corners.at[3u * triangle + 1u];
+  return second.w > 0.0;
 }
 
 struct ShearedRay {

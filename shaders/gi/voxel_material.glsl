@@ -111,9 +111,15 @@ vec3 exitanceOf(vec3 radiance) {
   return exitance;
 }
 
-/// Whether the material's alpha mask cuts the triangle away at `point`.
-bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
+/// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a voxel's
+/// face.
+bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point, float squares) {
   if (SAMPLES_TEXTURES == 0u || (flags & MATERIAL_ALPHA_MASK) == 0u) return false;
   MaterialPoint p = materialPoint(scenes, t, triangle, point);
+  p.area *= squares;
   return baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
+}
+
+bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
+  return masked(scenes, t, triangle, flags, point, 1.0);
 }

@@ -42,16 +42,73 @@ IRAD_CONST uint PIECE_SMALL = 0x80000000u;
 IRAD_CONST uint MOST_COUNTED = 1024u;
 IRAD_CONST uint MOST_PIECES = 16384u;
 
+/// Corners, voxel units.
+struct Triangle {
+  vec3 a, b, c;
+};
+/// The unit normal of the side whose corners turn counter-clockwise, or of the other.
+IRAD_FN vec3 facingOf(Triangle t, bool back) {
+  vec3 n = normalize(cross(t.b - t.a, t.c - t.a));
+  return back ? -n : n;
+}
+
+struct SurfelPoint {
+  vec3 position, facing;  ///< voxel units
+  uint triangle;
+};
+/// `t`: the surfel's triangle.
+IRAD_FN SurfelPoint surfelOn(Triangle t, Surfel s) {
+  vec2 weights = unpackPlace(s.place);
+  SurfelPoint p;
+  p.position = t.a + (t.b - t.a) * weights.x + (t.c - t.a) * weights.y;
+  p.facing = facingOf(t, (s.triangle & SURFEL_BACK) != 0u);
+  p.triangle = s.triangle & ~SURFEL_BACK;
+  return p;
+}
+/// How far a ray starts above its triangle, as a share of the coordinates: eight times what these round to.
+IRAD_CONST float START_LIFT = 8.0f / 16777216.0f;
+IRAD_FN vec3 liftedStart(vec3 position, vec3 facing) {
+  vec3 size = abs(position);
+  return position + facing * (START_LIFT * max(1.0f, max(size.x, max(size.y, size.z))));
+}
+
 /// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
-/// Or, where others stand on it, PIECE_CUT | the place in SurfaceArrays::cuts of: how many do (1 to MOST_CUTS); their
-/// triangles; and CUT_POINTS points of the piece, each with the sides of these triangles' planes on which it lies in
-/// bits 16-31 (gi/piece_cuts.glsl) above the facets as for a whole piece.
+/// Or, where others stand on it or it has an alpha mask, PIECE_CUT | the place in SurfaceArrays::cuts of: how many stand
+/// on it (to MOST_CUTS), | CUT_MASKED; with a mask two words, a bit for each of MASK_EDGE x MASK_EDGE squares of the piece
+/// (maskBit) that is there; the triangles that stand on it; and CUT_POINTS points of the piece, each with the sides of
+/// these triangles' planes on which it lies in bits 16-31 (gi/piece_cuts.glsl) above the facets as for a whole piece.
 IRAD_CONST uint PIECE_CUT = 0x80000000u;
+IRAD_CONST uint CUT_MASKED = 0x80000000u;
+IRAD_CONST uint MASK_EDGE = 8u;
 IRAD_CONST uint MOST_CUTS = 15u;
 IRAD_CONST uint CUT_POINTS = 16u;
 IRAD_CONST float CUT_WIDTH = 2e-3f;  ///< voxels: how close to a cut a point is on neither side
+/// The axis near a normal along which a mask is seen: x and y before others that are hardly nearer, so that rounding
+/// does not choose for faces at 45 degrees.
+IRAD_FN uint maskAxis(vec3 normal) {
+  vec3 n = abs(normal);
+  return n.x >= 0.9f * max(n.y, n.z) ? 0u : (n.y >= 0.9f * n.z ? 1u : 2u);
+}
+IRAD_FN vec2 maskPlane(vec3 v, uint axis) {
+  return axis == 0u ? vec2(v.y, v.z) : (axis == 1u ? vec2(v.z, v.x) : vec2(v.x, v.y));
+}
+/// The bit of a piece's mask at a point relative to its voxel's lower corner; `normal`: the triangle's, of any length.
+IRAD_FN uint maskBit(vec3 normal, vec3 point) {
+  vec2 at = clamp(maskPlane(point, maskAxis(normal)), vec2(0.0f), vec2(0.999f)) * float(MASK_EDGE);
+  return uint(at.x) + MASK_EDGE * uint(at.y);
+}
+/// The middle of a bit's square on the plane of a triangle with corner `a` relative to the voxel's.
+IRAD_FN vec3 maskPoint(vec3 normal, vec3 a, uint bit) {
+  uint axis = maskAxis(normal);
+  vec2 at = (vec2(float(bit % MASK_EDGE), float(bit / MASK_EDGE)) + vec2(0.5f)) / float(MASK_EDGE);
+  vec2 from = at - maskPlane(a, axis), slope = maskPlane(normal, axis);
+  float up = axis == 0u ? a.x : (axis == 1u ? a.y : a.z);
+  up -= (slope.x * from.x + slope.y * from.y) / (axis == 0u ? normal.x : (axis == 1u ? normal.y : normal.z));
+  return axis == 0u ? vec3(up, at.x, at.y) : (axis == 1u ? vec3(at.y, up, at.x) : vec3(at.x, at.y, up));
+}
+
 /// The facets of a voxel are numbered from 0 to this.
 IRAD_CONST uint LAST_CLASS = 61u;
 
@@ -73,7 +130,8 @@ IRAD_ARRAY(LinkArray, uint8_t, 4)
 IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
-  Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0
+  Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0; of the
+                          ///< second: 1 where a mask may have cut holes, else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray sides;        ///< per piece
@@ -156,6 +214,16 @@ struct PieceShapePush {
   uint count, pad;    ///< pieces
 };
 
+/// gi/piece_mask.comp.
+struct PieceMaskPush {
+  SceneArray scene;
+  GridArray grid;
+  UintArray order;  ///< pieces that have a mask, grouped by material
+  UintArray pieceVoxel, solid;
+  UintArray pieces, firstCut, cuts;
+  uint first, count;  ///< this group, within `order`
+};
+
 /// gi/piece_points.comp.
 struct PiecePointsPush {
   UintArray pieceVoxel, solid, firstPiece;
@@ -216,7 +284,7 @@ struct PieceShadePush {
   GridArray grid;
   UintArray order;  ///< pieces grouped by material; all that sample no texture are one group
   UintArray pieceVoxel, solid;
-  UintArray pieces;
+  SurfaceRecord surface;
   Vec3Array albedo;    ///< per piece, clamped to [0, .98]
   Vec3Array emission;  ///< M per piece
   UintArray clamped;   ///< [0]: pieces whose albedo had to be clamped

@@ -71,6 +71,14 @@ IRAD_FN uvec4 rayShifts(uint packedVoxel, uint seed, uint jitter) {
   return uvec4(a, b, c, hashUint(c ^ 0xC2B2AE35u));
 }
 
+/// Of rule `triangles`: the surfel that ray k starts from, counted from the facet's first, and the ray's direction.
+IRAD_FN uint raySurfel(uint k, uvec4 shifts) {
+  return uint(facetJitter(k, uvec2(shifts.z, shifts.w)).x * float(FACET_SURFELS));
+}
+IRAD_FN vec3 rayDirection(vec3 facing, uint k, uint rays, uvec4 shifts) {
+  return toWorld(cosineDirection(hammersley(k, rays, uvec2(shifts.x, shifts.y))), facing);
+}
+
 /// Pushed to gi/facet_corners.comp.
 struct FacetCornersPush {
   FacetRecord facets;

@@ -1,0 +1,33 @@
+// What rays of hit rule `triangles` meet, found by the host (docs/method.md 5): for CPU devices, whose kernels run on
+// the same cores, and for tests, as the kernel's oracle.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "shaders/shared/gi_params.h"
+
+namespace irad {
+
+class Context;
+struct FacetList;
+
+class HostTrace {
+ public:
+  virtual ~HostTrace() = default;
+  /// What every ray of some rows met, as traceRows has it (gi/ray_kernel.h): params.rays words per row, a facet or
+  /// TRACE_*. `threads` 0: all cores; the hits do not depend on it, to the bit.
+  virtual void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
+                    uint32_t threads = 0) const = 0;
+};
+
+/// Whether this build has one (IRAD_EMBREE).
+bool canTraceOnHost();
+/// For a list by classes of surfels (gi/surface.h). DeviceError where it needs more than `memory` bytes or than are
+/// free, WorkError where this build has none.
+std::unique_ptr<HostTrace> makeHostTrace(Context& context, const FacetList& facets,
+                                         uint64_t memory = std::numeric_limits<uint64_t>::max());
+
+}  // namespace irad
