@@ -164,7 +164,7 @@ class EmbreeTrace : public HostTrace {
     std::array<SurfelPoint, FACET_SURFELS> from;
     for (uint32_t i = 0; i < FACET_SURFELS; ++i) {
       const Surfel& s = facets_.surfels[FACET_SURFELS * size_t{facet} + i];
-      from[i] = surfelOn(triangleAt(facets_, s.triangle & ~SURFEL_BACK), s);
+      from[i] = surfelOn(triangleAt(facets_, s.triangle & ~SURFEL_BACK), s, unpackVoxel(facets_.voxel[facet]));
       from[i].position = liftedStart(from[i].position, from[i].facing);
     }
     const uint32_t rays = oracle::raysOf(facets_, facet, params);

@@ -324,6 +324,7 @@ void makeRecord(Context& context, FacetList& list) {
   }
   if (s.surfels) {
     arrays.firstPiece = record.of(s.firstPiece);
+    arrays.voxel = record.of(list.voxel);
     arrays.surfels = record.of(s.surfels);
     arrays.area = record.of(list.area);
     arrays.links = record.of(s.links);

@@ -221,9 +221,13 @@ double Facets::distance(uint32_t facet, const dvec3& p) const {
 dvec3 Facets::point(uint32_t surfel) const {
   const Surfel& s = surfels.at(surfel);
   const uint32_t triangle = s.triangle & ~SURFEL_BACK;
-  const glm::dvec2 weights = unpackPlace(s.place);
-  const dvec3 a = corner(triangle, 0);
-  return a + (corner(triangle, 1) - a) * weights.x + (corner(triangle, 2) - a) * weights.y;
+  const dvec3 a = corner(triangle, 0), normal = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
+  const glm::uvec3 cell = unpackVoxel(voxel.at(surfel / FACET_SURFELS));
+  // Only the third coordinate is the plane's to say.
+  dvec3 p = dvec3(cell) + dvec3(onPlane(glm::vec3(normal), glm::vec3(a - dvec3(cell)), unpackPlace(s.place)));
+  const int axis = static_cast<int>(seenAlong(glm::vec3(normal)));
+  p[axis] -= glm::dot(normal, p - a) / normal[axis];
+  return p;
 }
 
 uint32_t raysOf(const Facets& facets, uint32_t facet, const MatrixParams& params) {

@@ -58,7 +58,7 @@ uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& a
 bool isThere(const Facets& facets, uint32_t piece, uint32_t triangle, const dvec3& point, double& margin) {
   const dvec3 a = facets.corner(triangle, 0);
   const glm::vec3 normal(glm::cross(facets.corner(triangle, 1) - a, facets.corner(triangle, 2) - a));
-  const glm::dvec2 at = glm::dvec2(maskPlane(glm::vec3(point), maskAxis(normal))) * double{MASK_EDGE};
+  const glm::dvec2 at = glm::dvec2(seenAt(glm::vec3(point), seenAlong(normal))) * double{MASK_EDGE};
   for (int i = 0; i < 2; ++i) margin = std::min(margin, std::abs(at[i] - std::round(at[i])) / double{MASK_EDGE});
   const uint32_t bit = maskBit(normal, glm::vec3(point));
   return (facets.cuts.at((facets.sides.at(piece) & ~PIECE_CUT) + 1 + bit / 32) >> (bit % 32) & 1) != 0;

@@ -47,7 +47,7 @@ uint facetBeside(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoi
     if (entry == NO_FACET) continue;
     uint end = (firstFacet(entry) + facetsOf(entry)) * FACET_SURFELS;
     for (uint k = firstFacet(entry) * FACET_SURFELS; k < end; ++k) {
-      SurfelPoint s = surfelOf(surface, surface.surfels.at[k]);
+      SurfelPoint s = surfelOf(surface, k / FACET_SURFELS, k % FACET_SURFELS);
       vec3 d = s.position - p.position;
       if (dot(d, d) >= nearest || !continues(surface, reverse, dims, p, s)) continue;
       nearest = dot(d, d);

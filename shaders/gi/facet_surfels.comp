@@ -35,6 +35,7 @@ void main() {
     uint piece = p.side & ~SURFEL_BACK;
     uint triangle = triangleOf(surface.pieces, piece);
     Triangle t = triangleAt(surface.corners, triangle);
+    uint axis = seenAlong(cross(t.b - t.a, t.c - t.a));
     bool whole = (surface.sides.at[piece] & PIECE_CUT) == 0u;
     uint from = 0u, n = 0u;
     if (whole) n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
@@ -44,7 +45,7 @@ void main() {
         point = cell + polygonPoint(from, n, share,
                                     vec2(clamp((at - before) / share, 0.0, 1.0), unitFloat(reverseBits(k) + shift)));
       push.surfels.at[FACET_SURFELS * facet + k] =
-          Surfel(triangle | (p.side & SURFEL_BACK), packPlace(weightsAt(t, point)));
+          Surfel(triangle | (p.side & SURFEL_BACK), packPlace(seenAt(point - cell, axis)));
       ++k;
       at = (float(k) + 0.5) / float(FACET_SURFELS) * area;
     }

@@ -5,12 +5,6 @@
 #include "gi/voxel_clip.glsl"
 #include "shared/sampling.h"
 
-/// Weights of the second and third corner at a point of the triangle.
-vec2 weightsAt(Triangle t, vec3 p) {
-  vec3 b = t.b - t.a, c = t.c - t.a, d = p - t.a, n = cross(b, c);
-  return vec2(dot(cross(d, c), n), dot(cross(b, d), n)) / dot(n, n);
-}
-
 /// A point of the clipped polygon, uniform over its area for u uniform over the square.
 vec3 polygonPoint(uint from, uint n, float area, vec2 u) {
   vec3 first = clipCorners[clipPlace(from, 0u)];

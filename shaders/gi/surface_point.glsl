@@ -4,17 +4,14 @@
 #include "gi/triangle_hit.glsl"
 #include "shared/surface.h"
 
-SurfelPoint surfelOf(SurfaceArrays surface, Surfel s) {
-  return surfelOn(triangleAt(surface.corners, s.triangle & ~SURFEL_BACK), s);
+SurfelPoint surfelOf(SurfaceArrays surface, uint facet, uint k) {
+  Surfel s = surface.surfels.at[FACET_SURFELS * facet + k];
+  return surfelOn(triangleAt(surface.corners, s.triangle & ~SURFEL_BACK), s, unpackVoxel(surface.voxel.at[facet]));
 }
 
 /// The unit normal of a triangle's side (as Surfel::triangle).
 vec3 triangleFacing(SurfaceArrays surface, uint side) {
   return facingOf(triangleAt(surface.corners, side & ~SURFEL_BACK), (side & SURFEL_BACK) != 0u);
-}
-
-SurfelPoint surfelOf(SurfaceArrays surface, uint facet, uint k) {
-  return surfelOf(surface, surface.surfels.at[FACET_SURFELS * facet + k]);
 }
 
 /// The link of a facet to the voxel `i` of the 27 around, or NO_LINK.

@@ -14,7 +14,7 @@ IRAD_CONST uint SURFEL_BACK = 0x80000000u;
 /// A point of a facet's surface.
 struct Surfel {
   uint triangle;  ///< | SURFEL_BACK
-  uint place;     ///< weights of the second and third corner, 16-bit fractions
+  uint place;     ///< packPlace
 };
 IRAD_ARRAY(SurfelArray, Surfel, 8)
 /// Surfels of a facet: points that stand for equal shares of its area.
@@ -28,8 +28,27 @@ IRAD_FN uint facetRays(float area, uint rays) {
   return min(rays, share / LEAST_RAYS * LEAST_RAYS + LEAST_RAYS);
 }
 
-IRAD_FN uint packPlace(vec2 weights) {
-  vec2 q = clamp(weights, vec2(0.0f), vec2(1.0f)) * 65535.0f + vec2(0.5f);
+/// The axis near a normal along which a piece of a triangle is seen: x and y before others that are hardly nearer, so
+/// that rounding does not choose for faces at 45 degrees. A point is seen at its other two coordinates.
+IRAD_FN uint seenAlong(vec3 normal) {
+  vec3 n = abs(normal);
+  return n.x >= 0.9f * max(n.y, n.z) ? 0u : (n.y >= 0.9f * n.z ? 1u : 2u);
+}
+IRAD_FN vec2 seenAt(vec3 v, uint axis) {
+  return axis == 0u ? vec2(v.y, v.z) : (axis == 1u ? vec2(v.z, v.x) : vec2(v.x, v.y));
+}
+/// The point seen at `at` of the plane through `a`.
+IRAD_FN vec3 onPlane(vec3 normal, vec3 a, vec2 at) {
+  uint axis = seenAlong(normal);
+  vec2 from = at - seenAt(a, axis), slope = seenAt(normal, axis);
+  float up = axis == 0u ? a.x : (axis == 1u ? a.y : a.z);
+  up -= (slope.x * from.x + slope.y * from.y) / (axis == 0u ? normal.x : (axis == 1u ? normal.y : normal.z));
+  return axis == 0u ? vec3(up, at.x, at.y) : (axis == 1u ? vec3(at.y, up, at.x) : vec3(at.x, at.y, up));
+}
+
+/// Where a point of a piece is seen in its voxel, (0, 0) to (1, 1).
+IRAD_FN uint packPlace(vec2 at) {
+  vec2 q = clamp(at, vec2(0.0f), vec2(1.0f)) * 65535.0f + vec2(0.5f);
   return uint(q.x) | (uint(q.y) << 16);
 }
 IRAD_FN vec2 unpackPlace(uint place) { return vec2(float(place & 0xFFFFu), float(place >> 16)) * (1.0f / 65535.0f); }
@@ -56,11 +75,11 @@ struct SurfelPoint {
   vec3 position, facing;  ///< voxel units
   uint triangle;
 };
-/// `t`: the surfel's triangle.
-IRAD_FN SurfelPoint surfelOn(Triangle t, Surfel s) {
-  vec2 weights = unpackPlace(s.place);
+/// `t`: the surfel's triangle; `voxel`: of its facet.
+IRAD_FN SurfelPoint surfelOn(Triangle t, Surfel s, uvec3 voxel) {
   SurfelPoint p;
-  p.position = t.a + (t.b - t.a) * weights.x + (t.c - t.a) * weights.y;
+  vec3 corner = vec3(voxel);
+  p.position = corner + onPlane(cross(t.b - t.a, t.c - t.a), t.a - corner, unpackPlace(s.place));
   p.facing = facingOf(t, (s.triangle & SURFEL_BACK) != 0u);
   p.triangle = s.triangle & ~SURFEL_BACK;
   return p;
@@ -85,28 +104,14 @@ IRAD_CONST uint MASK_EDGE = 8u;
 IRAD_CONST uint MOST_CUTS = 15u;
 IRAD_CONST uint CUT_POINTS = 16u;
 IRAD_CONST float CUT_WIDTH = 2e-3f;  ///< voxels: how close to a cut a point is on neither side
-/// The axis near a normal along which a mask is seen: x and y before others that are hardly nearer, so that rounding
-/// does not choose for faces at 45 degrees.
-IRAD_FN uint maskAxis(vec3 normal) {
-  vec3 n = abs(normal);
-  return n.x >= 0.9f * max(n.y, n.z) ? 0u : (n.y >= 0.9f * n.z ? 1u : 2u);
-}
-IRAD_FN vec2 maskPlane(vec3 v, uint axis) {
-  return axis == 0u ? vec2(v.y, v.z) : (axis == 1u ? vec2(v.z, v.x) : vec2(v.x, v.y));
-}
 /// The bit of a piece's mask at a point relative to its voxel's lower corner; `normal`: the triangle's, of any length.
 IRAD_FN uint maskBit(vec3 normal, vec3 point) {
-  vec2 at = clamp(maskPlane(point, maskAxis(normal)), vec2(0.0f), vec2(0.999f)) * float(MASK_EDGE);
+  vec2 at = clamp(seenAt(point, seenAlong(normal)), vec2(0.0f), vec2(0.999f)) * float(MASK_EDGE);
   return uint(at.x) + MASK_EDGE * uint(at.y);
 }
 /// The middle of a bit's square on the plane of a triangle with corner `a` relative to the voxel's.
 IRAD_FN vec3 maskPoint(vec3 normal, vec3 a, uint bit) {
-  uint axis = maskAxis(normal);
-  vec2 at = (vec2(float(bit % MASK_EDGE), float(bit / MASK_EDGE)) + vec2(0.5f)) / float(MASK_EDGE);
-  vec2 from = at - maskPlane(a, axis), slope = maskPlane(normal, axis);
-  float up = axis == 0u ? a.x : (axis == 1u ? a.y : a.z);
-  up -= (slope.x * from.x + slope.y * from.y) / (axis == 0u ? normal.x : (axis == 1u ? normal.y : normal.z));
-  return axis == 0u ? vec3(up, at.x, at.y) : (axis == 1u ? vec3(at.y, up, at.x) : vec3(at.x, at.y, up));
+  return onPlane(normal, a, (vec2(float(bit % MASK_EDGE), float(bit / MASK_EDGE)) + vec2(0.5f)) / float(MASK_EDGE));
 }
 
 /// The facets of a voxel are numbered from 0 to this.
@@ -136,6 +141,7 @@ struct SurfaceArrays {
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray sides;        ///< per piece
   UintArray cuts;
+  UintArray voxel;        ///< per facet, of FacetArrays
   SurfelArray surfels;    ///< FACET_SURFELS per facet
   FloatArray area;        ///< per facet, voxel faces
   LinkArray links;        ///< FACET_LINKS per facet
