@@ -111,8 +111,8 @@ vec3 exitanceOf(vec3 radiance) {
   return exitance;
 }
 
-/// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a voxel's
-/// face.
+/// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a
+/// voxel's face.
 bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point, float squares) {
   if (SAMPLES_TEXTURES == 0u || (flags & MATERIAL_ALPHA_MASK) == 0u) return false;
   MaterialPoint p = materialPoint(scenes, t, triangle, point);
