@@ -59,14 +59,8 @@ std::optional<Piece> pieceIn(const oracle::Facets& facets, const glm::ivec3& vox
   return std::nullopt;
 }
 
-/// gi/piece_cuts.glsl.
-bool isThere(const oracle::Facets& facets, uint32_t piece, const glm::vec3& normal, const glm::vec3& point) {
-  const uint32_t bit = maskBit(normal, point);
-  return (facets.cuts[(facets.sides[piece] & ~PIECE_CUT) + 1 + bit / 32] >> (bit % 32) & 1) != 0;
-}
-
 /// The triangle's piece at one of its points: in the voxel that holds it or, where rounding has put it into another,
-/// the next one. None: a mask has cut a hole there, or the triangle is too thin to be listed.
+/// the next one. None: the triangle is too thin to be listed.
 std::optional<Piece> listedAt(const oracle::Facets& facets, const glm::vec3& at, uint32_t triangle) {
   const glm::vec3 cell = glm::floor(at), within = at - cell;
   if (const std::optional<Piece> piece = pieceIn(facets, cell, triangle)) return piece;
@@ -86,28 +80,23 @@ std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, 
   const std::optional<Piece> piece = listedAt(facets, at, triangle);
   if (!piece || !facets.hasHoles(triangle)) return piece;
   const glm::vec3 normal = facingOf(triangleAt(facets, triangle), false);
-  return isThere(facets, piece->index, normal, at - glm::vec3(piece->voxel)) ? piece : std::nullopt;
+  const bool there = facets.maskLeaves(piece->index, maskBit(normal, at - glm::vec3(piece->voxel)));
+  return there ? piece : std::nullopt;
 }
 
 /// gi/piece_cuts.glsl.
 uint32_t classAt(const oracle::Facets& facets, uint32_t piece, bool back, const glm::vec3& at) {
   const uint32_t sides = facets.sides[piece], shift = back ? 8 : 0;
   if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;
-  const uint32_t* cuts = &facets.cuts[sides & ~PIECE_CUT];
-  const uint32_t count = *cuts & ~CUT_MASKED;
-  cuts += (*cuts & CUT_MASKED) != 0 ? 3 : 1;
+  const oracle::Facets::Cuts cuts = facets.cutsOf(piece);
   uint32_t part = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    const Triangle t = triangleAt(facets, cuts[i]);
+  for (uint32_t i = 0; i < cuts.triangles.size(); ++i) {
+    const Triangle t = triangleAt(facets, cuts.triangles[i]);
     const float side = glm::dot(facingOf(t, false), at - t.a);
     if (std::abs(side) < CUT_WIDTH) return PIECE_UNKNOWN;
     part |= side > 0 ? 1u << i : 0u;
   }
-  for (const uint32_t point : std::span(cuts + count, CUT_POINTS)) {
-    const uint32_t found = (point >> shift) & 0xFFu;
-    if (point >> 16 == part && found != PIECE_UNKNOWN) return found;
-  }
-  return PIECE_UNKNOWN;
+  return cuts.facet(part, back);
 }
 
 /// For a ray that passes through the triangle that it leaves, or through triangles where they have no piece.

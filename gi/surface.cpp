@@ -112,10 +112,9 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   p.count = downloadAs<uint32_t>(context, pieces).at(0);
 
   if (const uint32_t n = downloadAs<uint32_t>(context, most).at(0); n > MOST_PIECES)
-    throw WorkError(
-        fmt::format("a voxel holds pieces of {} triangles, more than {}: raise voxel.resolution, or "
-                    "simplify the mesh",
-                    n, MOST_PIECES));
+    throw WorkError(fmt::format(
+        "{}: a voxel holds pieces of {} triangles, more than {}: raise voxel.resolution, or simplify the mesh",
+        scene.scene.path.string(), n, MOST_PIECES));
 
   p.voxel = words(device, "solid voxels", p.solid);
   p.first = words(device, "first pieces of voxels", uint64_t{p.solid} + 1);
@@ -248,11 +247,11 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
     push.classes = pass.accumulate(p.classes);
     push.facets = pass.accumulate(p.facetStart);
     push.count = pieces.solid;
-    const bool crowd = std::string_view(shader) == "gi/class_crowd.comp";
-    pass.shader(shader).push(push).dispatchWorkgroups(crowd ? pieces.solid : (pieces.solid + 63) / 64);
+    pass.shader(shader).push(push);
+    return pass;
   };
-  classify("gi/class_points.comp");
-  classify("gi/class_crowd.comp");
+  classify("gi/class_points.comp").dispatch(pieces.solid);
+  classify("gi/class_crowd.comp").dispatchWorkgroups(pieces.solid);
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
   frame.submitAndWait();
   return p;
@@ -398,7 +397,6 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   Surface& surface = list.surface;
   surface.corners = words(device, "triangles' corners", 12ull * triangles);
-  makeRecord(context, list);
   {
     Frame frame = context.begin();
     Pass pass = frame.pass(kVoxelizeStage);

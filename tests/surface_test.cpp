@@ -215,6 +215,18 @@ TEST_F(SurfaceTest, WhatItCannotDoIsAnError) {
   settings = triangles(8);
   settings.voxel.method = VoxelMethod::raster;
   EXPECT_THROW(world(furnaceBox(0.5f), settings), UsageError);
+  // A ball far smaller than a voxel: as many triangles in one as it takes, or more than there may be.
+  for (const uint32_t rings : {48u, 160u}) {
+    SceneBuilder b;
+    const uint32_t wall = b.material(glm::vec3(0.5f));
+    b.box({wall, wall, wall, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true, glm::mat3(1));
+    b.sphere(wall, {0.1f, 0.1f, 0.1f}, 0.01f, /*inward=*/false, rings);
+    const Scene scene = b.finish("ball");
+    if (rings == 48)
+      EXPECT_GT(world(scene, triangles(8)).facets.count, 8u * 8u * 6u);
+    else
+      EXPECT_THROW(world(scene, triangles(8)), WorkError);
+  }
 }
 
 }  // namespace

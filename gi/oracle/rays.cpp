@@ -218,6 +218,23 @@ double Facets::distance(uint32_t facet, const dvec3& p) const {
   return glm::dot(normal(facet), p - (dvec3(unpackVoxel(voxel[facet])) + 0.5)) - double{facetOffset(shape[facet])};
 }
 
+uint32_t Facets::Cuts::facet(uint32_t part, bool back) const {
+  for (const uint32_t point : points)
+    if (const uint32_t found = (point >> (back ? 8 : 0)) & 0xFFu; point >> 16 == part && found != PIECE_UNKNOWN)
+      return found;
+  return PIECE_UNKNOWN;
+}
+
+Facets::Cuts Facets::cutsOf(uint32_t piece) const {
+  const std::span<const uint32_t> record = std::span(cuts).subspan(sides.at(piece) & ~PIECE_CUT);
+  const size_t first = (record[0] & CUT_MASKED) != 0 ? 3 : 1, count = record[0] & ~CUT_MASKED;
+  return {record.subspan(first, count), record.subspan(first + count, CUT_POINTS)};
+}
+
+bool Facets::maskLeaves(uint32_t piece, uint32_t bit) const {
+  return (cuts.at((sides.at(piece) & ~PIECE_CUT) + 1 + bit / 32) >> (bit % 32) & 1) != 0;
+}
+
 dvec3 Facets::point(uint32_t surfel) const {
   const Surfel& s = surfels.at(surfel);
   const uint32_t triangle = s.triangle & ~SURFEL_BACK;

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "shaders/shared/facets.h"
@@ -25,7 +26,16 @@ struct Facets {
   std::vector<float> area;  ///< voxel faces
   glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return glm::dvec3(corners.at(3 * triangle + i)); }
   bool hasHoles(uint32_t triangle) const { return corners.at(3 * triangle + 1).w > 0; }  ///< cut by a mask
-  glm::dvec3 point(uint32_t surfel) const;                                               ///< voxel units
+  /// What stands on a cut piece, and its points (SurfaceArrays::cuts).
+  struct Cuts {
+    std::span<const uint32_t> triangles, points;
+    /// The facet of the side of a part, counted from the voxel's first, or PIECE_*.
+    uint32_t facet(uint32_t part, bool back) const;
+  };
+  Cuts cutsOf(uint32_t piece) const;
+  /// Whether a piece's mask leaves the square of a bit (maskBit).
+  bool maskLeaves(uint32_t piece, uint32_t bit) const;
+  glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
   /// The point of the plane nearest to the voxel's centre, voxel units.
   glm::dvec3 middle(uint32_t facet) const;
@@ -40,9 +50,9 @@ struct Ray {
   uint32_t facet = NO_FACET;     ///< that it leaves, if it starts on one
   uint32_t triangle = kNoTriangle;
 };
-/// Ray k of a facet, from the shared sampling functions.
+/// How many rays a facet has.
 uint32_t raysOf(const Facets& facets, uint32_t facet, const MatrixParams& params);
-/// k is less than raysOf.
+/// Ray k of a facet, from the shared sampling functions; k is less than raysOf.
 Ray facetRay(const Facets& facets, uint32_t facet, uint32_t k, const MatrixParams& params);
 
 struct Hit {

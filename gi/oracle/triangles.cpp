@@ -34,24 +34,19 @@ std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& 
 uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& at, double& margin) {
   const uint32_t sides = facets.sides.at(piece), shift = back ? 8 : 0;
   if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;
-  const uint32_t* cuts = &facets.cuts.at(sides & ~PIECE_CUT);
-  const uint32_t count = *cuts & ~CUT_MASKED;
-  cuts += (*cuts & CUT_MASKED) != 0 ? 3 : 1;
+  const Facets::Cuts cuts = facets.cutsOf(piece);
   uint32_t part = 0;
   bool cut = false;
-  for (uint32_t i = 0; i < count; ++i) {
-    const dvec3 a = facets.corner(cuts[i], 0);
-    const dvec3 normal = glm::cross(facets.corner(cuts[i], 1) - a, facets.corner(cuts[i], 2) - a);
+  for (uint32_t i = 0; i < cuts.triangles.size(); ++i) {
+    const uint32_t t = cuts.triangles[i];
+    const dvec3 a = facets.corner(t, 0);
+    const dvec3 normal = glm::cross(facets.corner(t, 1) - a, facets.corner(t, 2) - a);
     const double side = glm::dot(glm::normalize(normal), at - a);
     margin = std::min(margin, std::abs(std::abs(side) - CUT_WIDTH));
     cut = cut || std::abs(side) < CUT_WIDTH;
     part |= side > 0 ? 1u << i : 0u;
   }
-  for (uint32_t i = 0; i < CUT_POINTS && !cut; ++i) {
-    const uint32_t point = cuts[count + i], found = (point >> shift) & 0xFFu;
-    if (point >> 16 == part && found != PIECE_UNKNOWN) return found;
-  }
-  return PIECE_UNKNOWN;
+  return cut ? PIECE_UNKNOWN : cuts.facet(part, back);
 }
 
 /// Whether a mask leaves a piece at a point relative to its voxel's lower corner.
@@ -60,8 +55,7 @@ bool isThere(const Facets& facets, uint32_t piece, uint32_t triangle, const dvec
   const glm::vec3 normal(glm::cross(facets.corner(triangle, 1) - a, facets.corner(triangle, 2) - a));
   const glm::dvec2 at = glm::dvec2(seenAt(glm::vec3(point), seenAlong(normal))) * double{MASK_EDGE};
   for (int i = 0; i < 2; ++i) margin = std::min(margin, std::abs(at[i] - std::round(at[i])) / double{MASK_EDGE});
-  const uint32_t bit = maskBit(normal, glm::vec3(point));
-  return (facets.cuts.at((facets.sides.at(piece) & ~PIECE_CUT) + 1 + bit / 32) >> (bit % 32) & 1) != 0;
+  return facets.maskLeaves(piece, maskBit(normal, glm::vec3(point)));
 }
 
 }  // namespace
