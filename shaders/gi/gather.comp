@@ -7,7 +7,6 @@
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/shadow.glsl"
-#include "gi/surface_point.glsl"
 #include "shared/grid.h"
 #include "shared/normals.h"
 #include "shared/trace.h"
@@ -28,27 +27,15 @@ void main() {
   vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
   GpuScene scene = p.scene.at[0];
   vec3 sum = vec3(0.0f);
-  bool surfels = uint64_t(p.surface) != 0ul;
-  uint samples = surfels ? FACET_SURFELS : p.samples;
-  for (uint k = 0u; k < samples; ++k) {
-    vec3 position, facing = normal;
-    float lift = LIFT;
-    if (surfels) {
-      SurfelPoint s = surfelOf(p.surface.at[0], facet, k);
-      position = s.position;
-      facing = s.facing;
-      lift = 0.0f;
-    } else {
-      vec2 jitter = hammersley(k, samples, uvec2(0u, 0x80000000u / samples));
-      position = facetPoint(voxel, normal, facetOffset(shape), jitter);
-    }
-    position = p.origin + p.edge * position;
+  for (uint k = 0u; k < p.samples; ++k) {
+    vec2 jitter = hammersley(k, p.samples, uvec2(0u, 0x80000000u / p.samples));
+    vec3 position = p.origin + p.edge * facetPoint(voxel, normal, facetOffset(shape), jitter);
     for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
       GpuLight light = scene.lights.at[i];
-      vec3 irradiance = lightIrradiance(light, position, facing);
+      vec3 irradiance = lightIrradiance(light, position, normal);
       if (irradiance == vec3(0.0f)) continue;
-      sum += irradiance * shadowVisibility(light, position + facing * (lift * p.edge), facing, p.shadowBias, p.pcf);
+      sum += irradiance * shadowVisibility(light, position + normal * (LIFT * p.edge), normal, p.shadowBias, p.pcf);
     }
   }
-  p.direct.at[facet] = vec4(sum / float(samples), 0.0f);
+  p.direct.at[facet] = vec4(sum / float(p.samples), 0.0f);
 }
