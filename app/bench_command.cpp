@@ -183,24 +183,15 @@ void run(const BenchArguments& arguments) {
         std::make_unique<Bench>(*session.context, std::move(scene), session.settings, size, view.view, camera));
   }
 
-  // Warm-up: compiles kernels, touches pages. Then every kind of work, the settings sets in turn.
+  // Every kind of work, the settings sets in turn.
   const Progress progress = [&](const char* stage, float fraction) { return session.progress(stage, fraction); };
+  std::vector<Bench*> turns;
   for (const auto& bench : sets) {
-    bench->prepare(progress);
+    bench->warmUp(progress, warmup);
     session.checkNumbers(bench->pipeline());
-    bench->relight();
-    for (uint64_t i = 0; i < warmup; ++i) bench->cameraFrame();
-    bench->forget();
+    turns.push_back(bench.get());
   }
-  const auto repeat = [&](const char* what, uint64_t times, auto act) {
-    for (uint64_t i = 0; i < times; ++i) {
-      session.progress(what, static_cast<float>(i) / static_cast<float>(times));
-      for (const auto& bench : sets) act(*bench);
-    }
-  };
-  repeat("rebuilds", rebuilds, [](Bench& bench) { bench.rebuild(); });
-  repeat("relights", frames, [](Bench& bench) { bench.relight(); });
-  repeat("camera frames", frames, [](Bench& bench) { bench.cameraFrame(); });
+  measureInTurn(turns, rebuilds, frames, progress);
   for (const auto& bench : sets) session.checkNumbers(bench->pipeline());  // else the times mean nothing
   const double copy = copyBandwidth(*session.context);
   session.progress.finish();

@@ -117,14 +117,11 @@ void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, co
 
 void show(const Subject& subject, const PlanArguments& arguments) {
   DeviceSession& session = subject.session;
-  Pipeline pipeline(*session.context, subject.scene, session.settings);
-  session.prepare(pipeline);
-  Targets targets(*session.context, subject.size);
-  Frame frame = session.context->begin();
-  pipeline.render(frame, subject.camera, VIEW_LIT, targets);
-  frame.submitAndWait();
-  const EffectPlan plan = pipeline.plan();
-  const Proof rows = rowsOf(subject, plan, arguments.measure);
+  Bench bench(*session.context, subject.scene, session.settings, subject.size, VIEW_LIT, subject.camera);
+  session.prepare(bench.pipeline());
+  bench.cameraFrame();
+  const EffectPlan plan = bench.pipeline().plan();
+  const Proof rows = rowsOf(subject, bench, arguments.measure);
   session.progress.finish();
   if (arguments.json) {
     printJson(rows, plan, subject.scene, session.device->info);
@@ -134,7 +131,7 @@ void show(const Subject& subject, const PlanArguments& arguments) {
     print("{} MiB not allocated in all{}\n", numberText(inMebibytes(plan.bytesNotAllocated())),
           arguments.measure ? "; milliseconds that the effect would take, by the median" : "");
   }
-  session.checkNumbers(pipeline);
+  session.checkNumbers(bench.pipeline());
 }
 
 void run(const PlanArguments& arguments) {

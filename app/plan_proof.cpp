@@ -46,56 +46,32 @@ float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
   return row.epsilon * share / std::numbers::pi_v<float>;
 }
 
-/// Prepares, compiles pipelines and touches pages.
+Progress progressOf(DeviceSession& session) {
+  return [&session](const char* stage, float fraction) { return session.progress(stage, fraction); };
+}
+
 std::unique_ptr<Bench> open(const Subject& subject, const Settings& settings) {
-  DeviceSession& session = subject.session;
-  auto bench =
-      std::make_unique<Bench>(*session.context, subject.scene, settings, subject.size, VIEW_LIT, subject.camera);
-  bench->prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
-  bench->cameraFrame();
-  bench->relight();
-  bench->forget();
+  Context& context = *subject.session.context;
+  auto bench = std::make_unique<Bench>(context, subject.scene, settings, subject.size, VIEW_LIT, subject.camera);
+  bench->warmUp(progressOf(subject.session));
   return bench;
 }
 
-/// Each one's times. Both work in turn, so that other load on the machine falls on both alike.
-std::array<Figures, 2> timesInTurn(const Subject& subject, std::array<Bench*, 2> benches) {
-  constexpr int kRebuilds = 3;
-  for (int i = 0; i < kRebuilds; ++i)
-    for (Bench* bench : benches) bench->rebuild();
-  for (uint32_t i = 0; i < subject.frames; ++i)
-    for (Bench* bench : benches) {
-      subject.session.progress(subject.name.c_str(), static_cast<float>(i) / static_cast<float>(subject.frames));
-      bench->relight();
-      bench->cameraFrame();
-    }
-  const auto median = [](const Bench& bench, WorkKind kind) {
-    std::vector<double> samples;
-    for (const FrameSample& call : bench.frames())
-      if (call.kind == kind) samples.push_back(call.gpuMs());
-    return samples.empty() ? 0 : statistics(samples).p50;
-  };
+/// Each one's times.
+std::array<Figures, 2> timesInTurn(const Subject& subject, const std::array<Bench*, 2>& benches) {
+  for (Bench* bench : benches) bench->forget();
+  measureInTurn(benches, /*rebuilds=*/3, subject.frames, progressOf(subject.session));
   std::array<Figures, 2> out;
   for (size_t i = 0; i < benches.size(); ++i)
-    out[i] = {{"rebuild_ms", median(*benches[i], WorkKind::Setup)},
-              {"relight_ms", median(*benches[i], WorkKind::Relight)},
-              {"frame_ms", median(*benches[i], WorkKind::Camera)}};
+    out[i] = {{"rebuild_ms", benches[i]->gpuMs(WorkKind::Setup)},
+              {"relight_ms", benches[i]->gpuMs(WorkKind::Relight)},
+              {"frame_ms", benches[i]->gpuMs(WorkKind::Camera)}};
   return out;
 }
 
-/// Bytes of device memory, without the staging that the context keeps for every frame, whichever set it draws.
-uint64_t heldBytes(const DeviceSession& session) {
-  session.context->finish();
-  uint64_t bytes = 0;
-  for (const MemoryRow& row : session.device->memory().rows())
-    if (row.subsystem != Subsystem::Staging) bytes += row.bytes;
-  return bytes;
-}
-
 /// Device memory (beside `before` bytes that were in use) and the work of a relight and a picture.
-Figures workOf(DeviceSession& session, Bench& bench, uint64_t before) {
-  Context& context = *session.context;
-  const double mebibytes = inMebibytes(heldBytes(session) - before);
+Figures workOf(Context& context, Bench& bench, uint64_t before) {
+  const double mebibytes = inMebibytes(heldBytes(context) - before);
   (void)context.pipelinesUsed();
   const Counters counters = context.counters();
   bench.relight();
@@ -147,19 +123,29 @@ void require(const Proof& proof) {
   if (!wrong.empty()) throw WorkError(fmt::format("{}", fmt::join(wrong, "\n")));
 }
 
-Proof rowsOf(const Subject& subject, const EffectPlan& plan, bool measure) {
+Proof rowsOf(const Subject& subject, Bench& planned, bool measure) {
+  const EffectPlan plan = planned.pipeline().plan();
+  if (measure) planned.warmUp(progressOf(subject.session));
   Proof rows;
   for (const EffectRow& row : plan.rows) {
     ProofRow& out = rows.emplace_back(ProofRow{.scene = subject.name, .name = row.info().name, .effect = row});
     if (!measure || row.state != EffectState::off || !row.info().mode) continue;
     Settings forced = subject.session.settings;
     forced.effects.*row.info().mode = EffectMode::on;
-    const auto without = open(subject, subject.session.settings), with = open(subject, forced);
+    const auto with = open(subject, forced);
     if (!with->pipeline().plan().on(row.effect)) continue;  // another setting has it off
-    const auto [off, on] = timesInTurn(subject, {without.get(), with.get()});
+    const auto [off, on] = timesInTurn(subject, {&planned, with.get()});
     for (const auto& [name, ms] : on) out.figures[name] = ms - off.at(name);
   }
   return rows;
+}
+
+uint64_t heldBytes(Context& context) {
+  context.finish();
+  uint64_t bytes = 0;
+  for (const MemoryRow& row : context.device.memory().rows())
+    if (row.subsystem != Subsystem::Staging) bytes += row.bytes;
+  return bytes;
 }
 
 Settings allForcedOn(const Settings& settings) {
@@ -224,9 +210,9 @@ Proof prove(const Subject& subject) {
   std::array<std::unique_ptr<Bench>, 2> benches;
   std::array<Figures, 2> figures;
   for (const size_t i : {1, 0}) {
-    const uint64_t before = heldBytes(session);
+    const uint64_t before = heldBytes(*session.context);
     benches[i] = open(subject, sets[i]);
-    figures[i] = workOf(session, *benches[i], before);
+    figures[i] = workOf(*session.context, *benches[i], before);
   }
   Bench &forced = *benches[0], &planned = *benches[1];
   const auto times = timesInTurn(subject, {&forced, &planned});

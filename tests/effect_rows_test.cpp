@@ -18,8 +18,8 @@ const Scene kEmpty = room(/*emits=*/false), kGlossy = glossy(kEmpty), kLamp = ro
 struct Row {
   Effect effect;
   const Scene& scene;
-  Edit off, on;         ///< the scene no longer calls for the effect; it does
-  std::string terms{};  ///< of EffectsTest::expect(), for the effect alone
+  Edit off, on;       ///< the scene no longer calls for the effect; it does
+  std::string terms;  ///< of EffectsTest::expect(), for the effect alone
 };
 using E = Effect;
 std::string forwardWith(uint32_t constant) {
@@ -62,32 +62,20 @@ class EffectRows : public Rows, public ::testing::WithParamInterface<size_t> {};
 
 TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
   const Row& row = kRows[GetParam()];
+  const std::string name = effectInfo(row.effect).name, terms = fmt::format("{} on, {}", name, row.terms);
+  const char on = row.effect == E::field ? 'a' : 'b';  // the field only saves time
   const auto bench = this->bench(row.scene, settings());
-  Pipeline& pipeline = bench->pipeline();
-  Targets targets(context(), kSize);
-  std::array<Pixels, 2> first;  // off, on
-  std::array<uint64_t, 2> bytes{};
-  for (const bool again : {false, true})
-    for (const bool wanted : {false, true}) {
-      (wanted ? row.on : row.off)(pipeline);
-      facts(pipeline);
-      // One prepare and one picture: with all that the effect brings where it is wanted, else with nothing of it.
-      pipeline.darken();  // so that the light does not depend on what was there before
-      pipeline.prepare();
-      const Pixels picture = draw(pipeline, targets);
-      SCOPED_TRACE(fmt::format("{}: {}", effectInfo(row.effect).name, pipeline.plan().row(row.effect).reason));
-      EXPECT_EQ(pipeline.plan().on(row.effect), wanted);
-      expect(facts(pipeline), row.terms, wanted);
-      // The field only saves time.
-      EXPECT_EQ(wanted && same(picture, first[0]), wanted && row.effect == E::field);
-      EXPECT_TRUE(!again || (same(picture, first[wanted]) && usedBytes() == bytes[wanted]));
-      first[wanted] = picture;
-      bytes[wanted] = usedBytes();
-    }
-  EXPECT_TRUE(row.terms.find("has ") == std::string::npos || bytes[1] > bytes[0]);
-  row.off(pipeline);
-  pipeline.prepare();
-  app::require(app::proveEach(effectInfo(row.effect).name, *bench, kViews));
+  // From the dark, so that the light does not depend on what was there before.
+  const auto step = [&](bool wanted) {
+    return Step{[edit = wanted ? row.on : row.off](Pipeline& p) { edit(p), p.darken(); }, terms, wanted ? on : 'a',
+                VIEW_LIT, wanted};
+  };
+  facts(bench->pipeline());  // those of how it was opened
+  walk(bench->pipeline(), {step(false), step(true), step(false), step(true)});
+  const uint64_t bytes = app::heldBytes(context());
+  walk(bench->pipeline(), {step(false)});
+  EXPECT_TRUE(row.terms.find("has ") == std::string::npos || app::heldBytes(context()) < bytes);
+  app::require(app::proveEach(name, *bench, kViews));
 }
 
 INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
@@ -119,35 +107,28 @@ TEST_F(Rows, LightsThatMoveSwitchNothing) {
     return out;
   };
   const struct {
-    const char *state, *memory;
+    const char* terms;
     const Scene& scene;
     float blurNoise;
     char picture;
     std::vector<Light> places;
-  } drags[]{{"point on", "has shadow cubes, has matrix", kEmpty, 0.01f, '.', atReach(1.2, 1.3)},
-            {"point off", "-has shadow cubes, -has matrix", kEmpty, 0.01f, '.', atReach(2, 1.3)},
+  } drags[]{{"point on, has shadow cubes, has matrix", kEmpty, 0.01f, '.', atReach(1.2, 1.3)},
+            {"point off, -has shadow cubes, -has matrix", kEmpty, 0.01f, '.', atReach(2, 1.3)},
             // The blur is watched, not tried: where it shows nothing it stays off.
-            {"blur off", "-has blurred H", kEven, 0.9f, ' ', places},
-            {"blur on", "has blurred H", kLamp, 1e-4f, ' ', places},
+            {"blur off, -has blurred H", kEven, 0.9f, ' ', places},
+            {"blur on, has blurred H", kLamp, 1e-4f, ' ', places},
             // Lights do not change F M, nor what was found of its samples.
-            {"emitter-sampling on", "has emitters' correction", kLamp, 0.01f, ' ', places}};
+            {"emitter-sampling on, has emitters' correction", kLamp, 0.01f, ' ', places}};
   for (const auto& drag : drags) {
     Settings s = settings();
     s.effects.blurNoise = drag.blurNoise;
-    Pipeline pipeline(context(), drag.scene, s);
-    const auto on = [&] {
-      std::vector<bool> out;
-      for (const EffectRow& row : pipeline.plan().rows)
-        out.push_back(row.effect != E::relight && row.state == EffectState::on);
-      return out;
-    };
-    std::optional<std::vector<bool>> first;
+    const auto bench = this->bench(drag.scene, s);
+    std::set<Effect> before;
     for (const Light& place : drag.places) {
-      pipeline.setLights({place});
-      EXPECT_TRUE(!first || on() == *first);
-      walk(pipeline, {{{}, fmt::format("{}, {}", drag.state, drag.memory), drag.picture}});
-      if (!first) first = on();
-      EXPECT_EQ(on(), *first);
+      bench->pipeline().setLights({place});
+      EXPECT_TRUE(before.empty() || on(bench->pipeline()) == before);
+      walk(bench->pipeline(), {{{}, drag.terms, drag.picture}});
+      before = on(bench->pipeline());
     }
   }
 }
@@ -157,12 +138,13 @@ TEST_F(Rows, TheBlurIsMeasuredAlike) {
   const auto noise = [&](float epsilon) {
     Settings s = settings();
     s.effects.blurNoise = epsilon;
-    const auto pipeline = prepared(kLamp, s);
-    pipeline->setLights({lamp(-0.1)});
-    pipeline->darken();
-    pipeline->prepare();
-    EXPECT_EQ(pipeline->plan().on(E::blur), epsilon < 0.5f);
-    return pipeline->traits().light.noise.value_or(-1);
+    const auto bench = this->bench(kLamp, s);
+    Pipeline& pipeline = bench->pipeline();
+    pipeline.setLights({lamp(-0.1)});
+    pipeline.darken();
+    pipeline.prepare();
+    EXPECT_EQ(pipeline.plan().on(E::blur), epsilon < 0.5f);
+    return pipeline.traits().light.noise.value_or(-1);
   };
   const float with = noise(1e-4f), without = noise(0.99f);
   EXPECT_GT(with, 0);

@@ -14,63 +14,64 @@
 namespace irad::test::effects_suite {
 namespace {
 
-class Effects : public EffectsTest {};
+class Effects : public EffectsTest {
+ protected:
+  static Scene litRoom(std::vector<Light> lights = {lamp(0)}) {
+    Scene scene = furnishedRoom();
+    scene.lights = std::move(lights);
+    return scene;
+  }
+};
 
 /// A light brings matrix, field and light in one prepare, keeps the matrix while it is turned down, and takes all of it
 /// along.
 TEST_F(Effects, WithoutLightThereIsNothingOfIt) {
-  const std::string nothing = "matrix off, -has matrix, -has solver, -has field";
-  const auto pipeline = prepared(furnishedRoom());
-  walk(*pipeline,
-       {{{},
-         "GI Voxelization, GI CompactList, -GI BuildMatrix, -GI SDF, -GI Gather, -GI Solve, -GI Scatter, " + nothing,
-         '.'}});
-  for (const ViewInfo& view : views()) draw(*pipeline, view.view);  // those of what is not there too
-  const uint64_t bytes = usedBytes();
+  const std::string nothing =
+      "-GI BuildMatrix, -GI SDF, -GI Gather, -GI Solve, -GI Scatter, matrix off, -has matrix, -has solver, -has field";
+  const auto bench = this->bench(furnishedRoom());
+  walk(bench->pipeline(), {{{}, "GI Voxelization, GI CompactList, " + nothing, '.'}});
+  for (const ViewInfo& view : views()) draw(bench->pipeline(), view.view);  // those of what is not there too
   recorded();
-  walk(*pipeline, {{lights({lamp(0)}), "matrix on, has matrix, has solver, has field, GI SDF, GI BuildMatrix", 'a'},
-                   {{}, "RE Forward, -GI ", 'a'},  // a camera that moves
-                   {lights({lamp(0.1)}), "GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
-                   {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, -has solver", '.'},
-                   {lights({lamp(0)}), "-GI BuildMatrix, GI Solve, GI Scatter", 'a'},  // from the dark, as before
-                   {lights({}), nothing, '.'}});
-  EXPECT_EQ(usedBytes(), bytes);
-  walk(*prepared(litRoom()), {{{}, "", 'a'}});
+  walk(bench->pipeline(),
+       {{{}, nothing, '.'},
+        {lights({lamp(0)}), "matrix on, has matrix, has solver, has field, GI SDF, GI BuildMatrix", 'a'},
+        {{}, "RE Forward, -GI ", 'a'},  // a camera that moves
+        {lights({lamp(0.1)}), "GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
+        {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, -has solver", '.'},
+        {lights({lamp(0)}), "-GI BuildMatrix, GI Solve, GI Scatter", 'a'},  // from the dark, as before
+        {lights({}), nothing, '.'}});
+  walk(this->bench(litRoom())->pipeline(), {{{}, "", 'a'}});
 }
 
 TEST_F(Effects, LightsThatDoNotReachGetNoShadowMap) {
   Light far = lamp(100);
   far.range = 5;
-  Scene scene = litRoom();
-  scene.lights.push_back(far);
-  const auto pipeline = prepared(scene);
-  EXPECT_EQ(pipeline->shadows().cubes.desc.layers, 6u);
-  walk(*pipeline, {{lights({far}), "-has shadow cubes"}, {setting("effects.point=on"), "has shadow cubes"}});
+  const auto bench = this->bench(litRoom({lamp(0), far}));
+  EXPECT_EQ(bench->pipeline().shadows().cubes.desc.layers, 6u);
+  walk(bench->pipeline(), {{lights({far}), "-has shadow cubes"}, {setting("effects.point=on"), "has shadow cubes"}});
 }
 
 TEST_F(Effects, TheFieldIsMadeByItsViewsAndByForceWithoutAnotherMatrix) {
   Settings dda = small();  // the room is too rough for specular rays
   dda.matrix.gpu.traversal = Traversal::dda;
-  const auto pipeline = prepared(litRoom(), dda);
   const Edit traceAnew = [](Pipeline& p) {  // through the field
     p.invalidate(Redo::Matrix);
     p.darken();
   };
-  walk(*pipeline, {{{}, "-has field", 'a'},
-                   {{}, "has field", 'b', VIEW_DISTANCE},
-                   {{}, "-has field", 'a'},
-                   {setting("effects.field=on"), "has field, -GI BuildMatrix", 'a'},
-                   {traceAnew, "has field, GI BuildMatrix", 'a'}});
+  walk(bench(litRoom(), dda)->pipeline(), {{{}, "-has field", 'a'},
+                                           {{}, "has field", 'b', VIEW_DISTANCE},
+                                           {{}, "-has field", 'a'},
+                                           {setting("effects.field=on"), "has field, -GI BuildMatrix", 'a'},
+                                           {traceAnew, "has field, GI BuildMatrix", 'a'}});
 }
 
 TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
-  const auto pipeline = prepared(litRoom());
   const View h = VIEW_IRRADIANCE;
-  walk(*pipeline, {{{}, "relight asleep", 'a', h},
-                   {setting("effects.relight=off"), "", 'a', h},
-                   {lights({lamp(0.3)}), "-GI Gather", 'a', h},
-                   {setting("effects.relight=auto"), "GI Gather", 'b', h},
-                   {setting("effects.relight=on"), "GI Gather", ' '}});
+  walk(bench(litRoom())->pipeline(), {{{}, "relight asleep", 'a', h},
+                                      {setting("effects.relight=off"), "", 'a', h},
+                                      {lights({lamp(0.3)}), "-GI Gather", 'a', h},
+                                      {setting("effects.relight=auto"), "GI Gather", 'b', h},
+                                      {setting("effects.relight=on"), "GI Gather", ' ', h}});
 }
 
 RunResult irad(std::vector<std::string> arguments) {

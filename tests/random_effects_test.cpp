@@ -26,7 +26,8 @@ class Dice {
 Scene randomScene(Dice& dice) {
   const bool black = dice.one(5), emits = dice.one(2), textured = dice.one(2), masked = dice.one(3),
              mapped = dice.one(3), lobes = dice.one(2), coloured = dice.one(3), alone = dice.one(4);
-  Scene scene = room(emits, {}, /*textured=*/true, /*floorAlone=*/alone);
+  Scene scene = room(emits, {}, /*textured=*/true);
+  if (alone) scene.draws = {*std::ranges::find(scene.draws, 1u, &Draw::material)};
   enum { normals, holes, noise, darkness };  // images: the room's, and two more
   std::vector<uint8_t> texels(4 * 8 * 2);
   for (uint8_t& byte : texels) byte = static_cast<uint8_t>(dice.below(256));
