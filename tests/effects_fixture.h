@@ -84,16 +84,16 @@ class EffectsTest : public GiTest {
   /// An edit of a pipeline, and what is there with the next prepare and picture.
   struct Step {
     Edit edit;           ///< none: nothing is due
-    std::string terms;   ///< for expect(); where they are the same, so are memory and effects
+    std::string terms;   ///< for expect(); where they are the same, so are memory and effects, in a row all the time
     char picture = ' ';  ///< a test's letters: the same one, the same bits, H too; '.': black; ' ': not compared
     View view = VIEW_LIT;
-    bool there = true;  ///< for expect()
   };
 
   static constexpr glm::uvec2 kSize{32, 24};
   static Settings small() {
     Settings s = at(16, 32);
     s.light.shadowResolution = 128;
+    s.effects.blurNoise = 1e-2f;
     return s;
   }
   /// A pipeline to walk and to prove with.
@@ -139,12 +139,12 @@ class EffectsTest : public GiTest {
     return out;
   }
   /// `terms`, apart by commas: how a fact begins; "-": none does. A name that some test of a suite finds absent,
-  /// another of its tests has to find present: it may be misspelt. `there` false: the other way round.
-  void expect(const Stages& facts, const std::string& terms, bool there = true) {
+  /// another of its tests has to find present: it may be misspelt.
+  void expect(const Stages& facts, const std::string& terms) {
     std::istringstream in(terms);
     for (std::string term; std::getline(in >> std::ws, term, ',');) {
-      const bool wanted = (term[0] != '-') == there;
-      const std::string name = term.substr(term[0] == '-' ? 1 : 0);
+      const bool wanted = term[0] != '-';
+      const std::string name = term.substr(wanted ? 0 : 1);
       EXPECT_EQ(any(facts, name), wanted) << name;
       (wanted ? found_ : absent_).insert(name);
     }
@@ -159,7 +159,10 @@ class EffectsTest : public GiTest {
   void walk(Pipeline& pipeline, const std::vector<Step>& steps) {
     for (const Step& step : steps) {
       SCOPED_TRACE(fmt::format("step {}: {}", &step - steps.data(), step.terms));
+      const std::set<Effect> until = on(pipeline);
       if (step.edit) step.edit(pipeline);
+      const bool asBefore = &step != steps.data() && (&step)[-1].terms == step.terms;
+      EXPECT_TRUE(!asBefore || on(pipeline) == until) << "the edit switches effects";
       const auto work = [&] { return std::pair(context().counters().dispatches, app::heldBytes(context())); };
       const auto before = work();
       const bool slept = pipeline.asleep();
@@ -167,9 +170,9 @@ class EffectsTest : public GiTest {
       EXPECT_TRUE(!slept || work() == before) << "there was nothing to do";
       EXPECT_NE(pipeline.asleep(), pipeline.plan().on(Effect::relight));
       Pixels picture = draw(pipeline, step.view);
-      expect(facts(pipeline), step.terms, step.there);
+      expect(facts(pipeline), step.terms);
       const std::pair has(app::heldBytes(context()), on(pipeline));
-      EXPECT_EQ(has_.try_emplace({step.terms, step.there}, has).first->second, has);
+      EXPECT_EQ(has_.try_emplace(step.terms, has).first->second, has);
       EXPECT_TRUE(step.picture != '.' || isBlack(picture));
       if (step.picture == '.' || step.picture == ' ') continue;
       if (pipeline.lighting())
@@ -198,9 +201,8 @@ class EffectsTest : public GiTest {
  private:
   static inline Stages found_, absent_;  ///< names that expect() was told
   Targets targets_{context(), kSize};
-  std::map<char, Pixels> pictures_;  ///< of a test's walks, by letter
-  /// Memory and effects of a test's walks, by terms and Step::there.
-  std::map<std::pair<std::string, bool>, std::pair<uint64_t, std::set<Effect>>> has_;
+  std::map<char, Pixels> pictures_;                                   ///< of a test's walks, by letter
+  std::map<std::string, std::pair<uint64_t, std::set<Effect>>> has_;  ///< memory and effects by terms
 };
 
 }  // namespace irad::test

@@ -1,18 +1,62 @@
-// The pipeline obeys the plan: what is not called for is neither recorded nor allocated, appears with what calls for it
-// and goes with it. (Row by row: effect_rows_test.cpp.)
+// The pipeline obeys the plan: what is not called for is neither recorded nor allocated, and appears with what calls
+// for it, with the next picture, with its passes, memory and shader code; it goes with it, to the last byte. Where the
+// scene does not call for an effect, forced on it gives the same bits.
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
-#include "gi/plan.h"
 #include "renderer/base/csv.h"
 #include "renderer/shadow.h"
 #include "tests/effects_fixture.h"
 
 namespace irad::test::effects_suite {
 namespace {
+
+/// The first is what thresholds are judged by.
+constexpr View kViews[] = {VIEW_LIT,      VIEW_IRRADIANCE, VIEW_DIRECT_IRRADIANCE,
+                           VIEW_INDIRECT, VIEW_SPECULAR,   VIEW_NORMAL};
+
+const Scene kEmpty = room(/*emits=*/false), kGlossy = glossy(kEmpty), kLamp = room(/*emits=*/true, {lamp(0.3)}),
+            kTextured = room(/*emits=*/true, {lamp(0.3)}, /*textured=*/true),
+            kEven = furnaceBox(0.5f);  // H is the same everywhere but for what lights add to it
+
+/// How one effect is called for, and what it brings along.
+struct Row {
+  Effect effect;
+  const Scene& scene;
+  Edit off, on;       ///< the scene no longer calls for the effect; it does
+  std::string terms;  ///< of EffectsTest::expect(), for the effect alone
+};
+using E = Effect;
+std::string forwardWith(uint32_t constant) {
+  return fmt::format("forward with {}.", constant);
+}
+const Row kRows[] = {
+    {E::emission, kLamp, setting("effects.emission=off"), setting("effects.emission=auto"),
+     "GI Solve Emitters, has emitted share F M, " + forwardWith(FORWARD_EMISSION)},
+    {E::emitterSampling, kLamp, setting("matrix.emitter_sampling=off"), setting("matrix.emitter_sampling=on"),
+     "has emitters' correction, shader gi/sample_emitters"},
+    {E::sun, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), sun()}),
+     "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SUN)},
+    {E::point, kEmpty, lights({sun()}), lights({sun(), lamp(0.3)}),
+     "has shadow cubes, " + forwardWith(FORWARD_LIGHTS + LIGHT_POINT)},
+    {E::spot, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), spot()}),
+     "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SPOT)},
+    {E::matrix, kEmpty, lights({}), lights({lamp(0.3)}),
+     "GI BuildMatrix, has indirect irradiance H, " + forwardWith(FORWARD_INDIRECT)},
+    {E::specular, kGlossy, lights({}), lights({lamp(0.3)}),
+     "RE Specular, has specular radiance, " + forwardWith(FORWARD_F0)},
+    {E::secondFacet, kLamp, setting("effects.second_facet=off"), setting("effects.second_facet=auto"), "second facets"},
+    {E::field, kLamp, setting("matrix.traversal=dda"), setting("matrix.traversal=sdf"), "GI SDF, has chebyshev field"},
+    {E::alphaTest, kTextured, setting("effects.alpha_test=off"), setting("effects.alpha_test=auto"),
+     "shader forward/depth_masked.frag"},
+    {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
+     forwardWith(FORWARD_NORMAL_MAP)},
+    {E::blur, kEven, lights({}), lights({spot()}), "has blurred H"},
+};
 
 class Effects : public EffectsTest {
  protected:
@@ -22,6 +66,88 @@ class Effects : public EffectsTest {
     return scene;
   }
 };
+
+class EffectRows : public Effects, public ::testing::WithParamInterface<size_t> {};
+
+TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
+  const Row& row = kRows[GetParam()];
+  const std::string name = effectInfo(row.effect).name, there = fmt::format("{} on, {}", name, row.terms),
+                    absent = "-" + std::regex_replace(there, std::regex(", "), ", -");
+  const auto bench = this->bench(row.scene);
+  // From the dark, so that the light does not depend on what was there before.
+  const auto afresh = [](const Edit& edit) { return [edit](Pipeline& p) { edit(p), p.darken(); }; };
+  const Step off{afresh(row.off), absent, 'a'};
+  const Step on{afresh(row.on), there, row.effect == E::field ? 'a' : 'b'};  // the field only saves time
+  facts(bench->pipeline());                                                  // those of how it was opened
+  walk(bench->pipeline(), {off, on, off, on});
+  const uint64_t bytes = app::heldBytes(context());
+  walk(bench->pipeline(), {off});
+  EXPECT_TRUE(row.terms.find("has ") == std::string::npos || app::heldBytes(context()) < bytes);
+  app::require(app::proveEach(name, *bench, kViews));
+}
+
+INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
+  std::string name = effectInfo(kRows[info.param].effect).name;
+  std::erase(name, '-');
+  return name;
+});
+
+TEST_F(Effects, KindsOfLightThatAreNotThereAreLeftOutBitForBit) {
+  const auto bench = this->bench(room(/*emits=*/true));
+  const Light narrow = spot(), wide = spot(0.17f);
+  const std::vector<Light> sets[]{
+      {narrow, wide, lamp(0.3)}, {sun(), lamp(0.3)}, {sun(), narrow, wide}, {sun()}, {narrow}, {wide}, {lamp(0.3)}, {}};
+  for (const std::vector<Light>& there : sets) {
+    bench->pipeline().setLights(there);
+    bench->prepare({});
+    app::require(app::proveEach(fmt::format("set {}", &there - sets), *bench, kViews));
+  }
+}
+
+/// Lamps that are dragged about: what is there after the first place stays, and what is not does not come.
+TEST_F(Effects, LightsThatMoveSwitchNothing) {
+  const auto drag = [&](const Scene& scene, float blurNoise, std::string terms, char picture,
+                        std::initializer_list<Light> places) {
+    Settings s = small();
+    s.effects.blurNoise = blurNoise;
+    std::vector<Step> steps;
+    for (const Light& place : places) steps.push_back({lights({place}), terms, picture});
+    walk(bench(scene, s)->pipeline(), steps);
+  };
+  // Where its range ends at the room's wall. 16 voxels of 1/8: two of them wide is the trigger, four where it lets go.
+  const auto atReach = [](double gap) {
+    Light light = lamp(1 + gap);
+    light.position.y = 0;
+    light.range = 1;
+    return light;
+  };
+  drag(kEmpty, 0.01f, "point on, has shadow cubes, has matrix", '.', {atReach(1.2), atReach(1.3), atReach(1.2)});
+  drag(kEmpty, 0.01f, "point off, -has shadow cubes, -has matrix", '.', {atReach(2), atReach(1.3), atReach(2)});
+  const auto places = {lamp(0.2), lamp(0.1), lamp(-0.2), lamp(0.3)};
+  // The blur is watched, not tried: where it shows nothing it stays off.
+  drag(kEven, 0.9f, "blur off, -has blurred H", ' ', places);
+  drag(kLamp, 1e-4f, "blur on, has blurred H", ' ', places);
+  // Lights do not change F M, nor what was found of its samples.
+  drag(kLamp, 0.01f, "emitter-sampling on, has emitters' correction", ' ', places);
+}
+
+/// What it would change is the same number, measured with its copies or without.
+TEST_F(Effects, TheBlurIsMeasuredAlike) {
+  const auto noise = [&](float epsilon) {
+    Settings s = small();
+    s.effects.blurNoise = epsilon;
+    const auto bench = this->bench(kLamp, s);
+    Pipeline& pipeline = bench->pipeline();
+    pipeline.setLights({lamp(-0.1)});
+    pipeline.darken();
+    pipeline.prepare();
+    EXPECT_EQ(pipeline.plan().on(E::blur), epsilon < 0.5f);
+    return pipeline.traits().light.noise.value_or(-1);
+  };
+  const float with = noise(1e-4f), without = noise(0.99f);
+  EXPECT_GT(with, 0);
+  EXPECT_EQ(with, without);
+}
 
 /// A light brings matrix, field and light in one prepare, keeps the matrix while it is turned down, and takes all of it
 /// along.

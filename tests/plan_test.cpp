@@ -175,9 +175,9 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
     const LightTraits lights = light(kind.type), dim = light(kind.type, /*shines=*/false),
                       far = light(kind.type, true, /*gap=*/5);
     says({}, "off: no *");
-    says({lights}, "on: 1 *: 1 with an intensity, of these 1 in reach of the scene and 0 nearly");
+    says({lights}, "on: 1 *: 1 with an intensity, of these 1 in reach of the scene");
     says({dim}, "off, 16777216 B: 1 *: 0 with an intensity, of these 0 *");
-    says({far}, "off, 16777216 B: 1 *: 1 with an intensity, of these 0 in reach of the scene and 0 nearly");
+    says({far}, "off, 16777216 B: 1 *: 1 with an intensity, of these 0 in reach of the scene");
     says({far, lights}, "on: 2 *: 2 with an intensity, of these 1 *");
   }
 }
@@ -226,7 +226,7 @@ TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
   for (const LightKind& kind : lightKinds())
     for (const E effect : {effectOf(kind.type), E::matrix})  // which exists for such a light alone
       triggers.emplace_back(effect, [type = kind.type](T& t, S& s, float share) {
-        unlit(t, s), t.lights = {light(type, true, LightTraits::kNear / share)};
+        unlit(t, s), t.lights = {light(type, true, 2 / share)};
       });
   for (const auto& [effect, at] : triggers) {
     std::optional<EffectPlan> before;
@@ -236,7 +236,9 @@ TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
         S s = usual();
         at(t, s, share);
         before = plan(t, s, before ? &*before : nullptr);
-        EXPECT_EQ(before->on(effect), on) << effectInfo(effect).name << share << before->row(effect).reason;
+        const std::string reason = before->row(effect).reason;
+        EXPECT_EQ(before->on(effect), on) << effectInfo(effect).name << share << reason;
+        EXPECT_EQ(reason.ends_with("; near enough to stay on"), on && share < 1 && effect != E::matrix) << reason;
       }
     };
     expect({0.7f, 0.4f, 0.99f}, false);
