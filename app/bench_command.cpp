@@ -120,12 +120,6 @@ nlohmann::ordered_json toJson(const Bench& bench, double copy) {
   return json;
 }
 
-std::string toCsv(const std::vector<std::vector<std::string>>& rows) {
-  std::string out;
-  for (const auto& row : rows) out += fmt::format("{}\n", fmt::join(row, ","));
-  return out;
-}
-
 /// --compare: recordings that were made before, of any scene and device.
 void printComparison(const fs::path& before, const fs::path& after) {
   std::vector<std::vector<std::string>> rows{{"subsystem", "kind", "first_p50_ms", "second_p50_ms", "ratio", "low",
@@ -222,7 +216,7 @@ void run(const BenchArguments& arguments) {
         row.insert(row.begin(), i == 0 ? "settings" : "versus");
         rows.push_back(row);
       }
-    writeFile(*arguments.csv, toCsv(rows));
+    writeFile(*arguments.csv, csvTable(rows));
   }
   if (arguments.record) {
     const fs::path folder = *arguments.record;

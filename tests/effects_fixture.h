@@ -21,7 +21,7 @@ using Stages = std::set<std::string>;
 using Pixels = std::vector<glm::vec4>;
 
 inline Light lamp(double x, float candela = 3) {
-  return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
+  return {.name = "lamp", .type = LightType::Point, .position = {x, 0.65, 0}, .intensity = candela};
 }
 inline Light sun() {
   const glm::vec3 down = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
@@ -35,25 +35,17 @@ inline Light spot(float outerCos = 0.85f) {
   return light;
 }
 
-/// A matt room with a panel and a small lamp; `textured`: the floor has a normal map and the panel holes.
+/// A matt room with a small lamp; `textured`: walls and floor have a normal map and the left wall holes.
 inline Scene room(bool emits, std::vector<Light> lights = {}, bool textured = false) {
-  irad::SceneBuilder b;
-  const uint32_t wall = b.material(glm::vec3(0.6f, 0.5f, 0.4f)), floor = b.material(glm::vec3(0.5f)),
-                 lamp = b.material(glm::vec3(0.1f), glm::vec3(emits ? 20 : 0)),
-                 panel = b.material(glm::vec3(0.4f), glm::vec3(0), /*doubleSided=*/true);
-  b.box({wall, wall, floor, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  b.quad(lamp, {-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2});
-  b.quad(panel, {-0.6, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.4, -0.2}, {-0.6, 0.4, -0.2});
-  b.camera({0.7, 0.3, 0.9}, {-0.2, -0.3, -0.6});
-  Scene scene = b.finish("room");
+  Scene scene = stillLife(/*light=*/emits ? 1.0f : 0.0f).finish("room");
   scene.lights = std::move(lights);
   for (Material& m : scene.materials) m.lambertian = true;
   if (textured) {
     scene.images = {{"normals", 2, 1, /*srgb=*/false, {190, 128, 230, 255, 80, 150, 230, 255}},
                     {"holes", 2, 1, /*srgb=*/true, {255, 255, 255, 255, 255, 255, 255, 0}}};
-    scene.materials[floor].normalTexture.image = 0;
-    scene.materials[panel].baseColorTexture.image = 1;
-    scene.materials[panel].alpha = AlphaMode::Mask;
+    scene.materials[0].normalTexture.image = 0;
+    scene.materials[1].baseColorTexture.image = 1;
+    scene.materials[1].alpha = AlphaMode::Mask;
   }
   for (size_t i = 0; i < scene.positions.size(); ++i)
     scene.uv0[i] = 2.0f * glm::vec2(scene.positions[i].x, scene.positions[i].y + scene.positions[i].z);

@@ -209,17 +209,19 @@ RunResult irad(std::vector<std::string> arguments) {
 }
 
 TEST(IradPlan, PrintsTheTableWithWhatEachEffectThatIsOffWouldTake) {
-  const auto parsed = nlohmann::json::parse(irad({"plan", "box", "--json", "--measure", "--frames", "1"}).out);
-  ASSERT_EQ(parsed["effects"].size(), kEffects);
-  EXPECT_EQ(parsed["effects"][0]["effect"], "emission");
-  EXPECT_EQ(parsed["effects"][0]["state"], "on");
-  size_t measured = 0;
-  for (const auto& row : parsed["effects"]) {
-    EXPECT_EQ(row.contains("ms_not_spent"), row["state"] == "off") << row;  // each of them can be on
+  const auto rows = nlohmann::json::parse(irad({"plan", "box", "--json", "--measure", "--frames", "1"}).out)["effects"];
+  ASSERT_EQ(rows.size(), kEffects);
+  EXPECT_EQ(rows[0]["effect"], "emission");
+  EXPECT_EQ(rows[0]["state"], "on");
+  size_t off = 0;
+  for (const auto& row : rows) {
+    const bool measured = row.contains("ms_not_spent");
+    EXPECT_EQ(measured, row["state"] == "off") << row;  // each of them can be on
     for (const char* kind : {"rebuild", "relight", "frame"})
-      measured += row.contains("ms_not_spent") && std::isfinite(row["ms_not_spent"][kind].get<double>()) ? 1 : 0;
+      EXPECT_TRUE(!measured || row["ms_not_spent"][kind].is_number()) << row;  // what is no number is written as null
+    off += measured;
   }
-  EXPECT_GE(measured, 3u);
+  EXPECT_GT(off, 0u);
 }
 
 /// (What is compared and does not hold fails the command.)
@@ -227,16 +229,16 @@ TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
   const std::string file = testing::TempDir() + "/proof.csv";
   irad({"plan", "check:lights-off", "check:plates", "--prove", "--frames", "2", "--csv", file});
   std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> columns = csvFields(line);
+  std::vector<std::string> columns;
   std::map<std::string, std::map<std::string, std::string>> rows;  // "SCENE EFFECT", column
   std::set<std::string> notProven;
-  while (std::getline(in, line)) {
+  for (std::string line; std::getline(in, line);) {
     const std::vector<std::string> fields = csvFields(line);
+    if (columns.empty()) columns = fields;
     ASSERT_EQ(fields.size(), columns.size()) << line;
     auto& row = rows[fields[0] + " " + fields[1]];
     for (size_t i = 0; i < fields.size(); ++i) row[columns[i]] = fields[i];
+    if (fields == columns) continue;
     EXPECT_TRUE(row["state"].empty() || row["pixels_different"].empty() != row["not_proven"].empty()) << line;
     EXPECT_EQ(row["state"].empty(), row["reason"].empty()) << line;
     if (!row["not_proven"].empty()) notProven.insert(fields[1] + ": " + row["not_proven"]);

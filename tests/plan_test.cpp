@@ -158,7 +158,13 @@ TEST(Plan, EachRowFollowsWhatCallsForIt) {
       for (const E e : {E::sun, E::point, E::spot, E::emission}) noLight.push_back(p.row(e).reason);
     EXPECT_EQ(p.noLight, noLight) << c.row;
     EXPECT_EQ(p.pixelEmitters, c.pixelEmitters) << c.row;
-    EXPECT_EQ(obeyed(s, p).sample.emitters == EmitterLookup::pixels, c.pixelEmitters) << c.row;
+    // The settings that stages get are decided, and what no effect decides stays as it is.
+    const S o = obeyed(s, p);
+    EXPECT_EQ(o.sample.emitters == EmitterLookup::pixels, c.pixelEmitters) << c.row;
+    for (const EffectRow& row : p.rows)
+      EXPECT_TRUE(!row.info().mode || forcedMode(o, row.effect) != EffectMode::automatic) << row.info().name;
+    EXPECT_EQ(o.matrix, s.matrix);
+    EXPECT_EQ(obeyed(o, plan(t, o)).sample, o.sample) << c.row;
   }
 }
 
@@ -247,7 +253,7 @@ TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
   }
 }
 
-TEST(Plan, ObeyedSettingsAreDecided) {
+TEST(Plan, AnEffectThatIsOffIsWhatItsOwnSettingSays) {
   const auto with = [](const std::string& assignment) {
     T t = lit();
     S s = usual();
@@ -255,17 +261,11 @@ TEST(Plan, ObeyedSettingsAreDecided) {
     applySetting(s, assignment);
     return obeyed(s, plan(t, s));
   };
-  // An effect that is off is what its own setting says where there is one.
   for (const auto& [off, own] : {std::pair{"effects.specular=off", "specular.mode=off"},
                                  {"effects.second_facet=off", "voxel.facets=1"},
                                  {"effects.blur=off", "sample.filter=linear"}}) {
-    const S o = with(off);
-    EXPECT_EQ(o, with(own)) << off;
-    EXPECT_NE(o, with("effects.sun=auto")) << off;
-    EXPECT_EQ(obeyed(o, plan(lit(), o)).sample, o.sample);
-    for (const EffectRow& row : plan(lit(), o).rows)
-      EXPECT_TRUE(!row.info().mode || forcedMode(o, row.effect) != EffectMode::automatic) << row.info().name;
-    EXPECT_EQ(o.matrix, usual().matrix);  // no effect decides it
+    EXPECT_EQ(with(off), with(own)) << off;
+    EXPECT_NE(with(off), with("effects.sun=auto")) << off;
   }
 }
 
