@@ -20,10 +20,11 @@ constexpr View kViews[] = {VIEW_LIT,      VIEW_IRRADIANCE, VIEW_DIRECT_IRRADIANC
                            VIEW_INDIRECT, VIEW_SPECULAR,   VIEW_NORMAL};
 
 const Scene kEmpty = room(/*emits=*/false), kGlossy = glossy(kEmpty), kLamp = room(/*emits=*/true, {lamp(0.3)}),
-            kTextured = room(/*emits=*/true, {lamp(0.3)}, /*textured=*/true),
+            kTextured = room(/*emits=*/true, {spot()}, /*textured=*/true),
             kEven = furnaceBox(0.5f);  // H is the same everywhere but for what lights add to it
 
-/// How one effect is called for, and what it brings along.
+/// How one effect is called for, and what it brings along. Among them are lights of each kind alone, a spot with one
+/// map and with six, and of any two kinds.
 struct Row {
   Effect effect;
   const Scene& scene;
@@ -41,9 +42,9 @@ const Row kRows[] = {
      "has emitters' correction, shader gi/sample_emitters"},
     {E::sun, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), sun()}),
      "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SUN)},
-    {E::point, kEmpty, lights({sun()}), lights({sun(), lamp(0.3)}),
+    {E::point, kEmpty, lights({sun(), spot()}), lights({sun(), spot(), lamp(0.3)}),
      "has shadow cubes, " + forwardWith(FORWARD_LIGHTS + LIGHT_POINT)},
-    {E::spot, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), spot()}),
+    {E::spot, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), spot(), spot(0.17f)}),
      "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SPOT)},
     {E::matrix, kEmpty, lights({}), lights({lamp(0.3)}),
      "GI BuildMatrix, has indirect irradiance H, " + forwardWith(FORWARD_INDIRECT)},
@@ -55,7 +56,7 @@ const Row kRows[] = {
      "shader forward/depth_masked.frag"},
     {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
      forwardWith(FORWARD_NORMAL_MAP)},
-    {E::blur, kEven, lights({}), lights({spot()}), "has blurred H"},
+    {E::blur, kEven, lights({}), lights({spot(0.17f)}), "has blurred H"},
 };
 
 class Effects : public EffectsTest {
@@ -83,7 +84,10 @@ TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
   const uint64_t bytes = app::heldBytes(context());
   walk(bench->pipeline(), {off});
   EXPECT_TRUE(row.terms.find("has ") == std::string::npos || app::heldBytes(context()) < bytes);
-  app::require(app::proveEach(name, *bench, kViews));
+  app::require(app::proveEach(name + " off", *bench, kViews));
+  row.on(bench->pipeline());
+  bench->prepare({});
+  app::require(app::proveEach(name + " on", *bench, kViews));
 }
 
 INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
@@ -92,27 +96,18 @@ INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size
   return name;
 });
 
-TEST_F(Effects, KindsOfLightThatAreNotThereAreLeftOutBitForBit) {
-  const auto bench = this->bench(room(/*emits=*/true));
-  const Light narrow = spot(), wide = spot(0.17f);
-  const std::vector<Light> sets[]{
-      {narrow, wide, lamp(0.3)}, {sun(), lamp(0.3)}, {sun(), narrow, wide}, {sun()}, {narrow}, {wide}, {lamp(0.3)}, {}};
-  for (const std::vector<Light>& there : sets) {
-    bench->pipeline().setLights(there);
-    bench->prepare({});
-    app::require(app::proveEach(fmt::format("set {}", &there - sets), *bench, kViews));
-  }
-}
-
 /// Lamps that are dragged about: what is there after the first place stays, and what is not does not come.
 TEST_F(Effects, LightsThatMoveSwitchNothing) {
+  /// By how much the blur would change the light at last.
   const auto drag = [&](const Scene& scene, float blurNoise, std::string terms, char picture,
                         std::initializer_list<Light> places) {
     Settings s = small();
     s.effects.blurNoise = blurNoise;
+    const auto bench = this->bench(scene, s);
     std::vector<Step> steps;
     for (const Light& place : places) steps.push_back({lights({place}), terms, picture});
-    walk(bench(scene, s)->pipeline(), steps);
+    walk(bench->pipeline(), steps);
+    return bench->pipeline().traits().light.noise.value_or(0);
   };
   // Where its range ends at the room's wall. 16 voxels of 1/8: two of them wide is the trigger, four where it lets go.
   const auto atReach = [](double gap) {
@@ -124,27 +119,12 @@ TEST_F(Effects, LightsThatMoveSwitchNothing) {
   drag(kEmpty, 0.01f, "point on, has shadow cubes, has matrix", '.', {atReach(1.2), atReach(1.3), atReach(1.2)});
   drag(kEmpty, 0.01f, "point off, -has shadow cubes, -has matrix", '.', {atReach(2), atReach(1.3), atReach(2)});
   const auto places = {lamp(0.2), lamp(0.1), lamp(-0.2), lamp(0.3)};
-  // The blur is watched, not tried: where it shows nothing it stays off.
-  drag(kEven, 0.9f, "blur off, -has blurred H", ' ', places);
-  drag(kLamp, 1e-4f, "blur on, has blurred H", ' ', places);
   // Lights do not change F M, nor what was found of its samples.
   drag(kLamp, 0.01f, "emitter-sampling on, has emitters' correction", ' ', places);
-}
-
-/// What it would change is the same number, measured with its copies or without.
-TEST_F(Effects, TheBlurIsMeasuredAlike) {
-  const auto noise = [&](float epsilon) {
-    Settings s = small();
-    s.effects.blurNoise = epsilon;
-    const auto bench = this->bench(kLamp, s);
-    Pipeline& pipeline = bench->pipeline();
-    pipeline.setLights({lamp(-0.1)});
-    pipeline.darken();
-    pipeline.prepare();
-    EXPECT_EQ(pipeline.plan().on(E::blur), epsilon < 0.5f);
-    return pipeline.traits().light.noise.value_or(-1);
-  };
-  const float with = noise(1e-4f), without = noise(0.99f);
+  // The blur is watched, not tried: where it shows nothing it stays off. What it would change is the same number,
+  // measured with its copies or without.
+  const float with = drag(kLamp, 1e-4f, "blur on, has blurred H", ' ', places),
+              without = drag(kLamp, 0.99f, "blur off, -has blurred H", ' ', places);
   EXPECT_GT(with, 0);
   EXPECT_EQ(with, without);
 }
