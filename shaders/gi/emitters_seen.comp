@@ -5,7 +5,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/pixel_emitters.glsl"
+#include "gi/seen_point.glsl"
 #include "gi/trace.glsl"
+#include "shared/passes.h"
 #include "shared/sampling.h"
 
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D seenTarget;  ///< w = 0: unknown
@@ -65,6 +67,12 @@ void main() {
                       pixel.x * 2447445414u + pixel.y * 3242174889u);
   float start = unitFloat(shift.x);
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.grid.dims, 0.0);
+  SurfaceArrays surface;
+  SurfelPoint from = SurfelPoint(p, face, 0u);
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
+    surface = push.surface.at[0];
+    if (total > 0.0) from = liftedSeen(surface, seenTriangle(position.w), p, face);
+  }
   vec3 seen = vec3(0.0), asked = vec3(0.0);
   float seenSum = 0.0, askedSum = 0.0;
   float upTo = 0.0;  // rays to this triangle and those before it
@@ -79,14 +87,22 @@ void main() {
     for (; k < push.rays && float(k) + start < upTo; ++k) {
       vec2 u = facetJitter(k, shift.yz);
       float s = sqrt(u.x);
-      vec3 way = t.corner + t.edge1 * (s * (1.0 - u.y)) + t.edge2 * (s * u.y) - p;
+      vec3 way = t.corner + t.edge1 * (s * (1.0 - u.y)) + t.edge2 * (s * u.y) - from.position;
       float reach = length(way);
       vec3 direction = way / reach;
       float cosine = abs(dot(direction, facing)) / size;
       // The point's form factor over the density with which it is drawn.
       float weight = max(dot(n, direction), 0.0) * cosine * size / (reach * reach * share);
       if (weight == 0.0) continue;
-      int clear = dot(face, direction) > 0.0 ? sees(world, p, direction, face, reach, cosine) : 0;
+      int clear = 0;
+      if (dot(from.facing, direction) > 0.0) {
+        if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
+          TraceHit hit = traceTriangles(world, surface, from.position, direction, from.triangle);
+          clear = endsBefore(hit.facet, hit.t, reach) ? 0 : 1;
+        } else {
+          clear = sees(world, p, direction, face, reach, cosine);
+        }
+      }
       if (clear < 0) continue;
       asked += weight * t.exitance;
       askedSum += weight;
