@@ -51,7 +51,6 @@ Settings obeyed(const Settings& settings, const EffectPlan& plan) {
     if (const auto mode = row.info().mode)
       s.effects.*mode = row.state == EffectState::off ? EffectMode::off : EffectMode::on;
   if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
-  if (settings.effects.secondFacet == EffectMode::off) s.voxel.facets = 1;
   if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
   if (plan.off(Effect::blur) && s.sample.gpu.filter_ == SampleFilter::blur) s.sample.gpu.filter_ = SampleFilter::linear;
   return s;

@@ -80,7 +80,6 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
   return pass.constant(CONSTANT_TRACE_METHOD, picture.method)
       .constant(CONSTANT_TRACE_HIT_RULE, picture.settings.matrix.gpu.hitRule)
       .constant(CONSTANT_NORMALS, facets.encoding)
-      .constant(CONSTANT_TRACE_MANY, facets.slots > 2)
       .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
       .sample(targets.depth, pointSampler(picture.frame.context().device))
       .read(targets.normal, targets.geometric, targets.f0, targets.indirect)
@@ -117,7 +116,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
 
   Pass trace = frame.pass(kSpecularStage);
   trace.shader(fieldIsImage(picture) ? "specular/trace_jfa.comp" : "specular/trace.comp");
-  const bool emitters = inputs.emitters != nullptr && inputs.emitters->count > 0;
+  const bool emitters = inputs.facets->surface && inputs.emitters != nullptr && inputs.emitters->count > 0;
   addRays(picture, trace, emitters ? inputs.emitters : nullptr).write(targets.linear);
   sampleField(picture, trace).dispatchIndirect(targets.glossy);
 

@@ -86,8 +86,9 @@ TEST(ProgramFaults, ABudgetIsAnOption) {
   const RunResult tight = runIrad(smallRender(folder.path, {"--memory-budget", "1"}));
   EXPECT_EQ(tight.status, 4) << tight.err;
   EXPECT_TRUE(contains(tight.err, " of 1.0 MiB are free")) << tight.err;
-  const RunResult padded = runIrad(
-      smallRender(folder.path, {"--memory-budget", "5", "--set", "matrix.format=padded", "--set", "matrix.rays=512"}));
+  const RunResult padded =
+      runIrad(smallRender(folder.path, {"--memory-budget", "5", "--set", "matrix.hit_rule=thesis", "--set",
+                                        "matrix.format=padded", "--set", "matrix.rays=512"}));
   EXPECT_EQ(padded.status, 4) << padded.err;
   EXPECT_TRUE(contains(padded.err, "the padded matrix of ")) << padded.err;
   EXPECT_TRUE(contains(padded.err, "matrix.format=csr")) << padded.err;

@@ -12,6 +12,7 @@
 #include "gi/lighting.h"
 #include "gi/pipeline.h"
 #include "gi/ray_kernel.h"
+#include "gi/scatter.h"
 #include "gi/subsystems.h"
 #include "renderer/targets.h"
 #include "shaders/shared/trace.h"
@@ -29,7 +30,6 @@ class SurfaceTest : public GiTest {
  protected:
   static Settings triangles(uint32_t resolution, uint32_t rays = 128) {
     Settings s = at(resolution, rays);
-    s.matrix.gpu.hitRule = HitRule::triangles;
     s.specular.mode = SpecularMode::off;
     return s;
   }
@@ -222,6 +222,44 @@ TEST_F(SurfaceTest, NothingComesThroughThinWalls) {
     EXPECT_EQ(dark, 0) << thickness;
     EXPECT_EQ(darkBlurred, 0) << thickness;
   }
+}
+
+TEST_F(SurfaceTest, TheBlurKeepsConstantsAndHasTheWeightsOfATent) {
+  // A floor of 16 x 16 voxels, far from its rim; and one bright facet in the middle, which reaches its 3 x 3
+  // neighbours with 4, 2, 1 of 16.
+  SceneBuilder b;
+  b.quad(b.material(glm::vec3(0.5f)), {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  b.sun({0, -1, 0}, 1);
+  Settings settings = triangles(16, 32);
+  settings.effects.blur = EffectMode::on;
+  const Pipeline& p = prepare(b.finish("floor"), settings);
+  const FacetList& list = p.facets();
+  ASSERT_EQ(list.count, 256u);
+  const std::vector<uint32_t> voxel = downloadAs<uint32_t>(context(), list.voxel);
+  std::vector<glm::vec4> h(list.count, glm::vec4(3));
+  Lighting light = makeLighting(context(), list, settings);
+  const auto blurred = [&] {
+    upload(context(), light.indirect, std::as_bytes(std::span(h)));
+    Frame frame = context().begin();
+    scatter(frame, list, light, settings);
+    frame.submitAndWait();
+    return downloadAs<glm::vec4>(context(), light.shaded());
+  };
+  for (const glm::vec4& value : blurred()) EXPECT_FLOAT_EQ(value.x, 3);
+  const auto at = [&](int x, int z) {
+    for (uint32_t i = 0; i < list.count; ++i)
+      if (const glm::uvec3 v = unpackVoxel(voxel[i]); v.x == 8u + x && v.z == 8u + z) return i;
+    return list.count;
+  };
+  h.assign(list.count, glm::vec4(0));
+  h[at(0, 0)] = glm::vec4(16);
+  const std::vector<glm::vec4> spike = blurred();
+  // Areas, by which they are weighted, differ by rounding.
+  EXPECT_NEAR(spike[at(0, 0)].x, 4, 1e-3);
+  EXPECT_NEAR(spike[at(1, 0)].x, 2, 1e-3);
+  EXPECT_NEAR(spike[at(0, -1)].x, 2, 1e-3);
+  EXPECT_NEAR(spike[at(1, 1)].x, 1, 1e-3);
+  EXPECT_EQ(spike[at(2, 0)].x, 0);
 }
 
 TEST_F(SurfaceTest, ReflectionsShowNothingFromBehindThinWalls) {

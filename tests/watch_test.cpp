@@ -297,7 +297,7 @@ TEST_F(Guard, DivergenceIsStoppedAndTheLightFromBeforeKept) {
 
 TEST_F(Guard, EdgesAreRemovedFromTheLightThatWasPutBack) {
   Settings settings = gained(0.8f);
-  settings.sample.gpu.gated = 0;
+  settings.matrix.gpu.hitRule = HitRule::thesis;
   settings.scatter.edgeRemoval = true;
   Pipeline pipeline(context(), furnaceBox(0.9f), settings);
   pipeline.prepare();

@@ -1,11 +1,8 @@
-// A point of the emitters (shared/emitters.h).
+// Points of the emitters (shared/emitters.h), and whether they are seen.
 #ifndef IRAD_EMITTER_POINT_GLSL
 #define IRAD_EMITTER_POINT_GLSL
+#include "gi/trace.glsl"
 #include "shared/emitters.h"
-#include "shared/facets.h"
-#include "shared/grid.h"
-#include "shared/normals.h"
-#include "shared/trace.h"
 
 /// An emissive facet drawn in proportion to power; `rest` is uniform in (0, 1) again.
 uint emitterFacet(EmitterTable table, uint u, out float rest) {
@@ -18,17 +15,11 @@ uint emitterFacet(EmitterTable table, uint u, out float rest) {
   return own ? e.facet : e.other;
 }
 
-/// Point `u` of an emissive facet drawn in proportion to power, voxels, and the facet's normal; false where it lies
-/// outside the facet's cell.
-bool emitterPoint(EmitterTable table, FacetArrays facets, uint encoding, uvec2 u, out uint facet, out vec3 point,
-                  out vec3 normal) {
-  float x;
-  facet = emitterFacet(table, u.x, x);
-  uint shape = facets.shape.at[facet];
-  normal = decodeNormal(shape & 0xFFFFu, encoding);
-  uvec3 voxel = unpackVoxel(facets.voxel.at[facet]);
-  point = facetPoint(voxel, normal, facetOffset(shape), vec2(x, unitFloat(u.y)));
-  return all(lessThanEqual(abs(point - vec3(voxel) - 0.5), vec3(0.5)));
+/// Whether a ray from a lifted point meets nothing before `reach`, where a point of an emitter is. A ten-thousandth of
+/// it is more than the roundings of that point.
+bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 direction, float reach) {
+  TraceHit hit = traceTriangles(world, surface, from.position, direction, from.triangle);
+  return hit.facet == TRACE_ESCAPED || hit.t >= reach * (1.0 - 1e-4);
 }
 
 #endif

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // "GI Gather" (docs/method.md 6, T 5.7): direct irradiance D of every facet from the sun, spot and point lights,
-// averaged over points of the facet's plane within its cell, through the shadow maps and the very functions that
-// shading uses.
+// averaged over the facet's surfels (of a plane facet: at its middle), through the shadow maps and the very functions
+// that shading uses.
 #include "shared/constants.h"
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
@@ -16,7 +16,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_NORMALS) const uint NORMALS = NORMALS_OCT16;
 layout(push_constant, scalar) uniform Push { GatherPush p; };
 
-// The facet's plane may lie this far below bumps of the surface inside its voxel: shadow lookups start above them.
+// A plane facet may lie this far below bumps of the surface inside its voxel: shadow lookups start above them.
 const float LIFT = 0.25f;  // voxels
 
 void main() {
@@ -29,7 +29,7 @@ void main() {
   GpuScene scene = p.scene.at[0];
   vec3 sum = vec3(0.0f);
   bool surfels = uint64_t(p.surface) != 0ul;
-  uint samples = surfels ? FACET_SURFELS : p.samples;
+  uint samples = surfels ? FACET_SURFELS : 1u;
   for (uint k = 0u; k < samples; ++k) {
     vec3 position, facing = normal;
     float lift = LIFT;
@@ -39,8 +39,7 @@ void main() {
       facing = s.facing;
       lift = 0.0f;
     } else {
-      vec2 jitter = hammersley(k, samples, uvec2(0u, 0x80000000u / samples));
-      position = facetPoint(voxel, normal, facetOffset(shape), jitter);
+      position = facetPoint(voxel, normal, facetOffset(shape), hammersley(0u, 1u, uvec2(0u, 0x80000000u)));
     }
     position = p.origin + p.edge * position;
     for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {

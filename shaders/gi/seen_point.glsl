@@ -13,10 +13,4 @@ SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer
   return SurfelPoint(liftedStart(p - facing * dot(facing, p - t.a), facing), facing, triangle);
 }
 
-/// Whether a ray that is meant to end after `reach` has met something before. A ten-thousandth of it is more than the
-/// roundings of what it ends at.
-bool endsBefore(uint met, float t, float reach) {
-  return met != TRACE_ESCAPED && t < reach * (1.0 - 1e-4);
-}
-
 #endif

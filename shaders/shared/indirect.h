@@ -10,14 +10,14 @@
 #include "shared/trace.h"
 IRAD_BEGIN
 
-/// "RE Forward", gi/indirect.comp.
+/// "RE Forward", gi/indirect_links.comp.
 struct IndirectPush {
   CameraArray camera;
   GridArray grid;
-  UintArray shape, reverse, around, voxel;  ///< of FacetArrays
-  SurfaceRecord surface;                    ///< gi/indirect_links.comp
-  Vec4Array shaded;                         ///< H per facet
-  Vec4Array shadedEmitted;                  ///< F M per facet
+  UintArray reverse, voxel;  ///< of FacetArrays
+  SurfaceRecord surface;
+  Vec4Array shaded;         ///< H per facet
+  Vec4Array shadedEmitted;  ///< F M per facet
   SampleParams sampling;
   uvec2 size;
 };

@@ -1,7 +1,6 @@
 // Specular rays of one pixel through the voxels (docs/method.md 8). Radiance at a hit is B / pi; rays that
 // escape bring nothing.
 #include "gi/emitter_point.glsl"
-#include "gi/indirect.glsl"
 #include "gi/seen_point.glsl"
 #include "gi/surface_lookup.glsl"
 #include "gi/trace.glsl"
@@ -10,7 +9,8 @@
 #include "shared/sampling.h"
 #include "specular/surface.glsl"
 
-layout(constant_id = CONSTANT_TRACE_EMITTERS) const bool EMITTERS = false;  ///< traceLobe sends rays to emitters too
+/// traceLobe sends rays to emitters too; with rule `triangles` alone.
+layout(constant_id = CONSTANT_TRACE_EMITTERS) const bool EMITTERS = false;
 
 /// Start of the rays where voxels are met: off the surface, so that its own are behind them.
 const float RAY_LIFT = 1.5;
@@ -47,29 +47,14 @@ vec3 rayStart(Surface s) {
 
 TraceHit traceFrom(TraceWorld world, SurfaceArrays surface, Surface s, vec3 direction) {
   if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) return traceTriangles(world, surface, s.start, direction, s.triangle);
-  return traceRay(world, s.position + s.face * RAY_LIFT, direction, s.face);
+  return traceThesis(world, traceStart(s.position + s.face * RAY_LIFT, direction));
 }
 
-/// A point of the emitters to send a ray to, and which way it faces; false: none.
-bool aimAt(TraceWorld world, SurfaceArrays surface, EmitterTable table, uvec2 u, out uint facet, out vec3 point,
-           out vec3 facing) {
-  if (TRACE_HIT_RULE != HIT_RULE_TRIANGLES)
-    return emitterPoint(table, world.facets, TRACE_NORMALS, u, facet, point, facing);
-  float x;
-  facet = emitterFacet(table, u.x, x);
-  SurfelPoint p = liftedSurfel(surface, facet, uint(x * float(FACET_SURFELS)));
-  point = p.position;
-  facing = p.facing;
-  return true;
-}
-
-/// B where a ray against `direction` leaves the facet that it has met at a point.
-vec3 radiosityAt(TraceWorld world, SurfaceArrays surface, uint facet, vec3 at, vec3 normal, vec3 direction) {
-  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES)
-    return tapped(surfaceTaps(surface, world.facets.reverse, world.facets.voxel, world.dims, facet, at, FILTER_LINEAR),
-                  push.radiosity);
-  FacetMap map = FacetMap(world.facets.shape, world.facets.reverse, world.facets.around, world.dims, TRACE_NORMALS);
-  return facetValueAround(map, push.radiosity, facet, at, normal, -direction);
+/// B where a ray has met a facet at a point.
+vec3 radiosityAt(TraceWorld world, SurfaceArrays surface, uint facet, vec3 at) {
+  if (TRACE_HIT_RULE != HIT_RULE_TRIANGLES) return push.radiosity.at[facet].xyz;
+  return tapped(surfaceTaps(surface, world.facets.reverse, world.facets.voxel, world.dims, facet, at, FILTER_LINEAR),
+                push.radiosity);
 }
 
 /// Mean reflected radiance before the lobe's reflectance. Rays follow visible normals of GGX (Heitz 2018), each
@@ -99,14 +84,14 @@ vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) 
     uint emitter = NO_FACET;
     vec3 facing = vec3(0.0);
     if (EMITTERS && k >= rays) {
-      vec3 point;
-      uvec2 u = shift.zw + uvec2((2u * (k - rays) + 1u) * (0x80000000u / aimed), reverseBits(k - rays));
-      if (!aimAt(world, surface, table, u, emitter, point, facing)) continue;
-      direction = point - rayStart(s);
+      float x;
+      emitter = emitterFacet(table, shift.z + (2u * (k - rays) + 1u) * (0x80000000u / aimed), x);
+      SurfelPoint to = liftedSurfel(surface, emitter, uint(x * float(FACET_SURFELS)));
+      facing = to.facing;
+      direction = to.position - s.start;
       reach = length(direction);
       direction /= reach;
-      if (!(dot(direction, s.face) > 0.0)) continue;
-      if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES && !(dot(direction, facing) < 0.0)) continue;
+      if (!(dot(direction, s.face) > 0.0 && dot(direction, facing) < 0.0)) continue;
       l = vec3(dot(direction, tx), dot(direction, ty), dot(direction, s.normal));
     } else {
       vec3 h = mirror ? vec3(0.0, 0.0, 1.0) : ggxVisibleNormal(v, alpha, hammersley(k, rays, shift.xy));
@@ -120,27 +105,27 @@ vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) 
     vec3 h = normalize(v + l);
     float weight = fresnelSchlick(reflectance, clamp(dot(v, h), 0.0, 1.0)).x * ggxWeight(l.z, v.z, max(alpha, 1e-3));
     if (reach == 0.0) weights += weight;
-    TraceHit hit = traceFrom(world, surface, s, direction);
-    if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES && reach > 0.0) {
-      if (endsBefore(hit.facet, hit.t, reach)) continue;
+    TraceHit hit;
+    if (EMITTERS && reach > 0.0) {
+      if (!reaches(world, surface, SurfelPoint(s.start, s.face, s.triangle), direction, reach)) continue;
       hit.facet = emitter;
       hit.t = reach;
+    } else {
+      hit = traceFrom(world, surface, s, direction);
+      if (hit.facet > TRACE_LAST_FACET) continue;
     }
-    if (hit.facet > TRACE_LAST_FACET) continue;
     vec3 at = rayStart(s) + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);
     float exitance = EMITTERS ? luminance(world.facets.emission.at[hit.facet]) : 0.0;
-    if (TRACE_HIT_RULE != HIT_RULE_TRIANGLES && reach > 0.0 && (!(exitance > 0.0) || abs(hit.t - reach) > 1.0))
-      continue;  // something else is in the way
     if (EMITTERS && exitance > 0.0) {
       // Expected rays per solid angle of either kind.
       float lobe = density * ggxDistribution(dot(h.xy, h.xy), max(alpha, 1e-3));
       float cosine = max(-dot(n, direction), 1e-4);
       weight *= lobe / (lobe + float(aimed) * exitance * hit.t * hit.t / (cosine * table.power));
       // The heuristic goes by the facet's normal for both kinds; the points are drawn by the area of the true surface.
-      if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES && reach > 0.0) weight *= -dot(facing, direction) / cosine;
+      if (reach > 0.0) weight *= -dot(facing, direction) / cosine;
     }
-    sum += weight * radiosityAt(world, surface, hit.facet, at, n, direction);
+    sum += weight * radiosityAt(world, surface, hit.facet, at);
   }
   return weights > 0.0 ? sum / (weights * IRAD_PI) : vec3(0.0);
 }
