@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push { SampleEmittersPush p; };
 
 #include "gi/emitter_point.glsl"
 #include "gi/matrix_row.glsl"
-#include "gi/trace.glsl"
+#include "gi/seen_point.glsl"
 
 bool near(uvec3 a, uvec3 b) {
   vec3 d = vec3(a) - vec3(b);
