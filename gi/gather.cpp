@@ -2,6 +2,7 @@
 #include "gi/gather.h"
 
 #include "gi/facets.h"
+#include "gi/field.h"
 #include "gi/lighting.h"
 #include "gi/settings.h"
 #include "renderer/frame/frame.h"
@@ -9,17 +10,38 @@
 #include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
+namespace {
 
-void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
-            Lighting& light, const Settings& settings) {
-  if (facets.count == 0) return;
-  Pass pass = frame.pass("GI Gather");
+constexpr const char* kGatherStage = "GI Gather";
+
+/// By rays past the triangles.
+void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& facets, const Field& field,
+                   Lighting& light) {
+  Pass pass = frame.pass(kGatherStage);
+  GatherSurfelsPush push{};
+  push.scene = pass.in(scene.record);
+  push.facets = facets.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
+  push.surface = pass.in(facets.surface.record);
+  push.chebyshev = pass.inIfAny(field.chebyshev);
+  push.direct = pass.out(light.direct);
+  push.origin = facets.grid.origin;
+  push.edge = facets.grid.edge;
+  push.dims = facets.grid.dims;
+  pass.shader("gi/gather_surfels.comp").constant(CONSTANT_TRACE_METHOD, field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE);
+  specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
+  pass.push(push).dispatch(facets.count);
+}
+
+/// Through the shadow maps.
+void gatherPlanes(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
+                  Lighting& light, const Settings& settings) {
+  Pass pass = frame.pass(kGatherStage);
   GatherPush push{};
   push.scene = pass.in(scene.record);
   push.facets = pass.in(facets.record);
-  push.surface = pass.inIfAny(facets.surface.record);
   push.direct = pass.out(light.direct);
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
@@ -29,6 +51,17 @@ void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows,
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.constant(CONSTANT_NORMALS, facets.encoding);
   sampleShadows(pass, shadows).push(push).dispatch(facets.count);
+}
+
+}  // namespace
+
+void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
+            const Field& field, Lighting& light, const Settings& settings) {
+  if (facets.count == 0) return;
+  if (facets.surface)
+    gatherSurfels(frame, scene, facets, field, light);
+  else
+    gatherPlanes(frame, scene, shadows, facets, light, settings);
 }
 
 }  // namespace irad

@@ -1,4 +1,5 @@
-// Direct light onto the facets.
+// Direct light onto the facets: past the triangles where they are pieces of the true surface (Surface), through the shadow
+// maps where they are planes.
 #pragma once
 
 namespace irad {
@@ -6,11 +7,12 @@ namespace irad {
 class Frame;
 class SceneOnDevice;
 struct FacetList;
+struct Field;
 struct Lighting;
 struct Settings;
 struct ShadowMaps;
 
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
-            Lighting& light, const Settings& settings);
+            const Field& field, Lighting& light, const Settings& settings);
 
 }  // namespace irad

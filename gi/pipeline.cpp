@@ -250,7 +250,7 @@ struct Pipeline::Impl {
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
-      gather(frame, onDevice, *shadows, *p.facets, *p.light, planned.settings());
+      gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {

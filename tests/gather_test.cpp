@@ -24,7 +24,7 @@ class Gather : public GiTest {
     const ShadowMaps shadows = drawShadows(context(), *w.device, settings.light.shadowResolution);
     Lighting light = makeLighting(context(), w.facets, settings);
     Frame frame = context().begin();
-    gather(frame, *w.device, shadows, w.facets, light, settings);
+    gather(frame, *w.device, shadows, w.facets, w.field, light, settings);
     frame.submitAndWait();
     Result r;
     r.direct = downloadAs<glm::vec4>(context(), light.direct);

@@ -35,7 +35,7 @@ struct Lit {
     light = makeLighting(context, facets, settings);
     emitters = listEmitters(context, facets);
     Frame direct = context.begin();
-    gather(direct, stage.device, stage.shadows, facets, light, settings);
+    gather(direct, stage.device, stage.shadows, facets, field, light, settings);
     direct.submitAndWait();
     gatherEmitters(context, facets, matrix, {}, settings, light);
     solve(context, facets, matrix, light, settings, settings.solver.maxSweeps);

@@ -1,11 +1,9 @@
-// Light from the analytic lights and its visibility through the shadow maps: one definition for shading and for
-// passes that gather direct light. The including shader binds the maps; by default they are set 0, bindings 0 and 1.
-// Specialization constants leave out the lights that a scene does not have, from the number IRAD_LIGHT_CONSTANTS on.
+// Visibility of the analytic lights through the shadow maps: one definition for shading and for passes that gather direct
+// light. The including shader binds the maps; by default they are set 0, bindings 0 and 1.
 #ifndef IRAD_FORWARD_SHADOW_GLSL
 #define IRAD_FORWARD_SHADOW_GLSL
-#include "forward/precise.glsl"
+#include "forward/light.glsl"
 #include "forward/project.glsl"
-#include "shared/scene_gpu.h"
 
 #ifndef IRAD_SHADOW_SET
 #define IRAD_SHADOW_SET 0
@@ -16,67 +14,13 @@
 #ifndef IRAD_SHADOW_CUBE_BINDING
 #define IRAD_SHADOW_CUBE_BINDING 1
 #endif
-#ifndef IRAD_LIGHT_CONSTANTS
-#define IRAD_LIGHT_CONSTANTS 0u
-#endif
-#define IRAD_LIGHT_SHINES(constant, number, id, effect, gltf, name, one, many, map, traits) \
-  layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_##constant) const bool SHINES_##constant = true;
-IRAD_LIGHT_KINDS(IRAD_LIGHT_SHINES)
-#undef IRAD_LIGHT_SHINES
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_FLAT_MAPS) const bool FLAT_MAPS = true;
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_CUBE_MAPS) const bool CUBE_MAPS = true;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArray shadowFlat;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
 
-/// How many kinds shine.
-uint shiningKinds() {
-#define IRAD_LIGHT_SHINES(constant, number, id, effect, gltf, name, one, many, map, traits) +(SHINES_##constant ? 1u : 0u)
-  return 0u IRAD_LIGHT_KINDS(IRAD_LIGHT_SHINES);
-#undef IRAD_LIGHT_SHINES
-}
-bool anyLight() { return shiningKinds() > 0u; }
-/// Whether a light that shines has any of these traits; where one kind alone shines it need not be looked at.
-bool lightHas(GpuLight light, uint wanted) {
-#define IRAD_LIGHT_HAS(constant, number, id, effect, gltf, name, one, many, map, traits) \
-  || (((traits) & wanted) != 0u && SHINES_##constant && (shiningKinds() == 1u || light.type == LIGHT_##constant))
-  return false IRAD_LIGHT_KINDS(IRAD_LIGHT_HAS);
-#undef IRAD_LIGHT_HAS
-}
 bool hasCubeMap(GpuLight light) {
   return CUBE_MAPS && (!FLAT_MAPS || lightUsesCube(light.type, light.outerCos));
-}
-
-/// Unit vector from `position` towards the light.
-vec3 lightDirection(GpuLight light, vec3 position) {
-  return lightHas(light, LIGHT_DISTANT) ? -light.direction : preciseNormalize(light.position - position);
-}
-
-/// Light that reaches `position` on a surface facing it, W/m^2: lux for a distant one, I / d^2 times KHR_lights_punctual's range
-/// window for the others, times the squared angular ramp of a cone. Shadows apart.
-vec3 lightIntensity(GpuLight light, vec3 position) {
-  if (lightHas(light, LIGHT_DISTANT)) return light.intensity;
-  vec3 toLight = light.position - position;
-  float d2 = preciseDot(toLight, toLight);
-  if (!(d2 > 0.0)) return vec3(0.0);
-  precise float attenuation = 1.0 / d2;
-  if (light.range > 0.0) {
-    float r2 = d2 / (light.range * light.range);
-    attenuation *= clamp(1.0 - r2 * r2, 0.0, 1.0);
-  }
-  if (lightHas(light, LIGHT_CONE)) {
-    float c = preciseDot(light.direction, -toLight) * inversesqrt(d2);
-    float ramp = light.innerCos > light.outerCos
-                     ? clamp((c - light.outerCos) / (light.innerCos - light.outerCos), 0.0, 1.0)
-                     : (c >= light.outerCos ? 1.0 : 0.0);
-    attenuation *= ramp * ramp;
-  }
-  return light.intensity * attenuation;
-}
-
-/// Irradiance of the unshadowed light on a surface with this normal, W/m^2.
-vec3 lightIrradiance(GpuLight light, vec3 position, vec3 normal) {
-  float cosine = dot(normal, lightDirection(light, position));
-  return cosine > 0.0 ? lightIntensity(light, position) * cosine : vec3(0.0);
 }
 
 /// Depths are reversed (1 near, 0 far; near / distance in perspective), so that fp32 is precise everywhere: `reference <=

@@ -27,14 +27,25 @@ bool clearBetween(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 a, 
   return true;
 }
 
+/// How far above a surfel ways from it begin, in the voxel that holds it.
+float liftOf(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p) {
+  uint entry = entryOf(reverse, dims, ivec3(floor(p.position)));
+  return entry == NO_FACET ? ABOVE_SURFACE : clearAbove(piecesOf(surface, entry), p.position, p.facing, p.triangle);
+}
+
 bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint a, SurfelPoint b) {
-  float lift;
-  if (!mayBeSameSide(a.position, a.facing, b.position, b.facing, lift)) return false;
-  vec3 from = a.position + a.facing * lift, to = b.position + b.facing * lift;
-  if (lift > 2.0 * ABOVE_SURFACE &&
-      !(clearBetween(surface, reverse, dims, a.position + a.facing * ABOVE_SURFACE, from, a.triangle, b.triangle) &&
-        clearBetween(surface, reverse, dims, b.position + b.facing * ABOVE_SURFACE, to, a.triangle, b.triangle)))
-    return false;
+  float bulge;
+  if (!mayBeSameSide(a.position, a.facing, b.position, b.facing, bulge)) return false;
+  vec3 from = a.position + a.facing * liftOf(surface, reverse, dims, a);
+  vec3 to = b.position + b.facing * liftOf(surface, reverse, dims, b);
+  if (bulge > ABOVE_SURFACE) {
+    vec3 fromHigh = from + a.facing * bulge, toHigh = to + b.facing * bulge;
+    if (!clearBetween(surface, reverse, dims, from, fromHigh, a.triangle, b.triangle) ||
+        !clearBetween(surface, reverse, dims, to, toHigh, a.triangle, b.triangle))
+      return false;
+    from = fromHigh;
+    to = toHigh;
+  }
   return clearBetween(surface, reverse, dims, from, to, a.triangle, b.triangle);
 }
 

@@ -39,7 +39,7 @@ void main() {
     }
     ClassPoint leader = classPoint(surface, lead);
     for (uint i = first + me * stride; i < end; i += step_)
-      if (push.classes.at[i] == NO_CLASS && (i == lead || together(pieces, leader, classPoint(surface, i))))
+      if (push.classes.at[i] == NO_CLASS && (i == lead || sameSide(pieces, leader.at, classPoint(surface, i).at)))
         push.classes.at[i] = classes | (i == lead ? CLASS_LEADER : 0u);
     ++classes;
   }
@@ -54,14 +54,14 @@ void main() {
   // Neighbours in the list are neighbours in the mesh: the others go with the next one that faces their way.
   for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
     if ((i - first) % stride == 0u || push.classes.at[i] != NO_CLASS) continue;
-    vec3 facing = classPoint(surface, i).facing;
+    vec3 facing = classPoint(surface, i).at.facing;
     uint compared = i - (i - first) % stride;
     for (uint k = 0u; k < 8u; ++k) {
       uint near = compared + (k % 2u == 0u ? -(k / 2u) * stride : (k / 2u + 1u) * stride);
       if (near < first || near >= end) continue;
       uint found = push.classes.at[near];
       if (found == NO_CLASS || found == CLASS_OF_PART) continue;
-      if (dot(classPoint(surface, near).facing, facing) < SAME_SIDE_COSINE) continue;
+      if (dot(classPoint(surface, near).at.facing, facing) < SAME_SIDE_COSINE) continue;
       push.classes.at[i] = found & ~CLASS_LEADER;
       break;
     }

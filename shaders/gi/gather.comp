@@ -1,13 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI Gather" (docs/method.md 6, T 5.7): direct irradiance D of every facet from the sun, spot and point lights,
-// averaged over the facet's surfels (of a plane facet: at its middle), through the shadow maps and the very functions
-// that shading uses.
+// "GI Gather" where facets are planes (docs/method.md 6, T 5.7): direct irradiance D of every facet from the sun, spot
+// and point lights, at its middle, through the shadow maps and the very functions that shading uses.
 #include "shared/constants.h"
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/shadow.glsl"
-#include "gi/surface_point.glsl"
 #include "shared/grid.h"
 #include "shared/normals.h"
 #include "shared/trace.h"
@@ -27,27 +25,15 @@ void main() {
   uint shape = f.shape.at[facet];
   vec3 normal = decodeNormal(shape & 0xFFFFu, NORMALS);
   GpuScene scene = p.scene.at[0];
+  // At its middle: T 5.7 takes one sample.
+  vec3 middle = facetPoint(voxel, normal, facetOffset(shape), hammersley(0u, 1u, uvec2(0u, 0x80000000u)));
+  vec3 position = p.origin + p.edge * middle;
   vec3 sum = vec3(0.0f);
-  bool surfels = uint64_t(p.surface) != 0ul;
-  uint samples = surfels ? FACET_SURFELS : 1u;
-  for (uint k = 0u; k < samples; ++k) {
-    vec3 position, facing = normal;
-    float lift = LIFT;
-    if (surfels) {
-      SurfelPoint s = surfelOf(p.surface.at[0], facet, k);
-      position = s.position;
-      facing = s.facing;
-      lift = 0.0f;
-    } else {
-      position = facetPoint(voxel, normal, facetOffset(shape), hammersley(0u, 1u, uvec2(0u, 0x80000000u)));
-    }
-    position = p.origin + p.edge * position;
-    for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
-      GpuLight light = scene.lights.at[i];
-      vec3 irradiance = lightIrradiance(light, position, facing);
-      if (irradiance == vec3(0.0f)) continue;
-      sum += irradiance * shadowVisibility(light, position + facing * (lift * p.edge), facing, p.shadowBias, p.pcf);
-    }
+  for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
+    GpuLight light = scene.lights.at[i];
+    vec3 irradiance = lightIrradiance(light, position, normal);
+    if (irradiance == vec3(0.0f)) continue;
+    sum += irradiance * shadowVisibility(light, position + normal * (LIFT * p.edge), normal, p.shadowBias, p.pcf);
   }
-  p.direct.at[facet] = vec4(sum / float(samples), 0.0f);
+  p.direct.at[facet] = vec4(sum, 0.0f);
 }

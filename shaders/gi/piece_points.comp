@@ -22,14 +22,17 @@ void main() {
   uint count = push.firstCut.at[piece + 1u] - cut;
   uint from;
   uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
+  vec3 facing = facingOf(t, false);
+  VoxelPieces others =
+      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   if (count == 0u) {
     vec3 middle = (t.a + t.b + t.c) * (1.0 / 3.0) - cell;
     if (n > 0u) polygonArea(from, n, middle);
-    push.points.at[place] = PiecePoint(cell + middle, piece);
-    push.classes.at[place] = NO_CLASS;
-    if (back) {
-      push.points.at[place + 1u] = PiecePoint(cell + middle, piece | SURFEL_BACK);
-      push.classes.at[place + 1u] = NO_CLASS;
+    middle += cell;
+    for (uint side = 0u; side < (back ? 2u : 1u); ++side) {
+      float lift = clearAbove(others, middle, side == 0u ? facing : -facing, triangle);
+      push.points.at[place + side] = PiecePoint(middle, piece | (side == 0u ? 0u : SURFEL_BACK), lift);
+      push.classes.at[place + side] = NO_CLASS;
     }
     return;
   }
@@ -38,8 +41,6 @@ void main() {
   bool mask = hasHoles(surface.corners, triangle);
   uint triangles = cut + (mask ? 3u : 1u);
   count -= triangles - cut + CUT_POINTS;
-  VoxelPieces others =
-      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint found = 0u;
   for (uint i = others.first; i < others.endLarge && found < count; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(surface.corners, surface.pieces.at[i]), t, back))
@@ -53,16 +54,16 @@ void main() {
       at = cell + polygonPoint(from, n, push.area.at[piece], cutPlace(piece, k, again));
       part = partAt(surface.corners, push.cuts, triangles, found, at);
     }
-    if (mask && !isThere(surface, piece, facingOf(t, false), at - cell)) part = NO_PART;
+    if (mask && !isThere(surface, piece, facing, at - cell)) part = NO_PART;
     // Nothing is between two points of one part: one is enough.
     bool first = part != NO_PART;
     for (uint j = 0u; j < k && first; ++j) first = push.cuts.at[points + j] >> 16 != part;
     push.cuts.at[points + k] = part << 16;
-    uint class_ = first ? NO_CLASS : CLASS_OF_PART;
-    push.points.at[place + k] = PiecePoint(at, piece);
-    push.classes.at[place + k] = class_;
-    if (!back) continue;
-    push.points.at[place + CUT_POINTS + k] = PiecePoint(at, piece | SURFEL_BACK);
-    push.classes.at[place + CUT_POINTS + k] = class_;
+    for (uint side = 0u; side < (back ? 2u : 1u); ++side) {
+      uint i = place + side * CUT_POINTS + k;
+      float lift = first ? clearAbove(others, at, side == 0u ? facing : -facing, triangle) : 0.0;
+      push.points.at[i] = PiecePoint(at, piece | (side == 0u ? 0u : SURFEL_BACK), lift);
+      push.classes.at[i] = first ? NO_CLASS : CLASS_OF_PART;
+    }
   }
 }

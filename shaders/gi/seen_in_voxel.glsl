@@ -39,7 +39,7 @@ uint pieceIn(VoxelPieces voxel, uint triangle) {
 
 const float SAME_SIDE_COSINE = 0.7;      ///< least between normals
 const float SAME_SIDE_LEVEL = 0.02;      ///< voxels: a face this far above another is another
-const float ABOVE_SURFACE = 1.0 / 256.0; ///< voxels: ways are this far above the surface
+const float ABOVE_SURFACE = 1.0 / 256.0; ///< voxels: ways are at most this far above the surface
 
 /// Whether the segment from `a` to `b` (voxel units) crosses no large piece but those of two triangles.
 bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
@@ -103,31 +103,57 @@ bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
   return standsOn(cell, standing, t, facing) || (back && standsOn(cell, standing, t, -facing));
 }
 
-/// What two points and the unit normals of their sides say by themselves; `lift`: how far above the surface a way from
-/// one to the other passes over what bulges between them, where it is convex.
-bool mayBeSameSide(vec3 a, vec3 normalA, vec3 b, vec3 normalB, out float lift) {
-  lift = ABOVE_SURFACE;
+/// How far above a point of a surface ways from it begin: nothing is on the way there. Where a triangle leans over the
+/// point that is less than ABOVE_SURFACE.
+float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
+  ShearedRay ray = shearedRay(point, facing);
+  float clear = 2.0 * ABOVE_SURFACE;
+  for (uint i = voxel.first; i < voxel.endLarge; ++i) {
+    uint triangle = voxel.pieces.at[i];
+    float t;
+    bool front;
+    if (triangle != own && meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0)
+      clear = min(clear, t);
+  }
+  return 0.5 * clear;
+}
+
+/// What two points and the unit normals of their sides say by themselves; `bulge`: how far a way from one to the other
+/// has to be raised over what bulges between them, where it is convex.
+bool mayBeSameSide(vec3 a, vec3 normalA, vec3 b, vec3 normalB, out float bulge) {
+  bulge = 0.0;
   float alike = dot(normalA, normalB);
   if (alike < SAME_SIDE_COSINE) return false;
   vec3 chord = b - a;
   float above = dot(normalA, chord), below = -dot(normalB, chord);
   if (max(above, below) > SAME_SIDE_LEVEL && min(above, below) < -SAME_SIDE_LEVEL) return false;
-  if (min(above, below) < 0.0) lift += 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
+  if (min(above, below) < 0.0) bulge = 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
   return true;
 }
 
-/// Points of triangles in one voxel.
-bool sameSide(VoxelPieces voxel, vec3 a, vec3 normalA, uint triangleA, vec3 b, vec3 normalB, uint triangleB) {
+/// A point of a triangle's side from which ways to others begin `lift` above it (clearAbove).
+struct SidePoint {
+  vec3 position, facing;
+  uint triangle;
   float lift;
-  if (!mayBeSameSide(a, normalA, b, normalB, lift)) return false;
-  vec3 chord = b - a;
+};
+
+/// Points of triangles in one voxel.
+bool sameSide(VoxelPieces voxel, SidePoint a, SidePoint b) {
+  float bulge;
+  if (!mayBeSameSide(a.position, a.facing, b.position, b.facing, bulge)) return false;
+  vec3 chord = b.position - a.position;
   if (dot(chord, chord) < 1e-10) return true;
-  vec3 from = a + normalA * lift, to = b + normalB * lift;
-  if (lift > 2.0 * ABOVE_SURFACE &&
-      !(clearInVoxel(voxel, a + normalA * ABOVE_SURFACE, from, triangleA, triangleB) &&
-        clearInVoxel(voxel, b + normalB * ABOVE_SURFACE, to, triangleA, triangleB)))
-    return false;
-  return clearInVoxel(voxel, from, to, triangleA, triangleB);
+  vec3 from = a.position + a.facing * a.lift, to = b.position + b.facing * b.lift;
+  if (bulge > ABOVE_SURFACE) {
+    vec3 fromHigh = from + a.facing * bulge, toHigh = to + b.facing * bulge;
+    if (!clearInVoxel(voxel, from, fromHigh, a.triangle, b.triangle) ||
+        !clearInVoxel(voxel, to, toHigh, a.triangle, b.triangle))
+      return false;
+    from = fromHigh;
+    to = toHigh;
+  }
+  return clearInVoxel(voxel, from, to, a.triangle, b.triangle);
 }
 
 #endif

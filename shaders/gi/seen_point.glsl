@@ -16,8 +16,8 @@ SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer
 /// Whether a ray from a lifted point meets nothing before `reach`. A ten-thousandth of it is more than the roundings of
 /// the point of a triangle that may be there.
 bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 direction, float reach) {
-  TraceHit hit = traceTriangles(world, surface, from.position, direction, from.triangle);
-  return hit.facet == TRACE_ESCAPED || hit.t >= reach * (1.0 - 1e-4);
+  float before = reach * (1.0 - 1e-4);
+  return firstTriangle(world, surface, from.position, direction, from.triangle, before).triangle == NO_TRIANGLE;
 }
 
 #endif

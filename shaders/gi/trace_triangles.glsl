@@ -26,18 +26,24 @@ FacetRay facetRay(SurfaceArrays surface, uint facet, uint packedVoxel, uint k, u
   return ray;
 }
 
-/// The first triangle along a ray but `own`, from which the ray starts. A facet, TRACE_ESCAPED, TRACE_BLOCKED at the
-/// back of a single-sided face, or TRACE_INVALID where it is not known which facet (PIECE_UNKNOWN).
-TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
+/// What a ray meets first.
+struct TriangleHit {
+  uint triangle;      ///< NO_TRIANGLE: nothing
+  uint piece, entry;  ///< in the voxel where it was found, whose entry of the reverse map
+  bool front;
+  float t;
+  uint steps;  ///< cells visited
+};
+const uint NO_TRIANGLE = 0xFFFFFFFFu;
+
+/// The first triangle nearer than `reach` along a ray, but `own`, from which the ray starts.
+TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
   TraceWalk w = traceStart(origin, direction);
   ShearedRay ray = shearedRay(origin, w.direction);
-  TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
-  float nearest = 1e30f;
-  uint met = 0xFFFFFFFFu, metPiece = 0u, metEntry = 0u;
-  bool metFront = false;
+  TriangleHit hit = TriangleHit(NO_TRIANGLE, 0u, 0u, false, reach, 0u);
   while (traceToSolid(world, w, hit.steps)) {
     // What was met beyond a cell's end waits until no cell before it is left.
-    if (nearest <= w.t) break;
+    if (hit.t <= w.t) break;
     uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
     uint facet = firstFacet(entry);
     uint end = surface.firstPiece.at[facet + facetsOf(entry)];
@@ -49,26 +55,32 @@ TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, ve
       float t;
       bool front;
       if (!meetsTriangle(ray, triangleAt(surface.corners, triangle), t, front)) continue;
-      if (t <= 0.0f || t > nearest || (t == nearest && triangle > met)) continue;
+      if (t <= 0.0f || t > hit.t || (t == hit.t && triangle > hit.triangle)) continue;
       // What has holes is there only where this cell's piece is.
       if (hasHoles(surface.corners, triangle)) {
         vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
         if (t < w.t || t > leave || !isThere(surface, i, normal, origin + w.direction * t - vec3(w.cell))) continue;
       }
-      nearest = t;
-      met = triangle;
-      metPiece = i;
-      metEntry = entry;
-      metFront = front;
+      hit.triangle = triangle;
+      hit.piece = i;
+      hit.entry = entry;
+      hit.front = front;
+      hit.t = t;
     }
-    if (nearest <= leave) break;
+    if (hit.t <= leave) break;
     traceAdvance(w, 1.0f);
     ++hit.steps;
   }
-  if (met == 0xFFFFFFFFu) return hit;
-  hit.t = nearest;
-  uint found = classAt(surface, metPiece, !metFront, origin + w.direction * nearest);
-  hit.facet = found < PIECE_UNKNOWN ? firstFacet(metEntry) + found
-                                    : (found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return hit;
+}
+
+/// The facet on the first triangle along a ray but `own`; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided
+/// face, or TRACE_INVALID where it is not known which facet (PIECE_UNKNOWN).
+TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
+  TriangleHit hit = firstTriangle(world, surface, origin, direction, own, 1e30f);
+  if (hit.triangle == NO_TRIANGLE) return TraceHit(TRACE_ESCAPED, 0.0f, hit.steps);
+  uint found = classAt(surface, hit.piece, !hit.front, origin + direction * hit.t);
+  uint facet = found < PIECE_UNKNOWN ? firstFacet(hit.entry) + found
+                                     : (found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
+  return TraceHit(facet, hit.t, hit.steps);
 }

@@ -95,7 +95,19 @@ struct GatherPush {
   float edge;
   float shadowBias;  ///< texels
   uint pcf;
-  SurfaceRecord surface;  ///< 0: facets are planes
+};
+
+/// gi/gather_surfels.comp.
+struct GatherSurfelsPush {
+  SceneArray scene;
+  FacetArrays facets;  ///< by value
+  SurfaceRecord surface;
+  ByteArray chebyshev;
+  Vec4Array direct;
+  vec3 origin;  ///< of the grid, local
+  float edge;
+  uvec3 dims;
+  uint pad;
 };
 
 /// gi/emission.comp: vec3 exitance -> vec4.

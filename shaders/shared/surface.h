@@ -121,6 +121,7 @@ IRAD_CONST uint LAST_CLASS = 61u;
 struct PiecePoint {
   vec3 position;  ///< voxel units
   uint side;      ///< the piece, | SURFEL_BACK
+  float lift;     ///< clearAbove, of those that are compared with others
 };
 IRAD_ARRAY(PiecePointArray, PiecePoint, 4)
 /// Its facet, counted from the voxel's first; | CLASS_LEADER: the point that the others of its class were compared with.

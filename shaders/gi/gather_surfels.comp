@@ -1,0 +1,37 @@
+// "GI Gather" where facets are pieces of the true surface (docs/method.md 6): direct irradiance D of every facet, averaged
+// over its surfels, each of which sees the lights past the triangles themselves. What is behind them has exactly none.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/solve.h"
+#define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
+#include "forward/light.glsl"
+#include "gi/trace.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { GatherSurfelsPush p; };
+
+/// Whether nothing stands between a surfel and a light.
+bool seesLight(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position) {
+  vec3 direction = lightDirection(light, position);
+  float reach = lightHas(light, LIGHT_DISTANT) ? 1e30f : length(light.position - position) / p.edge;
+  return firstTriangle(world, surface, from.position, direction, from.triangle, reach).triangle == NO_TRIANGLE;
+}
+
+void main() {
+  uint facet = irad_index();
+  if (facet >= p.facets.count) return;
+  SurfaceArrays surface = p.surface.at[0];
+  TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, 0.0f);
+  GpuScene scene = p.scene.at[0];
+  vec3 sum = vec3(0.0f);
+  for (uint k = 0u; k < FACET_SURFELS; ++k) {
+    SurfelPoint from = liftedSurfel(surface, facet, k);
+    vec3 position = p.origin + p.edge * from.position;
+    for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
+      GpuLight light = scene.lights.at[i];
+      vec3 irradiance = lightIrradiance(light, position, from.facing);
+      if (irradiance != vec3(0.0f) && seesLight(world, surface, from, light, position)) sum += irradiance;
+    }
+  }
+  p.direct.at[facet] = vec4(sum / float(FACET_SURFELS), 0.0f);
+}
