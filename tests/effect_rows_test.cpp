@@ -32,7 +32,7 @@ const Row kRows[] = {
      "has emitters' correction, shader gi/sample_emitters"},
     {E::sun, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), sun()}),
      "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SUN)},
-    {E::point, kEmpty, lights({sun()}), lights({sun(), lamp(0.3)}),
+    {E::point, kEmpty, lights({spot()}), lights({spot(), lamp(0.3)}),
      "has shadow cubes, " + forwardWith(FORWARD_LIGHTS + LIGHT_POINT)},
     {E::spot, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), spot()}),
      "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SPOT)},
