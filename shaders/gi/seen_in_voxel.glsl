@@ -55,12 +55,11 @@ bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2)
   return true;
 }
 
-/// Whether a triangle stands on another one's side within a cell: it crosses the plane just above, over that triangle
-/// and away from its edges. `facing`: the side's unit normal.
-bool standsOn(vec3 cell, Triangle standing, Triangle t, vec3 facing) {
+/// Whether a triangle crosses the plane `above` another one's side, over that triangle, away from its edges and within a
+/// cell. `facing`: the side's unit normal.
+bool crossesAbove(vec3 cell, Triangle standing, Triangle t, vec3 facing, float above) {
   vec3 other[3] = vec3[3](standing.a, standing.b, standing.c);
-  vec3 height =
-      vec3(dot(facing, other[0] - t.a), dot(facing, other[1] - t.a), dot(facing, other[2] - t.a)) - ABOVE_SURFACE;
+  vec3 height = vec3(dot(facing, other[0] - t.a), dot(facing, other[1] - t.a), dot(facing, other[2] - t.a)) - above;
   bvec3 over = greaterThan(height, vec3(0.0));
   if (all(over) || !any(over)) return false;
   // The corner that is alone on its side of the plane, and the segment in which the plane cuts the triangle.
@@ -95,6 +94,13 @@ bool standsOn(vec3 cell, Triangle standing, Triangle t, vec3 facing) {
     }
   }
   return first < last;
+}
+
+/// Whether a triangle stands on another one's side within a cell: it comes up to the surface, to what rounding leaves of
+/// that, or to where ways pass over it.
+bool standsOn(vec3 cell, Triangle standing, Triangle t, vec3 facing) {
+  return crossesAbove(cell, standing, t, facing, ABOVE_SURFACE / 64.0) ||
+         crossesAbove(cell, standing, t, facing, ABOVE_SURFACE);
 }
 
 /// The same for the front of a triangle and, where it shows, the back.
