@@ -95,7 +95,7 @@ TEST(ProgramFaults, ABudgetIsAnOption) {
   const RunResult huge =
       runIrad(smallRender(folder.path, {"--memory-budget", "512", "--set", "voxel.resolution=1022"}));
   EXPECT_EQ(huge.status, 4) << huge.err;
-  EXPECT_TRUE(contains(huge.err, "pieces of voxels (facets) needs 4096.0 MiB, 4")) << huge.err;
+  EXPECT_TRUE(contains(huge.err, "pieces of voxels (facets) needs 4096.0 MiB, 5")) << huge.err;
   EXPECT_EQ(runIrad(smallRender(folder.path, {"--memory-budget", "64"})).status, 0);
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--memory-budget", "0"},
                                                                                      {"--memory-budget", "much"},

@@ -35,15 +35,16 @@ void emissionRangeCase(CheckRun& run) {
 
 constexpr float kTinyExitance = 1e4f;  ///< W/m^2
 
-/// A lamp the size of one voxel's face, in a cube of edge 2 of 64 voxels: it fills a ten-thousandth of what the floor
-/// sees.
+/// A lamp of nearly one voxel's face (a hundredth smaller, so that it touches no other voxel), in a cube of edge 2 of
+/// 64 voxels: it fills a ten-thousandth of what the floor sees.
 std::array<glm::dvec3, 4> tinyLamp(uint32_t resolution) {
   const Grid grid = makeGrid(glm::vec3(-1), glm::vec3(1), resolution);
   const double x = grid.dims.x / 2, z = grid.dims.z / 2, y = std::floor(0.875 * resolution) + 1.5;
   const auto corner = [&](double dx, double dz) {
     return glm::dvec3(grid.origin) + double{grid.edge} * glm::dvec3(x + dx, y, z + dz);
   };
-  return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+  constexpr double kLow = 0.005, kHigh = 0.995;
+  return {corner(kLow, kLow), corner(kHigh, kLow), corner(kHigh, kHigh), corner(kLow, kHigh)};
 }
 
 /// The closed cube, rho = 0, with that lamp, which faces down.
@@ -51,10 +52,8 @@ Scene tinyEmitter(uint32_t resolution) {
   SceneBuilder b;
   const uint32_t m = b.material(glm::vec3(0.0f)), lamp = b.material(glm::vec3(0.0f), glm::vec3(kTinyExitance));
   b.box({m, m, m, m, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  // A hundredth smaller, so that it touches no other voxel; the facet is the whole face.
   const std::array<glm::dvec3, 4> face = tinyLamp(resolution);
-  const auto within = [&](int i) { return glm::vec3(glm::mix(face[i], 0.5 * (face[0] + face[2]), 0.01)); };
-  b.quad(lamp, within(0), within(1), within(2), within(3));
+  b.quad(lamp, face[0], face[1], face[2], face[3]);
   b.camera({0, 0, 0.95}, {0, -0.5, -1});
   return b.finish("tiny-emitter");
 }
