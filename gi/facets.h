@@ -22,7 +22,7 @@ struct FacetList {
   Grid grid;
   uint32_t count = 0;  ///< facets
   uint32_t solidVoxels = 0;
-  uint32_t clampedAlbedo = 0;  ///< facets whose albedo was outside [0, .98] or not a number
+  uint32_t clampedAlbedo = 0;  ///< facets, of a Surface pieces, whose albedo was outside [0, .98] or no number
   Buffer voxel, shape, albedo, emission, reverse;
   Buffer triangle;  ///< one that it stands for, | SURFEL_BACK for its back, for the inspector; none of uploaded lists
   Buffer area;      ///< voxel faces: of the surface that the facet stands for

@@ -10,6 +10,7 @@
 #include "gi/check/scenes.h"
 #include "gi/grid.h"
 #include "gi/lighting.h"
+#include "shaders/shared/surface.h"
 
 namespace irad {
 namespace {
@@ -108,7 +109,9 @@ void scale10Case(CheckRun& run) {
   const Picture one = lit(run, stillScene());
   for (const float s : {1e-3f, 0.07f, 30.0f, 1e4f}) {
     const PictureError error = compare(lit(run, scaled(stillScene(), s)), one);
-    run.atMost(fmt::format("x {:g}: largest difference / mean", s), error.largest, 1e-3);
+    run.atMost(fmt::format("x {:g}: mean |difference| / mean", s), error.mean, 1e-4);
+    // A ray that passes an edge more closely than fp32 can tell may fall to the other side: one of a small facet's.
+    run.atMost(fmt::format("x {:g}: largest difference / mean", s), error.largest, 1.0 / LEAST_RAYS);
   }
 }
 
@@ -152,7 +155,8 @@ std::vector<CheckCase> rangeCases() {
       {"tiny-emitter", "one voxel shines in a black room, F = 1e-4", "F M by Lambert's formula",
        "noise <= 5 % with emitter sampling", tinyEmitterCase, tinyEmitterScene, tinyEmitterLight},
       {"scale-2", "a still life x 2^-10, x 2^13", "the same picture", "bits equal", scale2Case, stillScene},
-      {"scale-10", "a still life x 1e-3 ... 1e4", "the same picture", "1e-3", scale10Case, stillScene},
+      {"scale-10", "a still life x 1e-3 ... 1e4", "the same picture", "mean 1e-4, a pixel 1 ray of 32", scale10Case,
+       stillScene},
       {"rotate-90", "a still life turned by 90 degrees about each axis, and mirrored", "the mapped picture", "mean 1 %",
        rotate90Case, stillScene},
       {"far-away", "a still life ten units wide, loaded at 1e6", "the picture of the centred one", "equal", farAwayCase,
