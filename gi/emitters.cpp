@@ -8,7 +8,6 @@
 #include "gi/subsystems.h"
 #include "renderer/frame/record.h"
 #include "shaders/shared/emitters.h"
-#include "shaders/shared/normals.h"
 
 namespace irad {
 
@@ -40,7 +39,6 @@ std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const s
 Emitters listEmitters(Context& context, const FacetList& list) {
   Emitters emitters;
   if (!list.hasEmission || list.count == 0) return emitters;
-  const std::vector<uint32_t> shapes = downloadAs<uint32_t>(context, list.shape);
   const std::vector<float> areas = downloadAs<float>(context, list.area);
   const std::vector<glm::vec3> emission = downloadAs<glm::vec3>(context, list.emission);
   std::vector<uint32_t> facets;
@@ -50,8 +48,7 @@ Emitters listEmitters(Context& context, const FacetList& list) {
     if (!(exitance > 0)) continue;
     emitters.brightest = std::max(emitters.brightest, exitance);
     facets.push_back(i);
-    const float area = list.surface ? areas[i] : footprintArea(decodeNormal(shapes[i] & 0xFFFFu, list.encoding));
-    powers.push_back(static_cast<double>(exitance) * area);
+    powers.push_back(static_cast<double>(exitance) * areas[i]);
   }
   if (facets.empty()) return emitters;
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "gi/group_by_material.h"
-#include "gi/mark_corners.h"
 #include "gi/scan.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
@@ -76,7 +75,6 @@ void allocateFacets(const Device& device, FacetList& list) {
 }
 
 void recordFacets(Context& context, FacetList& list) {
-  list.around = Buffer(context.device, "facet neighbours", Subsystem::Facets, 4ull * list.count);
   RecordMaker record(context, "facet record", Subsystem::Facets, sizeof(FacetArrays));
   list.record = record.make(list.arrays([&](const Buffer& buffer) { return record.of(buffer); }));
 }
@@ -88,41 +86,41 @@ FacetArrays FacetList::arrays(const std::function<uint64_t(const Buffer&)>& addr
   arrays.albedo = addressOf(albedo);
   arrays.emission = addressOf(emission);
   arrays.reverse = addressOf(reverse);
-  arrays.around = addressOf(around);
   arrays.count = count;
   arrays.hasEmission = hasEmission;
   return arrays;
+}
+
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  requireMatching(settings);
+  if (settings.matrix.gpu.hitRule == HitRule::triangles) return listFacets(context, scene, settings);
+  Voxels voxels = voxelize(context, scene, settings);
+  return compactFacets(context, voxels, settings);
 }
 
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings) {
   FacetList list;
   list.grid = voxels.grid;
   list.encoding = settings.voxel.normals;
-  list.slots = voxels.slots;
   list.hasEmission = keepsEmission(*voxels.scene, settings);
   const uint32_t bits = voxels.grid.mortonBits.x + voxels.grid.mortonBits.y + voxels.grid.mortonBits.z;
   CompactPush push{};
-  push.slots = voxels.slots;
   push.blocks = 1u << (bits - 6);
 
   // Facets per block of 64 voxels, and where each block's facets start.
   Buffer blocks(context.device, "block counts", Subsystem::Facets, 4ull * push.blocks);
-  Buffer totals(context.device, "facet totals", Subsystem::Facets, 8);
+  Buffer total(context.device, "facet total", Subsystem::Facets, 4);
   {
     Frame frame = context.begin();
-    frame.pass(kFacetsStage).fill(totals, 0);
     Pass pass = frame.pass(kFacetsStage);
     push.grid = pass.in(voxels.gridRecord);
     push.keys = pass.in(voxels.keys);
     push.blockCounts = pass.out(blocks);
-    push.totals = pass.out(totals);
     pass.shader("gi/facet_count.comp").push(push).dispatch(push.blocks);
-    exclusiveScan(frame, kFacetsStage, blocks, push.blocks, totals);
+    exclusiveScan(frame, kFacetsStage, blocks, push.blocks, total);
     frame.submitAndWait();
   }
-  const std::vector<uint32_t> found = downloadAs<uint32_t>(context, totals);
-  list.count = found.at(0);
-  list.solidVoxels = found.at(1);
+  list.count = list.solidVoxels = downloadAs<uint32_t>(context, total).at(0);
 
   allocateFacets(context.device, list);
   Frame frame = context.begin();
@@ -130,7 +128,6 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   push.grid = pass.in(voxels.gridRecord);
   push.keys = pass.in(voxels.keys);
   push.blockCounts = pass.in(blocks);
-  push.totals = 0;
   push.voxel = pass.out(list.voxel);
   push.triangle = pass.out(list.triangle);
   push.reverse = pass.out(list.reverse);
@@ -138,8 +135,6 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, settings);
   recordFacets(context, list);
-  if (settings.matrix.gpu.hitRule == HitRule::robust)
-    markCorners(context, list, settings.voxel.facets);  // the thesis's rule asks for none
   voxels.keys = Buffer();
   return list;
 }
@@ -168,8 +163,7 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
       ++list.solidVoxels;
     } else {
       const uint32_t facets = facetsOf(entry);
-      IRAD_CHECK(firstFacet(entry) + facets == i && facets < MAX_VOXEL_FACETS,
-                 "facets of one voxel are neighbours, {} at most (facet {})", MAX_VOXEL_FACETS, i);
+      IRAD_CHECK(firstFacet(entry) + facets == i, "facets of one voxel are neighbours (facet {})", i);
       entry = facetEntryOf(firstFacet(entry), facets + 1);
     }
   }
@@ -185,7 +179,6 @@ FacetList uploadFacets(Context& context, const Grid& grid, const std::vector<uin
   for (const uint32_t s : shape) area.push_back(facetArea(decodeNormal(s & 0xFFFFu, encoding), facetOffset(s)));
   list.area = make("facet areas", area);
   recordFacets(context, list);
-  markCorners(context, list, /*slots=*/2);
   return list;
 }
 

@@ -22,10 +22,9 @@ struct FacetList {
   Grid grid;
   uint32_t count = 0;  ///< facets
   uint32_t solidVoxels = 0;
-  uint32_t slots = MAX_VOXEL_FACETS;  ///< facets of a voxel at most
-  uint32_t clampedAlbedo = 0;         ///< facets whose albedo was outside [0, .98] or not a number
-  Buffer voxel, shape, albedo, emission, reverse, around;
-  Buffer triangle;  ///< which triangle won, | BACK_SIDE where its back did, for the inspector; none of uploaded lists
+  uint32_t clampedAlbedo = 0;  ///< facets, of a Surface pieces, whose albedo was outside [0, .98] or no number
+  Buffer voxel, shape, albedo, emission, reverse;
+  Buffer triangle;  ///< one that it stands for, | SURFEL_BACK for its back, for the inspector; none of uploaded lists
   Buffer area;      ///< voxel faces: of the surface that the facet stands for
   Buffer record;    ///< one FacetArrays
   Surface surface;  ///< what the facets are classes of, where the hit rule is `triangles`
@@ -34,7 +33,10 @@ struct FacetList {
   /// What the record holds; `addressOf` gives the addresses: a pass's in() or a RecordMaker's of().
   FacetArrays arrays(const std::function<uint64_t(const Buffer&)>& addressOf) const;
 };
-/// Morton-ordered compaction by prefix sum, then the attributes of every facet. Frees the keys of `voxels`.
+/// The list that the hit rule goes by: by classes of surfels (listFacets), or a plane facet for each solid voxel.
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings);
+/// A plane facet for each solid voxel, for the thesis's hit rule: Morton-ordered compaction by prefix sum, then the
+/// attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);
 /// Whether facets have an M.
 bool keepsEmission(const SceneOnDevice& scene, const Settings& settings);

@@ -45,7 +45,6 @@ void gatherPlanes(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sh
   push.direct = pass.out(light.direct);
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
-  push.samples = settings.gather.samples;
   push.shadowBias = settings.camera.gpu.shadowBias;
   push.pcf = settings.camera.gpu.pcf;
   pass.shader("gi/gather.comp");

@@ -23,15 +23,14 @@ constexpr const char* kGatherEmittersStage = "GI Solve Emitters";
 
 /// Whether the emitters are few enough to be low-probability, high-energy (T 5.6).
 bool sampleEmitters(const Settings& settings, const EmitterSource& source, uint32_t facets) {
-  if (!source.emitters || source.emitters->count == 0) return false;
+  if (!source.emitters || source.emitters->count == 0 || settings.matrix.gpu.hitRule != HitRule::triangles)
+    return false;
   if (settings.matrix.emitterSampling != EffectMode::automatic)
     return settings.matrix.emitterSampling == EffectMode::on;
   return emittersAreFew(source.emitters->count, facets);
 }
 
-/// Compares the sums over all facets of F M by samples and by rays, and says whether the samples may stand in. They see
-/// emissive facets alone, rays also a face's extension into voxels that other faces took: where a lamp's edges are a
-/// good part of it, as in a strip along a wall, that is too much to lose.
+/// Compares the sums over all facets of F M by samples and by rays, and says whether the samples may stand in.
 bool agrees(Context& context, const FormFactors& matrix, const Emitters& emitters, Lighting& light) {
   const auto sampled = downloadAs<glm::vec4>(context, light.emitted);
   const auto correction = downloadAs<glm::vec4>(context, light.correction);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "renderer/gpu_scene.h"
-#include "shaders/shared/voxelize.h"
+#include "shaders/shared/surface.h"
 
 namespace irad {
 
@@ -18,7 +18,7 @@ Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& t
     std::fill_n(groupOf.begin() + draw.firstIndex / 3, draw.indexCount / 3, static_cast<uint32_t>(order.groups.size()));
     order.groups.push_back({draw.material, true});
   }
-  for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~BACK_SIDE]].count;
+  for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~SURFEL_BACK]].count;
   std::vector<uint32_t> next;
   uint32_t first = 0;
   for (MaterialGroup& group : order.groups) {
@@ -27,7 +27,7 @@ Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& t
     first += group.count;
   }
   order.items.resize(triangles.size());
-  for (uint32_t i = 0; i < triangles.size(); ++i) order.items[next[groupOf[triangles[i] & ~BACK_SIDE]]++] = i;
+  for (uint32_t i = 0; i < triangles.size(); ++i) order.items[next[groupOf[triangles[i] & ~SURFEL_BACK]]++] = i;
   return order;
 }
 

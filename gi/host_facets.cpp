@@ -45,8 +45,7 @@ oracle::Facets oracleFacets(Context& context, const FacetList& list) {
                       .encoding = list.encoding,
                       .voxel = downloadAs<uint32_t>(context, list.voxel),
                       .shape = downloadAs<uint32_t>(context, list.shape),
-                      .reverse = downloadAs<uint32_t>(context, list.reverse),
-                      .around = downloadAs<uint32_t>(context, list.around)};
+                      .reverse = downloadAs<uint32_t>(context, list.reverse)};
   if (const Surface& s = list.surface) {
     host.corners = downloadAs<glm::vec4>(context, s.corners);
     host.firstPiece = downloadAs<uint32_t>(context, s.firstPiece);

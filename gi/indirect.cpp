@@ -12,20 +12,14 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
   IndirectPush push{};
   push.camera = pass.in(camera);
   push.grid = pass.in(*from.grid);
-  push.shape = pass.in(*from.shape);
   push.reverse = pass.in(*from.reverse);
-  if (from.surface) {
-    push.voxel = pass.in(*from.voxel);
-    push.surface = pass.in(*from.surface);
-  } else {
-    push.around = pass.in(*from.around);
-  }
+  push.voxel = pass.in(*from.voxel);
+  push.surface = pass.in(*from.surface);
   push.shaded = pass.in(*from.shaded);
   if (emitted) push.shadedEmitted = pass.in(*from.shadedEmitted);
   push.sampling = from.sample;
   push.size = targets.size;
-  pass.shader(from.surface ? "gi/indirect_links.comp" : "gi/indirect.comp")
-      .constant(CONSTANT_NORMALS, from.normalEncoding)
+  pass.shader("gi/indirect_links.comp")
       .constant(CONSTANT_EMITTED, emitted)
       .constant(CONSTANT_KEEPS_POSITION, from.keepPosition)
       .write(targets.indirect)
@@ -40,8 +34,8 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
 void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
                const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects) {
   const bool wanted = effects.indirect && indirect.grid != nullptr;
-  const bool fromVolume = wanted && indirect.volume != nullptr && indirect.sample.gated == 0;
-  const bool fromFacets = wanted && !fromVolume && indirect.shaded != nullptr;
+  const bool fromVolume = wanted && indirect.volume != nullptr;
+  const bool fromFacets = wanted && indirect.surface != nullptr && indirect.shaded != nullptr;
   const bool emitted = fromFacets && effects.emission && indirect.shadedEmitted != nullptr;
   ForwardEffects drawn = effects;
   drawn.indirect = fromVolume || fromFacets;

@@ -4,23 +4,19 @@
 
 #include "renderer/forward.h"
 #include "shaders/shared/gi_params.h"
-#include "shaders/shared/normals.h"
 
 namespace irad {
 
 /// Where a picture finds indirect light. Null pointers: there is none, and no Targets::indirect.
 struct IndirectInputs {
   const Buffer* grid = nullptr;           ///< one Grid
-  const Buffer* shape = nullptr;          ///< facet words
   const Buffer* reverse = nullptr;        ///< voxel -> facet
-  const Buffer* around = nullptr;         ///< corners' neighbours
   const Buffer* voxel = nullptr;          ///< of the facets
-  const Buffer* surface = nullptr;        ///< one SurfaceArrays: lookups go by its links; null: by the facets' planes
+  const Buffer* surface = nullptr;        ///< one SurfaceArrays: lookups go by its links
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
   const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, no Targets::emitted
   bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
-  const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup (gated off)
-  NormalEncoding normalEncoding = NormalEncoding::oct16;
+  const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup, where there is no surface
   SampleParams sample{};
 };
 

@@ -105,7 +105,8 @@ std::optional<uint32_t> Inspector::facetAt(const glm::dvec3& point, const glm::d
     const glm::ivec3 cell = glm::ivec3(glm::floor(p)) + glm::ivec3(around % 3, around / 3 % 3, around / 9) - 1;
     if (!contains(cell)) continue;
     for (const uint32_t f : facetsOf(glm::uvec3(cell))) {
-      const double away = glm::distance(p, list_.middle(f));
+      const glm::dvec3 middle = (facets_.position[f] - glm::dvec3(facets_.grid.origin)) / double{facets_.grid.edge};
+      const double away = glm::distance(p, middle);
       if (glm::dot(facets_.normal[f], normal) <= 0 || away >= nearest) continue;
       nearest = away;
       best = f;
@@ -246,8 +247,8 @@ std::optional<MeshNormal> Inspector::meshNormal(uint32_t i) const {
   if (triangles_.empty()) return std::nullopt;
   const Scene& scene = pipeline_.scene();
   MeshNormal mesh;
-  mesh.triangle = triangles_.at(i) & ~BACK_SIDE;
-  mesh.back = (triangles_[i] & BACK_SIDE) != 0;
+  mesh.triangle = triangles_.at(i) & ~SURFEL_BACK;
+  mesh.back = (triangles_[i] & SURFEL_BACK) != 0;
   const uint32_t* corner = &scene.indices.at(3 * size_t{mesh.triangle});
   const oracle::Triangle t = oracle::toVoxels(facets_.grid, scene.positions.at(corner[0]),
                                               scene.positions.at(corner[1]), scene.positions.at(corner[2]));

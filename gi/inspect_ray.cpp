@@ -54,7 +54,7 @@ std::string describeMet(uint32_t met) {
     case TRACE_BLOCKED:
       return "the back of a face";
     case TRACE_INVALID:
-      return "invalid: began behind a surface";
+      return "invalid: not known which facet";
     default:
       return fmt::format("facet {}", met);
   }

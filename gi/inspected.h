@@ -66,10 +66,10 @@ struct InspectedFacet {
 
 struct InspectedVoxel {
   glm::uvec3 voxel{0};
-  glm::dvec3 world{0};                 ///< of its centre
-  double distance = 0;                 ///< to the nearest solid voxel by the field in use, voxels
-  std::optional<glm::uvec3> seed;      ///< nearest solid voxel by jump flooding; with field.method jfa
-  std::vector<InspectedFacet> facets;  ///< MAX_VOXEL_FACETS at most
+  glm::dvec3 world{0};             ///< of its centre
+  double distance = 0;             ///< to the nearest solid voxel by the field in use, voxels
+  std::optional<glm::uvec3> seed;  ///< nearest solid voxel by jump flooding; with field.method jfa
+  std::vector<InspectedFacet> facets;
 };
 
 /// One cell that a ray went through.

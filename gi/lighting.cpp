@@ -29,7 +29,7 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
                           &light.residual, &light.rowSum})
     if (*b) frame.pass("GI Solve Clear").fill(*b, 0);
   frame.submit();
-  if (settings.sample.gpu.gated == 0) light.volume = makeVolume(context, facets.grid);
+  if (settings.matrix.gpu.hitRule == HitRule::thesis) light.volume = makeVolume(context, facets.grid);
   return light;
 }
 

@@ -57,7 +57,7 @@ struct Lighting {
   Buffer residual;        ///< solver's reductions, see shared/solve.h: a record per sweep of a batch
   Buffer sums;            ///< gi/solve_sums.comp's
   Buffer rowSum;          ///< sum_j F_ij, one float each
-  RadianceVolume volume;  ///< only where sampling is ungated
+  RadianceVolume volume;  ///< only with the thesis's hit rule
   SolveReport report;
   DivergenceGuard guard;
   /// What shading samples, H and F M, blurred or not.

@@ -13,6 +13,7 @@
 #include "gi/thesis/padded_rows.h"
 #include "renderer/base/csv.h"
 #include "shaders/shared/solve.h"
+#include "shaders/shared/surface.h"
 
 namespace irad {
 namespace {
@@ -35,15 +36,18 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   const auto image = [&](const Image& i, uint64_t bytes) {
     if (i) out.emplace_back(i.desc.name, bytes);
   };
-  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission; reverse map one word per voxel;
-  // faces around, winning triangle.
+  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission, a triangle, area; reverse map one
+  // word per voxel. Of the true surface what there is per facet: surfels, links, first piece.
   buffer(facets.voxel, 4 * s);
   buffer(facets.shape, 4 * s);
   buffer(facets.albedo, 8 * s);
   if (facets.hasEmission) buffer(facets.emission, 12 * s);
   buffer(facets.reverse, 4 * V);
-  buffer(facets.around, 4 * s);
   buffer(facets.triangle, 4 * s);
+  buffer(facets.area, 4 * s);
+  buffer(facets.surface.surfels, sizeof(Surfel) * FACET_SURFELS * s);
+  buffer(facets.surface.links, FACET_LINKS * s);
+  buffer(facets.surface.firstPiece, 4 * (s + 1));
   buffer(facets.record, sizeof(FacetArrays));
   // Fields: one byte per voxel each; JFA seeds one word.
   buffer(field.chebyshev, (V + 3) / 4 * 4);

@@ -166,6 +166,7 @@ struct Pipeline::Impl {
 
   /// Everything from the geometry to the matrix: the thesis's "Init" set. `first`: the stage to start from.
   void build(Products& p, Redo first, const Progress& progress) {
+    requireMatching(settings);
     const auto start = std::chrono::steady_clock::now();
     ++revision.build;
     const Settings& obeyed = planned.settings();
@@ -173,17 +174,11 @@ struct Pipeline::Impl {
       if (progress && !progress(stage, fraction)) throw WorkError("cancelled");
     };
 
-    // 2. Voxels: which triangle fills which voxel, with what albedo, normal and emission.  4. Facets: the solid ones,
-    // compacted in Morton order, with the map back from voxels.
+    // 2, 4. Voxels and facets: which triangles have a piece in which voxel, and which of their sides one facet stands
+    // for, with what albedo, normal and emission; in Morton order, with the map back from voxels.
     if (first <= Redo::Voxels) {
       report("GI Voxelization", 0);
-      if (obeyed.matrix.gpu.hitRule == HitRule::triangles) {
-        p.facets = listFacets(context, onDevice, obeyed);
-      } else {
-        Voxels voxels = voxelize(context, onDevice, obeyed);
-        report("GI CompactList", 0);
-        p.facets = compactFacets(context, voxels, obeyed);
-      }
+      p.facets = makeFacets(context, onDevice, obeyed);
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
       p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);

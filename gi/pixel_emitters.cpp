@@ -68,6 +68,7 @@ void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& set
   push.size = targets.size;
   Pass seen = frame.pass("RE Emitters");
   push.facets = seen.in(facets.record);
+  push.surface = seen.inIfAny(facets.surface.record);
   push.chebyshev = kernel.chebyshev(seen);
   push.triangles = seen.in(emissive.triangles);
   kernel.configure(seen, frame.context().device, "gi/emitters_seen")
@@ -76,7 +77,7 @@ void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& set
       .push(push)
       .dispatch(targets.size);
   Pass light = frame.pass("RE Emitters");
-  push.facets = push.chebyshev = 0;
+  push.facets = push.surface = push.chebyshev = 0;
   push.triangles = light.in(emissive.triangles);
   light.shader("gi/emitters_light.comp")
       .read(targets.linear, targets.normal, targets.geometric, targets.seen)

@@ -37,7 +37,6 @@ class Planner {
     matrix();
     emitterSampling();
     pixelEmitters();
-    secondFacet();
     field();
     relight();
     rebuild();
@@ -165,8 +164,12 @@ class Planner {
 
   void emitterSampling() {
     const uint64_t bytes = b_.facets * 16;
-    if (!emits_ || !plan_.on(Effect::matrix))
-      return without(Effect::emitterSampling, emits_ ? "no matrix, no first gather" : "nothing emits", bytes);
+    if (!emits_ || !plan_.on(Effect::matrix) || !byTriangles())
+      return without(Effect::emitterSampling,
+                     !emits_                     ? "nothing emits"
+                     : !plan_.on(Effect::matrix) ? "no matrix, no first gather"
+                                                 : "matrix.hit_rule = thesis",
+                     bytes);
     EffectRow& r = row(Effect::emitterSampling);
     r.epsilon = kEmitterAgreement;
     r.of = "the sum of F M";
@@ -190,19 +193,10 @@ class Planner {
     uint64_t triangles = 0;
     for (const MaterialTraits& m : t_.materials) triangles += m.emission > 0 ? m.triangles : 0;
     if (triangles == 0 || plan_.off(Effect::matrix)) return;
-    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && s_.sample.gpu.gated != 0;
+    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles();
     row(Effect::emission).reason +=
-        fmt::format("; {} look for {} triangles: {} at most, with sample.gated alone",
+        fmt::format("; {} look for {} triangles: {} at most, with matrix.hit_rule=triangles alone",
                     plan_.pixelEmitters ? "pixels" : "pixels do not", triangles, MAX_EMISSIVE_TRIANGLES);
-  }
-
-  void secondFacet() {
-    const uint64_t keys = 4 * b_.voxels;
-    if (s_.voxel.facets < 2) return without(Effect::secondFacet, "voxel.facets = 1", keys);
-    if (!t_.build) return decide(Effect::secondFacet, true, "known once the scene is voxelized", keys);
-    const uint32_t second = b_.facets - b_.solidVoxels;
-    decide(Effect::secondFacet, second > 0,
-           fmt::format("{} of {} solid voxels with a second facet", second, b_.solidVoxels), keys);
   }
 
   void field() {
@@ -261,6 +255,8 @@ class Planner {
     decide(Effect::blur, noisy, std::move(reason), copies);
   }
 
+  bool byTriangles() const { return s_.matrix.gpu.hitRule == HitRule::triangles; }
+
   const SceneTraits& t_;
   const BuildTraits b_;  ///< zeros before a build
   const Settings& s_;
@@ -318,7 +314,6 @@ Settings obeyed(const Settings& settings, const EffectPlan& plan) {
     if (const auto mode = row.info().mode)
       s.effects.*mode = row.state == EffectState::off ? EffectMode::off : EffectMode::on;
   if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
-  if (settings.effects.secondFacet == EffectMode::off) s.voxel.facets = 1;
   if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
   if (plan.off(Effect::blur) && s.sample.gpu.filter_ == SampleFilter::blur) s.sample.gpu.filter_ = SampleFilter::linear;
   return s;

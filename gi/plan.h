@@ -16,21 +16,20 @@ struct ForwardEffects;
 
 // X(identifier, "name", "label", "setting that forces it", the same where it is one of effects.*): the rows of the
 // plan, in order.
-#define IRAD_EFFECTS(X)                                                                                \
-  X(emission, "emission", "Emissive facets", "effects.emission", &EffectSettings::emission)            \
-  X(emitterSampling, "emitter-sampling", "Emitter sampling", "matrix.emitter_sampling", nullptr)       \
-  X(sun, "sun", "Sun", "effects.sun", &EffectSettings::sun)                                            \
-  X(point, "point", "Point lights", "effects.point", &EffectSettings::point)                           \
-  X(spot, "spot", "Spot lights", "effects.spot", &EffectSettings::spot)                                \
-  X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)                   \
-  X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)                   \
-  X(secondFacet, "second-facet", "Second facet", "effects.second_facet", &EffectSettings::secondFacet) \
-  X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                         \
-  X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                        \
-  X(rebuild, "rebuild", "Rebuild", "", nullptr)                                                        \
-  X(alphaTest, "alpha-test", "Alpha test", "effects.alpha_test", &EffectSettings::alphaTest)           \
-  X(normalMap, "normal-map", "Normal maps", "effects.normal_map", &EffectSettings::normalMap)          \
-  X(blur, "blur", "Blur", "effects.blur", &EffectSettings::blur)                                       \
+#define IRAD_EFFECTS(X)                                                                          \
+  X(emission, "emission", "Emissive facets", "effects.emission", &EffectSettings::emission)      \
+  X(emitterSampling, "emitter-sampling", "Emitter sampling", "matrix.emitter_sampling", nullptr) \
+  X(sun, "sun", "Sun", "effects.sun", &EffectSettings::sun)                                      \
+  X(point, "point", "Point lights", "effects.point", &EffectSettings::point)                     \
+  X(spot, "spot", "Spot lights", "effects.spot", &EffectSettings::spot)                          \
+  X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)             \
+  X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)             \
+  X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                   \
+  X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                  \
+  X(rebuild, "rebuild", "Rebuild", "", nullptr)                                                  \
+  X(alphaTest, "alpha-test", "Alpha test", "effects.alpha_test", &EffectSettings::alphaTest)     \
+  X(normalMap, "normal-map", "Normal maps", "effects.normal_map", &EffectSettings::normalMap)    \
+  X(blur, "blur", "Blur", "effects.blur", &EffectSettings::blur)                                 \
   X(redraw, "redraw", "Redraw", "", nullptr)
 
 enum class Effect : uint32_t {
@@ -91,7 +90,7 @@ EffectMode forcedMode(const Settings& settings, Effect effect);
 void forceEffects(Settings& settings, EffectMode mode);
 
 /// The settings that stages get: `settings` with every effects.* decided (on or off), and off where it has a setting of
-/// its own written there (specular.mode, voxel.facets, sample.filter, sample.emitters).
+/// its own written there (specular.mode, sample.filter, sample.emitters).
 Settings obeyed(const Settings& settings, const EffectPlan& plan);
 
 /// [{"effect": "sun", "state": "off", "reason": ..., "skip": "exact", "bytes_not_allocated": 16777216}, ...]

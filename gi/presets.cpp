@@ -12,7 +12,7 @@ namespace {
 /// T Table 5 and the algorithms behind it: 256 voxels, 384 rays, "3axis" normals, DDA, padded rows, blurred and
 /// premultiplied lookups, two specular rays in the fragment shader, edge removal off, lambda = 0.8 (T 7.10, RQ9).
 void thesis(Settings& s) {
-  s.voxel = {256, VoxelMethod::raster, 1, NormalEncoding::axis26};
+  s.voxel = {256, VoxelMethod::raster, NormalEncoding::axis26};
   s.field.method = FieldMethod::jfa;
   s.matrix.format = MatrixFormat::padded;
   s.matrix.gpu.rays = 384;
@@ -20,29 +20,26 @@ void thesis(Settings& s) {
   s.matrix.gpu.hitRule = HitRule::thesis;
   s.matrix.gpu.traversal = Traversal::dda;
   s.matrix.gpu.jitter = 1;  // "a jittered Hammersley sequence" (T 5.4)
-  s.gather.samples = 1;
   s.solver.gpu.lambda = 0.8f;
   s.solver.kernel = SolverKernel::tree;
   s.solver.acceleration = SolverAcceleration::off;
   s.scatter.edgeRemoval = false;
   s.sample.gpu.filter_ = SampleFilter::blur;
   s.sample.gpu.premultiplied = 1;
-  s.sample.gpu.gated = 0;
   s.specular.mode = SpecularMode::fragment;
   s.specular.gpu.rays = 2;
   s.specular.gpu.traversal = Traversal::dda;
   s.specular.gpu.filter_ = 0;
-  // The thesis's stages run whatever the scene holds. But lights without intensity stay out, light at rest is not
-  // solved again, and a voxel keeps one facet.
+  // The thesis's stages run whatever the scene holds. But lights without intensity stay out, and light at rest is not
+  // solved again.
   forceEffects(s, EffectMode::on);
-  s.effects.secondFacet = s.effects.relight = EffectMode::automatic;
+  s.effects.relight = EffectMode::automatic;
   for (const LightKind& kind : lightKinds()) s.effects.*effectInfo(effectOf(kind.type)).mode = EffectMode::automatic;
 }
 
 void fast(Settings& s, bool cpuDevice) {
   s.voxel.resolution = cpuDevice ? 48 : 128;
   s.matrix.gpu.rays = cpuDevice ? 64 : 128;
-  s.gather.samples = 1;
   s.solver.tolerance = 2e-2f;
   s.specular.gpu.rays = 1;
   s.light.shadowResolution = 1024;
@@ -51,7 +48,6 @@ void fast(Settings& s, bool cpuDevice) {
 void reference(Settings& s, bool cpuDevice) {
   s.voxel.resolution = cpuDevice ? 128 : 320;
   s.matrix.gpu.rays = cpuDevice ? 512 : 1024;
-  s.gather.samples = 16;
   s.solver.tolerance = 1e-4f;
   s.sample.emitters = EmitterLookup::pixels;
   s.sample.emitterRays = 32;

@@ -18,9 +18,7 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   IndirectInputs in;
   if (!p.facets || p.facets->count == 0 || !p.light || !*p.light) return in;
   in.grid = &p.gridRecord;
-  in.shape = &p.facets->shape;
   in.reverse = &p.facets->reverse;
-  in.around = &p.facets->around;
   in.voxel = &p.facets->voxel;
   if (p.facets->surface) in.surface = &p.facets->surface.record;
   in.shaded = &p.light->shaded();
@@ -29,7 +27,6 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   if (((info != nullptr && info->isFrom(FROM_EMITTED)) || in.keepPosition) && p.light->emitted)
     in.shadedEmitted = &p.light->shadedEmitted();
   in.volume = p.light->volume ? &p.light->volume.image : nullptr;
-  in.normalEncoding = p.facets->encoding;
   in.sample = obeyed.sample.gpu;
   return in;
 }

@@ -23,8 +23,7 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
   pass.shader(name + (jfa ? "_jfa.comp" : ".comp"))
       .constant(CONSTANT_TRACE_METHOD, method)
       .constant(CONSTANT_TRACE_HIT_RULE, hitRule)
-      .constant(CONSTANT_NORMALS, encoding)
-      .constant(CONSTANT_TRACE_MANY, facets.slots > 2);
+      .constant(CONSTANT_NORMALS, encoding);
   if (jfa)
     pass.sample(field.jumpFlood.distance, sampler(device, {.u = Wrap::Clamp,
                                                            .v = Wrap::Clamp,
@@ -50,7 +49,13 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.jitter = params.jitter;
   push.seed = params.seed;
   push.surface = pass.inIfAny(kernel.facets.surface.record);
-  kernel.configure(pass, frame.context().device, "gi/trace_rays").push(push).dispatch(uint64_t{rows} * params.rays);
+  const uint64_t rays = uint64_t{rows} * params.rays;
+  if (params.hitRule == HitRule::triangles)
+    kernel.configure(pass, frame.context().device, "gi/trace_triangle_rays")
+        .push(push)
+        .dispatch((rays + RAYS_IN_TURN - 1) / RAYS_IN_TURN);
+  else
+    kernel.configure(pass, frame.context().device, "gi/trace_rays").push(push).dispatch(rays);
 }
 
 }  // namespace irad

@@ -26,32 +26,24 @@ void blur(Frame& frame, const FacetList& facets, Lighting& light) {
   const bool stores = static_cast<bool>(light.blurred), emitted = stores && light.emitted;
   frame.pass(kScatterStage).fill(light.blurChange, 0);
   Pass pass = frame.pass(kScatterStage);
-  const auto fill = [&](auto& push) {
-    push.indirect = pass.in(light.indirect);
-    if (stores) push.blurred = pass.out(light.blurred);
-    if (emitted) {
-      push.emitted = pass.in(light.emitted);
-      push.blurredEmitted = pass.out(light.blurredEmitted);
-    }
-    push.change = pass.out(light.blurChange);
-    push.dims = facets.grid.dims;
-    pass.constant(CONSTANT_EMITTED, emitted).constant(CONSTANT_SCATTER_STORES, stores).push(push);
-  };
-  if (facets.surface) {
-    BlurLinksPush push{};
-    push.surface = pass.in(facets.surface.record);
-    push.voxel = pass.in(facets.voxel);
-    push.reverse = pass.in(facets.reverse);
-    push.count = facets.count;
-    pass.shader("gi/blur_links.comp");
-    fill(push);
-  } else {
-    ScatterFacetsPush push{};
-    push.facets = pass.in(facets.record);
-    pass.shader("gi/scatter_facets.comp").constant(CONSTANT_NORMALS, facets.encoding);
-    fill(push);
+  BlurLinksPush push{};
+  push.surface = pass.in(facets.surface.record);
+  push.voxel = pass.in(facets.voxel);
+  push.reverse = pass.in(facets.reverse);
+  push.indirect = pass.in(light.indirect);
+  if (stores) push.blurred = pass.out(light.blurred);
+  if (emitted) {
+    push.emitted = pass.in(light.emitted);
+    push.blurredEmitted = pass.out(light.blurredEmitted);
   }
-  pass.dispatch(facets.count);
+  push.change = pass.out(light.blurChange);
+  push.dims = facets.grid.dims;
+  push.count = facets.count;
+  pass.shader("gi/blur_links.comp")
+      .constant(CONSTANT_EMITTED, emitted)
+      .constant(CONSTANT_SCATTER_STORES, stores)
+      .push(push)
+      .dispatch(facets.count);
   frame.readback(light.blurChange, 0, sizeof(float), [&change = light.report.blurChange](std::span<const uint8_t> b) {
     std::memcpy(&change.emplace(), b.data(), sizeof(float));
   });
@@ -61,7 +53,7 @@ void blur(Frame& frame, const FacetList& facets, Lighting& light) {
 
 void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings, bool watchBlur) {
   const SampleParams& sample = settings.sample.gpu;
-  const bool may = sample.gated != 0 && facets.count > 0;
+  const bool may = facets.surface && facets.count > 0;
   const bool blurs = may && sample.filter_ == SampleFilter::blur, watches = may && (blurs || watchBlur);
   const Device& device = frame.context().device;
   const uint64_t bytes = 16ull * facets.count;

@@ -109,6 +109,15 @@ const Setting& findSetting(std::string_view name) {
   throw UsageError(fmt::format("unknown setting '{}'{}", name, suggestion(name, names)));
 }
 
+void requireMatching(const Settings& settings) {
+  if (settings.matrix.gpu.hitRule == HitRule::thesis) return;
+  const char* alone = settings.voxel.method == VoxelMethod::raster     ? "voxel.method=raster"
+                      : settings.matrix.format == MatrixFormat::padded ? "matrix.format=padded"
+                      : settings.thesis.literal                        ? "thesis.literal=true"
+                                                                       : nullptr;
+  if (alone) throw UsageError(fmt::format("{} needs matrix.hit_rule=thesis", alone));
+}
+
 void applySetting(Settings& settings, std::string_view assignment) {
   const size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) throw UsageError(fmt::format("setting '{}': expected name=value", assignment));

@@ -53,7 +53,6 @@ IRAD_ENUM(Redo, IRAD_REDOS)
 struct VoxelSettings {
   uint32_t resolution = 64;  ///< N: voxels along the longest axis
   VoxelMethod method = VoxelMethod::conservative;
-  uint32_t facets = 2;
   NormalEncoding normals = NormalEncoding::oct16;
   bool operator==(const VoxelSettings&) const = default;
 };
@@ -63,14 +62,10 @@ struct FieldSettings {
 };
 struct MatrixSettings {
   MatrixFormat format = MatrixFormat::csr;
-  MatrixParams gpu{128, HitRule::robust, Traversal::sdf, true, 0};
+  MatrixParams gpu{128, HitRule::triangles, Traversal::sdf, true, 0};
   EffectMode emitterSampling = EffectMode::automatic;
   uint32_t emitterSamples = 32;  ///< per facet
   bool operator==(const MatrixSettings&) const = default;
-};
-struct GatherSettings {
-  uint32_t samples = 4;  ///< shadow lookups per facet and light
-  bool operator==(const GatherSettings&) const = default;
 };
 struct SolverSettings {
   SolverParams gpu{1.0f, 1.0f, 1e-12f};
@@ -86,7 +81,7 @@ struct ScatterSettings {
   bool operator==(const ScatterSettings&) const = default;
 };
 struct SampleSettings {
-  SampleParams gpu{SampleFilter::blur, true, true, 0.5f};
+  SampleParams gpu{SampleFilter::blur, true, 0.5f};
   EmitterLookup emitters = EmitterLookup::facets;
   uint32_t emitterRays = 8;  ///< per pixel
   bool operator==(const SampleSettings&) const = default;
@@ -127,7 +122,7 @@ struct ThesisSettings {
 
 /// Overrides of the effect plan.
 struct EffectSettings {
-  EffectMode emission{}, matrix{}, specular{}, secondFacet{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
+  EffectMode emission{}, matrix{}, specular{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
   // One for each kind of light: sun, point, spot.
 #define IRAD_LIGHT_MODE(constant, number, id, effect, gltf, name, one, many, map, traits) EffectMode effect{};
   IRAD_LIGHT_KINDS(IRAD_LIGHT_MODE)
@@ -146,7 +141,6 @@ struct Settings {
   VoxelSettings voxel;
   FieldSettings field;
   MatrixSettings matrix;
-  GatherSettings gather;
   SolverSettings solver;
   ScatterSettings scatter;
   SampleSettings sample;
@@ -201,6 +195,9 @@ const Setting& findSetting(std::string_view name);
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);
 std::vector<std::string> presetNames();
+
+/// UsageError where values do not go together: what is the thesis's alone, and its hit rule.
+void requireMatching(const Settings& settings);
 
 /// One "name=value"; UsageError names the near matches of an unknown name, or the range of a bad value.
 void applySetting(Settings& settings, std::string_view assignment);

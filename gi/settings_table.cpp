@@ -53,10 +53,6 @@ constexpr Setting kTable[] = {
             "raster: each triangle is drawn along its dominant axis, as the thesis does it, which leaves pin-holes; "
             "conservative: every voxel that a triangle touches, watertight.",
             Voxels),
-    SETTING(
-        voxel.facets, "voxel.facets", {1, 4},
-        "Facets that a voxel may hold: 2 keeps both sides of a thin wall, 4 also those of a sheet in front of a wall.",
-        Voxels),
     SETTING(voxel.normals, "voxel.normals", "Encoding of facet normals.", Voxels),
     SETTING(field.method, "field.method", "Distance field that rays with sdf traversal read.", Field),
     SETTING(matrix.format, "matrix.format",
@@ -67,9 +63,10 @@ constexpr Setting kTable[] = {
             "Rays traced per facet; the noise of a form factor falls with their square root.", Matrix),
     SETTING(
         matrix.gpu.hitRule, "matrix.hit_rule",
-        "Where rays start and what they meet. thesis: one voxel above the facet, the first solid voxel with a "
-        "front face; robust: on the facet, the planes of the facets on the way; triangles (in work: reflections and "
-        "sample.emitters=pixels still ask planes): on the true surface, the first triangle.",
+        "What rays meet, and so what facets are. triangles: from the true surface the first triangle; a voxel has a "
+        "facet for each side of the surface in it. thesis: from one voxel above the facet the first solid voxel with a "
+        "front face; a voxel has one facet, lookups leak. thesis alone takes voxel.method=raster, "
+        "matrix.format=padded and thesis.literal.",
         Voxels),
     SETTING(matrix.gpu.traversal, "matrix.traversal",
             "dda: cell by cell; sdf: skips the empty space that the field proves.", Matrix),
@@ -82,7 +79,6 @@ constexpr Setting kTable[] = {
     SETTING(matrix.emitterSamples, "matrix.emitter_samples", {1, 256, "rays"}, "Rays per facet to the emitters.",
             Emission),
     SETTING(matrix.gpu.seed, "matrix.seed", {0, 4294967295.0}, "Seed of the ray directions (--seed).", Matrix),
-    SETTING(gather.samples, "gather.samples", {1, 16, "samples"}, "Shadow lookups per facet and light.", Gather),
     SETTING(solver.gpu.lambda, "solver.lambda", {0, 2},
             "Artistic gain: B = lambda (M + rho (D + H)); 1 leaves the physics alone.", Solve),
     SETTING(solver.gpu.omega, "solver.omega", {0.05, 1},
@@ -103,7 +99,7 @@ constexpr Setting kTable[] = {
             "anderson: every 4 sweeps their results are mixed, so that the least residual is left; off: Jacobi alone.",
             Solve),
     SETTING(scatter.edgeRemoval, "scatter.edge_removal",
-            "Subtract direct and emitted light from the volume that ungated lookups sample, as the thesis does it: no "
+            "Subtract direct and emitted light from the volume that shading samples with matrix.hit_rule=thesis: no "
             "blocky shadow edges.",
             Scatter),
     SETTING(
@@ -114,10 +110,8 @@ constexpr Setting kTable[] = {
             "Divide what is looked up by its alpha, the share of it that lies on surfaces, so that empty voxels do not "
             "darken it.",
             Shade),
-    SETTING(sample.gpu.gated, "sample.gated", "Take only facets that face the same way, so that walls do not leak.",
-            Scatter),
-    SETTING(sample.gpu.normalOffset, "sample.normal_offset", {0, 2, "voxels"}, "Offset of the lookup along the normal.",
-            Shade),
+    SETTING(sample.gpu.normalOffset, "sample.normal_offset", {0, 2, "voxels"},
+            "Offset of the lookup in the thesis's volume along the normal.", Shade),
     SETTING(sample.emitters, "sample.emitters",
             "Who gives a pixel the light that comes straight from emissive faces. facets: the voxels around it, like "
             "the rest of H; pixels: the faces' true outlines, with shadow rays of each pixel.",
@@ -188,9 +182,6 @@ constexpr Setting kTable[] = {
             "Indirect light: matrix and solver; auto: where there is light, and something that reflects it.", Matrix),
     SETTING(effects.specular, "effects.specular",
             "Reflections; auto: where there is light, and a material that is not Lambertian.", Shade),
-    SETTING(effects.secondFacet, "effects.second_facet",
-            "Search for second facets of voxels; auto: unless it is known to find none. off: as voxel.facets=1.",
-            Nothing),
     SETTING(effects.field, "effects.field", "Distance field kept beside the voxels; auto: where rays read it.", Shade),
     SETTING(effects.relight, "effects.relight",
             "Gather, solve and scatter; auto: until the error bound is below solver.tolerance; on: in every frame of "

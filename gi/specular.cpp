@@ -72,6 +72,7 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
   SpecularPush push = picture.push;
   push.camera = pass.in(picture.camera);
   push.facets = pass.in(facets.record);
+  push.surface = pass.inIfAny(facets.surface.record);
   push.radiosity = pass.in(picture.inputs.lighting->radiosity);
   push.chebyshev = pass.inIfAny(picture.inputs.field->chebyshev);
   push.glossy = pass.inIfAny(targets.glossy);
@@ -79,10 +80,9 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
   return pass.constant(CONSTANT_TRACE_METHOD, picture.method)
       .constant(CONSTANT_TRACE_HIT_RULE, picture.settings.matrix.gpu.hitRule)
       .constant(CONSTANT_NORMALS, facets.encoding)
-      .constant(CONSTANT_TRACE_MANY, facets.slots > 2)
       .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
       .sample(targets.depth, pointSampler(picture.frame.context().device))
-      .read(targets.normal, targets.geometric, targets.f0)
+      .read(targets.normal, targets.geometric, targets.f0, targets.indirect)
       .push(push);
 }
 
@@ -103,7 +103,10 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   }
   SpecularPicture picture{frame, inputs, camera, settings, targets, {}, traceMethod(settings, *inputs.field)};
   SpecularPush& common = picture.push;
-  common.grid = inputs.facets->grid;
+  const Grid& grid = inputs.facets->grid;
+  common.dims = grid.dims;
+  common.origin = grid.origin;
+  common.inverseEdge = grid.inverseEdge;
   common.params = settings.specular.gpu;
   common.jfaMax = inputs.field->jumpFlood.largest;
   common.leastReflected = leastReflected(settings.specular.gpu.threshold, inputs.lighting->litH);
@@ -113,7 +116,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
 
   Pass trace = frame.pass(kSpecularStage);
   trace.shader(fieldIsImage(picture) ? "specular/trace_jfa.comp" : "specular/trace.comp");
-  const bool emitters = inputs.emitters != nullptr && inputs.emitters->count > 0;
+  const bool emitters = inputs.facets->surface && inputs.emitters != nullptr && inputs.emitters->count > 0;
   addRays(picture, trace, emitters ? inputs.emitters : nullptr).write(targets.linear);
   sampleField(picture, trace).dispatchIndirect(targets.glossy);
 

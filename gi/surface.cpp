@@ -389,10 +389,6 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
 }  // namespace
 
 FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
-  if (settings.voxel.method != VoxelMethod::conservative || settings.thesis.literal)
-    throw UsageError("matrix.hit_rule=triangles needs voxel.method=conservative and thesis.literal=false");
-  if (settings.matrix.format != MatrixFormat::csr)
-    throw UsageError("matrix.hit_rule=triangles needs matrix.format=csr");
   const Device& device = context.device;
   const uint32_t triangles = scene.scene.triangleCount();
   FacetList list;

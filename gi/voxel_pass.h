@@ -11,7 +11,6 @@ namespace irad {
 class Context;
 class Pass;
 class SceneOnDevice;
-struct Settings;
 struct Voxels;
 
 inline constexpr const char* kVoxelizeStage = "GI Voxelization";
@@ -35,7 +34,7 @@ struct Tiles {
 Tiles countTiles(Context& context, const SceneOnDevice& scene, const Buffer& grid,
                  const std::vector<TriangleRange>& ranges);
 
-/// The part of the push constants that all ranges have in a pass over a facet slot, and what the pass reads and writes.
-VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, const Settings& settings, uint32_t slot, bool masked);
+/// The part of the push constants that all ranges have in a pass, and what the pass reads and writes.
+VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, bool masked);
 
 }  // namespace irad

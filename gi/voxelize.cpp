@@ -18,28 +18,26 @@ namespace irad {
 namespace {
 
 /// Clips triangles to cells: a workgroup for each tile.
-void clipTriangles(Frame& frame, const Voxels& voxels, const std::vector<TriangleRange>& ranges, const Tiles& tiles,
-                   const Settings& settings) {
-  for (uint32_t slot = 0; slot < voxels.slots; ++slot)
-    for (const bool masked : {false, true}) {
-      if (std::ranges::count(ranges, masked, &TriangleRange::masked) == 0) continue;
-      Pass pass = frame.pass(kVoxelizeStage);
-      VoxelizePush push = voxelizePush(pass, voxels, settings, slot, masked);
-      push.tileStart = pass.in(tiles.starts);
-      pass.shader("gi/voxelize.comp").run([&](Commands& commands) {
-        for (size_t i = 0; i < ranges.size(); ++i) {
-          const TriangleRange& range = ranges[i];
-          push.tileCount = tiles.bounds[i + 1] - tiles.bounds[i];
-          if (range.masked != masked || push.tileCount == 0) continue;
-          commands.bindMaterial(voxels.scene->materialSets.at(range.material));
-          push.firstTriangle = range.first;
-          push.endTriangle = range.end;
-          push.firstTile = tiles.bounds[i];
-          commands.push(push);
-          commands.dispatch(push.tileCount);
-        }
-      });
-    }
+void clipTriangles(Frame& frame, const Voxels& voxels, const std::vector<TriangleRange>& ranges, const Tiles& tiles) {
+  for (const bool masked : {false, true}) {
+    if (std::ranges::count(ranges, masked, &TriangleRange::masked) == 0) continue;
+    Pass pass = frame.pass(kVoxelizeStage);
+    VoxelizePush push = voxelizePush(pass, voxels, masked);
+    push.tileStart = pass.in(tiles.starts);
+    pass.shader("gi/voxelize.comp").run([&](Commands& commands) {
+      for (size_t i = 0; i < ranges.size(); ++i) {
+        const TriangleRange& range = ranges[i];
+        push.tileCount = tiles.bounds[i + 1] - tiles.bounds[i];
+        if (range.masked != masked || push.tileCount == 0) continue;
+        commands.bindMaterial(voxels.scene->materialSets.at(range.material));
+        push.firstTriangle = range.first;
+        push.endTriangle = range.end;
+        push.firstTile = tiles.bounds[i];
+        commands.push(push);
+        commands.dispatch(push.tileCount);
+      }
+    });
+  }
 }
 
 }  // namespace
@@ -88,15 +86,12 @@ Tiles countTiles(Context& context, const SceneOnDevice& scene, const Buffer& gri
   return tiles;
 }
 
-VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, const Settings& settings, uint32_t slot, bool masked) {
+VoxelizePush voxelizePush(Pass& pass, const Voxels& voxels, bool masked) {
   pass.constant(CONSTANT_SAMPLES_TEXTURES, masked);
   VoxelizePush push{};
   push.scene = pass.in(voxels.scene->record);
   push.grid = pass.in(voxels.gridRecord);
-  // Later slots read those before.
-  push.keys = slot == 0 ? pass.accumulate(voxels.keys) : pass.out(voxels.keys);
-  push.slots = settings.voxel.facets;
-  push.slot = slot;
+  push.keys = pass.accumulate(voxels.keys);
   return push;
 }
 
@@ -111,11 +106,10 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   const uint32_t triangles = scene.scene.triangleCount();
   Voxels voxels;
   voxels.scene = &scene;
-  voxels.slots = settings.effects.secondFacet == EffectMode::off ? 1 : settings.voxel.facets;
   const auto grid = settings.thesis.literal ? makeLiteralGrid : makeGrid;
   voxels.grid = grid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
   voxels.gridRecord = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&voxels.grid, 1));
-  voxels.keys = Buffer(context.device, "voxel keys", Subsystem::Voxels, 4ull * voxels.slots * voxels.grid.voxels);
+  voxels.keys = Buffer(context.device, "voxel keys", Subsystem::Voxels, 4ull * voxels.grid.voxels);
 
   const auto ranges = triangles > 0 ? triangleRanges(scene) : std::vector<TriangleRange>{};
   const bool raster = settings.voxel.method == VoxelMethod::raster;
@@ -125,7 +119,7 @@ Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& se
   if (raster)
     rasterizeVoxels(frame, voxels, ranges, settings);
   else
-    clipTriangles(frame, voxels, ranges, tiles, settings);
+    clipTriangles(frame, voxels, ranges, tiles);
   frame.submitAndWait();
   return voxels;
 }

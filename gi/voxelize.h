@@ -13,12 +13,11 @@ struct Settings;
 /// Who rasterizes (renderer/raster.h). UsageError where kernels are asked for that the device cannot run.
 bool rasterizesByKernels(const Device& device, const Settings& settings);
 
-/// Per voxel and facet slot: which triangle won (ordered atomic key), and its attributes.
+/// Per voxel which triangle won, for the thesis's hit rule.
 struct Voxels {
   Grid grid;
   Buffer gridRecord;                     ///< one Grid
-  uint32_t slots = 1;                    ///< facets of a voxel that were looked for
-  Buffer keys;                           ///< slots x voxels uints, the keys of shared/voxelize.h; 0: empty
+  Buffer keys;                           ///< the keys of shared/voxelize.h; 0: empty
   const SceneOnDevice* scene = nullptr;  ///< compactFacets reads the winners' attributes from it
 };
 Voxels voxelize(Context& context, const SceneOnDevice& scene, const Settings& settings);

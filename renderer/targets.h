@@ -24,7 +24,8 @@ struct Targets {
 
   Image f0;         ///< RGBA16F: specular reflectance at normal incidence; w: 1 = has a specular lobe
   Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
-  Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; before a pass looks it up, the position
+  Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; w: with facets of the true surface the triangle seen
+                    ///< (seenAs()). Before a pass looks it up, the position
   Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive surfaces, where a view asks
   Image seen;       ///< RGBA16F: how much of the emitters' light arrives, by channel, where pixels look for it; w = 0:
                     ///< unknown. No picture is composed from it

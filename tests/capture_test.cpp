@@ -51,7 +51,7 @@ TEST_F(Capture, LightSolvedAfreshIsAHeadlessRunsAfterAnyEdits) {
   edit([&] { s.voxel.resolution = 20; });
   edit([&] { s.matrix.gpu.seed = 7; });
   edit([&] { s.light.shadowResolution = 128; });
-  edit([&] { s.gather.samples = 2; });
+  edit([&] { s.camera.gpu.shadowBias = 2; });
   edit([&] { s.solver.gpu.omega = 0.9f; });
   edit([&] { s.solver.gpu.lambda = 0.7f; });
   edit([&] { s.solver.gpu.lambda = 1; });

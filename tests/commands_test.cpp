@@ -321,7 +321,7 @@ TEST(BenchCommand, TableCsvAndRatios) {
                                  "--rebuilds", "2",
                                  "--warmup",   "1",
                                  "--csv",      csv,
-                                 "--versus",   "matrix.format=padded",
+                                 "--versus",   "matrix.jitter=false",
                                  "--versus",   "matrix.traversal=dda"});
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* part : {"GI BuildMatrix", "RE Forward", "Mrays/s", "GB/s", "copy bandwidth", "versus / settings"})

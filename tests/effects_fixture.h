@@ -114,7 +114,7 @@ class EffectsTest : public GiTest {
     return out;
   }
   /// What there is, and was since the last call: "STAGE", "has MEMORY" (a buffer, an image, a subsystem), "EFFECT
-  /// STATE", "shader NAME", "forward with N." (an effect's constant that is not left out), "second facets".
+  /// STATE", "shader NAME", "forward with N." (an effect's constant that is not left out).
   Stages facts(const Pipeline& pipeline) {
     Stages out = recorded();
     context().finish();
@@ -127,7 +127,6 @@ class EffectsTest : public GiTest {
       for (uint32_t id = 0; use.shaders.front() == "forward/forward.vert" && id < FORWARD_PCF; ++id)
         if (!use.constants.contains(id)) out.insert(fmt::format("forward with {}.", id));
     }
-    if (pipeline.facets().count > pipeline.facets().solidVoxels) out.insert("second facets");
     return out;
   }
   /// `terms`, apart by commas: how a fact begins; "-": none does. A name that some test of a suite finds absent,

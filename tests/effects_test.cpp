@@ -50,7 +50,6 @@ const Row kRows[] = {
      "GI BuildMatrix, has indirect irradiance H, " + forwardWith(FORWARD_INDIRECT)},
     {E::specular, kGlossy, lights({}), lights({lamp(0.3)}),
      "RE Specular, has specular radiance, " + forwardWith(FORWARD_F0)},
-    {E::secondFacet, kLamp, setting("effects.second_facet=off"), setting("effects.second_facet=auto"), "second facets"},
     {E::field, kLamp, setting("matrix.traversal=dda"), setting("matrix.traversal=sdf"), "GI SDF, has chebyshev field"},
     {E::alphaTest, kTextured, setting("effects.alpha_test=off"), setting("effects.alpha_test=auto"),
      "shader forward/depth_masked.frag"},

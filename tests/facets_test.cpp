@@ -7,11 +7,9 @@
 #include "gi/scan.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
-#include "gi/voxelize.h"
 #include "renderer/base/error.h"
 #include "renderer/gpu_scene.h"
 #include "shaders/shared/normals.h"
-#include "shaders/shared/voxelize.h"
 #include "tests/soup.h"
 #include "tests/support.h"
 
@@ -46,9 +44,7 @@ struct List {
 };
 List compact(Context& context, const Scene& scene, const Settings& settings) {
   const SceneOnDevice device(context, scene);
-  Voxels voxels = voxelize(context, device, settings);
-  List list{compactFacets(context, voxels, settings), {}, {}, {}};
-  EXPECT_FALSE(voxels.keys) << "the keys are released";
+  List list{makeFacets(context, device, settings), {}, {}, {}};
   list.voxel = downloadAs<uint32_t>(context, list.facets.voxel);
   list.shape = downloadAs<uint32_t>(context, list.facets.shape);
   list.reverse = downloadAs<uint32_t>(context, list.facets.reverse);
@@ -61,14 +57,14 @@ TEST_F(Facets, MortonOrderAndReverseMap) {
   soup.box(white, {-4, -2, -1.3f}, {4, 2, 1.3f}, true);
   soup.sphere(white, {1, 0, 0}, 1, 12, false);
   soup.quad(soup.diffuse(glm::vec3(0.2f), true), {-3, -1, -1}, {2, 0.1f, 0}, {0, 1, 1});
-  for (const uint32_t slots : {1u, 2u, MAX_VOXEL_FACETS}) {
+  for (const HitRule rule : {HitRule::thesis, HitRule::triangles}) {
     Settings settings;
     settings.voxel.resolution = 37;
-    settings.voxel.facets = slots;
+    settings.matrix.gpu.hitRule = rule;
     const List list = compact(context(), soup.build(), settings);
     const Grid& grid = list.facets.grid;
     ASSERT_GT(list.facets.count, 1000u);
-    // Compaction of the reverse map on the CPU: voxels in Morton order, up to `slots` facets each.
+    // Compaction of the reverse map on the CPU: voxels in Morton order.
     uint32_t next = 0, solid = 0, most = 0;
     const uint32_t bits = grid.mortonBits.x + grid.mortonBits.y + grid.mortonBits.z;
     for (uint32_t code = 0; code < 1u << bits; ++code) {
@@ -79,21 +75,14 @@ TEST_F(Facets, MortonOrderAndReverseMap) {
       ++solid;
       ASSERT_EQ(firstFacet(entry), next);
       most = std::max(most, facetsOf(entry));
-      for (uint32_t i = 0; i < facetsOf(entry); ++i, ++next) {
-        ASSERT_EQ(list.voxel[next], packVoxel(v));
-        const glm::vec3 normal = decodeNormal(list.shape[next] & 0xFFFFu, NORMALS_OCT16);
-        for (uint32_t other = firstFacet(entry); other < next; ++other) {
-          const glm::vec3 before = decodeNormal(list.shape[other] & 0xFFFFu, NORMALS_OCT16);
-          const float apart = std::abs(facetOffset(list.shape[next]) - facetOffset(list.shape[other]));
-          // These are smooth normals; the faces' own decide. Only third and fourth facets may face like another one, at
-          // another place.
-          EXPECT_TRUE(glm::dot(before, normal) < ELSEWHERE_COSINE + 0.05f || (i > 1 && apart > 0.5f * SAME_LEVEL));
-        }
-      }
+      for (uint32_t i = 0; i < facetsOf(entry); ++i, ++next) ASSERT_EQ(list.voxel[next], packVoxel(v));
     }
     EXPECT_EQ(next, list.facets.count);
     EXPECT_EQ(solid, list.facets.solidVoxels);
-    EXPECT_EQ(most, std::min(slots, 3u)) << "where the slanted quad crosses the box";
+    if (rule == HitRule::thesis)
+      EXPECT_EQ(most, 1u);
+    else
+      EXPECT_GE(most, 3u) << "in the corners of the box";
     EXPECT_EQ(list.voxel.size(), list.facets.count);
     EXPECT_EQ(list.facets.voxel.bytes, 4ull * list.facets.count) << "exactly sized";
     EXPECT_FALSE(list.facets.hasEmission);

@@ -11,7 +11,6 @@
 #include "gi/field.h"
 #include "gi/host_matrix.h"
 #include "gi/settings.h"
-#include "gi/voxelize.h"
 #include "renderer/gpu_scene.h"
 #include "shaders/shared/normals.h"
 #include "tests/support.h"
@@ -35,12 +34,7 @@ class GiTest : public GpuTest {
     w.settings = settings;
     w.scene = std::make_unique<Scene>(std::move(scene));
     w.device = std::make_unique<SceneOnDevice>(context(), *w.scene);
-    if (settings.matrix.gpu.hitRule == HitRule::triangles) {
-      w.facets = listFacets(context(), *w.device, settings);
-    } else {
-      Voxels voxels = voxelize(context(), *w.device, settings);
-      w.facets = compactFacets(context(), voxels, settings);
-    }
+    w.facets = makeFacets(context(), *w.device, settings);
     w.field = buildField(context(), w.facets, settings);
     return w;
   }

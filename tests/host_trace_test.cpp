@@ -31,7 +31,6 @@ class HostTracing : public GiTest {
   }
   static Settings triangles(uint32_t resolution, uint32_t rays) {
     Settings s = at(resolution, rays);
-    s.matrix.gpu.hitRule = HitRule::triangles;
     s.specular.mode = SpecularMode::off;
     return s;
   }

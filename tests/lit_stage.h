@@ -13,7 +13,6 @@
 #include "gi/subsystems.h"
 #include "gi/views/draw.h"
 #include "gi/views/fields.h"
-#include "gi/voxelize.h"
 #include "tests/forward_support.h"
 
 namespace irad::test {
@@ -30,14 +29,13 @@ struct Lit {
   ViewFields fields;
   Image picture;  ///< to compare with
   Lit(Context& context, Scene scene, Settings settings) : stage(context, std::move(scene), settings) {
-    Voxels voxels = voxelize(context, stage.device, settings);
-    facets = compactFacets(context, voxels, settings);
+    facets = makeFacets(context, stage.device, settings);
     field = buildField(context, facets, settings);
     matrix = buildMatrix(context, facets, field, settings);
     light = makeLighting(context, facets, settings);
     emitters = listEmitters(context, facets);
     Frame direct = context.begin();
-    gather(direct, stage.device, stage.shadows, facets, light, settings);
+    gather(direct, stage.device, stage.shadows, facets, field, light, settings);
     direct.submitAndWait();
     gatherEmitters(context, facets, matrix, {}, settings, light);
     solve(context, facets, matrix, light, settings, settings.solver.maxSweeps);
@@ -60,15 +58,12 @@ struct Lit {
   IndirectInputs indirect() const {
     IndirectInputs in;
     in.grid = &grid;
-    in.shape = &facets.shape;
     in.reverse = &facets.reverse;
-    in.around = &facets.around;
     in.voxel = &facets.voxel;
     if (facets.surface) in.surface = &facets.surface.record;
     in.shaded = &light.shaded();
     if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume.image : nullptr;
-    in.normalEncoding = facets.encoding;
     in.sample = stage.settings.sample.gpu;
     return in;
   }

@@ -175,9 +175,30 @@ TEST_F(PixelEmitters, UmbraAndPenumbra) {
   b.box({m, m, m, m, m, m}, {-0.25f, 0.15f, -0.2f}, {0.25f, 0.27f, 0.3f}, /*inward=*/false);
   add(b, b.material(glm::vec3(0.1f), glm::vec3(1)), kLamp);
   const auto picture = draw(b.finish("umbra"), settings(), above(0.1));
-  // Lines from the lamp past the block: with w voxels of doubt about the block's rim, from (rim -+ w) on.
-  const double w = 1.5 / 16, t = 1.03 / (1.03 - 0.21);  // lamp to floor over lamp to the block's middle
-  const auto reach = [&](double lamp, double rim) { return lamp + (rim - lamp) * t; };
+  // Along an axis the shadow that a point of the lamp casts reaches at least as far as that of the block's top, and no
+  // farther than that of its top or its bottom. Within `all` every point of the lamp casts its shadow, beyond `any`
+  // none does. Shares that are seen are averaged over two pixels around.
+  constexpr double kAround = 2.5 * 2 * kHalf / kSize;
+  struct Range {
+    double low, high;
+    bool contains(double x) const { return x > low && x < high; }
+  };
+  const auto shadow = [](Range lamp, Range block) {
+    Range all{-1e9, 1e9}, any{1e9, -1e9};
+    for (const double from : {lamp.low, lamp.high}) {
+      const auto cast = [&](double height) {
+        const double t = 1.03 / (1.03 - height);
+        return Range{from + (block.low - from) * t, from + (block.high - from) * t};
+      };
+      const Range top = cast(0.27), bottom = cast(0.15);
+      all = {std::max(all.low, top.low + kAround), std::min(all.high, top.high - kAround)};
+      any = {std::min({any.low, top.low - kAround, bottom.low - kAround}),
+             std::max({any.high, top.high + kAround, bottom.high + kAround})};
+    }
+    return std::pair(all, any);
+  };
+  const auto [allX, anyX] = shadow({-0.31, 0.42}, {-0.25, 0.25});
+  const auto [allZ, anyZ] = shadow({-0.23, 0.37}, {-0.2, 0.3});
   uint32_t dark = 0, bright = 0, between = 0;
   double worst = 0;
   for (uint32_t y = 0; y < kSize; ++y)
@@ -187,11 +208,7 @@ TEST_F(PixelEmitters, UmbraAndPenumbra) {
       const double f = formFactor(kLamp, p, {0, 1, 0});
       EXPECT_GE(e, 0);
       EXPECT_LE(e, 1.0001 * f);
-      const bool umbra = p.x > reach(-0.31, -0.25 + w) && p.x < reach(0.42, 0.25 - w) && p.z > reach(-0.23, -0.2 + w) &&
-                         p.z < reach(0.37, 0.3 - w);
-      const double o = 3 * w;
-      const bool lit = p.x < reach(0.42, -0.25 - o) || p.x > reach(-0.31, 0.25 + o) || p.z < reach(0.37, -0.2 - o) ||
-                       p.z > reach(-0.23, 0.3 + o);
+      const bool umbra = allX.contains(p.x) && allZ.contains(p.z), lit = !anyX.contains(p.x) || !anyZ.contains(p.z);
       if (umbra) {
         ++dark;
         EXPECT_EQ(e, 0) << p.x << ", " << p.z;

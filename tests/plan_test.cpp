@@ -69,10 +69,11 @@ const Case kCases[]{
     {E::emission, none, "on: 1 of 2 materials with emission, 3 W/(m^2 sr) at most"},
     {E::emission, EDIT(t.materials[1].triangles = 0), "off, 22000 B: none of 1 material with emission"},
     {E::emission, dark, "off: none of 2 materials with emission"},
-    {E::emission, byPixels, "on: *; pixels look for 2 triangles: 256 at most, with sample.gated alone"},
+    {E::emission, byPixels, "on: *; pixels look for 2 triangles: 256 at most, with matrix.hit_rule=triangles alone"},
     {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost), "on: *; pixels look for 256 *"},
     {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost + 1), "on: *; pixels do not look for 257 *"},
-    {E::emission, EDIT(byPixels(t, s), s.sample.gpu.gated = 0), "on: *; pixels do not look for 2 triangles: *"},
+    {E::emission, EDIT(byPixels(t, s), s.matrix.gpu.hitRule = HitRule::thesis),
+     "on: *; pixels do not look for 2 triangles: *"},
     {E::emission, EDIT(byPixels(t, s), s.effects.matrix = EffectMode::off), "on: * at most"},
     {E::emission, EDIT(byPixels(t, s), s.effects.emission = EffectMode::off), "off, 22000 B: forced off: 1 of 2 *"},
     {E::emission, EDIT(byPixels(t, s), unlit(t, s), s.effects.emission = EffectMode::on), "on: forced on: none of 2 *"},
@@ -85,6 +86,8 @@ const Case kCases[]{
     // A light has moved: F M is what it was.
     {E::emitterSampling, EDIT(few(t, s), t.build->sampledShare = 0.8f, t.light.due = Redo::Gather),
      "off, within 0.2 *"},
+    {E::emitterSampling, EDIT(few(t, s), s.matrix.gpu.hitRule = HitRule::thesis),
+     "off, 8000 B: matrix.hit_rule = thesis"},
     {E::emitterSampling, EDIT(unlit(t, s), t.lights = {light(LightType::Sun)}), "off, 8000 B: nothing emits"},
     {E::matrix, EDIT(t.build->escaped = 0.125), "on: light, and albedos of up to 0.5; 12.5 % of the rays escape"},
     {E::matrix, black, "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
@@ -105,11 +108,6 @@ const Case kCases[]{
     {E::specular, noMode, "off: specular.mode = off"},
     {E::specular, EDIT(noMode(t, s), s.effects.specular = EffectMode::on), "off: specular.mode = off"},
     {E::specular, rough, "on: 1 of 2 materials * roughness 0.9 at least, rays up to 0.6 *"},
-    {E::secondFacet, thesis, "off: *"},
-    {E::secondFacet, none, "on: 100 of 400 solid voxels with a second facet"},
-    {E::secondFacet, EDIT(t.build->facets = t.build->solidVoxels), "off, 4000 B: 0 of 400 solid voxels *"},
-    {E::secondFacet, EDIT(t.build.reset()), "on: known once the scene is voxelized"},
-    {E::secondFacet, EDIT(s.voxel.facets = 1), "off, 4000 B: voxel.facets = 1"},
     {E::field, thesis, "on: *"},
     {E::field, none, "on: rays of the matrix skip by it, specular rays do not"},
     {E::field, dda, "off, 1000 B: rays of the matrix do not skip by it, specular rays do not"},
@@ -262,9 +260,8 @@ TEST(Plan, AnEffectThatIsOffIsWhatItsOwnSettingSays) {
     applySetting(s, assignment);
     return obeyed(s, plan(t, s));
   };
-  for (const auto& [off, own] : {std::pair{"effects.specular=off", "specular.mode=off"},
-                                 {"effects.second_facet=off", "voxel.facets=1"},
-                                 {"effects.blur=off", "sample.filter=linear"}}) {
+  for (const auto& [off, own] :
+       {std::pair{"effects.specular=off", "specular.mode=off"}, {"effects.blur=off", "sample.filter=linear"}}) {
     EXPECT_EQ(with(off), with(own)) << off;
     EXPECT_NE(with(off), with("effects.sun=auto")) << off;
   }

@@ -86,15 +86,16 @@ TEST(ProgramFaults, ABudgetIsAnOption) {
   const RunResult tight = runIrad(smallRender(folder.path, {"--memory-budget", "1"}));
   EXPECT_EQ(tight.status, 4) << tight.err;
   EXPECT_TRUE(contains(tight.err, " of 1.0 MiB are free")) << tight.err;
-  const RunResult padded = runIrad(
-      smallRender(folder.path, {"--memory-budget", "5", "--set", "matrix.format=padded", "--set", "matrix.rays=512"}));
+  const RunResult padded =
+      runIrad(smallRender(folder.path, {"--memory-budget", "5", "--set", "matrix.hit_rule=thesis", "--set",
+                                        "matrix.format=padded", "--set", "matrix.rays=512"}));
   EXPECT_EQ(padded.status, 4) << padded.err;
   EXPECT_TRUE(contains(padded.err, "the padded matrix of ")) << padded.err;
   EXPECT_TRUE(contains(padded.err, "matrix.format=csr")) << padded.err;
   const RunResult huge =
       runIrad(smallRender(folder.path, {"--memory-budget", "512", "--set", "voxel.resolution=1022"}));
   EXPECT_EQ(huge.status, 4) << huge.err;
-  EXPECT_TRUE(contains(huge.err, "voxel keys (voxels) needs 8192.0 MiB, 5")) << huge.err;
+  EXPECT_TRUE(contains(huge.err, "pieces of voxels (facets) needs 4096.0 MiB, 5")) << huge.err;
   EXPECT_EQ(runIrad(smallRender(folder.path, {"--memory-budget", "64"})).status, 0);
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--memory-budget", "0"},
                                                                                      {"--memory-budget", "much"},

@@ -31,7 +31,6 @@ class Reference : public GpuTest {
   struct Quality {
     uint32_t resolution = 128, rays = 256;
     bool doubleSided = false;                        ///< every material
-    uint32_t facets = 2;                             ///< of a voxel
     uint32_t samples = 1;                            ///< of a pixel, along each axis
     EmitterLookup emitters = EmitterLookup::facets;  ///< sample.emitters
   };
@@ -41,7 +40,6 @@ class Reference : public GpuTest {
     Settings settings = defaultSettings(/*cpuDevice=*/true);
     settings.scene = {.lambertian = true, .doubleSided = quality.doubleSided};
     settings.voxel.resolution = quality.resolution;
-    settings.voxel.facets = quality.facets;
     settings.matrix.gpu.rays = quality.rays;
     settings.specular.mode = SpecularMode::off;
     settings.sample.emitters = quality.emitters;
@@ -123,9 +121,8 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
   const Camera camera = lookFrom({0, 1, 3.4}, 40.0f);
   // The strip of ceiling that is seen is one pixel high: like Cycles, several samples of a pixel. It is .6 voxel from
   // the lamp: pixels look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
-  expectMarks(
-      compare(*scenes_ / "references/cornell_base_diffuse.exr", *scenes_ / "variants/cornell_base.glb", &camera,
-              {.doubleSided = true, .facets = MAX_VOXEL_FACETS, .samples = 4, .emitters = EmitterLookup::pixels}));
+  expectMarks(compare(*scenes_ / "references/cornell_base_diffuse.exr", *scenes_ / "variants/cornell_base.glb", &camera,
+                      {.doubleSided = true, .samples = 4, .emitters = EmitterLookup::pixels}));
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {

@@ -207,7 +207,7 @@ TEST_F(Resolve, Sponza) {
 
 TEST_F(Resolve, LooksUpTheThesissVolume) {
   Settings s = small();
-  s.sample.gpu.gated = 0;
+  s.matrix.gpu.hitRule = HitRule::thesis;
   Lit lit(context(), everything(), s);
   ASSERT_TRUE(lit.light.volume);
   same("volume", draw(lit, 0, {}, false), draw(lit, 0, {}, true), 0.4);

@@ -172,7 +172,6 @@ TEST(Presets, ThesisIsTable5OnEveryDevice) {
     is("matrix.rays", "384");
     is("voxel.normals", "axis26");
     is("voxel.method", "raster");
-    is("voxel.facets", "1");
     is("field.method", "jfa");
     is("matrix.traversal", "dda");
     is("matrix.hit_rule", "thesis");
@@ -181,7 +180,6 @@ TEST(Presets, ThesisIsTable5OnEveryDevice) {
     is("solver.lambda", "0.8");
     is("sample.filter", "blur");
     is("sample.premultiplied", "true");
-    is("sample.gated", "false");
     is("specular.mode", "fragment");
     is("specular.rays", "2");
     is("scatter.edge_removal", "false");

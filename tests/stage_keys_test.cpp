@@ -40,7 +40,7 @@ TEST(StageKeys, OfSeveralSettingsTheFirstStageIsDue) {
   EXPECT_EQ(first(), Redo::Solve);
   b.matrix.gpu.seed = 1;
   EXPECT_EQ(first(), Redo::Matrix);
-  b.voxel.facets = 1;
+  b.voxel.resolution = 9;
   EXPECT_EQ(first(), Redo::Voxels);
 }
 

@@ -9,10 +9,17 @@
 #include <memory>
 #include <optional>
 
+#include "gi/settings.h"
 #include "renderer/base/temporary_folder.h"
 #include "renderer/frame/frame.h"
 
 namespace irad::test {
+
+/// Padded rows are the thesis's, and go with its hit rule.
+inline void useFormat(Settings& settings, MatrixFormat format) {
+  settings.matrix.format = format;
+  settings.matrix.gpu.hitRule = format == MatrixFormat::padded ? HitRule::thesis : HitRule::triangles;
+}
 
 /// A device with core and synchronization validation, made on first use, shared by the suite's tests.
 struct Gpu {

@@ -2,7 +2,9 @@
 // triangles, closed forms, and 0.
 #include "gi/surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
@@ -10,6 +12,7 @@
 #include "gi/lighting.h"
 #include "gi/pipeline.h"
 #include "gi/ray_kernel.h"
+#include "gi/scatter.h"
 #include "gi/subsystems.h"
 #include "renderer/targets.h"
 #include "shaders/shared/trace.h"
@@ -27,7 +30,6 @@ class SurfaceTest : public GiTest {
  protected:
   static Settings triangles(uint32_t resolution, uint32_t rays = 128) {
     Settings s = at(resolution, rays);
-    s.matrix.gpu.hitRule = HitRule::triangles;
     s.specular.mode = SpecularMode::off;
     return s;
   }
@@ -49,6 +51,20 @@ class SurfaceTest : public GiTest {
     }
     for (auto& [k, sum] : sums) sum.first /= sum.second;
     return sums;
+  }
+  static constexpr uint32_t kPixels = 64;
+  std::vector<glm::vec4> draw(Pipeline& pipeline, const glm::vec3& from, const glm::vec3& to, View view) {
+    Camera camera;
+    camera.position = from;
+    camera.orientation = glm::quatLookAt(glm::normalize(to - from), glm::vec3(0, 1, 0));
+    Targets targets(context(), {kPixels, kPixels});
+    Frame frame = context().begin();
+    pipeline.render(frame, camera, view, targets);
+    frame.submitAndWait();
+    const std::vector<std::byte> raw = download(context(), targets.linear);
+    std::vector<glm::vec4> out(size_t{kPixels} * kPixels);
+    std::memcpy(out.data(), raw.data(), raw.size());
+    return out;
   }
   std::unique_ptr<Pipeline> pipeline_;
 };
@@ -159,21 +175,33 @@ TEST_F(SurfaceTest, FurnacesAreEvenlyLit) {
   }
 }
 
+/// Two rooms in one shell, 32 x 12 x 12: the left one's end is a lamp. Between them, from x = .3 on, a wall of this
+/// thickness, which stands on the floor that both share; on its right, unless `sheet` is false, another one,
+/// single-sided, .3 voxel away. Turned, so that no face is along an axis.
+const glm::mat3 kTurn(glm::rotate(glm::mat4(1), 0.5f, glm::normalize(glm::vec3(2, 1, 3))));
+constexpr float kWallAt = 0.3f;
+SceneBuilder litAndDarkRoom(float thickness, bool sheet, bool mirrors = false) {
+  SceneBuilder b;
+  const uint32_t wall = b.material(glm::vec3(0.6f)), lamp = b.material(glm::vec3(0.5f), glm::vec3(5));
+  if (mirrors) {
+    b.edit(wall).lambertian = false;
+    b.edit(wall).metallic = 0.5f;
+  }
+  b.box({lamp, wall, wall, wall, wall, wall}, {-16, -6, -6}, {16, 6, 6}, /*inward=*/true, kTurn);
+  const float to = kWallAt + thickness;
+  b.box({wall, wall, wall, wall, wall, wall}, {kWallAt, -7, -7}, {to, 7, 7}, /*inward=*/false, kTurn);
+  const auto at = [&](float x, float y, float z) { return kTurn * glm::vec3(x, y, z); };
+  if (sheet) b.quad(wall, at(to + 0.3f, -7, -7), at(to + 0.3f, 7, -7), at(to + 0.3f, 7, 7), at(to + 0.3f, -7, 7));
+  return b;
+}
+
 TEST_F(SurfaceTest, NothingComesThroughThinWalls) {
-  // Two rooms in one shell: the left one has a lamp. Between them a wall of .2 voxel, which stands on the floor that
-  // both share; on its right another sheet, single-sided, .3 voxel away. Turned, so that no face is along an axis.
   const float n = 32;
   for (const float thickness : {0.2f, 1.1f}) {
-    SceneBuilder b;
-    const glm::mat3 turn(glm::rotate(glm::mat4(1), 0.5f, glm::normalize(glm::vec3(2, 1, 3))));
-    const uint32_t wall = b.material(glm::vec3(0.6f)), lamp = b.material(glm::vec3(0.5f), glm::vec3(5));
-    b.box({lamp, wall, wall, wall, wall, wall}, {-16, -6, -6}, {16, 6, 6}, /*inward=*/true, turn);
-    const float from = 0.3f, to = from + thickness;
-    b.box({wall, wall, wall, wall, wall, wall}, {from, -7, -7}, {to, 7, 7}, /*inward=*/false, turn);
-    const auto at = [&](float x, float y, float z) { return turn * glm::vec3(x, y, z); };
-    b.quad(wall, at(to + 0.3f, -7, -7), at(to + 0.3f, 7, -7), at(to + 0.3f, 7, 7), at(to + 0.3f, -7, 7));
+    SceneBuilder b = litAndDarkRoom(thickness, /*sheet=*/true);
+    const float to = kWallAt + thickness;
     const Pipeline& p = prepare(b.finish("two rooms"), triangles(static_cast<uint32_t>(n)));
-    const glm::mat3 back = glm::transpose(turn);
+    const glm::mat3 back = glm::transpose(kTurn);
     const HostFacets f = hostFacets(context(), p.facets());
     const std::vector<glm::vec3> h = perFacet(context(), p.facets(), p.lighting().indirect);
     const std::vector<glm::vec3> blurred = perFacet(context(), p.facets(), p.lighting().shaded());
@@ -194,6 +222,112 @@ TEST_F(SurfaceTest, NothingComesThroughThinWalls) {
     EXPECT_EQ(dark, 0) << thickness;
     EXPECT_EQ(darkBlurred, 0) << thickness;
   }
+}
+
+TEST_F(SurfaceTest, TheBlurKeepsConstantsAndHasTheWeightsOfATent) {
+  // A floor of 16 x 16 voxels, far from its rim; and one bright facet in the middle, which reaches its 3 x 3
+  // neighbours with 4, 2, 1 of 16.
+  SceneBuilder b;
+  b.quad(b.material(glm::vec3(0.5f)), {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  b.sun({0, -1, 0}, 1);
+  Settings settings = triangles(16, 32);
+  settings.effects.blur = EffectMode::on;
+  const Pipeline& p = prepare(b.finish("floor"), settings);
+  const FacetList& list = p.facets();
+  ASSERT_EQ(list.count, 256u);
+  const std::vector<uint32_t> voxel = downloadAs<uint32_t>(context(), list.voxel);
+  std::vector<glm::vec4> h(list.count, glm::vec4(3));
+  Lighting light = makeLighting(context(), list, settings);
+  const auto blurred = [&] {
+    upload(context(), light.indirect, std::as_bytes(std::span(h)));
+    Frame frame = context().begin();
+    scatter(frame, list, light, settings);
+    frame.submitAndWait();
+    return downloadAs<glm::vec4>(context(), light.shaded());
+  };
+  for (const glm::vec4& value : blurred()) EXPECT_FLOAT_EQ(value.x, 3);
+  const auto at = [&](int x, int z) {
+    for (uint32_t i = 0; i < list.count; ++i)
+      if (const glm::uvec3 v = unpackVoxel(voxel[i]); v.x == 8u + x && v.z == 8u + z) return i;
+    return list.count;
+  };
+  h.assign(list.count, glm::vec4(0));
+  h[at(0, 0)] = glm::vec4(16);
+  const std::vector<glm::vec4> spike = blurred();
+  // Areas, by which they are weighted, differ by rounding.
+  EXPECT_NEAR(spike[at(0, 0)].x, 4, 1e-3);
+  EXPECT_NEAR(spike[at(1, 0)].x, 2, 1e-3);
+  EXPECT_NEAR(spike[at(0, -1)].x, 2, 1e-3);
+  EXPECT_NEAR(spike[at(1, 1)].x, 1, 1e-3);
+  EXPECT_EQ(spike[at(2, 0)].x, 0);
+}
+
+TEST_F(SurfaceTest, ReflectionsShowNothingFromBehindThinWalls) {
+  // Of every roughness that traces, beside the wall and along it: exactly black in the dark room.
+  for (const SpecularMode mode : {SpecularMode::compute, SpecularMode::fragment})
+    for (const float roughness : {0.0f, 0.35f}) {
+      SceneBuilder b = litAndDarkRoom(0.2f, /*sheet=*/false, /*mirrors=*/true);
+      b.edit(0).roughness = roughness;
+      Settings settings = triangles(32, 64);
+      settings.specular.mode = mode;
+      settings.specular.gpu.threshold = 0;  // pixels in the dark trace, too
+      Pipeline& p = prepare(b.finish("two rooms"), settings);
+      const auto brightest = [&](const glm::vec3& from, const glm::vec3& to) {
+        float most = 0;
+        for (const glm::vec4& value : draw(p, from, to, VIEW_SPECULAR))
+          most = std::max({most, value.x, value.y, value.z});
+        return most;
+      };
+      const auto at = [&](float x, float y, float z) { return kTurn * glm::vec3(x, y, z); };
+      EXPECT_EQ(brightest(at(14, -3, 3), at(0.5f, -6, 0)), 0) << roughness;
+      EXPECT_EQ(brightest(at(1.5f, -5, -5), at(0.6f, -6, 4)), 0) << roughness;
+      EXPECT_EQ(brightest(at(1, 5, -5), at(12, -6, 5)), 0) << roughness;
+      EXPECT_GT(brightest(at(-2, -3, 3), at(-8, -6, 0)), 0.1f) << roughness;
+    }
+}
+
+TEST_F(SurfaceTest, AMirrorShowsTheRoomAsItIs) {
+  // A room with a mirror for its floor, lit by its ceiling: what the mirror shows of it is B / pi of the point
+  // mirrored.
+  SceneBuilder b;
+  const uint32_t wall = b.material(glm::vec3(0.5f)), lamp = b.material(glm::vec3(0.2f), glm::vec3(5)),
+                 mirror = b.material(glm::vec3(1));
+  b.edit(mirror).lambertian = false;
+  b.edit(mirror).metallic = 1;
+  b.edit(mirror).roughness = 0;
+  b.box({wall, wall, mirror, lamp, wall, wall}, {-1, -1, -1}, {1, 1, 1}, /*inward=*/true);
+  Settings settings = triangles(24, 256);
+  settings.specular.mode = SpecularMode::compute;
+  settings.specular.gpu.filter_ = false;
+  Pipeline& p = prepare(b.finish("mirror"), settings);
+  const auto shown = draw(p, {0, 0.3f, 0.6f}, {0, -0.9f, -0.9f}, VIEW_SPECULAR),
+             mirrored = draw(p, {0, -2.3f, 0.6f}, {0, -1.1f, -0.9f}, VIEW_LIT);
+  // The second camera sees through the floor's back what the first sees in it, upside down.
+  size_t compared = 0;
+  double sum = 0, truth = 0;
+  for (uint32_t y = 0; y < kPixels; ++y)
+    for (uint32_t x = 0; x < kPixels; ++x) {
+      const float a = shown[y * kPixels + x].x, expected = mirrored[(kPixels - 1 - y) * kPixels + x].x;
+      if (a == 0) continue;
+      ++compared;
+      sum += double{a};
+      truth += double{expected};
+    }
+  EXPECT_GT(compared, 500u);
+  EXPECT_NEAR(sum / truth, 1, 0.02);
+}
+
+TEST_F(SurfaceTest, LightFromBehindTheFaceAddsNothing) {
+  // Faces that look up, their vertices' normals towards a sun that shines along them from just below.
+  SceneBuilder b;
+  const uint32_t floor = b.material(glm::vec3(0.5f));
+  b.quad(floor, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, 4);
+  b.sun(glm::normalize(glm::vec3(-1, 0.2f, 0)), 10);
+  Scene scene = b.finish("a sun below");
+  for (glm::vec3& normal : scene.normals) normal = glm::normalize(glm::vec3(1, 1, 0));
+  Pipeline& p = prepare(std::move(scene), triangles(16));
+  for (const glm::vec4& value : draw(p, {0, 2, 0.1f}, {0, 0, 0}, VIEW_DIRECT_IRRADIANCE)) EXPECT_EQ(value.x, 0);
+  for (const glm::vec3& value : perFacet(context(), p.facets(), p.lighting().direct)) EXPECT_EQ(value.x, 0);
 }
 
 TEST_F(SurfaceTest, TheSameListEveryTime) {

@@ -146,7 +146,9 @@ TEST_F(Views, VoxelsShowTheFacets) {
 }
 
 TEST_F(Views, RowSumsAgreeBetweenFormats) {
-  Settings csr = smallSettings(), padded = csr;
+  Settings csr = smallSettings();
+  csr.matrix.gpu.hitRule = HitRule::thesis;
+  Settings padded = csr;
   padded.matrix.format = MatrixFormat::padded;
   Lit a(context(), cornerScene(), csr), b(context(), cornerScene(), padded);
   const Picture p = a.draw(VIEW_ROW_SUM), q = b.draw(VIEW_ROW_SUM);
@@ -201,7 +203,7 @@ TEST_F(Views, MirrorShowsTheWall) {
 TEST_F(Views, MatrixRowIsThatOfItsFacet) {
   for (const MatrixFormat format : {MatrixFormat::csr, MatrixFormat::padded}) {
     Settings settings = smallSettings();
-    settings.matrix.format = format;
+    useFormat(settings, format);
     Lit lit(context(), cornerScene(), settings);
     const uint32_t facet = lit.facets.count / 2;
     std::vector<float> wanted(lit.facets.count);

@@ -7,7 +7,6 @@
 #include "gi/subsystems.h"
 #include "gi/thesis/jump_flood.h"
 #include "gi/views/fields.h"
-#include "gi/voxelize.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/voxelize.h"
 #include "tests/forward_support.h"
@@ -39,8 +38,7 @@ struct FromAbove {
   ViewFields fields;
 
   explicit FromAbove(Context& c, Settings settings = blockSettings()) : context(c), stage(c, blockScene(), settings) {
-    Voxels voxels = voxelize(context, stage.device, settings);
-    facets = compactFacets(context, voxels, settings);
+    facets = makeFacets(context, stage.device, settings);
     field = buildField(context, facets, settings);
     const Grid& grid = facets.grid;
     const glm::dvec3 size = glm::dvec3(grid.dims) * double(grid.edge),

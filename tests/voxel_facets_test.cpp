@@ -12,41 +12,6 @@ namespace {
 
 using VoxelFacetsTest = VoxelsTest;
 
-TEST_F(VoxelFacetsTest, ThinWallsKeepBothSidesInEitherOrder) {
-  // A wall of 0 to 3 voxels between two rooms, at several phases: wherever the wall is, a facet faces each room, and
-  // the list is the same whatever the triangles' order.
-  constexpr uint32_t n = 24;
-  for (const float thickness : {0.0f, 0.25f, 0.5f, 1.0f, 1.5f, 2.0f, 3.0f})
-    for (const float phase : {0.0f, 0.3f, 0.5f, 0.9f}) {
-      Soup soup;
-      const uint32_t room = soup.diffuse(glm::vec3(0.5f)), left = soup.diffuse({0.9f, 0, 0}),
-                     right = soup.diffuse({0, 0.9f, 0});
-      soup.box(room, glm::vec3(-0.5f * n), glm::vec3(0.5f * n), true);
-      const float x = phase - 0.37f;
-      soup.quad(left, {x, -0.5f * n, -0.5f * n}, {0, 0, n}, {0, n, 0});               // faces -x
-      soup.quad(right, {x + thickness, -0.5f * n, -0.5f * n}, {0, n, 0}, {0, 0, n});  // faces +x
-      const Result result = run(soup.build(), with(n, 2));
-      // Only facets away from the room's own corners, where perpendicular walls tie.
-      const auto wall = [](std::vector<Facet> facets) {
-        std::erase_if(facets, [](const Facet& f) {
-          return f.voxel.x < 8 || f.voxel.x > 18 || f.voxel.y < 3 || f.voxel.y > 22 || f.voxel.z < 3 || f.voxel.z > 22;
-        });
-        return sorted(facets);
-      };
-      const std::vector<Facet> facets = wall(result.facets);
-      uint32_t toLeft = 0, toRight = 0;
-      for (const Facet& f : facets) {
-        const bool faces = f.normal() == glm::vec3(-1, 0, 0);
-        ASSERT_TRUE(faces || f.normal() == glm::vec3(1, 0, 0));
-        EXPECT_EQ(f.albedo, packAlbedo(faces ? glm::vec3(0.9f, 0, 0) : glm::vec3(0, 0.9f, 0)));
-        ++(faces ? toLeft : toRight);
-      }
-      EXPECT_EQ(toLeft, 20u * 20u) << thickness << ' ' << phase;
-      EXPECT_EQ(toRight, 20u * 20u) << thickness << ' ' << phase;
-      EXPECT_EQ(wall(run(soup.build(true), with(n, 2)).facets), facets) << thickness << ' ' << phase;
-    }
-}
-
 TEST_F(VoxelFacetsTest, OrderOfTrianglesDecidesBetweenEqualsOnly) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<float> uniform(-1, 1);
@@ -54,7 +19,7 @@ TEST_F(VoxelFacetsTest, OrderOfTrianglesDecidesBetweenEqualsOnly) {
   Soup soup;
   const uint32_t white = soup.diffuse(glm::vec3(0.5f));
   for (int i = 0; i < 60; ++i) soup.triangle(white, random(), random(), random());
-  const Result a = run(soup.build(), with(24, 2)), b = run(soup.build(true), with(24, 2));
+  const Result a = run(soup.build(), with(24)), b = run(soup.build(true), with(24));
   ASSERT_EQ(a.solid, b.solid);
   // The best key is the same in both orders; only its last bits, which decide between equals, name another triangle.
   uint32_t same = 0;
@@ -66,59 +31,18 @@ TEST_F(VoxelFacetsTest, OrderOfTrianglesDecidesBetweenEqualsOnly) {
   EXPECT_GT(same, a.solidCount() * 9 / 10);
 }
 
-TEST_F(VoxelFacetsTest, SheetsHaveTheSidesTheirMaterialHas) {
-  const auto sheet = [&](bool doubleSided, uint32_t slots) {
+TEST_F(VoxelFacetsTest, ASheetHasItsFrontAlone) {
+  for (const bool doubleSided : {false, true}) {
     Soup soup;
     soup.quad(soup.diffuse(glm::vec3(0.5f), doubleSided), {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});  // faces +y
-    return run(soup.build(), with(16, slots));
-  };
-  for (const uint32_t slots : {1u, 2u}) {
-    const Result single = sheet(false, slots);
-    EXPECT_EQ(single.facets.size(), 256u);
-    for (const Facet& f : single.facets) {
+    const Result result = run(soup.build(), with(16));
+    EXPECT_EQ(result.facets.size(), 256u);
+    for (const Facet& f : result.facets) {
       EXPECT_EQ(f.normal(), glm::vec3(0, 1, 0));
       EXPECT_EQ(f.voxel.y, 1u) << "the one inner layer";
-      EXPECT_EQ(f.shape & FACET_DOUBLE_SIDED, 0u);
       EXPECT_NEAR(facetOffset(f.shape), 0.0f, 1e-4f) << "a flat scene lies in the middle of its voxels";
     }
   }
-  EXPECT_EQ(sheet(true, 1).facets.size(), 256u);
-  const Result both = sheet(true, 2);
-  ASSERT_EQ(both.facets.size(), 512u);
-  for (size_t i = 0; i < 512; i += 2) {
-    EXPECT_EQ(both.facets[i].normal(), glm::vec3(0, 1, 0));
-    EXPECT_EQ(both.facets[i + 1].normal(), glm::vec3(0, -1, 0));
-    EXPECT_EQ(both.facets[i].voxel, both.facets[i + 1].voxel);
-    EXPECT_NE(both.facets[i].shape & FACET_DOUBLE_SIDED, 0u);
-  }
-}
-
-TEST_F(VoxelFacetsTest, ASheetBeforeAWallInOneVoxel) {
-  // N = 16: one unit is a voxel, [-8, 8] is voxels 1 to 16. The ceiling is y = 8 - .25; a sheet .5 below it, in the
-  // same voxels, ends where it covers .3 of voxel 13 along x and .7 of voxel 12 along z.
-  Soup soup;
-  const uint32_t white = soup.diffuse(glm::vec3(0.5f));
-  soup.quad(white, {-8, -8, -8}, {0, 0, 16}, {16, 0, 0});       // floor, faces +y
-  soup.quad(white, {-8, 7.75f, -8}, {16, 0, 0}, {0, 0, 16});    // ceiling, faces -y
-  soup.quad(white, {-8, 8, -8}, {1e-3f, 0, 0}, {0, 0, 1e-3f});  // so that the box is a cube
-  soup.quad(soup.diffuse(glm::vec3(0.5f), /*doubleSided=*/true), {-4, 7.25f, -4}, {8.3f, 0, 0}, {0, 0, 7.7f});
-  for (const VoxelMethod method : {VoxelMethod::conservative, VoxelMethod::raster})
-    for (const uint32_t slots : {3u, MAX_VOXEL_FACETS}) {
-      const Result result = run(soup.build(), with(16, slots, method));
-      for (uint32_t x = 3; x < 16; ++x)
-        for (uint32_t z = 3; z < 16; ++z) {
-          uint32_t sheet = 0, ceiling = 0;
-          for (const Facet& f : result.facets) {
-            if (f.voxel != glm::uvec3(x, 16, z)) continue;
-            const float up = f.normal().y * facetOffset(f.shape);  // of the plane above the voxel's centre
-            ceiling += f.normal().y < 0 && std::abs(up - 0.25f) < 0.01f;
-            sheet += std::abs(up + 0.25f) < 0.01f;
-          }
-          const bool covered = x >= 5 && x <= 12 && z >= 5 && z <= 12;
-          EXPECT_EQ(sheet, covered ? 2u : 0u) << x << ' ' << z << ": both sides or none";
-          EXPECT_EQ(ceiling, 1u) << x << ' ' << z;
-        }
-    }
 }
 
 TEST_F(VoxelFacetsTest, PlaneOffsetIsTheDistanceFromTheVoxelsCentre) {
@@ -126,7 +50,7 @@ TEST_F(VoxelFacetsTest, PlaneOffsetIsTheDistanceFromTheVoxelsCentre) {
   const uint32_t white = soup.diffuse(glm::vec3(0.5f));
   soup.box(white, glm::vec3(-8), glm::vec3(8), true);
   soup.quad(white, {-6, 0.25f, -6}, {0, 0, 12}, {12, 0, 0});  // y = 0.25: a quarter of voxel 9 of [1, 17), centre 0.5
-  const Result result = run(soup.build(), with(16, 1));
+  const Result result = run(soup.build(), with(16));
   uint32_t seen = 0;
   for (const Facet& f : result.facets) {
     if (f.voxel.y != 9 || f.voxel.x < 4 || f.voxel.x > 13 || f.voxel.z < 4 || f.voxel.z > 13) continue;
@@ -145,7 +69,7 @@ TEST_F(VoxelFacetsTest, MaterialsGiveAlbedoAndExitance) {
   soup.quad(soup.material(metal), {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
   Scene scene = soup.build();
   for (glm::vec4& color : scene.colors) color = {0.5f, 1, 1, 1};
-  const Result result = run(scene, with(8, 1));
+  const Result result = run(scene, with(8));
   ASSERT_EQ(result.facets.size(), 64u);
   for (const Facet& f : result.facets) {
     // base colour x vertex colour x (1 - metallic); M = pi x radiance.
@@ -164,7 +88,7 @@ TEST_F(VoxelFacetsTest, AlbedoOutOfRangeIsClampedAndCounted) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   soup.quad(soup.diffuse({1, 0.5f, 0.98f}), {-4, 0, -4}, {0, 0, 8}, {4, 0, 0});
   soup.quad(soup.diffuse({nan, -1, 7}), {0, 0, -4}, {0, 0, 8}, {4, 0, 0});
-  const Result result = run(soup.build(), with(8, 1));
+  const Result result = run(soup.build(), with(8));
   ASSERT_EQ(result.facets.size(), 64u);
   EXPECT_EQ(result.clamped, 64u);
   for (const Facet& f : result.facets) {
@@ -194,7 +118,7 @@ TEST_F(VoxelFacetsTest, TexturesAreSampledAtTheVoxelsPlace) {
   soup.quad(soup.material(m), {-4, 0, -4}, {8, 0, 0}, {0, 0, 8});  // u along x, v along z; faces -y
   const Scene scene = soup.build();
   for (const VoxelMethod method : {VoxelMethod::conservative, VoxelMethod::raster}) {
-    const Result result = run(scene, with(8, 1, method));
+    const Result result = run(scene, with(8, method));
     ASSERT_EQ(result.facets.size(), 64u);
     for (const Facet& f : result.facets) {
       const uint32_t column = f.voxel.x - 1, row = f.voxel.z - 1;
@@ -225,8 +149,8 @@ TEST_F(VoxelFacetsTest, AlphaMaskCutsAway) {
     m.baseColorTexture.image = soup.image(8, 8, rgba);
     m.baseColorTexture.sampler.u = m.baseColorTexture.sampler.v = Wrap::Clamp;
     soup.quad(soup.material(m), {-4, 0, -4}, {8, 0, 0}, {0, 0, 8});
-    const Result result = run(soup.build(), with(8, 2, method));
-    EXPECT_EQ(result.facets.size(), 64u) << "32 voxels, two sides";
+    const Result result = run(soup.build(), with(8, method));
+    EXPECT_EQ(result.facets.size(), 32u);
     for (const Facet& f : result.facets) EXPECT_GE(f.voxel.x, 5u);
   }
 }

@@ -1,4 +1,4 @@
-// For suites of the voxelization: a scene voxelized and compacted, read back facet by facet.
+// For suites of the thesis's voxels: a scene voxelized and compacted to plane facets, read back one by one.
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,6 @@ struct Facet {
   }
   bool operator==(const Facet& o) const { return key() == o.key(); }
 };
-/// For comparisons of sets: the two facets of a voxel may swap places.
-inline std::vector<Facet> sorted(std::vector<Facet> facets) {
-  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.key() < b.key(); });
-  return facets;
-}
 
 class VoxelsTest : public GpuTest {
  protected:
@@ -46,10 +41,9 @@ class VoxelsTest : public GpuTest {
     }
     uint32_t solidCount() const { return static_cast<uint32_t>(std::count(solid.begin(), solid.end(), true)); }
   };
-  Settings with(uint32_t resolution, uint32_t slots = 2, VoxelMethod method = VoxelMethod::conservative) {
+  Settings with(uint32_t resolution, VoxelMethod method = VoxelMethod::conservative) {
     Settings settings;
     settings.voxel.resolution = resolution;
-    settings.voxel.facets = slots;
     settings.voxel.method = method;
     return settings;
   }

@@ -200,7 +200,7 @@ TEST_F(Watch, EnergyInIsEnergyOut) {
   ASSERT_TRUE(light.report.energy);
   const EnergyBalance energy = *light.report.energy;
   // Against the sums in double.
-  const auto shape = bits(facets.shape);
+  const auto areas = downloadAs<float>(context(), facets.area);
   const auto albedo = downloadAs<glm::uvec2>(context(), facets.albedo);
   const auto emission = downloadAs<glm::vec3>(context(), facets.emission);
   const auto direct = downloadAs<glm::vec4>(context(), light.direct),
@@ -209,7 +209,7 @@ TEST_F(Watch, EnergyInIsEnergyOut) {
   const std::vector<HostRow> rows = hostRows(context(), pipeline.matrix());
   EnergyBalance expected;
   for (uint32_t i = 0; i < facets.count; ++i) {
-    const double area = facetArea(decodeNormal(shape[i] & 0xFFFFu, NORMALS_OCT16), facetOffset(shape[i]));
+    const double area = areas[i];
     const glm::dvec3 d(direct[i]), rho(unpackAlbedo(albedo[i]));
     expected.entering += area * (glm::dvec3(emission[i]) + d);
     expected.absorbed += area * (1.0 - rho) * (d + glm::dvec3(h[i]));
@@ -297,7 +297,7 @@ TEST_F(Guard, DivergenceIsStoppedAndTheLightFromBeforeKept) {
 
 TEST_F(Guard, EdgesAreRemovedFromTheLightThatWasPutBack) {
   Settings settings = gained(0.8f);
-  settings.sample.gpu.gated = 0;
+  settings.matrix.gpu.hitRule = HitRule::thesis;
   settings.scatter.edgeRemoval = true;
   Pipeline pipeline(context(), furnaceBox(0.9f), settings);
   pipeline.prepare();

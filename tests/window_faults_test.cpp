@@ -109,23 +109,23 @@ TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
   EXPECT_TRUE(says("no shader has changed"));
 
   // An error: the message names file and line, the old shaders stay.
-  const std::filesystem::path facets = shaders / "gi/facet_shade.comp";
+  const std::filesystem::path facets = shaders / "gi/facet_mean.comp";
   const std::string good = slurp(facets);
   std::ofstream(facets) << good << "\nmistake\n";
   key("F5");
   EXPECT_TRUE(says("The old shaders stay in use"));
-  EXPECT_TRUE(says("facet_shade.comp")) << window_->log();
+  EXPECT_TRUE(says("facet_mean.comp")) << window_->log();
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
 
   // A voxelization shader: the voxels are made anew, and everything after them.
-  const std::string included = "#include \"facet_shade.glsl\"\n";
+  const std::string included = "#include \"gi/facet_points.glsl\"\n";
   std::string changed = good;
   ASSERT_NE(changed.find(included), std::string::npos);
   changed.insert(changed.find(included),
                  "#include \"shared/facets.h\"\n#define packAlbedo(a) packAlbedo(vec3(0.9, 0.1, 0.5) * (a))\n");
   std::ofstream(facets) << changed;
   key("F5");
-  EXPECT_TRUE(says("Compiled again: gi/facet_shade.comp"));
+  EXPECT_TRUE(says("Compiled again: gi/facet_mean.comp"));
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.5; }))
       << "the voxels keep what the old shader made of them";
   std::ofstream(facets) << good;
@@ -146,8 +146,8 @@ TEST_F(WindowFaultsTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
   EXPECT_EQ(top().count(kAlarm), 0);
 
   // One facet's direct light becomes NaN.
-  const std::filesystem::path gather = shaders / "gi/gather.comp";
-  const std::string good = slurp(gather), wanted = "vec4(sum / float(samples), 0.0f)";
+  const std::filesystem::path gather = shaders / "gi/gather_surfels.comp";
+  const std::string good = slurp(gather), wanted = "vec4(sum / float(FACET_SURFELS), 0.0f)";
   std::string bad = good;
   const size_t at = bad.find(wanted);
   ASSERT_NE(at, std::string::npos);

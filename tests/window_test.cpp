@@ -234,7 +234,7 @@ TEST_F(WindowTest, RefusesWhatItCannotShow) {
 TEST(Controls, AreFoundByNameOrTheNearOnesAreSaid) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "controls") << "10 20 30 40 0 0 300 700 1 0\tSettings/voxel.resolution\n"
-                                             "10 60 30 40 0 0 300 700 0 1\tSettings/voxel.facets\n"
+                                             "10 60 30 40 0 0 300 700 0 1\tSettings/voxel.method\n"
                                              "10 90 30 40 0 0 300 700 0 0\tLights/Save\n"
                                              "10 99 30 40 0 0 300 700 0 0\tLights/Save\n";
   const std::vector<Control> all = readControls(folder.path / "controls");
@@ -245,7 +245,7 @@ TEST(Controls, AreFoundByNameOrTheNearOnesAreSaid) {
   EXPECT_EQ(resolution.region.height, 700);
   EXPECT_TRUE(resolution.on);
   EXPECT_FALSE(resolution.disabled);
-  EXPECT_TRUE(findControl(all, "Settings/voxel.facets").disabled);
+  EXPECT_TRUE(findControl(all, "Settings/voxel.method").disabled);
   const auto refusal = [&](const char* name) {
     try {
       findControl(all, name);
@@ -255,7 +255,7 @@ TEST(Controls, AreFoundByNameOrTheNearOnesAreSaid) {
     return std::string();
   };
   EXPECT_TRUE(contains(refusal("Settings/voxel.resolutoin"), "near: Settings/voxel.resolution"));
-  EXPECT_TRUE(contains(refusal("Settings/q"), "in its place: Settings/voxel.resolution, Settings/voxel.facets"));
+  EXPECT_TRUE(contains(refusal("Settings/q"), "in its place: Settings/voxel.resolution, Settings/voxel.method"));
   EXPECT_TRUE(contains(refusal("Lights/Save"), "two controls are called 'Lights/Save'"));
 }
 

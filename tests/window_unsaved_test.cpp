@@ -97,7 +97,7 @@ TEST_F(WindowUnsavedTest, EscClosesWhatIsOnTopAndNeverQuits) {
 
 TEST_F(WindowUnsavedTest, SettingsAreKeptAsAPresetDiscardedOrStay) {
   begin();
-  choose("Settings/voxel.facets", "1");
+  choose("Settings/sample.filter", "linear");
   key("ctrl+q");
   ASSERT_TRUE(appears(kCancel)) << "settings are lost without being asked for";
   EXPECT_FALSE(has("Unsaved changes/file")) << "no light was edited";
@@ -117,7 +117,7 @@ TEST_F(WindowUnsavedTest, SettingsAreKeptAsAPresetDiscardedOrStay) {
   ASSERT_TRUE(window_->running());
   enter("Unsaved changes/preset", "mine");
   EXPECT_EQ(window_->wait(20), 0);
-  EXPECT_TRUE(contains(slurp(preset("mine")), "\"voxel.facets\": 1")) << slurp(preset("mine"));
+  EXPECT_TRUE(contains(slurp(preset("mine")), "\"sample.filter\": \"linear\"")) << slurp(preset("mine"));
 
   // From the preset: nothing is unsaved. Edited again: discarded, under the same name.
   begin();
@@ -126,16 +126,16 @@ TEST_F(WindowUnsavedTest, SettingsAreKeptAsAPresetDiscardedOrStay) {
   quit();
   begin();
   choose("Settings/preset", "mine");
-  choose("Settings/voxel.facets", "2");
+  choose("Settings/sample.filter", "nearest");
   quitDiscarding();
-  EXPECT_TRUE(contains(slurp(preset("mine")), "\"voxel.facets\": 1"));
+  EXPECT_TRUE(contains(slurp(preset("mine")), "\"sample.filter\": \"linear\""));
 }
 
 TEST_F(WindowUnsavedTest, ACaptureKeepsSettingsAndAPickIsNone) {
   begin();
   press("480 480");
   ASSERT_TRUE(appears("Inspector/Clear"));
-  choose("Settings/voxel.facets", "1");
+  choose("Settings/sample.filter", "linear");
   key("F12");
   ASSERT_TRUE(says("Saved Lit"));
   quit();
@@ -235,7 +235,7 @@ TEST_F(WindowUnsavedTest, TheSideThatAComparisonLosesIsAskedFor) {
   begin();
   click("Compare/Compare with these settings");
   ASSERT_TRUE(appears("Compare/edit B"));
-  choose("Settings/voxel.facets", "1");
+  choose("Settings/sample.filter", "linear");
   click("Compare/edit A");
   escape();
   ASSERT_TRUE(appears(kCancel)) << "B is lost without being asked for";
@@ -246,7 +246,7 @@ TEST_F(WindowUnsavedTest, TheSideThatAComparisonLosesIsAskedFor) {
   EXPECT_FALSE(has("Unsaved changes/preset")) << "A stays";
   enter("Unsaved changes/presetB", "side B");
   EXPECT_TRUE(appears("Compare/Compare with these settings"));
-  EXPECT_TRUE(contains(slurp(preset("side B")), "\"voxel.facets\": 1"));
+  EXPECT_TRUE(contains(slurp(preset("side B")), "\"sample.filter\": \"linear\""));
   quit();
 }
 

@@ -10,6 +10,7 @@
 #include "gi/check/scenes.h"
 #include "gi/grid.h"
 #include "gi/lighting.h"
+#include "shaders/shared/surface.h"
 
 namespace irad {
 namespace {
@@ -35,15 +36,16 @@ void emissionRangeCase(CheckRun& run) {
 
 constexpr float kTinyExitance = 1e4f;  ///< W/m^2
 
-/// A lamp the size of one voxel's face, in a cube of edge 2 of 64 voxels: it fills a ten-thousandth of what the floor
-/// sees.
+/// A lamp of nearly one voxel's face (a hundredth smaller, so that it touches no other voxel), in a cube of edge 2 of
+/// 64 voxels: it fills a ten-thousandth of what the floor sees.
 std::array<glm::dvec3, 4> tinyLamp(uint32_t resolution) {
   const Grid grid = makeGrid(glm::vec3(-1), glm::vec3(1), resolution);
   const double x = grid.dims.x / 2, z = grid.dims.z / 2, y = std::floor(0.875 * resolution) + 1.5;
   const auto corner = [&](double dx, double dz) {
     return glm::dvec3(grid.origin) + double{grid.edge} * glm::dvec3(x + dx, y, z + dz);
   };
-  return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+  constexpr double kLow = 0.005, kHigh = 0.995;
+  return {corner(kLow, kLow), corner(kHigh, kLow), corner(kHigh, kHigh), corner(kLow, kHigh)};
 }
 
 /// The closed cube, rho = 0, with that lamp, which faces down.
@@ -51,10 +53,8 @@ Scene tinyEmitter(uint32_t resolution) {
   SceneBuilder b;
   const uint32_t m = b.material(glm::vec3(0.0f)), lamp = b.material(glm::vec3(0.0f), glm::vec3(kTinyExitance));
   b.box({m, m, m, m, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-  // A hundredth smaller, so that it touches no other voxel; the facet is the whole face.
   const std::array<glm::dvec3, 4> face = tinyLamp(resolution);
-  const auto within = [&](int i) { return glm::vec3(glm::mix(face[i], 0.5 * (face[0] + face[2]), 0.01)); };
-  b.quad(lamp, within(0), within(1), within(2), within(3));
+  b.quad(lamp, face[0], face[1], face[2], face[3]);
   b.camera({0, 0, 0.95}, {0, -0.5, -1});
   return b.finish("tiny-emitter");
 }
@@ -109,7 +109,9 @@ void scale10Case(CheckRun& run) {
   const Picture one = lit(run, stillScene());
   for (const float s : {1e-3f, 0.07f, 30.0f, 1e4f}) {
     const PictureError error = compare(lit(run, scaled(stillScene(), s)), one);
-    run.atMost(fmt::format("x {:g}: largest difference / mean", s), error.largest, 1e-3);
+    run.atMost(fmt::format("x {:g}: mean |difference| / mean", s), error.mean, 1e-4);
+    // A ray that passes an edge more closely than fp32 can tell may fall to the other side: one of a small facet's.
+    run.atMost(fmt::format("x {:g}: largest difference / mean", s), error.largest, 1.0 / LEAST_RAYS);
   }
 }
 
@@ -153,7 +155,8 @@ std::vector<CheckCase> rangeCases() {
       {"tiny-emitter", "one voxel shines in a black room, F = 1e-4", "F M by Lambert's formula",
        "noise <= 5 % with emitter sampling", tinyEmitterCase, tinyEmitterScene, tinyEmitterLight},
       {"scale-2", "a still life x 2^-10, x 2^13", "the same picture", "bits equal", scale2Case, stillScene},
-      {"scale-10", "a still life x 1e-3 ... 1e4", "the same picture", "1e-3", scale10Case, stillScene},
+      {"scale-10", "a still life x 1e-3 ... 1e4", "the same picture", "mean 1e-4, a pixel 1 ray of 32", scale10Case,
+       stillScene},
       {"rotate-90", "a still life turned by 90 degrees about each axis, and mirrored", "the mapped picture", "mean 1 %",
        rotate90Case, stillScene},
       {"far-away", "a still life ten units wide, loaded at 1e6", "the picture of the centred one", "equal", farAwayCase,

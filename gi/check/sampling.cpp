@@ -15,7 +15,6 @@
 #include "gi/lighting.h"
 #include "gi/ray_kernel.h"
 #include "gi/subsystems.h"
-#include "gi/voxelize.h"
 #include "renderer/base/angle.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
@@ -191,8 +190,7 @@ void traversalCase(CheckRun& run) {
   Scene scene = furnishedRoom();
   const SceneOnDevice device(run.context, scene);
   Settings settings = run.settings;
-  Voxels voxels = voxelize(run.context, device, settings);
-  const FacetList facets = compactFacets(run.context, voxels, settings);
+  const FacetList facets = makeFacets(run.context, device, settings);
   settings.field.method = FieldMethod::chebyshev;
   const Field chebyshev = buildField(run.context, facets, settings);
   settings.field.method = FieldMethod::jfa;
@@ -237,7 +235,7 @@ Scene corridor() {
 /// B as the volume's half floats hold it, against the fp32 that was written there.
 void halfCase(CheckRun& run) {
   Settings settings = run.settings;
-  settings.sample.gpu.gated = 0;  // shading from the volume
+  settings.matrix.gpu.hitRule = HitRule::thesis;  // whose shading samples the volume
   const auto pipeline = run.prepare(corridor(), settings);
   const FacetList& list = pipeline->facets();
   const auto reverse = downloadAs<uint32_t>(run.context, list.reverse);

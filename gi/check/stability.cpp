@@ -115,6 +115,10 @@ void toggleCase(CheckRun& run) {
     for (const Setting& setting : settingTable()) {
       Settings changed = settings;
       toggle(setting, changed);
+      // What is the thesis's alone comes with its hit rule.
+      if (changed.voxel.method == VoxelMethod::raster || changed.matrix.format == MatrixFormat::padded ||
+          changed.thesis.literal)
+        changed.matrix.gpu.hitRule = HitRule::thesis;
       pipeline->set(changed);
       pipeline->prepare();
       bad += countNonFinite(shot());

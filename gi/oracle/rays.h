@@ -18,7 +18,7 @@ namespace irad::oracle {
 struct Facets {
   Grid grid;
   NormalEncoding encoding = NormalEncoding::oct16;
-  std::vector<uint32_t> voxel, shape, reverse, around;
+  std::vector<uint32_t> voxel, shape, reverse;
   // Of lists by classes of surfels (gi/surface.h); else empty.
   std::vector<glm::vec4> corners;
   std::vector<uint32_t> firstPiece, pieces, sides, cuts;
@@ -37,10 +37,6 @@ struct Facets {
   bool maskLeaves(uint32_t piece, uint32_t bit) const;
   glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
-  /// The point of the plane nearest to the voxel's centre, voxel units.
-  glm::dvec3 middle(uint32_t facet) const;
-  /// Signed distance of `p` (voxel units) from the facet's plane.
-  double distance(uint32_t facet, const glm::dvec3& p) const;
 };
 
 inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;

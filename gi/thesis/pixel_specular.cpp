@@ -14,14 +14,14 @@ void traceByPixel(SpecularPicture& picture) {
     targets.glossy = Buffer();
     Pass pass = picture.frame.pass(kSpecularStage);
     pass.shaders({"thesis/screen.vert", jfa ? "thesis/specular_jfa.frag" : "thesis/specular.frag"});
-    addRays(picture, pass).read(targets.indirect);
+    addRays(picture, pass);
     sampleField(picture, pass).color(targets.specular, ClearColor{}).draw(3);
     return;
   }
   listGlossy(picture, /*filtered=*/false, GLOSSY_PARTS);
   Pass pass = picture.frame.pass(kSpecularStage);
   pass.shader(jfa ? "thesis/specular_jfa.comp" : "thesis/specular.comp");
-  addRays(picture, pass).read(targets.indirect).write(targets.specular);
+  addRays(picture, pass).write(targets.specular);
   sampleField(picture, pass).dispatchIndirect(targets.glossy);
 }
 

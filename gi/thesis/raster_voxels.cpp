@@ -24,43 +24,41 @@ void rasterizeVoxels(Frame& frame, const Voxels& voxels, std::vector<TriangleRan
   }
   const auto count = [&](bool masked) { return std::ranges::count(ranges, masked, &TriangleRange::masked); };
 
-  for (uint32_t slot = 0; slot < voxels.slots; ++slot) {
-    VoxelizePush push{};
-    const auto eachRange = [&](Commands& commands, bool masked, const auto& go) {
-      for (const TriangleRange& range : ranges) {
-        if (range.masked != masked) continue;
-        commands.bindMaterial(scene.materialSets.at(range.material));
-        push.firstTriangle = range.first;
-        push.endTriangle = range.end;
-        commands.push(push);
-        go(range.end - range.first, range.first);
-      }
-    };
-    if (kernels) {
-      rasterize(
-          frame, kVoxelizeStage, "thesis/voxel_raster.comp", queue, count(true) > 0,
-          [&](Pass& pass, RasterStep step, uint64_t queued) {
-            push = voxelizePush(pass, voxels, settings, slot, step.masked);
-            push.tileStart = queued;
-            push.tileCount = rasterQueuePieces(triangles);
-          },
-          [&](Commands& commands, RasterStep step) {
-            eachRange(commands, step.masked, [&](uint32_t drawn, uint32_t) {
-              rasterDispatch(commands, step, drawn, static_cast<uint32_t>(count(step.masked)));
-            });
-          });
-      continue;
+  VoxelizePush push{};
+  const auto eachRange = [&](Commands& commands, bool masked, const auto& go) {
+    for (const TriangleRange& range : ranges) {
+      if (range.masked != masked) continue;
+      commands.bindMaterial(scene.materialSets.at(range.material));
+      push.firstTriangle = range.first;
+      push.endTriangle = range.end;
+      commands.push(push);
+      go(range.end - range.first, range.first);
     }
-    for (const bool masked : {false, true}) {
-      if (count(masked) == 0) continue;
-      Pass pass = frame.pass(kVoxelizeStage);
-      push = voxelizePush(pass, voxels, settings, slot, masked);
-      pass.shaders({"thesis/voxel_raster.vert", "thesis/voxel_raster.frag"})
-          .extent(size, size)
-          .run([&](Commands& commands) {
-            eachRange(commands, masked, [&](uint32_t drawn, uint32_t first) { commands.draw(3 * drawn, 3 * first); });
+  };
+  if (kernels) {
+    rasterize(
+        frame, kVoxelizeStage, "thesis/voxel_raster.comp", queue, count(true) > 0,
+        [&](Pass& pass, RasterStep step, uint64_t queued) {
+          push = voxelizePush(pass, voxels, step.masked);
+          push.tileStart = queued;
+          push.tileCount = rasterQueuePieces(triangles);
+        },
+        [&](Commands& commands, RasterStep step) {
+          eachRange(commands, step.masked, [&](uint32_t drawn, uint32_t) {
+            rasterDispatch(commands, step, drawn, static_cast<uint32_t>(count(step.masked)));
           });
-    }
+        });
+    return;
+  }
+  for (const bool masked : {false, true}) {
+    if (count(masked) == 0) continue;
+    Pass pass = frame.pass(kVoxelizeStage);
+    push = voxelizePush(pass, voxels, masked);
+    pass.shaders({"thesis/voxel_raster.vert", "thesis/voxel_raster.frag"})
+        .extent(size, size)
+        .run([&](Commands& commands) {
+          eachRange(commands, masked, [&](uint32_t drawn, uint32_t first) { commands.draw(3 * drawn, 3 * first); });
+        });
   }
 }
 

@@ -23,13 +23,11 @@ RadianceVolume makeVolume(Context& context, const Grid& grid) {
 void scatterVolume(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings) {
   frame.pass("GI Scatter Clear").clear(light.volume.image, ClearColor{});
   if (facets.count == 0) return;
-  const bool holdsRadiosity = settings.sample.gpu.gated == 0 || settings.scatter.edgeRemoval;
-  const Buffer& value = holdsRadiosity ? light.radiosity : light.indirect;
   frame.pass("GI Scatter Clear").fill(light.volume.clamped, 0);
   Pass pass = frame.pass("GI Scatter");
   ScatterVolumePush push{};
   push.facets = pass.in(facets.record);
-  push.value = pass.in(value);
+  push.radiosity = pass.in(light.radiosity);
   push.direct = pass.in(light.direct);
   push.dims = facets.grid.dims;
   push.removal = settings.scatter.edgeRemoval ? light.gain.radiosity : 0.0f;

@@ -120,6 +120,10 @@ Shaded shade(Interpolants v) {
     if (MANY_LIGHTS) light = manyLights.at[i];
     vec3 l = lightDirection(light, v.local);
     float nl = preciseDot(n, l);
+#ifndef IRAD_VOLUME
+    // A light behind the face adds nothing, whatever the shading normal says.
+    if (preciseDot(face, l) <= 0.0) continue;
+#endif
     vec3 e = nl > 0.0 ? lightIntensity(light, v.local) * nl : vec3(0.0);
     if (max(e.r, max(e.g, e.b)) <= 0.0) continue;
     // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The gather

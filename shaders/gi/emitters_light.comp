@@ -39,7 +39,7 @@ void main() {
         seen += facing * facing * clamp(2.0 - plane / SAME_SURFACE, 0.0, 1.0) * share.w * vec4(share.rgb, 1.0);
       }
     }
-    if (seen.w == 0.0) return;  // voxels do not know: the facets' value is kept
+    if (seen.w == 0.0) return;  // no ray was asked: the facets' value is kept
     light *= seen.rgb / seen.w;
   }
   vec4 indirect = imageLoad(indirectTarget, pixel);

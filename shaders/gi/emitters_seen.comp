@@ -1,50 +1,16 @@
 // "RE Emitters", step 1: how much of the light of the emissive triangles a visible point sees, by channel, from rays
-// through the voxels. They are drawn in proportion to what each triangle gives; the share of the weights that get
+// that the scene's triangles stop. They are drawn in proportion to what each triangle gives; the share of the weights that get
 // through takes the place of their sum, which cancels the noise where all or none do (Heitz, Hill and McGuire 2018,
 // "Combining analytic direct illumination and stochastic shadows").
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/pixel_emitters.glsl"
-#include "gi/trace.glsl"
+#include "gi/seen_point.glsl"
+#include "gi/emitter_point.glsl"
+#include "shared/passes.h"
 #include "shared/sampling.h"
 
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D seenTarget;  ///< w = 0: unknown
-
-/// An emissive face that a ray meets at most this far before its end is the emitter itself: voxels do not know a lamp's
-/// shape any better. In voxels, as are the next two.
-const float OWN_DEPTH = 1.0;
-/// A face, or a sheet, met nearer than this: as far as voxels know the point lies in a corner, or in the edge of a
-/// sheet.
-const float NEAR_FACE = 0.1, NEAR_SHEET = 1.0;
-
-/// Whether `facet`, part of a sheet, is met in a voxel that also has the point's surface: it is unknown then which of
-/// the two ends at the other.
-bool endsAtOwnPlane(TraceWorld world, uint facet, vec3 p, vec3 face) {
-  vec3 voxel = vec3(unpackVoxel(world.facets.voxel.at[facet]));
-  uint entry = world.facets.reverse.at[traceIndex(voxel, world.dims)];
-  for (uint i = firstFacet(entry); i < firstFacet(entry) + facetsOf(entry); ++i) {
-    uint shape = world.facets.shape.at[i];
-    vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
-    if (dot(normal, face) > TRACE_OWN_NORMAL && abs(dot(normal, p - facetMiddle(voxel, normal, shape))) < TRACE_JOINT)
-      return true;
-  }
-  return false;
-}
-
-/// Whether the point at `reach` along `direction`, of a face inclined by `cosine`, is seen from `origin`: 1, 0, or -1
-/// where voxels do not know.
-int sees(TraceWorld world, vec3 origin, vec3 direction, vec3 face, float reach, float cosine) {
-  TraceHit hit = traceRay(world, origin, direction, face);
-  if (hit.facet == TRACE_INVALID) return -1;
-  if (hit.facet == TRACE_ESCAPED) return 1;
-  float before = reach - hit.t;
-  if (before * cosine <= TRACE_ON_PLANE) return 1;
-  if (hit.facet == TRACE_BLOCKED) return 0;
-  if (world.facets.emission.at[hit.facet] != vec3(0.0) && before <= OWN_DEPTH) return 1;
-  bool sheet = (world.facets.shape.at[hit.facet] & FACET_DOUBLE_SIDED) != 0u;
-  bool unknown = hit.t < (sheet ? NEAR_SHEET : NEAR_FACE) || (sheet && endsAtOwnPlane(world, hit.facet, origin, face));
-  return unknown ? -1 : 0;
-}
 
 void main() {
   ivec2 pixel = tilePixel();
@@ -65,6 +31,9 @@ void main() {
                       pixel.x * 2447445414u + pixel.y * 3242174889u);
   float start = unitFloat(shift.x);
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.grid.dims, 0.0);
+  SurfaceArrays surface = push.surface.at[0];
+  SurfelPoint from;
+  if (total > 0.0) from = liftedSeen(surface, seenTriangle(position.w), p, face);
   vec3 seen = vec3(0.0), asked = vec3(0.0);
   float seenSum = 0.0, askedSum = 0.0;
   float upTo = 0.0;  // rays to this triangle and those before it
@@ -79,19 +48,18 @@ void main() {
     for (; k < push.rays && float(k) + start < upTo; ++k) {
       vec2 u = facetJitter(k, shift.yz);
       float s = sqrt(u.x);
-      vec3 way = t.corner + t.edge1 * (s * (1.0 - u.y)) + t.edge2 * (s * u.y) - p;
+      vec3 way = t.corner + t.edge1 * (s * (1.0 - u.y)) + t.edge2 * (s * u.y) - from.position;
       float reach = length(way);
       vec3 direction = way / reach;
       float cosine = abs(dot(direction, facing)) / size;
       // The point's form factor over the density with which it is drawn.
       float weight = max(dot(n, direction), 0.0) * cosine * size / (reach * reach * share);
       if (weight == 0.0) continue;
-      int clear = dot(face, direction) > 0.0 ? sees(world, p, direction, face, reach, cosine) : 0;
-      if (clear < 0) continue;
       asked += weight * t.exitance;
       askedSum += weight;
-      seen += float(clear) * weight * t.exitance;
-      seenSum += float(clear) * weight;
+      if (dot(from.facing, direction) <= 0.0 || !reaches(world, surface, from, direction, reach)) continue;
+      seen += weight * t.exitance;
+      seenSum += weight;
     }
   }
   vec4 result = vec4(0.0);

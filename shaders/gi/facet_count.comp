@@ -9,22 +9,14 @@ void main() {
   uint block = irad_index();
   if (block >= push.blocks) return;
   uvec3 dims = push.grid.at[0].dims;
-  uint voxels = push.grid.at[0].voxels;
   uvec3 corner = mortonDecode(block * 64u, push.grid.at[0].mortonBits);
   uint facets = 0u;
-  uint solid = 0u;
   if (all(lessThan(corner, dims))) {
     for (uint code = 0u; code < 64u; ++code) {
       uvec3 v = corner + inBlock(code);
       if (any(greaterThanEqual(v, dims))) continue;
-      uint index = voxelIndex(v, dims);
-      if (push.keys.at[index] == 0u) continue;
-      ++solid;
-      ++facets;
-      for (uint slot = 1u; slot < push.slots; ++slot)
-        if (push.keys.at[slot * voxels + index] != 0u) ++facets;
+      if (push.keys.at[voxelIndex(v, dims)] != 0u) ++facets;
     }
   }
   push.blockCounts.at[block] = facets;
-  if (solid > 0u) atomicAdd(push.totals.at[1], solid);
 }

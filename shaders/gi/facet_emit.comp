@@ -1,17 +1,15 @@
-// Facet list, step 2: writes voxel and winning triangle of every facet at its place, and the reverse map of every voxel.
+// Facet list, step 2: writes voxel and winning triangle of every facet at its place, and the reverse map of every
+// voxel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "facet_block.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { CompactPush push; };
 
-uint facetTriangle(uint key) { return keyTriangle(key) | (keyBack(key) ? BACK_SIDE : 0u); }
-
 void main() {
   uint block = irad_index();
   if (block >= push.blocks) return;
   uvec3 dims = push.grid.at[0].dims;
-  uint voxels = push.grid.at[0].voxels;
   uvec3 corner = mortonDecode(block * 64u, push.grid.at[0].mortonBits);
   if (any(greaterThanEqual(corner, dims))) return;
   uint facet = push.blockCounts.at[block];
@@ -19,14 +17,11 @@ void main() {
     uvec3 v = corner + inBlock(code);
     if (any(greaterThanEqual(v, dims))) continue;
     uint index = voxelIndex(v, dims);
-    uint first = facet;
-    for (uint slot = 0u; slot < push.slots; ++slot) {
-      uint key = push.keys.at[slot * voxels + index];
-      if (key == 0u) continue;
-      push.voxel.at[facet] = packVoxel(v);
-      push.triangle.at[facet] = facetTriangle(key);
-      ++facet;
-    }
-    push.reverse.at[index] = facet > first ? facetEntryOf(first, facet - first) : NO_FACET;
+    uint key = push.keys.at[index];
+    push.reverse.at[index] = key == 0u ? NO_FACET : facetEntryOf(facet, 1u);
+    if (key == 0u) continue;
+    push.voxel.at[facet] = packVoxel(v);
+    push.triangle.at[facet] = keyTriangle(key);
+    ++facet;
   }
 }

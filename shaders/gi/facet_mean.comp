@@ -15,18 +15,15 @@ void main() {
 
   // Normal and plane from the surfels, which stand for equal areas.
   vec3 normal = vec3(0.0), middle = vec3(0.0);
-  bool bothSides = false;
   for (uint k = 0u; k < FACET_SURFELS; ++k) {
     SurfelPoint s = surfelOf(surface, facet, k);
     normal += s.facing;
     middle += s.position - vec3(voxel) - 0.5;
-    bothSides = bothSides || showsBack(surface.corners, s.triangle);
   }
   normal = normalize(normal);
   uint code = encodeNormal(normal, push.encoding);
   float offset = dot(middle * (1.0 / float(FACET_SURFELS)), decodeNormal(code, push.encoding));
-  push.shape.at[facet] =
-      code | packFacetOffset(offset) | (bothSides ? FACET_DOUBLE_SIDED : 0u);
+  push.shape.at[facet] = code | packFacetOffset(offset);
 
   vec3 albedo = vec3(0.0), emission = vec3(0.0);
   float weights = 0.0;

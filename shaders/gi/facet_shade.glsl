@@ -1,6 +1,6 @@
 // Attributes of the facets (docs/method.md 1-2): normal, plane offset, albedo = base colour x (1 - metallic) clamped to
-// [0, .98], emitted exitance. One dispatch per textured material, whose set 1 is bound, and one for all facets that sample
-// no texture.
+// [0, .98], emitted exitance. One dispatch per textured material, whose set 1 is bound, and one for all facets that
+// sample no texture.
 #include "shared/energy.h"
 #include "shared/normals.h"
 #include "thesis/oct8_literal.h"
@@ -18,16 +18,14 @@ void main() {
   uint index = irad_index();
   if (index >= push.count) return;
   uint facet = push.order.at[push.first + index];
-  uint entry = push.triangle.at[facet];
-  uint triangle = entry & ~BACK_SIDE;
-  uint flags = triangleFlags(push.scene, triangle);
+  uint triangle = push.triangle.at[facet];
 
   vec3 cell = vec3(unpackVoxel(push.voxel.at[facet]));
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   vec3 at = sampledAt(t, triangle, cell);
   MaterialPoint p = materialPoint(push.scene, t, triangle, at + cell);
 
-  vec3 facing = normalize(t.normal) * ((entry & BACK_SIDE) != 0u ? -1.0 : 1.0);
+  vec3 facing = normalize(t.normal);
   Vec3Array normals = push.scene.at[0].normals;
   vec3 normal = normals.at[p.vertex.x] * p.weight.x + normals.at[p.vertex.y] * p.weight.y +
                 normals.at[p.vertex.z] * p.weight.z;
@@ -38,8 +36,7 @@ void main() {
                                                                   : encodeNormal(normal, push.encoding);
   float offset = dot(at - vec3(0.5), decodeNormal(code, push.encoding));
   push.area.at[facet] = facetArea(decodeNormal(code, push.encoding), facetOffset(packFacetOffset(offset)));
-  push.shape.at[facet] =
-      code | packFacetOffset(offset) | ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? FACET_DOUBLE_SIDED : 0u);
+  push.shape.at[facet] = code | packFacetOffset(offset);
 
   bool clamped;
   vec3 albedo = albedoAt(push.scene, p, clamped);

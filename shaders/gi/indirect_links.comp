@@ -11,7 +11,8 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;  ///< F M too: there is a target for it
-layout(constant_id = CONSTANT_KEEPS_POSITION) const bool KEEPS_POSITION = false;  ///< in the normal's place
+/// In the normal's place; w: seenAs(), 0 where nothing is drawn.
+layout(constant_id = CONSTANT_KEEPS_POSITION) const bool KEEPS_POSITION = false;
 layout(push_constant, scalar) uniform PushBlock {
   IndirectPush push;
 };
@@ -25,9 +26,11 @@ void main() {
   ivec2 pixel = tilePixel();
   if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
   vec4 position = imageLoad(indirectTarget, pixel);
-  uint triangle = seenTriangle(imageLoad(lookupTarget, pixel).w);
-  if (KEEPS_POSITION) imageStore(lookupTarget, pixel, position);
-  if (position.w == 0.0) return;
+  float seen = imageLoad(lookupTarget, pixel).w;
+  bool drawn = position.w != 0.0;
+  if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, drawn ? seen : 0.0));
+  if (!drawn) return;
+  uint triangle = seenTriangle(seen);
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
@@ -40,5 +43,5 @@ void main() {
     if (EMITTED) e = tapped(taps, push.shadedEmitted);
   }
   if (EMITTED) imageStore(emittedTarget, pixel, vec4(e, 1.0));
-  imageStore(indirectTarget, pixel, vec4(h, 1.0));
+  imageStore(indirectTarget, pixel, vec4(h, seen));  // for the rays of reflections
 }

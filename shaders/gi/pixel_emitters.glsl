@@ -7,7 +7,8 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform PushBlock {
   PixelEmittersPush push;
 };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positionTarget;  ///< local space; w = 0: nothing drawn
+/// Local space; w: seenAs(), or 0 where nothing is drawn.
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positionTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
 

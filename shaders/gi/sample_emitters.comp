@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push { SampleEmittersPush p; };
 
 #include "gi/emitter_point.glsl"
 #include "gi/matrix_row.glsl"
-#include "gi/trace.glsl"
+#include "gi/seen_point.glsl"
 
 bool near(uvec3 a, uvec3 b) {
   vec3 d = vec3(a) - vec3(b);
@@ -33,8 +33,8 @@ vec3 nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
   return sum * r.weight;
 }
 
-/// As main() below, between surfels.
-vec3 sampleSurfels(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArrays surface, uint facet, uvec3 voxel,
+/// E = 1/n sum of M cos cos' / (pi r^2) / density, the density of points being luminance(M) / power.
+vec3 sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArrays surface, uint facet, uvec3 voxel,
                    uvec4 shifts) {
   vec3 sum = vec3(0.0f);
   for (uint k = 0u; k < p.samples; ++k) {
@@ -48,8 +48,7 @@ vec3 sampleSurfels(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceA
     vec3 direction = way / reach;
     float cosines = max(dot(from.facing, direction), 0.0f) * max(-dot(to.facing, direction), 0.0f);
     if (cosines == 0.0f) continue;
-    TraceHit hit = traceTriangles(world, surface, from.position, direction, from.triangle);
-    if (hit.facet != TRACE_ESCAPED && hit.t < reach * (1.0f - 1e-4f)) continue;
+    if (!reaches(world, surface, from, direction, reach)) continue;
     vec3 exitance = f.emission.at[emitter];
     sum += exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
   }
@@ -64,42 +63,10 @@ void main() {
   TraceWorld world = TraceWorld(f, p.chebyshev, p.dims, p.jfaMax);
   uint packedVoxel = f.voxel.at[facet];
   uvec3 voxel = unpackVoxel(packedVoxel);
-  uint shape = f.shape.at[facet];
-  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
   uvec4 shifts = rayShifts(packedVoxel, p.seed ^ 0x5A3D9E71u, 1u);
 
-  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
-    vec3 light = nearEmitters(f, p.matrix.at[0], facet, voxel) +
-                 sampleSurfels(table, f, world, p.surface.at[0], facet, voxel, shifts);
-    p.correction.at[facet] = vec4(light - p.emitted.at[facet].xyz, 0.0f);
-    p.emitted.at[facet] = vec4(light, 0.0f);
-    return;
-  }
-
-  // E = 1/n sum of M cos cos' / (pi r^2) / density, the density of points being luminance(M) / power.
-  vec3 sum = vec3(0.0f);
-  uint valid = p.samples;
-  for (uint k = 0u; k < p.samples; ++k) {
-    uint emitter;
-    vec3 point, facing;
-    uvec2 u = shifts.xy + uvec2((2u * k + 1u) * (0x80000000u / p.samples), reverseBits(k));
-    if (!emitterPoint(table, f, TRACE_NORMALS, u, emitter, point, facing)) continue;
-    if (near(voxel, unpackVoxel(f.voxel.at[emitter]))) continue;
-    vec3 origin = facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
-    vec3 way = point - origin;
-    float reach = length(way);
-    vec3 direction = way / reach;
-    float cosines = max(dot(normal, direction), 0.0f) * max(-dot(facing, direction), 0.0f);
-    if (cosines == 0.0f) continue;
-    TraceHit hit = traceFacetRay(world, origin, direction, normal, voxel, facet, shape);
-    if (hit.facet == TRACE_INVALID) --valid;
-    if (hit.facet > TRACE_LAST_FACET) continue;
-    vec3 exitance = f.emission.at[emitter];
-    bool reached = hit.facet == emitter ||
-                   (f.emission.at[hit.facet] != vec3(0.0f) && abs(hit.t - reach) * -dot(facing, direction) < TRACE_JOINT);
-    if (reached) sum += exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
-  }
-  vec3 light = nearEmitters(f, p.matrix.at[0], facet, voxel) + sum / float(max(valid, 1u));
+  vec3 light = nearEmitters(f, p.matrix.at[0], facet, voxel) +
+               sampled(table, f, world, p.surface.at[0], facet, voxel, shifts);
   p.correction.at[facet] = vec4(light - p.emitted.at[facet].xyz, 0.0f);
   p.emitted.at[facet] = vec4(light, 0.0f);
 }

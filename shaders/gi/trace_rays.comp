@@ -1,4 +1,5 @@
-// "GI BuildMatrix", kernel 1: one invocation per ray of a chunk of rows. Writes what each ray met.
+// "GI BuildMatrix", kernel 1 of the thesis's hit rule: one invocation per ray of a chunk of rows. Writes what each ray
+// met.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/trace.h"
@@ -15,27 +16,10 @@ void main() {
   uint k = ray % p.rays;
   FacetArrays facets = p.facets;
   uint packedVoxel = facets.voxel.at[row];
-  uint shape = facets.shape.at[row];
-  uvec3 voxel = unpackVoxel(packedVoxel);
-  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+  vec3 normal = decodeNormal(facets.shape.at[row] & 0xFFFFu, TRACE_NORMALS);
   uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
-  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) {
-    SurfaceArrays surface = p.surface.at[0];
-    uint cast_ = facetRays(surface.area.at[row], p.rays);
-    if (k >= cast_) {
-      p.hits.at[ray] = TRACE_NOT_CAST;
-      return;
-    }
-    FacetRay r = facetRay(surface, row, packedVoxel, k, cast_, p.seed, p.jitter);
-    TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
-    p.hits.at[ray] = traceTriangles(world, surface, r.from.position, r.direction, r.from.triangle).facet;
-    return;
-  }
   vec3 direction = toWorld(cosineDirection(hammersley(k, p.rays, shifts.xy)), normal);
-  // T 5.6 starts one voxel along the normal from the centre; docs/method.md 5 on the facet itself.
-  vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS
-                    ? vec3(voxel) + 0.5f + normal
-                    : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
+  vec3 origin = vec3(unpackVoxel(packedVoxel)) + 0.5f + normal;  // T 5.6: one voxel along the normal from the centre
   TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
-  p.hits.at[ray] = traceFacetRay(world, origin, direction, normal, voxel, row, shape).facet;
+  p.hits.at[ray] = traceThesis(world, traceStart(origin, direction)).facet;
 }

@@ -38,38 +38,8 @@ VoxelTriangle loadTriangle(SceneArray scenes, GridArray grids, uint triangle) {
 
 bool degenerate(VoxelTriangle t) { return t.normal == vec3(0.0); }
 
-/// The direction in which the winner of a voxel's first facet faces; for the second facet, not normalized.
-vec3 winnerFacing(SceneArray scenes, GridArray grids, uint key) {
-  vec3 normal = loadTriangle(scenes, grids, keyTriangle(key)).normal;
-  return keyBack(key) ? -normal : normal;
-}
-
 uint triangleFlags(SceneArray scenes, uint triangle) {
   return scenes.at[0].materials.at[scenes.at[0].triangleMaterials.at[triangle]].flags;
-}
-
-/// Cosine between the facing of a winner and that side of a triangle which may be the second facet beside it: of a
-/// double-sided material the one that faces against the winner more.
-float secondCosine(vec3 normal, uint flags, vec3 winner, out bool back) {
-  float cosine = dot(normal, winner) * inversesqrt(dot(normal, normal) * dot(winner, winner));
-  back = (flags & MATERIAL_DOUBLE_SIDED) != 0u && cosine > 0.0;
-  return back ? -cosine : cosine;
-}
-
-/// Whether a facet that the voxel has from slots before lies in the plane through `point` (voxel units) that faces along
-/// `normal` (not normalized).
-bool recorded(VoxelizePush push, uint voxel, vec3 normal, vec3 point) {
-  for (uint slot = 0u; slot < push.slot; ++slot) {
-    uint key = push.keys.at[slot * push.grid.at[0].voxels + voxel];
-    if (key == 0u) continue;
-    VoxelTriangle t = loadTriangle(push.scene, push.grid, keyTriangle(key));
-    vec3 facing = keyBack(key) ? -t.normal : t.normal;
-    float size = length(facing);
-    if (dot(facing, normal) >= ELSEWHERE_COSINE * size * length(normal) &&
-        abs(dot(facing, point - t.v[0])) < SAME_LEVEL * size)
-      return true;
-  }
-  return false;
 }
 
 /// The cells [lo, hi] that the triangle's bounds touch; false when none is in the grid (a wall at p == max of a grid

@@ -28,7 +28,6 @@ void main() {
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   uint flags = triangleFlags(push.scene, triangle);
   uvec3 dims = push.grid.at[0].dims;
-  uint voxels = push.grid.at[0].voxels;
   ivec3 lo, hi;
   cellBounds(t, dims, lo, hi);
   // From here on the dominant axis is z.
@@ -50,8 +49,6 @@ void main() {
   float wholeArea = 0.5 * length(normal);
   float columnArea = length(normal) / abs(normal.z);
   bool oneCell = lo == hi;
-  bool sheet = (flags & MATERIAL_DOUBLE_SIDED) != 0u;
-  uint sides = push.slot != 1u && push.slots > 1u && sheet ? 2u : 1u;
 
   uvec2 tiles;
   int edge = int(tileEdge(uvec2(hi.xy - lo.xy + 1), tiles));
@@ -77,23 +74,11 @@ void main() {
         vec3 base = vec3(x, y, z);
         uvec3 cell = uvec3(originalAxes(ivec3(x, y, z), t.axis));
         uint voxel = voxelIndex(cell, dims);
-        bool back = false;  // the triangle's back is the candidate
-        float cosine = -1.0;  // between it and the voxel's first facet
-        uint winner = push.slot > 0u ? push.keys.at[voxel] : 0u;
-        if (push.slot > 0u && winner == 0u) continue;  // cut away by its alpha mask
-        if (push.slot == 1u) {
-          cosine = secondCosine(t.normal, flags, winnerFacing(push.scene, push.grid, winner), back);
-          if (cosine >= ELSEWHERE_COSINE) continue;
-        }
         float middle = depth + 0.5 * (slope.x + slope.y) - base.z;  // where the plane crosses the middle line
         bool crosses = holdsMiddle && middle >= 0.0 && middle < 1.0;
         vec3 centre = vec3(0.5, 0.5, middle);
         float area = 0.0;
         if (!crosses) {
-          if (cosine >= OPPOSED_COSINE || push.slot > 1u) continue;
-          // Where there is room, a sheet in front of a surface that crosses the middle is recorded with both its sides
-          // or not at all.
-          if (push.slots > 2u && sheet && (winner & KEY_MIDDLE) != 0u && keyTriangle(winner) != triangle) continue;
           if (oneCell) {
             area = wholeArea;
             centre = (corner[0] + corner[1] + corner[2]) * (1.0 / 3.0) - base;
@@ -104,14 +89,7 @@ void main() {
         }
         if (masked(push.scene, t, triangle, flags, originalAxes(centre + base, t.axis))) continue;
         float front = orientation * (middle - 0.5) / columnArea;
-        uint place = push.slot * voxels + voxel;
-        for (uint side = 0u; side < sides; ++side) {
-          uint key = crosses ? middleKey(back ? -front : front, back, triangle) : sliverKey(area, back, triangle);
-          vec3 facing = back ? -t.normal : t.normal;
-          if (push.slot < 2u || !recorded(push, voxel, facing, originalAxes(centre + base, t.axis)))
-            atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
-          back = true;
-        }
+        atomicMax(push.keys.at[voxel], crosses ? middleKey(front, triangle) : sliverKey(area, triangle));
       }
     }
   }

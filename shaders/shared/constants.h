@@ -13,7 +13,6 @@ IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 17u;  ///< gi/voxel_material.glsl
 // Rays through the voxels (gi/trace.glsl).
 IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;
 IRAD_CONST uint CONSTANT_TRACE_HIT_RULE = 21u;
-IRAD_CONST uint CONSTANT_TRACE_MANY = 22u;      ///< a voxel may have more than two facets
 IRAD_CONST uint CONSTANT_TRACE_EMITTERS = 23u;  ///< specular/trace.glsl
 
 // The matrix and what is made of it.
@@ -31,7 +30,7 @@ IRAD_CONST uint CONSTANT_VIEW = 40u;
 IRAD_CONST uint CONSTANT_VIEW_SHAPE = 41u;
 IRAD_CONST uint CONSTANT_VIEW_FROM = 51u;       ///< FROM_*: what it is drawn from
 IRAD_CONST uint CONSTANT_TARGETS = 42u;         ///< those that are there
-IRAD_CONST uint CONSTANT_KEEPS_POSITION = 43u;  ///< gi/indirect.comp
+IRAD_CONST uint CONSTANT_KEEPS_POSITION = 43u;  ///< gi/indirect_links.comp
 IRAD_CONST uint CONSTANT_LIST_PIXELS = 44u;     ///< forward/list_pixels.comp: write the lists, not count
 IRAD_CONST uint CONSTANT_DISTANCE_METRIC = 45u;
 IRAD_CONST uint CONSTANT_FILTERED = 46u;     ///< specular/classify.comp

@@ -9,12 +9,6 @@ IRAD_FN float luminance(vec3 c) {
   return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
-/// A facet's area as rays may start from it or end on it (facetPoint), voxels^2.
-IRAD_FN float footprintArea(vec3 normal) {
-  vec3 a = abs(normal);
-  return 1.0f / max(a.x, max(a.y, a.z));
-}
-
 /// An entry is drawn with equal chance; it stands for `facet` with probability `keep`, else for `other`.
 struct Emitter {
   uint facet, other;
@@ -25,7 +19,7 @@ IRAD_ARRAY(EmitterArray, Emitter, 4)
 struct EmitterTable {
   EmitterArray entries;
   uint count;
-  float power;  ///< sum of luminance(M) x footprintArea over the facets, W/m^2 x voxels^2
+  float power;  ///< sum of luminance(M) x area over the facets, W/m^2 x voxels^2
 };
 IRAD_ARRAY(EmitterRecord, EmitterTable, 8)
 

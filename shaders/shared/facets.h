@@ -9,38 +9,21 @@ IRAD_CONST uint NO_FACET = 0xFFFFFFFFu;
 /// Reverse map entry: NO_FACET, or in bits 0-25 the index of the voxel's first facet, which the others follow, and in
 /// bits 26-31 how many others.
 IRAD_CONST uint MAX_FACETS = (1u << 26) - 1u;
-IRAD_CONST uint MAX_VOXEL_FACETS = 4u;  ///< of voxel.facets
-IRAD_FN uint facetEntryOf(uint first, uint facets) { return first | ((facets - 1u) << 26); }
-IRAD_FN uint firstFacet(uint entry) { return entry & MAX_FACETS; }
-/// For an entry that is not NO_FACET.
-IRAD_FN uint facetsOf(uint entry) { return (entry >> 26) + 1u; }
-/// Two faces of a voxel are opposed, the two sides of something thin, where n . n' is below this.
-IRAD_CONST float OPPOSED_COSINE = -0.25f;
-
-/// Facet word `shape`: bits 0-15 normal code (encoding of voxel.normals), bits 16-23 signed plane offset: distance of
-/// the surface from the voxel's centre along the normal, in 1/127 voxel, biased by 128; bit 24: double-sided material.
-IRAD_CONST uint FACET_DOUBLE_SIDED = 1u << 24;
-/// Bit 25: another surface, recorded only in a neighbouring voxel, may pass through this one (edges and corners: a
-/// voxel has room for few facets), or its other facet faces elsewhere. Set by markCorners; rays that meet no recorded
-/// face there look around (gi/trace.glsl).
-IRAD_CONST uint FACET_CORNER = 1u << 25;
-/// FacetArrays::around: bits 0-26 the voxels around to look into (bit x + 3 y + 9 z, AROUND_SELF its own); bit 27 + k:
-/// the k-th of them holds one face besides this one's plane, which meets it convexly: the two end where they cross.
-IRAD_CONST uint AROUND_SELF = 1u << 13;
-IRAD_CONST uint AROUND_VOXELS = (1u << 27) - 1u;
-IRAD_CONST uint AROUND_CONVEX_SHIFT = 27u;
-/// Bits 26-27: within this many voxels every face lies in the facet's own plane (or is that sheet's back), and no voxel is
-/// a corner: rays that start in the plane step over them. Set by markCorners.
-IRAD_CONST uint FACET_CLEAR_SHIFT = 26u;
-IRAD_FN uint facetClear(uint shape) { return (shape >> FACET_CLEAR_SHIFT) & 3u; }
-/// Bits 28-31: how far the planes of the same surface's faces around gape at the joints, in 1/64 voxel. Set by markCorners.
-IRAD_CONST uint FACET_JOINT_SHIFT = 28u;
-IRAD_FN uint packFacetJoint(float gap) {
-  uint steps = uint(floor(gap * 64.0f + 0.99f));
-  return (steps > 15u ? 15u : steps) << FACET_JOINT_SHIFT;
+IRAD_FN uint facetEntryOf(uint first, uint facets) {
+  return first | ((facets - 1u) << 26);
 }
-IRAD_FN float facetJoint(uint shape) { return float(shape >> FACET_JOINT_SHIFT) * (1.0f / 64.0f); }
-IRAD_FN float facetOffset(uint shape) { return (float((shape >> 16) & 255u) - 128.0f) * (1.0f / 127.0f); }
+IRAD_FN uint firstFacet(uint entry) {
+  return entry & MAX_FACETS;
+}
+/// For an entry that is not NO_FACET.
+IRAD_FN uint facetsOf(uint entry) {
+  return (entry >> 26) + 1u;
+}
+/// Facet word `shape`: bits 0-15 normal code (encoding of voxel.normals), bits 16-23 signed plane offset: distance of
+/// the surface from the voxel's centre along the normal, in 1/127 voxel, biased by 128.
+IRAD_FN float facetOffset(uint shape) {
+  return (float((shape >> 16) & 255u) - 128.0f) * (1.0f / 127.0f);
+}
 IRAD_FN uint packFacetOffset(float offset) {
   float clamped = offset < -1.0f ? -1.0f : (offset > 1.0f ? 1.0f : offset);
   return uint(int(floor(clamped * 127.0f + 0.5f)) + 128) << 16;
@@ -48,8 +31,8 @@ IRAD_FN uint packFacetOffset(float offset) {
 
 /// Albedo: three 16-bit unorms (x: r | g << 16, y: b), so that rho = .95 keeps B = 20 E within .02 %.
 IRAD_FN uvec2 packAlbedo(vec3 a) {
-  uvec3 q = uvec3(uint(floor(a.x * 65535.0f + 0.5f)), uint(floor(a.y * 65535.0f + 0.5f)),
-                  uint(floor(a.z * 65535.0f + 0.5f)));
+  uvec3 q =
+      uvec3(uint(floor(a.x * 65535.0f + 0.5f)), uint(floor(a.y * 65535.0f + 0.5f)), uint(floor(a.z * 65535.0f + 0.5f)));
   return uvec2(q.x | (q.y << 16), q.z);
 }
 IRAD_FN vec3 unpackAlbedo(uvec2 p) {
@@ -57,14 +40,13 @@ IRAD_FN vec3 unpackAlbedo(uvec2 p) {
 }
 
 struct FacetArrays {
-  UintArray voxel;      ///< packVoxel
-  UintArray shape;      ///< normal code, offset, flags
-  Uvec2Array albedo;    ///< packAlbedo, clamped to [0, .98]
-  Vec3Array emission;   ///< exitance M = pi x emitted radiance, W/m^2
-  UintArray reverse;    ///< one per voxel (linear index)
-  UintArray around;     ///< FACET_CORNER: which surfaces nearby to look at, AROUND_*
+  UintArray voxel;     ///< packVoxel
+  UintArray shape;     ///< normal code, offset, flags
+  Uvec2Array albedo;   ///< packAlbedo, clamped to [0, .98]
+  Vec3Array emission;  ///< exitance M = pi x emitted radiance, W/m^2
+  UintArray reverse;   ///< one per voxel (linear index)
   uint count;
-  uint hasEmission;     ///< 0: `emission` must not be read
+  uint hasEmission;  ///< 0: `emission` must not be read
 };
 IRAD_ARRAY(FacetRecord, FacetArrays, 16)
 

@@ -5,11 +5,10 @@
 IRAD_BEGIN
 
 // clang-format off
-// thesis: first front face (d.n < 0), from the facet's voxel, back faces let through. robust: docs/method.md 5.
+// thesis: first front face (d.n < 0), from the facet's voxel, back faces let through. triangles: docs/method.md 5.
 #define IRAD_HIT_RULES(X, E) \
   X(E, thesis, "thesis", HIT_RULE_THESIS, 0) \
-  X(E, robust, "robust", HIT_RULE_ROBUST, 1) \
-  X(E, triangles, "triangles", HIT_RULE_TRIANGLES, 2)
+  X(E, triangles, "triangles", HIT_RULE_TRIANGLES, 1)
 IRAD_SHARED_ENUM(HitRule, IRAD_HIT_RULES)
 
 #define IRAD_TRAVERSALS(X, E) \
@@ -31,7 +30,7 @@ IRAD_SHARED_ENUM(ToneCurve, IRAD_TONE_CURVES)
 // clang-format on
 
 struct MatrixParams {
-  uint rays;       ///< R: rays per facet
+  uint rays;  ///< R: rays per facet
   IRAD_AS(HitRule) hitRule;
   IRAD_AS(Traversal) traversal;
   IRAD_AS(Flag) jitter;  ///< Cranley-Patterson shift per voxel; else the same set everywhere
@@ -49,26 +48,25 @@ struct SolverParams {
 struct SampleParams {
   IRAD_AS(SampleFilter) filter_;
   IRAD_AS(Flag) premultiplied;
-  IRAD_AS(Flag) gated;  ///< taps go to facets that face the same way; else the thesis's volume lookups
-  float normalOffset;   ///< lookup offset along the normal, voxels
+  float normalOffset;  ///< of the volume's lookup, along the normal, voxels
   IRAD_EQUALITY(SampleParams)
 };
 
 struct SpecularParams {
   uint rays;
   IRAD_AS(Traversal) traversal;
-  float maxRoughness;  ///< rougher surfaces take H / pi instead of traced rays
-  float fade;          ///< width of the blend below maxRoughness
-  float threshold;     ///< skip where F0 x H is below this share of the largest H
+  float maxRoughness;     ///< rougher surfaces take H / pi instead of traced rays
+  float fade;             ///< width of the blend below maxRoughness
+  float threshold;        ///< skip where F0 x H is below this share of the largest H
   IRAD_AS(Flag) filter_;  ///< edge-aware filter over the G-buffer after tracing
   IRAD_EQUALITY(SpecularParams)
 };
 
 struct ShadeParams {
-  float exposure;    ///< linear factor 2^EV
+  float exposure;  ///< linear factor 2^EV
   IRAD_AS(ToneCurve) toneCurve;
-  float shadowBias;  ///< normal offset, shadow texels
-  uint pcf;          ///< taps per axis: 1, 3 or 5
+  float shadowBias;              ///< normal offset, shadow texels
+  uint pcf;                      ///< taps per axis: 1, 3 or 5
   IRAD_AS(Flag) specularDirect;  ///< GGX lobe of direct lights
   IRAD_EQUALITY(ShadeParams)
 };

@@ -10,14 +10,14 @@
 #include "shared/trace.h"
 IRAD_BEGIN
 
-/// "RE Forward", gi/indirect.comp.
+/// "RE Forward", gi/indirect_links.comp.
 struct IndirectPush {
   CameraArray camera;
   GridArray grid;
-  UintArray shape, reverse, around, voxel;  ///< of FacetArrays
-  SurfaceRecord surface;                    ///< gi/indirect_links.comp
-  Vec4Array shaded;                  ///< H per facet
-  Vec4Array shadedEmitted;           ///< F M per facet
+  UintArray reverse, voxel;  ///< of FacetArrays
+  SurfaceRecord surface;
+  Vec4Array shaded;         ///< H per facet
+  Vec4Array shadedEmitted;  ///< F M per facet
   SampleParams sampling;
   uvec2 size;
 };
@@ -32,12 +32,15 @@ IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in thesis/
 /// "RE Specular".
 struct SpecularPush {
   CameraArray camera;
-  Grid grid;
   FacetRecord facets;
+  SurfaceRecord surface;  ///< of rule `triangles`
   Vec4Array radiosity;
   ByteArray chebyshev;
   UintArray glossy;
   EmitterRecord emitters;  ///< 0: there are none
+  uvec3 dims;              ///< these three: of the Grid
+  vec3 origin;
+  float inverseEdge;
   SpecularParams params;
   float jfaMax;
   float leastReflected;  ///< no rays where F0 x H is below, W/m^2

@@ -1,5 +1,5 @@
-// Light that comes straight from emissive faces, looked for by each pixel ("RE Emitters", sample.emitters = pixels): from
-// the true outlines of the triangles instead of the voxels that they fall into.
+// Light that comes straight from emissive faces, looked for by each pixel ("RE Emitters", sample.emitters = pixels):
+// from the true outlines of the triangles instead of the voxels that they fall into.
 #ifndef IRAD_SHARED_PIXEL_EMITTERS_H
 #define IRAD_SHARED_PIXEL_EMITTERS_H
 #include "shared/facets.h"
@@ -8,8 +8,8 @@
 #include "shared/trace.h"
 IRAD_BEGIN
 
-/// A triangle of an emissive material, voxel units. It emits on the side that cross(edge1, edge2) points to, where it is
-/// double-sided on both.
+/// A triangle of an emissive material, voxel units. It emits on the side that cross(edge1, edge2) points to, where it
+/// is double-sided on both.
 struct EmissiveTriangle {
   vec3 corner, edge1, edge2;
   vec3 exitance;  ///< M, W/m^2: the mean over the triangle
@@ -34,6 +34,7 @@ struct EmissiveTrianglesPush {
 struct PixelEmittersPush {
   Grid grid;
   FacetRecord facets;
+  SurfaceRecord surface;  ///< of rule `triangles`
   ByteArray chebyshev;
   EmissiveTriangleArray triangles;
   uint count;
@@ -42,8 +43,8 @@ struct PixelEmittersPush {
   uvec2 size;
 };
 
-/// The angle whose tangent is y / x, both >= 0 and not both 0, to 3e-7 (GLSL's atan may err by 4096 ulp). Halved twice, by
-/// tan(a / 2) = t / (1 + sqrt(1 + t^2)), which leaves at most pi / 16 for the power series.
+/// The angle whose tangent is y / x, both >= 0 and not both 0, to 3e-7 (GLSL's atan may err by 4096 ulp). Halved twice,
+/// by tan(a / 2) = t / (1 + sqrt(1 + t^2)), which leaves at most pi / 16 for the power series.
 IRAD_FN float arcTangent(float y, float x) {
   bool steep = y > x;
   float t = steep ? x / y : y / x;
@@ -54,9 +55,9 @@ IRAD_FN float arcTangent(float y, float x) {
   return steep ? 0.5f * IRAD_PI - a : a;
 }
 
-/// An edge's share of Lambert's formula (1760; Baum, Rushmeier and Winget 1989, "Improving radiosity solutions through the
-/// use of analytically determined form-factors", eq. 4): the angle that it spans, seen from the origin, times the cosine
-/// between the normal and that of its plane with the origin.
+/// An edge's share of Lambert's formula (1760; Baum, Rushmeier and Winget 1989, "Improving radiosity solutions through
+/// the use of analytically determined form-factors", eq. 4): the angle that it spans, seen from the origin, times the
+/// cosine between the normal and that of its plane with the origin.
 IRAD_FN float edgeShare(vec3 a, vec3 b, vec3 normal) {
   vec3 c = cross(a, b);
   float sine = length(c);
@@ -65,7 +66,8 @@ IRAD_FN float edgeShare(vec3 a, vec3 b, vec3 normal) {
   return 2.0f * arcTangent(sine, cosine) * dot(c, normal) / sine;
 }
 
-/// F from a point of a plane, the origin, to the triangle a, b, c as far as it is above that plane: E = F M, unoccluded.
+/// F from a point of a plane, the origin, to the triangle a, b, c as far as it is above that plane: E = F M,
+/// unoccluded.
 IRAD_FN float triangleFormFactor(vec3 a, vec3 b, vec3 c, vec3 normal) {
   float ha = dot(a, normal), hb = dot(b, normal), hc = dot(c, normal);
   uint above = (ha > 0.0f ? 1u : 0u) + (hb > 0.0f ? 1u : 0u) + (hc > 0.0f ? 1u : 0u);

@@ -25,7 +25,7 @@ struct SolveResidual {
   uint maxReach;  ///< max v
   uint pad0, pad1;
 };
-IRAD_CONST uint SOLVE_RESIDUALS = 16u;      ///< sweeps of a submission at most: each reduces into a record of its own
+IRAD_CONST uint SOLVE_RESIDUALS = 16u;     ///< sweeps of a submission at most: each reduces into a record of its own
 IRAD_CONST float SOLVE_REACH_MAX = 1e20f;  ///< a larger v is given up, and a rise that is no number is this
 IRAD_ARRAY(ResidualArray, SolveResidual, 16)
 
@@ -62,8 +62,8 @@ IRAD_FN ivec2 solveTexel(uint i) {
 
 // Acceleration (docs/method.md 1): x_0 ... x_n are B, v before and after n sweeps, r_j = x_j+1 - x_j.
 IRAD_CONST uint SOLVE_VECTORS = 4u;  ///< n at most
-/// gi/solve_sums.comp: what the host adds up after a batch, SOLVE_SUMS arrays with a value per invocation. The first: sum
-/// of A H, and of A; the others: of r_a r_b for a < n, b <= a, component by component.
+/// gi/solve_sums.comp: what the host adds up after a batch, SOLVE_SUMS arrays with a value per invocation. The first:
+/// sum of A H, and of A; the others: of r_a r_b for a < n, b <= a, component by component.
 struct SolveSumsPush {
   Vec4Array x0, x1, x2, x3, x4;
   Vec4Array indirect;
@@ -71,13 +71,13 @@ struct SolveSumsPush {
   Vec4Array sums;
   uint count, invocations;
 };
-IRAD_CONST uint SOLVE_SUMS = 11u;  ///< 1 + SOLVE_VECTORS (SOLVE_VECTORS + 1) / 2
-IRAD_CONST uint SOLVE_SUMS_FACETS = 32u;          ///< per invocation, as long as there are not more than these:
+IRAD_CONST uint SOLVE_SUMS = 11u;         ///< 1 + SOLVE_VECTORS (SOLVE_VECTORS + 1) / 2
+IRAD_CONST uint SOLVE_SUMS_FACETS = 32u;  ///< per invocation, as long as there are not more than these:
 IRAD_CONST uint SOLVE_SUMS_INVOCATIONS = 4096u;
 /// gi/extrapolate.comp: x_0 <- sum_j weight_j x_j+1, and the largest residual of sum_j weight_j x_j.
 struct ExtrapolatePush {
   Vec4Array x0, x1, x2, x3, x4;
-  ResidualArray residual;  ///< its maxDelta, roundings included
+  ResidualArray residual;                   ///< its maxDelta, roundings included
   vec4 weight0, weight1, weight2, weight3;  ///< by component; each component's sum is 1
   uint count;
   uint pad;
@@ -93,10 +93,8 @@ struct GatherPush {
   Vec4Array direct;
   vec3 origin;  ///< of the grid, local
   float edge;
-  uint samples;
   float shadowBias;  ///< texels
   uint pcf;
-  uint pad;
 };
 
 /// gi/gather_surfels.comp.
@@ -135,20 +133,10 @@ struct SampleEmittersPush {
 /// weigh too much.
 IRAD_CONST float EMITTERS_NEAR = 4.0f;
 
-/// gi/scatter_facets.comp: H (and F M) blurred, as shading samples them.
-struct ScatterFacetsPush {
-  FacetRecord facets;
-  Vec4Array indirect, emitted;
-  Vec4Array blurred, blurredEmitted;
-  UintArray change;  ///< [0]: float bits of the largest |blurred - H|, W/m^2
-  uvec3 dims;
-  uint pad;
-};
-
 /// thesis/scatter_volume.comp (T 5.9): one facet per solid voxel into the sampled volume.
 struct ScatterVolumePush {
   FacetRecord facets;
-  Vec4Array value;   ///< H or B
+  Vec4Array radiosity;
   Vec4Array direct;  ///< D, read for edge removal
   uvec3 dims;
   float removal;      ///< lambda of T eq. 23 that B was solved with, 0: nothing is subtracted

@@ -14,20 +14,10 @@ IRAD_CONST uint TRACE_JFA = 3u;  ///< sphere-marches the UNORM8 Euclidean distan
 
 // What a ray met, in place of a facet index.
 IRAD_CONST uint TRACE_ESCAPED = 0xFFFFFFFFu;     ///< left the grid
-IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;     ///< the back of a face, 4 voxels away or more: absorbed
-IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;     ///< started behind a surface: does not count
+IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;     ///< the back of a single-sided face: absorbed
+IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;     ///< not known which facet it met: does not count
 IRAD_CONST uint TRACE_NOT_CAST = 0xFFFFFFFCu;    ///< a small facet has fewer rays (facetRays)
 IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
-
-// The robust rule's lengths, in voxels.
-IRAD_CONST float TRACE_ON_PLANE = 0.05f;  ///< planes extended beyond their cell are known to about this
-IRAD_CONST float TRACE_PLANE = 0.02f;    ///< a plane inside its own cell is known to about this
-IRAD_CONST float TRACE_BEHIND = 0.02f;    ///< an origin this far behind a face cannot meet its front
-IRAD_CONST float TRACE_JOINT = 0.2f;      ///< planes of one surface gape at most this; more is a step
-IRAD_CONST float TRACE_OWN_PLANE = 1.5f;  ///< backs of faces this near the own plane are not met
-IRAD_CONST float TRACE_CONCAVE = 0.1f;    ///< a face whose middle rises this far above the own plane meets it concavely
-IRAD_CONST float TRACE_NEAR = 4.0f;  ///< a back face nearer than this makes the ray invalid
-IRAD_CONST float TRACE_OWN_NORMAL = 0.8f;  ///< cosine above which two faces lie in one plane
 
 /// One byte per voxel: exact Chebyshev distance to the nearest solid voxel (Field::chebyshev).
 #ifdef __cplusplus
@@ -38,12 +28,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Byt
 };
 #endif
 
-/// Half of what a voxel spans along a unit vector, voxels: one whose centre is farther than this in front of a plane has
-/// no point behind it.
-IRAD_FN float voxelExtent(vec3 along) { return 0.5f * (abs(along.x) + abs(along.y) + abs(along.z)); }
-
-/// Where ray k of a facet starts under the robust rule: on the facet's plane, jittered over its cell's footprint along
-/// the normal's largest axis. `jitter` in (0, 1)^2.
+/// A point of a facet's plane, where facets are planes (rule `thesis`): spread over its cell's footprint along the
+/// normal's largest axis. `jitter` in (0, 1)^2.
 IRAD_FN vec3 facetPoint(uvec3 voxel, vec3 normal, float offset, vec2 jitter) {
   vec2 j = jitter - vec2(0.5f);
   vec3 a = abs(normal);
@@ -78,13 +64,6 @@ IRAD_FN uint raySurfel(uint k, uvec4 shifts) {
 IRAD_FN vec3 rayDirection(vec3 facing, uint k, uint rays, uvec4 shifts) {
   return toWorld(cosineDirection(hammersley(k, rays, uvec2(shifts.x, shifts.y))), facing);
 }
-
-/// Pushed to gi/facet_corners.comp.
-struct FacetCornersPush {
-  FacetRecord facets;
-  uvec3 dims;
-  uint slots;  ///< facets of a voxel that were looked for
-};
 
 /// gi/trace_triangle_rays.comp: rays of an invocation; they are taken up when one lane in RAYS_WAIT of those under way
 /// waits for one, asked every RAYS_STEPS steps.

@@ -7,36 +7,25 @@
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
-/// Ordered key of one side of a triangle in a voxel, resolved by atomicMax; 0 is empty. Bit 31: the triangle crosses
-/// the voxel's middle line along the triangle's dominant axis, as exactly one triangle of a surface does, however
-/// finely it is divided. Bits 25-30 where it does: `front`, the distance of the crossing's plane from the voxel's
-/// centre along the side's facing, voxels, so that of a lamp just below a ceiling, or a curtain before a wall, the
-/// visible face wins; where it does not: `area` inside the voxel, voxel faces, half a face being full, so that the
-/// largest of slivers wins. Bit 24: the front side. Bits 0-23: the triangle's complement, so that equals go to the
-/// lower triangle.
+/// Ordered key of a triangle in a voxel, resolved by atomicMax; 0 is empty. Bit 31: the triangle crosses the voxel's
+/// middle line along the triangle's dominant axis, as exactly one triangle of a surface does, however finely it is
+/// divided. Bits 25-30 where it does: `front`, the distance of the crossing's plane from the voxel's centre along the
+/// triangle's facing, voxels, so that of a lamp just below a ceiling, or a curtain before a wall, the visible face
+/// wins; where it does not: `area` inside the voxel, voxel faces, half a face being full, so that the largest of
+/// slivers wins. Bits 0-23: the triangle's complement, so that equals go to the lower triangle.
 IRAD_CONST uint MAX_TRIANGLES = 0xFFFFFEu;
 IRAD_CONST uint KEY_MIDDLE = 1u << 31;
-IRAD_CONST uint KEY_FRONT_SIDE = 1u << 24;
-IRAD_FN uint keySteps(float steps) { return uint(steps < 0.0f ? 0.0f : (steps > 63.0f ? 63.0f : steps)) << 25; }
-IRAD_FN uint keySide(bool back, uint triangle) { return (back ? 0u : KEY_FRONT_SIDE) | (0xFFFFFFu - triangle); }
-IRAD_FN uint middleKey(float front, bool back, uint triangle) {
-  return KEY_MIDDLE | keySteps(floor(front * 64.0f + 32.0f)) | keySide(back, triangle);
+IRAD_FN uint keySteps(float steps) {
+  return uint(steps < 0.0f ? 0.0f : (steps > 63.0f ? 63.0f : steps)) << 25;
 }
-IRAD_FN uint sliverKey(float area, bool back, uint triangle) {
-  return keySteps(floor(area * 126.0f + 0.5f)) | keySide(back, triangle);
+IRAD_FN uint middleKey(float front, uint triangle) {
+  return KEY_MIDDLE | keySteps(floor(front * 64.0f + 32.0f)) | (0xFFFFFFu - triangle);
 }
-IRAD_FN uint keyTriangle(uint key) { return 0xFFFFFFu - (key & 0xFFFFFFu); }
-IRAD_FN bool keyBack(uint key) { return (key & KEY_FRONT_SIDE) == 0u; }
-
-/// The second facet of a voxel is opposed to the first. Where no face is, it is the best of those that face elsewhere
-/// (n . n' below this) and cross the middle line: the other wall of a corner.
-IRAD_CONST float ELSEWHERE_COSINE = 0.7f;
-/// Further facets are the best of those that cross the middle line in a plane that no facet before has (faces that look
-/// alike within this distance, voxels, share a plane). (A sheet just before a wall: its two sides and the wall.)
-IRAD_CONST float SAME_LEVEL = 0.2f;
-/// Key of a second facet: opposed ones first (bit 31), then in the order of `key`, with half as many steps.
-IRAD_FN uint secondKey(uint key, bool opposed) {
-  return (opposed ? 1u << 31 : 0u) | ((key >> 1) & 0x7E000000u) | (key & 0x1FFFFFFu);
+IRAD_FN uint sliverKey(float area, uint triangle) {
+  return keySteps(floor(area * 126.0f + 0.5f)) | (0xFFFFFFu - triangle);
+}
+IRAD_FN uint keyTriangle(uint key) {
+  return 0xFFFFFFu - (key & 0xFFFFFFu);
 }
 
 /// Conservative voxelization: a triangle's columns (along its dominant axis) are cut into tiles of (4 << level)^2,
@@ -50,28 +39,22 @@ IRAD_CONST uint RASTER_FACES_UP = 4u;
 struct VoxelizePush {
   SceneArray scene;
   GridArray grid;
-  UintArray keys;       ///< slots x voxels
+  UintArray keys;       ///< per voxel
   UintArray tileStart;  ///< per triangle: tiles, then their exclusive prefix sum; by kernels the RasterQueue
   uint firstTriangle;
   uint endTriangle;
   uint firstTile;
   uint tileCount;  ///< by kernels the pieces that the RasterQueue holds
-  uint slot;   ///< 0: the best side of all; 1: the best that faces against it; 2, 3: the best in another plane
-  uint slots;  ///< 2 and more: both sides of a double-sided triangle may be the first facet
 };
-
-IRAD_CONST uint BACK_SIDE = 0x80000000u;
 
 struct CompactPush {
   GridArray grid;
   UintArray keys;
   UintArray blockCounts;  ///< facets per block of 4 x 4 x 4 voxels (64 Morton codes), then their exclusive prefix sum
-  UintArray totals;       ///< [0] facets (from the prefix sum), [1] solid voxels
   UintArray voxel;
-  UintArray triangle;  ///< winner | BACK_SIDE where its back is the facet
+  UintArray triangle;  ///< the winner
   UintArray reverse;
-  uint blocks;
-  uint slots;
+  uint blocks, pad;
 };
 
 struct ShadeFacetsPush {

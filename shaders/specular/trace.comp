@@ -9,12 +9,13 @@ layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
 layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
-layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D tracedTarget;
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D tracedTarget;
 
 void main() {
   GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
-  Grid grid = push.grid;
-  TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, grid.dims, push.jfaMax);
+  TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.dims, push.jfaMax);
+  SurfaceArrays surface = tracedSurface();
   ivec2 pixel;
   if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
   vec4 normal = imageLoad(normalTarget, pixel);
@@ -22,16 +23,17 @@ void main() {
   float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);
   vec3 local = pixelPosition(camera, pixel, z, axis);
   Surface s;
-  s.position = (local - grid.origin) * grid.inverseEdge;
+  s.position = (local - push.origin) * push.inverseEdge;
   s.normal = normalize(normal.xyz);
   s.face = normalize(imageLoad(geometricTarget, pixel).xyz);
   s.view = towardsViewer(camera, local, axis);
   s.f0 = imageLoad(f0Target, pixel).rgb;
   s.roughness = normal.w;
+  startRays(surface, imageLoad(indirectTarget, pixel).w, s);
   // Shifts of neighbouring pixels follow the R2 lattice (Roberts 2018), so that any few of them cover the lobe evenly.
   // The shifts of rays to emitters follow another permutation of it.
   uvec2 first = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
   uvec4 shift =
       uvec4(first, pixel.x * 2447445414u + pixel.y * 3242174889u, pixel.x * 1847517997u + pixel.y * 2447445414u);
-  imageStore(tracedTarget, pixel, vec4(traceLobe(world, s, shift), z));
+  imageStore(tracedTarget, pixel, vec4(traceLobe(world, surface, s, shift), z));
 }

@@ -1,15 +1,18 @@
 // Specular rays of one pixel through the voxels (docs/method.md 8). Radiance at a hit is B / pi; rays that
 // escape bring nothing.
 #include "gi/emitter_point.glsl"
-#include "gi/indirect.glsl"
+#include "gi/seen_point.glsl"
+#include "gi/surface_lookup.glsl"
 #include "gi/trace.glsl"
 #include "shared/constants.h"
+#include "shared/passes.h"
 #include "shared/sampling.h"
 #include "specular/surface.glsl"
 
-layout(constant_id = CONSTANT_TRACE_EMITTERS) const bool EMITTERS = false;  ///< traceLobe sends rays to emitters too
+/// traceLobe sends rays to emitters too; with rule `triangles` alone.
+layout(constant_id = CONSTANT_TRACE_EMITTERS) const bool EMITTERS = false;
 
-/// Start of the rays: off the surface, so that its own voxels are behind them.
+/// Start of the rays where voxels are met: off the surface, so that its own are behind them.
 const float RAY_LIFT = 1.5;
 
 struct Surface {
@@ -19,19 +22,46 @@ struct Surface {
   vec3 view;      ///< unit, towards the viewer
   vec3 f0;
   float roughness;
+  vec3 start;     ///< of rays that meet triangles: on the own one, lifted
+  uint triangle;  ///< the own one
 };
 
-TraceHit traceFrom(TraceWorld world, Surface s, vec3 direction) {
-  return traceRay(world, s.position + s.face * RAY_LIFT, direction, s.face);
+SurfaceArrays tracedSurface() {
+  SurfaceArrays surface;
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) surface = push.surface.at[0];
+  return surface;
+}
+
+/// The start of rays that meet triangles. `seen`: seenAs(triangle).
+void startRays(SurfaceArrays surface, float seen, inout Surface s) {
+  if (TRACE_HIT_RULE != HIT_RULE_TRIANGLES) return;
+  SurfelPoint p = liftedSeen(surface, seenTriangle(seen), s.position, s.view);
+  s.start = p.position;
+  s.face = p.facing;
+  s.triangle = p.triangle;
+}
+
+vec3 rayStart(Surface s) {
+  return TRACE_HIT_RULE == HIT_RULE_TRIANGLES ? s.start : s.position + s.face * RAY_LIFT;
+}
+
+TraceHit traceFrom(TraceWorld world, SurfaceArrays surface, Surface s, vec3 direction) {
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) return traceTriangles(world, surface, s.start, direction, s.triangle);
+  return traceThesis(world, traceStart(s.position + s.face * RAY_LIFT, direction));
+}
+
+/// B where a ray has met a facet at a point.
+vec3 radiosityAt(TraceWorld world, SurfaceArrays surface, uint facet, vec3 at) {
+  if (TRACE_HIT_RULE != HIT_RULE_TRIANGLES) return push.radiosity.at[facet].xyz;
+  return tapped(surfaceTaps(surface, world.facets.reverse, world.facets.voxel, world.dims, facet, at, FILTER_LINEAR),
+                push.radiosity);
 }
 
 /// Mean reflected radiance before the lobe's reflectance. Rays follow visible normals of GGX (Heitz 2018), each
 /// weighted with F G2 / G1 and the sum divided by the weights; with emitters a quarter as many more go to points of
 /// these, and what either kind finds there is weighted by the balance heuristic (Veach and Guibas 1995): a small bright
 /// face in the lobe's tail is otherwise met by few rays, each of which is a white dot. `shift` decorrelates pixels.
-vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
-  FacetMap map =
-      FacetMap(world.facets.shape, world.facets.reverse, world.facets.around, world.dims, TRACE_NORMALS);
+vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) {
   float alpha = s.roughness * s.roughness;
   bool mirror = alpha < 1e-3;
   uint rays = mirror ? 1u : push.params.rays;
@@ -49,17 +79,19 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
   float weights = 0.0;
   for (uint k = 0u; k < rays + aimed; ++k) {
     vec3 direction, l;
-    float reach = 0.0;  // of a ray to an emitter
+    // Of a ray to an emitter:
+    float reach = 0.0;
+    uint emitter = NO_FACET;
+    vec3 facing = vec3(0.0);
     if (EMITTERS && k >= rays) {
-      vec3 point;
-      uvec2 u = shift.zw + uvec2((2u * (k - rays) + 1u) * (0x80000000u / aimed), reverseBits(k - rays));
-      uint emitter;
-      vec3 facing;
-      if (!emitterPoint(table, world.facets, TRACE_NORMALS, u, emitter, point, facing)) continue;
-      direction = point - (s.position + s.face * RAY_LIFT);
+      float x;
+      emitter = emitterFacet(table, shift.z + (2u * (k - rays) + 1u) * (0x80000000u / aimed), x);
+      SurfelPoint to = liftedSurfel(surface, emitter, uint(x * float(FACET_SURFELS)));
+      facing = to.facing;
+      direction = to.position - s.start;
       reach = length(direction);
       direction /= reach;
-      if (!(dot(direction, s.face) > 0.0)) continue;
+      if (!(dot(direction, s.face) > 0.0 && dot(direction, facing) < 0.0)) continue;
       l = vec3(dot(direction, tx), dot(direction, ty), dot(direction, s.normal));
     } else {
       vec3 h = mirror ? vec3(0.0, 0.0, 1.0) : ggxVisibleNormal(v, alpha, hammersley(k, rays, shift.xy));
@@ -73,19 +105,27 @@ vec3 traceLobe(TraceWorld world, Surface s, uvec4 shift) {
     vec3 h = normalize(v + l);
     float weight = fresnelSchlick(reflectance, clamp(dot(v, h), 0.0, 1.0)).x * ggxWeight(l.z, v.z, max(alpha, 1e-3));
     if (reach == 0.0) weights += weight;
-    TraceHit hit = traceFrom(world, s, direction);
-    if (hit.facet > TRACE_LAST_FACET) continue;
-    vec3 at = s.position + s.face * RAY_LIFT + direction * hit.t;
+    TraceHit hit;
+    if (EMITTERS && reach > 0.0) {
+      if (!reaches(world, surface, SurfelPoint(s.start, s.face, s.triangle), direction, reach)) continue;
+      hit.facet = emitter;
+      hit.t = reach;
+    } else {
+      hit = traceFrom(world, surface, s, direction);
+      if (hit.facet > TRACE_LAST_FACET) continue;
+    }
+    vec3 at = rayStart(s) + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);
     float exitance = EMITTERS ? luminance(world.facets.emission.at[hit.facet]) : 0.0;
-    if (reach > 0.0 && (!(exitance > 0.0) || abs(hit.t - reach) > 1.0)) continue;  // something else is in the way
     if (EMITTERS && exitance > 0.0) {
       // Expected rays per solid angle of either kind.
       float lobe = density * ggxDistribution(dot(h.xy, h.xy), max(alpha, 1e-3));
-      float emitter = float(aimed) * exitance * hit.t * hit.t / (max(-dot(n, direction), 1e-4) * table.power);
-      weight *= lobe / (lobe + emitter);
+      float cosine = max(-dot(n, direction), 1e-4);
+      weight *= lobe / (lobe + float(aimed) * exitance * hit.t * hit.t / (cosine * table.power));
+      // The heuristic goes by the facet's normal for both kinds; the points are drawn by the area of the true surface.
+      if (reach > 0.0) weight *= -dot(facing, direction) / cosine;
     }
-    sum += weight * facetValueAround(map, push.radiosity, hit.facet, at, n, -direction);
+    sum += weight * radiosityAt(world, surface, hit.facet, at);
   }
   return weights > 0.0 ? sum / (weights * IRAD_PI) : vec3(0.0);
 }

@@ -18,9 +18,8 @@ void main() {
   uint row = p.firstRow + index;
   FacetArrays facets = p.facets;
   uint packedVoxel = facets.voxel.at[row];
-  uint shape = facets.shape.at[row];
-  uvec3 voxel = unpackVoxel(packedVoxel);
-  vec3 normal = decodeNormal(shape & 0xFFFFu, TRACE_NORMALS);
+  vec3 normal = decodeNormal(facets.shape.at[row] & 0xFFFFu, TRACE_NORMALS);
+  vec3 origin = vec3(unpackVoxel(packedVoxel)) + 0.5f + normal;
   uvec4 shifts = rayShifts(packedVoxel, p.seed, p.jitter);
   TraceWorld world = TraceWorld(facets, p.chebyshev, p.dims, p.jfaMax);
   uint rays = p.slice & 0xFFFFu;
@@ -29,30 +28,19 @@ void main() {
   uint base = (p.segmentRow + index) * rays;
   uint weight = floatBitsToUint(1.0f / float(rays));
   uint before = first > 0u ? p.rowInfo.at[row].x : 0u;
-  uint hits = before & 0xFFFFu, escaped = 0u, invalid = before >> 16;
+  uint hits = before, escaped = 0u;
   for (uint k = first; k < last; ++k) {
     vec3 direction = toWorld(cosineDirection(hammersley(k, rays, shifts.xy)), normal);
-    vec3 origin = TRACE_HIT_RULE == HIT_RULE_THESIS
-                      ? vec3(voxel) + 0.5f + normal
-                      : facetPoint(voxel, normal, facetOffset(shape), facetJitter(k, shifts.zw));
-    uint met = traceFacetRay(world, origin, direction, normal, voxel, row, shape).facet;
+    uint met = traceThesis(world, traceStart(origin, direction)).facet;
     if (met <= TRACE_LAST_FACET) {
       p.segment.at[base + hits] = uvec2(met, weight);
       ++hits;
     } else if (met == TRACE_ESCAPED) {
       ++escaped;
-    } else if (met == TRACE_INVALID) {
-      ++invalid;
     }
   }
-  // The robust rule weighs by the rays that count.
-  if (invalid > 0u && last == rays) {
-    weight = floatBitsToUint(invalid < rays ? 1.0f / float(rays - invalid) : 0.0f);
-    for (uint i = 0u; i < hits; ++i) p.segment.at[base + i].y = weight;
-  }
-  p.rowInfo.at[row] = uvec2(hits | (invalid << 16), weight);
-  atomicAdd(p.sums.at[0].hits, hits - (before & 0xFFFFu));
+  p.rowInfo.at[row] = uvec2(hits, weight);
+  atomicAdd(p.sums.at[0].hits, hits - before);
   atomicAdd(p.sums.at[0].escaped, escaped);
-  atomicAdd(p.sums.at[0].invalid, invalid - (before >> 16));
   atomicMax(p.sums.at[0].largestRow, hits);
 }

@@ -15,7 +15,7 @@ void main() {
   if (facet >= f.count) return;
   uvec3 voxel = unpackVoxel(f.voxel.at[facet]);
   if (firstFacet(f.reverse.at[voxelIndex(voxel, p.dims)]) != facet) return;
-  vec3 value = p.value.at[facet].xyz;
+  vec3 value = p.radiosity.at[facet].xyz;
   if (p.removal > 0.0f) {
     vec3 source = unpackAlbedo(f.albedo.at[facet]) * p.direct.at[facet].xyz;
     if (f.hasEmission != 0u) source += f.emission.at[facet];

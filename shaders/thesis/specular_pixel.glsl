@@ -17,7 +17,7 @@ vec3 traceJittered(TraceWorld world, Surface s, uint seed, uint k) {
   vec3 direction = reflect(-s.view, n);
   float out_ = dot(direction, s.face);
   if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
-  TraceHit hit = traceFrom(world, s, direction);
+  TraceHit hit = traceFrom(world, tracedSurface(), s, direction);
   return hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : vec3(0.0);
 }
 
@@ -34,7 +34,8 @@ Reflection reflectionAt(ivec2 pixel) {
   float depth = texelFetch(depthTarget, pixel, 0).r;
   vec4 normal = imageLoad(normalTarget, pixel);
   vec4 f0 = imageLoad(f0Target, pixel);
-  vec3 irradiance = imageLoad(indirectTarget, pixel).rgb;
+  vec4 indirect = imageLoad(indirectTarget, pixel);
+  vec3 irradiance = indirect.rgb;
   Reflection r;
   r.shows = depth > 0.0 && f0.w != 0.0;
   r.traces = r.shows && !tracesNothing(f0, normal.w, irradiance);
@@ -42,12 +43,13 @@ Reflection reflectionAt(ivec2 pixel) {
   vec3 axis = viewAxis(camera);
   vec3 local = pixelPosition(camera, pixel, viewDepth(camera, depth), axis);
   Surface s;
-  s.position = (local - push.grid.origin) * push.grid.inverseEdge;
+  s.position = (local - push.origin) * push.inverseEdge;
   s.normal = normalize(normal.xyz);
   s.face = normalize(imageLoad(geometricTarget, pixel).xyz);
   s.view = towardsViewer(camera, local, axis);
   s.f0 = f0.rgb;
   s.roughness = normal.w;
+  startRays(tracedSurface(), indirect.w, s);
   r.surface = s;
   r.seed = hashUint(floatBitsToUint(s.position.x) ^
                     hashUint(floatBitsToUint(s.position.y) ^ hashUint(floatBitsToUint(s.position.z))));
@@ -55,7 +57,7 @@ Reflection reflectionAt(ivec2 pixel) {
   return r;
 }
 
-TraceWorld reflectedWorld() { return TraceWorld(push.facets.at[0], push.chebyshev, push.grid.dims, push.jfaMax); }
+TraceWorld reflectedWorld() { return TraceWorld(push.facets.at[0], push.chebyshev, push.dims, push.jfaMax); }
 
 /// `met`: the sum of what its rays meet.
 vec4 specularOf(Reflection r, vec3 met) {

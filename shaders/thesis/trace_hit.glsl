@@ -3,16 +3,8 @@
 TraceHit traceThesis(TraceWorld world, TraceWalk w) {
   TraceHit hit = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
   while (traceToSolid(world, w, hit.steps)) {
-    uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
-    uint facet = firstFacet(entry);
+    uint facet = firstFacet(world.facets.reverse.at[traceIndex(w.cell, world.dims)]);  // a voxel has one
     float slope = dot(decodeNormal(world.facets.shape.at[facet] & 0xFFFFu, TRACE_NORMALS), w.direction);
-    for (uint i = firstFacet(entry) + 1u; i < firstFacet(entry) + facetsOf(entry); ++i) {
-      float other = dot(decodeNormal(world.facets.shape.at[i] & 0xFFFFu, TRACE_NORMALS), w.direction);
-      if (other < slope) {
-        slope = other;
-        facet = i;
-      }
-    }
     if (slope < 0.0f) {
       hit.facet = facet;
       hit.t = w.t;

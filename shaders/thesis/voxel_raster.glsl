@@ -24,26 +24,10 @@ void voxelFragment(FlatTriangle f, vec2 pixel) {
   float depth = offset.z - dot(f.plane.xy, offset.xy);
   float columnArea = sqrt(1.0 + dot(f.plane.xy, f.plane.xy));
   float front = ((f.axis & RASTER_FACES_UP) != 0u ? depth : -depth) / columnArea;
-  uint place = push.slot * push.grid.at[0].voxels + voxel;
-  bool back = false;
-  float cosine = -1.0;
-  // One facet of an opaque material needs nothing of the triangle itself.
-  if (push.slots > 1u || SAMPLES_TEXTURES != 0u) {
+  if (SAMPLES_TEXTURES != 0u) {
     uint flags = triangleFlags(push.scene, triangle);
     VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-    if (push.slot == 1u) {
-      uint winner = push.keys.at[voxel];
-      if (winner == 0u) return;
-      cosine = secondCosine(t.normal, flags, winnerFacing(push.scene, push.grid, winner), back);
-      if (cosine >= ELSEWHERE_COSINE) return;
-    }
     if (masked(push.scene, t, triangle, flags, point)) return;
-    if (push.slot > 1u && push.keys.at[voxel] == 0u) return;
-    if (push.slot != 1u && push.slots > 1u && (flags & MATERIAL_DOUBLE_SIDED) != 0u &&
-        (push.slot == 0u || !recorded(push, voxel, -t.normal, point)))
-      atomicMax(push.keys.at[place], middleKey(-front, true, triangle));
-    if (push.slot > 1u && recorded(push, voxel, t.normal, point)) return;
   }
-  uint key = middleKey(back ? -front : front, back, triangle);
-  atomicMax(push.keys.at[place], push.slot == 1u ? secondKey(key, cosine < OPPOSED_COSINE) : key);
+  atomicMax(push.keys.at[voxel], middleKey(front, triangle));
 }

@@ -1,0 +1,23 @@
+// Where rays of a pixel start, on the triangle that is seen there (docs/method.md 7 and 8), and whether rays arrive.
+#ifndef IRAD_SEEN_POINT_GLSL
+#define IRAD_SEEN_POINT_GLSL
+#include "gi/trace.glsl"
+#include "shared/surface.h"
+
+/// A visible point `p` of a triangle, voxel units: put back into the triangle's plane, which interpolation has left by
+/// a few roundings, and lifted off the side that is seen from the direction `viewer`.
+SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer) {
+  Triangle t = triangleAt(surface.corners, triangle);
+  vec3 facing = facingOf(t, false);
+  facing = dot(facing, viewer) < 0.0 ? -facing : facing;
+  return SurfelPoint(liftedStart(p - facing * dot(facing, p - t.a), facing), facing, triangle);
+}
+
+/// Whether a ray from a lifted point meets nothing before `reach`. A ten-thousandth of it is more than the roundings of
+/// the point of a triangle that may be there.
+bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 direction, float reach) {
+  float before = reach * (1.0 - 1e-4);
+  return firstTriangle(world, surface, from.position, direction, from.triangle, before).triangle == NO_TRIANGLE;
+}
+
+#endif
