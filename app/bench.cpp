@@ -155,6 +155,32 @@ void Bench::forget() {
   sweeps_ = 0;
 }
 
+void Bench::warmUp(const Progress& progress, uint64_t pictures) {
+  prepare(progress);
+  relight();
+  for (uint64_t i = 0; i < pictures; ++i) cameraFrame();
+  forget();
+}
+
+double Bench::gpuMs(WorkKind kind) const {
+  std::vector<double> ms;
+  for (const FrameSample& call : frames_)
+    if (call.kind == kind) ms.push_back(call.gpuMs());
+  return statistics(ms).p50;
+}
+
+void measureInTurn(std::span<Bench* const> benches, uint64_t rebuilds, uint64_t frames, const Progress& progress) {
+  const auto repeat = [&](const char* what, uint64_t times, void (Bench::*act)()) {
+    for (uint64_t i = 0; i < times; ++i) {
+      progress(what, static_cast<float>(i) / static_cast<float>(times));
+      for (Bench* bench : benches) (bench->*act)();
+    }
+  };
+  repeat("rebuilds", rebuilds, &Bench::rebuild);
+  repeat("relights", frames, &Bench::relight);
+  repeat("camera frames", frames, &Bench::cameraFrame);
+}
+
 double Bench::megaRaysPerSecond() const {
   double ms = 0;
   for (const StageSamples& s : samples())

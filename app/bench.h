@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ class Bench {
   void rebuild();      ///< voxels to matrix anew (Setup), and the relight that follows (Cold)
   void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
   void cameraFrame();  ///< one picture, nothing else dirty
-  void forget();       ///< drops the samples so far: the warm-up
+  void forget();       ///< drops the samples so far
+  /// Prepares, compiles pipelines and touches pages, all of it without a sample.
+  void warmUp(const Progress& progress, uint64_t pictures = 1);
   /// Runs `count` ticks as a window does that begins at rest: moves, prepares what is not asleep, and draws where
   /// anything has changed (`redraws`: in any case). Leaves camera and lights as they were.
   TickWork ticks(Moving moving, uint32_t count, bool redraws);
@@ -42,6 +45,8 @@ class Bench {
   std::vector<StageSamples> samples() const;
   /// A group per call and kind of work.
   const std::deque<FrameSample>& frames() const { return frames_; }
+  /// The GPU's milliseconds of a call of this kind, by the median; 0 when not measured.
+  double gpuMs(WorkKind kind) const;
   const Pipeline& pipeline() const { return pipeline_; }
   Pipeline& pipeline() { return pipeline_; }
   /// Rays of the build over the median build time; 0 when not measured.
@@ -66,6 +71,10 @@ class Bench {
   double solveMs_ = 0;
   std::deque<FrameSample> frames_;
 };
+
+/// Rebuilds, relights and pictures, as many of the latter as of relights, of all benches in turn: other load on the
+/// machine falls on all alike.
+void measureInTurn(std::span<Bench* const> benches, uint64_t rebuilds, uint64_t frames, const Progress& progress);
 
 /// Median GB/s of a device buffer copy, bytes read plus bytes written, by the driver's transfer or by a kernel,
 /// whichever is faster: 256 MiB on a CPU device, 2 GiB on a GPU, less where memory is short.

@@ -120,12 +120,6 @@ nlohmann::ordered_json toJson(const Bench& bench, double copy) {
   return json;
 }
 
-std::string toCsv(const std::vector<std::vector<std::string>>& rows) {
-  std::string out;
-  for (const auto& row : rows) out += fmt::format("{}\n", fmt::join(row, ","));
-  return out;
-}
-
 /// --compare: recordings that were made before, of any scene and device.
 void printComparison(const fs::path& before, const fs::path& after) {
   std::vector<std::vector<std::string>> rows{{"subsystem", "kind", "first_p50_ms", "second_p50_ms", "ratio", "low",
@@ -183,24 +177,15 @@ void run(const BenchArguments& arguments) {
         std::make_unique<Bench>(*session.context, std::move(scene), session.settings, size, view.view, camera));
   }
 
-  // Warm-up: compiles kernels, touches pages. Then every kind of work, the settings sets in turn.
+  // Every kind of work, the settings sets in turn.
   const Progress progress = [&](const char* stage, float fraction) { return session.progress(stage, fraction); };
+  std::vector<Bench*> turns;
   for (const auto& bench : sets) {
-    bench->prepare(progress);
+    bench->warmUp(progress, warmup);
     session.checkNumbers(bench->pipeline());
-    bench->relight();
-    for (uint64_t i = 0; i < warmup; ++i) bench->cameraFrame();
-    bench->forget();
+    turns.push_back(bench.get());
   }
-  const auto repeat = [&](const char* what, uint64_t times, auto act) {
-    for (uint64_t i = 0; i < times; ++i) {
-      session.progress(what, static_cast<float>(i) / static_cast<float>(times));
-      for (const auto& bench : sets) act(*bench);
-    }
-  };
-  repeat("rebuilds", rebuilds, [](Bench& bench) { bench.rebuild(); });
-  repeat("relights", frames, [](Bench& bench) { bench.relight(); });
-  repeat("camera frames", frames, [](Bench& bench) { bench.cameraFrame(); });
+  measureInTurn(turns, rebuilds, frames, progress);
   for (const auto& bench : sets) session.checkNumbers(bench->pipeline());  // else the times mean nothing
   const double copy = copyBandwidth(*session.context);
   session.progress.finish();
@@ -231,7 +216,7 @@ void run(const BenchArguments& arguments) {
         row.insert(row.begin(), i == 0 ? "settings" : "versus");
         rows.push_back(row);
       }
-    writeFile(*arguments.csv, toCsv(rows));
+    writeFile(*arguments.csv, csvTable(rows));
   }
   if (arguments.record) {
     const fs::path folder = *arguments.record;

@@ -1,6 +1,5 @@
 // `irad plan`: which effects a scene calls for, which not, why, and what that saves; its tables, JSON and CSV.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iterator>
@@ -15,7 +14,6 @@
 #include "gi/plan.h"
 #include "gi/views/views.h"
 #include "renderer/base/console.h"
-#include "renderer/base/csv.h"
 #include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
@@ -70,40 +68,34 @@ std::map<std::string, std::string> cellsOf(const ProofRow& row) {
   return cells;
 }
 
-enum class Format { Aligned, Markdown, Csv };
-
-std::string table(const Proof& proof, const std::string& names, Format format) {
+/// Rows of cells, the first the names of columns. `effects`: of effects, or of sets; none: all.
+std::vector<Cells> table(const Proof& proof, const std::string& names, std::optional<bool> effects = {}) {
   std::istringstream in(names);
   const Cells columns{std::istream_iterator<std::string>(in), {}};
   std::vector<Cells> rows{columns};
   for (const ProofRow& row : proof) {
+    if (effects.value_or(row.effect.has_value()) != row.effect.has_value()) continue;
     auto cells = cellsOf(row);
     Cells& line = rows.emplace_back();
     for (const std::string& column : columns) line.push_back(cells[column]);
   }
-  if (format == Format::Aligned) {
-    std::vector<bool> numeric;
-    for (const std::string& cell : rows.back())
-      numeric.push_back(cell.find_first_not_of("0123456789.-") == std::string::npos);
-    return formatTable(rows, numeric);
-  }
-  if (format == Format::Markdown) rows.insert(rows.begin() + 1, Cells(columns.size(), "---"));
-  std::string out;
-  for (Cells& row : rows) {
-    if (format == Format::Csv) std::ranges::transform(row, row.begin(), csvField);
-    out += format == Format::Csv ? fmt::format("{}\n", fmt::join(row, ","))
-                                 : fmt::format("| {} |\n", fmt::join(row, " | "));
-  }
-  return out;
+  return rows;
 }
 
+/// Numbers to the right.
+std::string aligned(const std::vector<Cells>& rows) {
+  std::vector<bool> numeric;
+  for (const std::string& cell : rows.back())
+    numeric.push_back(cell.find_first_not_of("0123456789.-") == std::string::npos);
+  return formatTable(rows, numeric);
+}
+
+template <class Format>
 std::string proofTables(const Proof& proof, Format format) {
-  Proof effects, sets;
-  std::ranges::partition_copy(proof, std::back_inserter(effects), std::back_inserter(sets),
-                              [](const ProofRow& row) { return row.effect.has_value(); });
-  return table(sets, fmt::format("scene effect difference {} {}", kTimes, kWork), format) + "\n" +
-         table(sets, fmt::format("scene effect {}", kEnergy), format) + "\n" +
-         table(effects, "scene effect state skip difference not_proven mib_not_allocated", format);
+  return fmt::format("{}\n{}\n{}",
+                     format(table(proof, fmt::format("scene effect difference {} {}", kTimes, kWork), false)),
+                     format(table(proof, fmt::format("scene effect {}", kEnergy), false)),
+                     format(table(proof, "scene effect state skip difference not_proven mib_not_allocated", true)));
 }
 
 void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, const DeviceInfo& device) {
@@ -117,24 +109,21 @@ void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, co
 
 void show(const Subject& subject, const PlanArguments& arguments) {
   DeviceSession& session = subject.session;
-  Pipeline pipeline(*session.context, subject.scene, session.settings);
-  session.prepare(pipeline);
-  Targets targets(*session.context, subject.size);
-  Frame frame = session.context->begin();
-  pipeline.render(frame, subject.camera, VIEW_LIT, targets);
-  frame.submitAndWait();
-  const EffectPlan plan = pipeline.plan();
-  const Proof rows = rowsOf(subject, plan, arguments.measure);
+  Bench bench(*session.context, subject.scene, session.settings, subject.size, VIEW_LIT, subject.camera);
+  session.prepare(bench.pipeline());
+  bench.cameraFrame();
+  const EffectPlan plan = bench.pipeline().plan();
+  const Proof rows = rowsOf(subject, bench, arguments.measure);
   session.progress.finish();
   if (arguments.json) {
     printJson(rows, plan, subject.scene, session.device->info);
   } else {
     constexpr const char* kColumns = "effect state skip epsilon epsilon_of mib_not_allocated {} reason";
-    print("{}", table(rows, fmt::format(kColumns, arguments.measure ? kTimes : ""), Format::Aligned));
+    print("{}", aligned(table(rows, fmt::format(kColumns, arguments.measure ? kTimes : ""))));
     print("{} MiB not allocated in all{}\n", numberText(inMebibytes(plan.bytesNotAllocated())),
           arguments.measure ? "; milliseconds that the effect would take, by the median" : "");
   }
-  session.checkNumbers(pipeline);
+  session.checkNumbers(bench.pipeline());
 }
 
 void run(const PlanArguments& arguments) {
@@ -160,10 +149,10 @@ void run(const PlanArguments& arguments) {
     session.progress.finish();
   }
   if (arguments.prove) {
-    print("{}", proofTables(proof, Format::Aligned));
+    print("{}", proofTables(proof, aligned));
     const std::string all = fmt::format("{} {} {} {}", kProven, kTimes, kWork, kEnergy);
-    if (arguments.csv) writeFile(*arguments.csv, table(proof, all, Format::Csv));
-    if (arguments.markdown) writeFile(*arguments.markdown, proofTables(proof, Format::Markdown));
+    if (arguments.csv) writeFile(*arguments.csv, csvTable(table(proof, all)));
+    if (arguments.markdown) writeFile(*arguments.markdown, proofTables(proof, markdownTable));
     require(proof);
   }
   session.checkValidation();

@@ -46,84 +46,58 @@ float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
   return row.epsilon * share / std::numbers::pi_v<float>;
 }
 
-/// Prepares, compiles pipelines and touches pages.
+Progress progressOf(DeviceSession& session) {
+  return [&session](const char* stage, float fraction) { return session.progress(stage, fraction); };
+}
+
 std::unique_ptr<Bench> open(const Subject& subject, const Settings& settings) {
-  DeviceSession& session = subject.session;
-  auto bench =
-      std::make_unique<Bench>(*session.context, subject.scene, settings, subject.size, VIEW_LIT, subject.camera);
-  bench->prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); });
-  bench->cameraFrame();
-  bench->relight();
-  bench->forget();
+  Context& context = *subject.session.context;
+  auto bench = std::make_unique<Bench>(context, subject.scene, settings, subject.size, VIEW_LIT, subject.camera);
+  bench->warmUp(progressOf(subject.session));
   return bench;
 }
 
-/// Each one's times. Both work in turn, so that other load on the machine falls on both alike.
-std::array<Figures, 2> timesInTurn(const Subject& subject, std::array<Bench*, 2> benches) {
-  constexpr int kRebuilds = 3;
-  for (int i = 0; i < kRebuilds; ++i)
-    for (Bench* bench : benches) bench->rebuild();
-  for (uint32_t i = 0; i < subject.frames; ++i)
-    for (Bench* bench : benches) {
-      subject.session.progress(subject.name.c_str(), static_cast<float>(i) / static_cast<float>(subject.frames));
-      bench->relight();
-      bench->cameraFrame();
-    }
-  const auto median = [](const Bench& bench, WorkKind kind) {
-    std::vector<double> samples;
-    for (const FrameSample& call : bench.frames())
-      if (call.kind == kind) samples.push_back(call.gpuMs());
-    return samples.empty() ? 0 : statistics(samples).p50;
-  };
-  std::array<Figures, 2> out;
-  for (size_t i = 0; i < benches.size(); ++i)
-    out[i] = {{"rebuild_ms", median(*benches[i], WorkKind::Setup)},
-              {"relight_ms", median(*benches[i], WorkKind::Relight)},
-              {"frame_ms", median(*benches[i], WorkKind::Camera)}};
-  return out;
+/// Both work in turn, so that other load on the machine falls on both alike.
+void workInTurn(const Subject& subject, Bench& a, Bench& b) {
+  const std::array both{&a, &b};
+  for (Bench* bench : both) bench->forget();
+  measureInTurn(both, /*rebuilds=*/3, subject.frames, progressOf(subject.session));
 }
 
-/// Bytes of device memory, without the staging that the context keeps for every frame, whichever set it draws.
-uint64_t heldBytes(const DeviceSession& session) {
-  session.context->finish();
-  uint64_t bytes = 0;
-  for (const MemoryRow& row : session.device->memory().rows())
-    if (row.subsystem != Subsystem::Staging) bytes += row.bytes;
-  return bytes;
+Figures timesOf(const Bench& bench) {
+  return {{"rebuild_ms", bench.gpuMs(WorkKind::Setup)},
+          {"relight_ms", bench.gpuMs(WorkKind::Relight)},
+          {"frame_ms", bench.gpuMs(WorkKind::Camera)}};
 }
 
-/// Device memory (beside `before` bytes that were in use) and the work of a relight and a picture.
-Figures workOf(DeviceSession& session, Bench& bench, uint64_t before) {
-  Context& context = *session.context;
-  const double mebibytes = inMebibytes(heldBytes(session) - before);
+/// All of a set's, after workInTurn(). `bytes`: of device memory; `everything`: nothing sleeps in a window, every tick
+/// relights and draws.
+Figures figuresOf(const Subject& subject, Bench& bench, uint64_t bytes, bool everything) {
+  Figures out = timesOf(bench);
+  out["mib"] = inMebibytes(bytes);
+  Context& context = *subject.session.context;
   (void)context.pipelinesUsed();
-  const Counters counters = context.counters();
+  const Counters before = context.counters();
   bench.relight();
   bench.cameraFrame();
-  const Counters work = context.counters().since(counters);
-  bench.forget();
-  return {{"mib", mebibytes},
-          {"dispatches", static_cast<double>(work.dispatches)},
-          {"draws", static_cast<double>(work.draws)},
-          {"instructions", static_cast<double>(specializedInstructions(context.shaders, context.pipelinesUsed()))}};
-}
+  const Counters work = context.counters().since(before);
+  out["dispatches"] = static_cast<double>(work.dispatches);
+  out["draws"] = static_cast<double>(work.draws);
+  out["instructions"] = static_cast<double>(specializedInstructions(context.shaders, context.pipelinesUsed()));
 
-/// The figures per second. `everything`: nothing sleeps, every tick relights and draws.
-Figures energyOf(Bench& bench, uint32_t ticks, bool everything) {
   Pipeline& pipeline = bench.pipeline();
   const Settings settings = pipeline.settings();
   Settings restless = settings;
   if (everything) restless.effects.relight = EffectMode::on;
   pipeline.set(restless);
-  Figures out;
   for (const auto& [moving, name] :
        {std::pair(Moving::Nothing, "idle"), {Moving::Camera, "camera"}, {Moving::Lights, "light"}}) {
     if (moving == Moving::Lights && pipeline.scene().lights.empty()) continue;
-    const TickWork work = bench.ticks(moving, ticks, everything);
-    const double perSecond = 60.0 / ticks;
-    out[fmt::format("{}_ms_per_s", name)] = perSecond * work.gpuMs;
-    out[fmt::format("{}_dispatches_per_s", name)] = perSecond * static_cast<double>(work.dispatches);
-    out[fmt::format("{}_draws_per_s", name)] = perSecond * static_cast<double>(work.draws);
+    const TickWork ticks = bench.ticks(moving, subject.frames, everything);
+    const double perSecond = 60.0 / subject.frames;
+    out[fmt::format("{}_ms_per_s", name)] = perSecond * ticks.gpuMs;
+    out[fmt::format("{}_dispatches_per_s", name)] = perSecond * static_cast<double>(ticks.dispatches);
+    out[fmt::format("{}_draws_per_s", name)] = perSecond * static_cast<double>(ticks.draws);
   }
   pipeline.set(settings);
   pipeline.prepare();
@@ -147,19 +121,30 @@ void require(const Proof& proof) {
   if (!wrong.empty()) throw WorkError(fmt::format("{}", fmt::join(wrong, "\n")));
 }
 
-Proof rowsOf(const Subject& subject, const EffectPlan& plan, bool measure) {
+Proof rowsOf(const Subject& subject, Bench& planned, bool measure) {
+  const EffectPlan plan = planned.pipeline().plan();
+  if (measure) planned.warmUp(progressOf(subject.session));
   Proof rows;
   for (const EffectRow& row : plan.rows) {
     ProofRow& out = rows.emplace_back(ProofRow{.scene = subject.name, .name = row.info().name, .effect = row});
     if (!measure || row.state != EffectState::off || !row.info().mode) continue;
     Settings forced = subject.session.settings;
     forced.effects.*row.info().mode = EffectMode::on;
-    const auto without = open(subject, subject.session.settings), with = open(subject, forced);
+    const auto with = open(subject, forced);
     if (!with->pipeline().plan().on(row.effect)) continue;  // another setting has it off
-    const auto [off, on] = timesInTurn(subject, {without.get(), with.get()});
-    for (const auto& [name, ms] : on) out.figures[name] = ms - off.at(name);
+    workInTurn(subject, planned, *with);
+    out.figures = timesOf(*with);
+    for (const auto& [name, ms] : timesOf(planned)) out.figures[name] -= ms;
   }
   return rows;
+}
+
+uint64_t heldBytes(Context& context) {
+  context.finish();
+  uint64_t bytes = 0;
+  for (const MemoryRow& row : context.device.memory().rows())
+    if (row.subsystem != Subsystem::Staging) bytes += row.bytes;
+  return bytes;
 }
 
 Settings allForcedOn(const Settings& settings) {
@@ -220,25 +205,19 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
 
 Proof prove(const Subject& subject) {
   DeviceSession& session = subject.session;
-  const std::array sets{allForcedOn(session.settings), session.settings};
-  std::array<std::unique_ptr<Bench>, 2> benches;
-  std::array<Figures, 2> figures;
-  for (const size_t i : {1, 0}) {
-    const uint64_t before = heldBytes(session);
-    benches[i] = open(subject, sets[i]);
-    figures[i] = workOf(session, *benches[i], before);
-  }
-  Bench &forced = *benches[0], &planned = *benches[1];
-  const auto times = timesInTurn(subject, {&forced, &planned});
-  for (const size_t i : {1, 0}) {
-    figures[i].insert(times[i].begin(), times[i].end());
-    figures[i].merge(energyOf(*benches[i], subject.frames, /*everything=*/i == 0));
-  }
+  const uint64_t nothing = heldBytes(*session.context);
+  const auto planned = open(subject, session.settings);
+  const uint64_t one = heldBytes(*session.context);
+  auto forced = open(subject, allForcedOn(session.settings));
+  const uint64_t both = heldBytes(*session.context);
+  workInTurn(subject, *planned, *forced);
+  const Figures asPlanned = figuresOf(subject, *planned, one - nothing, /*everything=*/false),
+                allForced = figuresOf(subject, *forced, both - one, /*everything=*/true);
   constexpr View kPicture[]{VIEW_LIT};
-  Proof proof{proveAll(subject.name, planned, forced, kPicture), {subject.name, "as planned", figures[1]}};
-  proof[0].figures = figures[0];
-  benches[0].reset();  // its memory
-  std::ranges::copy(proveEach(subject.name, planned, kPicture), std::back_inserter(proof));
+  Proof proof{proveAll(subject.name, *planned, *forced, kPicture), {subject.name, "as planned", asPlanned}};
+  proof[0].figures = allForced;
+  forced.reset();  // its memory
+  std::ranges::copy(proveEach(subject.name, *planned, kPicture), std::back_inserter(proof));
   return proof;
 }
 

@@ -56,9 +56,12 @@ using Proof = std::vector<ProofRow>;
 /// WorkError naming what does not hold.
 void require(const Proof& proof);
 
-/// A row for each effect of `plan`. `measure`: with the milliseconds that each one which is off and can be forced on
-/// takes beyond those without it.
-Proof rowsOf(const Subject& subject, const EffectPlan& plan, bool measure);
+/// A row for each effect of the plan of `planned`. `measure`: with the milliseconds that each one which is off and can
+/// be forced on takes beyond those without it.
+Proof rowsOf(const Subject& subject, Bench& planned, bool measure);
+
+/// Bytes of device memory, without the staging that the context keeps for every frame, whatever it draws.
+uint64_t heldBytes(Context& context);
 
 /// With every effect on; but the light sleeps where it is at rest.
 Settings allForcedOn(const Settings& settings);

@@ -1,8 +1,11 @@
 #include "app/table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+
+#include "renderer/base/csv.h"
 
 namespace irad::app {
 namespace {
@@ -31,6 +34,22 @@ std::string formatTable(const std::vector<std::vector<std::string>>& rows, const
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
   }
+  return out;
+}
+
+std::string csvTable(const std::vector<std::vector<std::string>>& rows) {
+  std::string out;
+  for (std::vector<std::string> row : rows) {
+    std::ranges::transform(row, row.begin(), csvField);
+    out += fmt::format("{}\n", fmt::join(row, ","));
+  }
+  return out;
+}
+
+std::string markdownTable(std::vector<std::vector<std::string>> rows) {
+  rows.insert(rows.begin() + 1, std::vector<std::string>(rows.at(0).size(), "---"));
+  std::string out;
+  for (const auto& row : rows) out += fmt::format("| {} |\n", fmt::join(row, " | "));
   return out;
 }
 

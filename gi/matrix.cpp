@@ -62,7 +62,7 @@ void mergeAndPackOnDevice(CsrBuild& build, Frame frame, const Chunk& chunk, cons
   pack.firstRow = chunk.firstRow;
   pack.rows = chunk.rows;
   pack.rays = chunk.rays;
-  pass.shader("gi/pack_rows.comp").push(pack).dispatch(uint64_t{chunk.rows} * chunk.rays);
+  pass.shader("gi/pack_rows.comp").push(pack).dispatch(uint64_t{chunk.rows} * PACK_WIDTH);
   packing.submit();
 }
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "gi/emitter_rule.h"
+#include "gi/stage_keys.h"
+#include "renderer/forward.h"
 #include "shaders/shared/pixel_emitters.h"
 
 namespace irad {
@@ -20,10 +23,10 @@ std::string counted(size_t n, const char* one, const char* many) {
 class Planner {
  public:
   Planner(const SceneTraits& traits, const Settings& settings, const EffectPlan* before)
-      : t_(traits), s_(settings), before_(before) {
+      : t_(traits), b_(traits.build.value_or(BuildTraits{})), s_(settings), before_(before) {
     for (size_t i = 0; i < kEffects; ++i) plan_.rows[i].effect = static_cast<Effect>(i);
     for (const MaterialTraits& m : traits.materials)
-      if (m.triangles > 0) used_.push_back(&m);
+      if (m.triangles > 0) used_.push_back(m);
   }
 
   EffectPlan run() {
@@ -53,7 +56,8 @@ class Planner {
     const EffectMode mode = forcedMode(s_, effect);
     const bool on = mode == EffectMode::automatic ? calledFor : mode == EffectMode::on;
     if (on != calledFor) reason = fmt::format("forced {}: {}", nameOf(mode), reason);
-    set(effect, on ? EffectState::on : EffectState::off, std::move(reason), bytes);
+    without(effect, std::move(reason), on ? 0 : bytes);
+    if (on) row(effect).state = EffectState::on;
   }
   /// The same, but what is not due sleeps.
   void sleeps(Effect effect, bool due, std::string reason) {
@@ -62,13 +66,10 @@ class Planner {
   }
   /// Off because of another setting or effect, whatever forces it on.
   void without(Effect effect, std::string reason, uint64_t bytes = 0) {
-    set(effect, EffectState::off, std::move(reason), bytes);
-  }
-  void set(Effect effect, EffectState state, std::string reason, uint64_t bytes) {
     EffectRow& r = row(effect);
-    r.state = state;
+    r.state = EffectState::off;
     r.reason = std::move(reason);
-    r.bytesNotAllocated = state == EffectState::off ? bytes : 0;
+    r.bytesNotAllocated = bytes;
   }
   /// Whether there is light of a kind, once its effect is decided.
   bool lit(Effect effect, bool calledFor) {
@@ -77,38 +78,37 @@ class Planner {
     shines_ |= lights;
     return lights;
   }
-  /// Hysteresis of triggers that an edit may cross back and forth. `share`: of what the effect comes on at.
-  bool held(Effect effect, double share) const {
-    return share > (before_ != nullptr && before_->on(effect) ? 0.5 : 1.0);
+  /// Hysteresis of triggers that an edit may cross back and forth. `share`: of what the effect comes on at; half of it
+  /// keeps it on, and is added to the reason.
+  bool held(Effect effect, double share, std::string& reason) const {
+    const bool stays = share > 0.5 && share <= 1 && before_ != nullptr && before_->on(effect);
+    if (stays) reason += "; near enough to stay on";
+    return share > 1 || stays;
   }
 
   /// "none of 25 materials with a normal map", "2 of 3 materials with a normal map".
   template <class Has>
-  std::pair<size_t, std::string> materials(Has&& has, const char* what) const {
-    const auto n = static_cast<size_t>(std::ranges::count_if(used_, [&](const auto* m) { return has(*m); }));
+  std::pair<size_t, std::string> materials(Has has, const char* what) const {
+    const auto n = static_cast<size_t>(std::ranges::count_if(used_, has));
     const std::string all = counted(used_.size(), "material", "materials");
     return {n, used_.empty() ? all : fmt::format("{} of {} {}", n == 0 ? "none" : std::to_string(n), all, what)};
   }
   float most(float MaterialTraits::*value) const {
-    float out = 0;
-    for (const MaterialTraits* m : used_) out = std::max(out, m->*value);
-    return out;
+    return used_.empty() ? 0 : std::ranges::max(used_, {}, value).*value;
   }
-  uint64_t facets() const { return t_.build ? t_.build->facets : 0; }
-  uint64_t voxels() const { return t_.build ? t_.build->voxels : 0; }
 
   void emission() {
     const float emission = most(&MaterialTraits::emission);
     std::string reason = materials([](const MaterialTraits& m) { return m.emission > 0; }, "with emission").second;
     if (emission > 0) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", emission);
     // M in the list, F M, and that as shading samples it.
-    decide(Effect::emission, emission > 0, std::move(reason), facets() * (12 + 16 + 16));
+    decide(Effect::emission, emission > 0, std::move(reason), b_.facets * (12 + 16 + 16));
     emits_ = lit(Effect::emission, emission > 0);
   }
 
   void light(const LightKind& kind) {
     const Effect effect = effectOf(kind.type);
-    size_t all = 0, shining = 0, lighting = 0, near = 0;
+    size_t all = 0, shining = 0, lighting = 0;
     double share = 0;
     uint64_t maps = 0;
     const uint64_t flat = 4ull * s_.light.shadowResolution * s_.light.shadowResolution;
@@ -116,16 +116,13 @@ class Planner {
       if (l.type != kind.type) continue;
       ++all;
       shining += l.shines;
-      lighting += l.lights();
-      near += l.mayLight();
-      if (l.shines) share = std::max(share, LightTraits::kNear / double{l.gap});
+      lighting += l.share() > 1;
+      share = std::max(share, l.share());
       maps += l.cube ? flat / 4 * 6 : flat;
     }
     std::string reason = counted(all, kind.one, kind.many);
-    if (all > 0)
-      reason += fmt::format(": {} with an intensity, of these {} in reach of the scene and {} nearly", shining,
-                            lighting, near - lighting);
-    const bool calledFor = held(effect, share);
+    if (all > 0) reason += fmt::format(": {} with an intensity, of these {} in reach of the scene", shining, lighting);
+    const bool calledFor = held(effect, share, reason);
     decide(effect, calledFor, std::move(reason), maps);
     lit(effect, calledFor);
   }
@@ -135,56 +132,57 @@ class Planner {
     const uint64_t bytes = t_.pixels * (16 + 4);  // reflected radiance, the list of pixels that trace
     if (s_.specular.mode == SpecularMode::off) return without(Effect::specular, "specular.mode = off", bytes);
     auto [lobes, reason] = materials([](const MaterialTraits& m) { return m.f0 > 0; }, "with a specular lobe");
-    float least = 1;
-    for (const MaterialTraits* m : used_) least = m->f0 > 0 ? std::min(least, m->leastRoughness) : least;
-    if (lobes > 0)
+    if (lobes > 0) {
+      const float least = std::ranges::min(used_, {}, &MaterialTraits::leastRoughness).leastRoughness;
+      smoothness_ = 1 + 10 * (double{rays.maxRoughness} - least);
       reason +=
           fmt::format("{}; roughness {:.3g} at least, rays up to {:.3g} where F0 H is above {:.3g} of the largest H",
                       shines_ ? "" : ", no light to reflect", least, rays.maxRoughness, rays.threshold);
+    }
     decide(Effect::specular, lobes > 0 && shines_, std::move(reason), bytes);
-    if (lobes > 0) smoothness_ = 1 + 10 * (double{rays.maxRoughness} - least);
     if (s_.effects.specular == EffectMode::on) smoothness_ = INFINITY;
   }
 
   void matrix() {
     const float albedo = most(&MaterialTraits::albedo);
     const bool reads = albedo > 0 || plan_.on(Effect::specular);
-    const bool built = t_.build && t_.build->matrix;
     std::string reason =
         shines_ ? fmt::format("light, and albedos of up to {:.3g}", albedo) : "no light at all: H is 0 everywhere";
-    if (built) reason += fmt::format("; {:.3g} % of the rays escape", 100 * t_.build->escaped);
+    if (b_.matrix) reason += fmt::format("; {:.3g} % of the rays escape", 100 * b_.escaped);
     // csr keeps 4 B per distinct column, of which there are at most as many as rays.
     const uint64_t rays = s_.matrix.gpu.rays,
                    rowBytes = s_.matrix.format == MatrixFormat::csr ? 4 * rays + 12 : 8 * rays + 8;
     constexpr uint64_t kLight = 7 * 16 + 4;  // D, F M, H, B twice, as shading samples them; row sums
-    decide(Effect::matrix, shines_ && reads, std::move(reason), facets() * (rowBytes + kLight));
+    decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight));
     // Lights that are there may be turned up again: what was built for them is kept.
     EffectRow& r = row(Effect::matrix);
-    if (r.state == EffectState::off && s_.effects.matrix == EffectMode::automatic && !t_.lights.empty() && built)
-      set(Effect::matrix, EffectState::asleep, r.reason + "; kept for the lights that there are", 0);
+    if (r.state == EffectState::on || s_.effects.matrix != EffectMode::automatic || t_.lights.empty() || !b_.matrix)
+      return;
+    r.state = EffectState::asleep;
+    r.reason += "; kept for the lights that there are";
+    r.bytesNotAllocated = 0;
   }
 
   void emitterSampling() {
-    const uint64_t bytes = facets() * 16;
+    const uint64_t bytes = b_.facets * 16;
     if (!emits_ || !plan_.on(Effect::matrix))
       return without(Effect::emitterSampling, emits_ ? "no matrix, no first gather" : "nothing emits", bytes);
     EffectRow& r = row(Effect::emitterSampling);
     r.epsilon = kEmitterAgreement;
     r.of = "the sum of F M";
     if (!t_.build) return decide(Effect::emitterSampling, true, "known once the emissive facets are counted", bytes);
-    const BuildTraits& b = *t_.build;
-    const bool few = emittersAreFew(b.emitters, b.facets),
+    const bool few = emittersAreFew(b_.emitters, b_.facets),
                automatic = s_.matrix.emitterSampling == EffectMode::automatic;
     std::string reason =
-        fmt::format("{} of {} facets emit, {} a tenth", b.emitters, b.facets, few ? "less than" : "not less than");
+        fmt::format("{} of {} facets emit, {} a tenth", b_.emitters, b_.facets, few ? "less than" : "not less than");
     // F M does not depend on the lights: once the samples were tried, the outcome holds until the matrix is another
     // one.
-    const bool tried = few && (b.sampled || b.sampledShare > 0 || (automatic && t_.light.due > Redo::Solve));
+    const bool tried = few && (b_.sampled || b_.sampledShare > 0 || (automatic && t_.light.due > Redo::Solve));
     if (tried) {
-      r.epsilon = std::max(r.epsilon, std::abs(1 - b.sampledShare));
-      reason += fmt::format("; their samples bring {:.4g} of what the rays do", b.sampledShare);
+      r.epsilon = std::max(r.epsilon, std::abs(1 - b_.sampledShare));
+      reason += fmt::format("; their samples bring {:.4g} of what the rays do", b_.sampledShare);
     }
-    decide(Effect::emitterSampling, tried ? b.sampled : few, std::move(reason), bytes);
+    decide(Effect::emitterSampling, tried ? b_.sampled : few, std::move(reason), bytes);
   }
 
   void pixelEmitters() {
@@ -199,25 +197,22 @@ class Planner {
   }
 
   void secondFacet() {
-    const uint64_t keys = 4 * voxels();
+    const uint64_t keys = 4 * b_.voxels;
     if (s_.voxel.facets < 2) return without(Effect::secondFacet, "voxel.facets = 1", keys);
     if (!t_.build) return decide(Effect::secondFacet, true, "known once the scene is voxelized", keys);
-    const uint32_t second = t_.build->facets - t_.build->solidVoxels;
+    const uint32_t second = b_.facets - b_.solidVoxels;
     decide(Effect::secondFacet, second > 0,
-           fmt::format("{} of {} solid voxels with a second facet", second, t_.build->solidVoxels), keys);
+           fmt::format("{} of {} solid voxels with a second facet", second, b_.solidVoxels), keys);
   }
 
   void field() {
     const bool byMatrix = !plan_.off(Effect::matrix) && s_.matrix.gpu.traversal == Traversal::sdf;
     const bool skips = plan_.on(Effect::specular) && s_.specular.gpu.traversal == Traversal::sdf;
-    const bool bySpecular = skips && smoothness_ > 1,
-               calledFor = byMatrix || (skips && held(Effect::field, smoothness_));
-    decide(Effect::field, calledFor,
-           fmt::format("rays of the matrix {} by it, specular rays {}", byMatrix ? "skip" : "do not skip",
-                       bySpecular               ? "do"
-                       : calledFor && !byMatrix ? "may soon"
-                                                : "do not"),
-           s_.field.method == FieldMethod::chebyshev ? voxels() : 5 * voxels());
+    std::string reason = fmt::format("rays of the matrix {} by it, specular rays {}", byMatrix ? "skip" : "do not skip",
+                                     skips && smoothness_ > 1 ? "do" : "do not");
+    const bool calledFor = byMatrix || (skips && held(Effect::field, smoothness_, reason));
+    decide(Effect::field, calledFor, std::move(reason),
+           s_.field.method == FieldMethod::chebyshev ? b_.voxels : 5 * b_.voxels);
   }
 
   void relight() {
@@ -248,7 +243,7 @@ class Planner {
   }
 
   void materialFeature(Effect effect, bool MaterialTraits::*has, const char* what) {
-    auto [n, reason] = materials([&](const MaterialTraits& m) { return m.*has; }, what);
+    auto [n, reason] = materials(has, what);
     decide(effect, n > 0, std::move(reason));
   }
 
@@ -257,30 +252,139 @@ class Planner {
     if (const SampleFilter filter = s_.sample.gpu.filter_; filter != SampleFilter::blur)
       return without(Effect::blur, fmt::format("sample.filter = {}", nameOf(filter)));
     const float epsilon = row(Effect::blur).epsilon = s_.effects.blurNoise;
-    const uint64_t copies = facets() * (plan_.on(Effect::emission) ? 32 : 16);
+    const uint64_t copies = b_.facets * (plan_.on(Effect::emission) ? 32 : 16);
     if (!t_.light.noise) return decide(Effect::blur, true, "what it changes is known after a relight", copies);
     const float noise = *t_.light.noise;
-    const bool noisy = held(Effect::blur, double{noise} / epsilon);
-    decide(
-        Effect::blur, noisy,
-        fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}{}", noise, noise <= epsilon ? "<=" : ">",
-                    epsilon, noisy && noise <= epsilon ? "; once on it stays so above half of that" : ""),
-        copies);
+    std::string reason = fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}", noise,
+                                     noise <= epsilon ? "<=" : ">", epsilon);
+    const bool noisy = held(Effect::blur, double{noise} / epsilon, reason);
+    decide(Effect::blur, noisy, std::move(reason), copies);
   }
 
   const SceneTraits& t_;
+  const BuildTraits b_;  ///< zeros before a build
   const Settings& s_;
   const EffectPlan* before_;
   EffectPlan plan_;
-  std::vector<const MaterialTraits*> used_;  ///< by any triangle
-  bool emits_ = false, shines_ = false;      ///< surfaces; any light enters the scene
-  double smoothness_ = 0;                    ///< above 1 some pixels may trace; 0.5: materials are rougher by 0.05
+  std::vector<MaterialTraits> used_;     ///< by any triangle
+  bool emits_ = false, shines_ = false;  ///< surfaces; any light enters the scene
+  double smoothness_ = 0;                ///< above 1 some pixels may trace; 0.5: materials are rougher by 0.05
 };
 
 }  // namespace
 
 EffectPlan plan(const SceneTraits& traits, const Settings& settings, const EffectPlan* before) {
   return Planner(traits, settings, before).run();
+}
+
+const EffectInfo& effectInfo(Effect effect) {
+  static constexpr EffectInfo infos[]{
+#define IRAD_EFFECT(id, ...) {__VA_ARGS__},
+      IRAD_EFFECTS(IRAD_EFFECT)
+#undef IRAD_EFFECT
+  };
+  return infos[static_cast<size_t>(effect)];
+}
+
+Effect effectOf(LightType type) {
+  static constexpr std::array effects{
+#define IRAD_LIGHT_EFFECT(constant, number, id, effect, gltf, name, one, many, map, traits) Effect::effect,
+      IRAD_LIGHT_KINDS(IRAD_LIGHT_EFFECT)
+#undef IRAD_LIGHT_EFFECT
+  };
+  return effects.at(static_cast<size_t>(type));
+}
+
+uint64_t EffectPlan::bytesNotAllocated() const {
+  uint64_t sum = 0;
+  for (const EffectRow& r : rows) sum += r.bytesNotAllocated;
+  return sum;
+}
+
+EffectMode forcedMode(const Settings& settings, Effect effect) {
+  if (effect == Effect::emitterSampling) return settings.matrix.emitterSampling;
+  const auto mode = effectInfo(effect).mode;
+  return mode ? settings.effects.*mode : EffectMode::automatic;
+}
+
+void forceEffects(Settings& settings, EffectMode mode) {
+  for (size_t i = 0; i < kEffects; ++i)
+    if (const auto member = effectInfo(static_cast<Effect>(i)).mode) settings.effects.*member = mode;
+}
+
+Settings obeyed(const Settings& settings, const EffectPlan& plan) {
+  Settings s = settings;
+  for (const EffectRow& row : plan.rows)
+    if (const auto mode = row.info().mode)
+      s.effects.*mode = row.state == EffectState::off ? EffectMode::off : EffectMode::on;
+  if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
+  if (settings.effects.secondFacet == EffectMode::off) s.voxel.facets = 1;
+  if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
+  if (plan.off(Effect::blur) && s.sample.gpu.filter_ == SampleFilter::blur) s.sample.gpu.filter_ = SampleFilter::linear;
+  return s;
+}
+
+std::string planJson(const EffectPlan& plan, int indent) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const EffectRow& r : plan.rows) {
+    nlohmann::ordered_json row{
+        {"effect", r.info().name}, {"state", r.stateName()}, {"reason", r.reason}, {"skip", r.skipName()}};
+    if (r.epsilon > 0) {
+      row["epsilon"] = nlohmann::ordered_json::parse(fmt::format("{}", r.epsilon));
+      row["epsilon_of"] = r.of;
+    }
+    row["bytes_not_allocated"] = r.bytesNotAllocated;
+    out.push_back(std::move(row));
+  }
+  return out.dump(indent);
+}
+
+Planned::Planned(const Scene& scene, const Settings& settings)
+    : traits(measure(scene, settings.voxel.resolution)),
+      plan_(irad::plan(traits, settings)),
+      settings_(obeyed(settings, plan_)) {}
+
+void Planned::decide(const Settings& wanted) {
+  plan_ = irad::plan(traits, wanted, &plan_);
+  const Settings next = obeyed(wanted, plan_);
+  const Redo first = firstDifference(settings_, next);
+  settings_ = next;
+  // What was learned from the voxels holds for the settings that they were made with.
+  if (first <= Redo::Voxels && traits.build) {
+    traits.build.reset();
+    decide(wanted);
+  }
+}
+
+bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const {
+  const Effect kind = effectOf(LightType{light.type});
+  if (!on(kind)) return false;
+  return forcedMode(wanted, kind) == EffectMode::on ||
+         measureLight(light, scene, wanted.voxel.resolution).share() > 0.5;
+}
+
+std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all) const {
+  std::vector<GpuMaterial> out = all;
+  for (GpuMaterial& m : out) {
+    if (!on(Effect::emission)) {
+      m.emission = glm::vec3(0);
+      m.flags &= ~MATERIAL_EMISSIVE_TEXTURE;
+    }
+    if (!on(Effect::alphaTest)) m.flags &= ~MATERIAL_ALPHA_MASK;
+    if (!on(Effect::normalMap)) m.flags &= ~MATERIAL_NORMAL_TEXTURE;
+  }
+  return out;
+}
+
+ForwardEffects Planned::forwardEffects() const {
+  ForwardEffects e;
+  for (const LightKind& kind : lightKinds()) e.lights[kind.type] = on(effectOf(kind.type));
+  e.emission = on(Effect::emission);
+  e.alphaTest = on(Effect::alphaTest);
+  e.normalMap = on(Effect::normalMap);
+  e.specular = on(Effect::specular);
+  e.highlights = std::ranges::any_of(traits.materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });
+  return e;
 }
 
 }  // namespace irad

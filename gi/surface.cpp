@@ -36,6 +36,7 @@ struct Pieces {
   Buffer triangle;                ///< per piece, ascending within a voxel
   Buffer pieceVoxel;              ///< which solid voxel
   Buffer area;                    ///< float, voxel faces
+  Buffer boxes;                   ///< packBox
   Buffer firstPoint, firstCut;    ///< per piece, and the end: its PiecePoints, and its words of SurfaceArrays::cuts
   uint32_t points = 0, cuts = 0;
 };
@@ -121,6 +122,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   p.triangle = words(device, "pieces' triangles", p.count);
   p.pieceVoxel = words(device, "pieces' voxels", p.count);
   p.area = words(device, "pieces' areas", p.count);
+  p.boxes = words(device, "pieces' boxes", p.count);
   Buffer unsorted = words(device, "unsorted pieces", p.count);
   Frame frame = context.begin();
   frame.pass(kListStage).copy(pieces, p.first, 4, 0, 4ull * p.solid);
@@ -159,6 +161,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     shape.firstPiece = pass.in(p.first);
     shape.corners = pass.in(corners);
     shape.area = pass.out(p.area);
+    shape.boxes = pass.out(p.boxes);
     shape.points = pass.out(p.firstPoint);
     shape.cuts = pass.out(p.firstCut);
     shape.count = p.count;
@@ -239,6 +242,7 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   const auto classify = [&](const char* shader) {
     Pass pass = frame.pass(kListStage);
     ClassPointsPush push{};
+    push.solid = pass.in(pieces.voxel);
     push.firstPiece = pass.in(pieces.first);
     push.surface = pass.in(surface.record);
     push.area = pass.in(pieces.area);
@@ -307,7 +311,7 @@ void makeFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
   push.links = pass.out(surface.links);
   push.dims = list.grid.dims;
   push.count = list.count;
-  pass.shader("gi/link_facets.comp").push(push).dispatch(uint64_t{FACET_LINKS} * list.count);
+  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + 1) / 2);
 }
 
 void makeRecord(Context& context, FacetList& list) {
@@ -318,6 +322,7 @@ void makeRecord(Context& context, FacetList& list) {
   // As far as the surface has got.
   if (s.pieces) {
     arrays.pieces = record.of(s.pieces);
+    arrays.boxes = record.of(s.boxes);
     arrays.sides = record.of(s.sides);
     arrays.cuts = record.of(s.cuts);
   }
@@ -412,6 +417,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
 
   list.solidVoxels = pieces.solid;
   surface.pieces = std::move(pieces.triangle);
+  surface.boxes = std::move(pieces.boxes);
   surface.sides = words(device, "pieces' sides", pieces.count);
   surface.cuts = words(device, "pieces' cuts", pieces.cuts);
   makeRecord(context, list);

@@ -26,12 +26,11 @@ struct LightTraits {
   LightType type = LightType::Sun;
   bool shines = false;  ///< intensity > 0
   bool cube = false;    ///< six shadow maps instead of one (lightUsesCube)
-  /// Voxels between what its range and cone leave and the scene's bounds; conservative. A facet's points may lie one
-  /// outside of the bounds in each axis: two are allowed for, and four where a light that is on stays on.
+  /// Voxels between what its range and cone leave and the scene's bounds; conservative.
   float gap = 0;
-  bool lights() const { return shines && gap < kNear; }
-  bool mayLight() const { return shines && gap < 2 * kNear; }
-  static constexpr float kNear = 2;
+  /// Of what lights the scene, which is above 1: a facet's points may lie a voxel outside of the bounds in each axis,
+  /// so that two are allowed for, and four (0.5) where a light that is on stays on.
+  double share() const { return shines ? 2 / double{gap} : 0; }
 };
 
 /// What the voxels and their matrix have shown, once they are built.

@@ -21,7 +21,7 @@ using Stages = std::set<std::string>;
 using Pixels = std::vector<glm::vec4>;
 
 inline Light lamp(double x, float candela = 3) {
-  return {.name = "lamp", .type = LightType::Point, .position = {x, 0.2, 0}, .intensity = candela};
+  return {.name = "lamp", .type = LightType::Point, .position = {x, 0.65, 0}, .intensity = candela};
 }
 inline Light sun() {
   const glm::vec3 down = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
@@ -35,29 +35,17 @@ inline Light spot(float outerCos = 0.85f) {
   return light;
 }
 
-/// A matt room with a panel and a small lamp; `textured`: the floor has a normal map and the panel holes.
-inline Scene room(bool emits, std::vector<Light> lights = {}, bool textured = false, bool floorAlone = false) {
-  irad::SceneBuilder b;
-  const uint32_t wall = b.material(glm::vec3(0.6f, 0.5f, 0.4f)), floor = b.material(glm::vec3(0.5f)),
-                 lamp = b.material(glm::vec3(0.1f), glm::vec3(emits ? 20 : 0)),
-                 panel = b.material(glm::vec3(0.4f), glm::vec3(0), /*doubleSided=*/true);
-  if (floorAlone) {
-    b.quad(floor, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, 2);
-  } else {
-    b.box({wall, wall, floor, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
-    b.quad(lamp, {-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2});
-    b.quad(panel, {-0.6, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.4, -0.2}, {-0.6, 0.4, -0.2});
-  }
-  b.camera({0.7, 0.3, 0.9}, {-0.2, -0.3, -0.6});
-  Scene scene = b.finish("room");
+/// A matt room with a small lamp; `textured`: walls and floor have a normal map and the left wall holes.
+inline Scene room(bool emits, std::vector<Light> lights = {}, bool textured = false) {
+  Scene scene = stillLife(/*light=*/emits ? 1.0f : 0.0f).finish("room");
   scene.lights = std::move(lights);
   for (Material& m : scene.materials) m.lambertian = true;
   if (textured) {
     scene.images = {{"normals", 2, 1, /*srgb=*/false, {190, 128, 230, 255, 80, 150, 230, 255}},
                     {"holes", 2, 1, /*srgb=*/true, {255, 255, 255, 255, 255, 255, 255, 0}}};
-    scene.materials[floor].normalTexture.image = 0;
-    scene.materials[panel].baseColorTexture.image = 1;
-    scene.materials[panel].alpha = AlphaMode::Mask;
+    scene.materials[0].normalTexture.image = 0;
+    scene.materials[1].baseColorTexture.image = 1;
+    scene.materials[1].alpha = AlphaMode::Mask;
   }
   for (size_t i = 0; i < scene.positions.size(); ++i)
     scene.uv0[i] = 2.0f * glm::vec2(scene.positions[i].x, scene.positions[i].y + scene.positions[i].z);
@@ -88,7 +76,7 @@ class EffectsTest : public GiTest {
   /// An edit of a pipeline, and what is there with the next prepare and picture.
   struct Step {
     Edit edit;           ///< none: nothing is due
-    std::string terms;   ///< for expect()
+    std::string terms;   ///< for expect(); where they are the same, so are memory and effects, in a row all the time
     char picture = ' ';  ///< a test's letters: the same one, the same bits, H too; '.': black; ' ': not compared
     View view = VIEW_LIT;
   };
@@ -97,23 +85,14 @@ class EffectsTest : public GiTest {
   static Settings small() {
     Settings s = at(16, 32);
     s.light.shadowResolution = 128;
+    s.effects.blurNoise = 1e-2f;
     return s;
   }
-  static Scene litRoom() {
-    Scene scene = furnishedRoom();
-    scene.lights = {lamp(0)};
-    return scene;
-  }
-  std::unique_ptr<Pipeline> prepared(Scene scene, const Settings& settings = small()) {
-    timings().reset();
-    auto pipeline = std::make_unique<Pipeline>(context(), std::move(scene), settings);
-    pipeline->prepare();
-    return pipeline;
-  }
-  /// The same to prove with.
-  std::unique_ptr<app::Bench> bench(const Scene& scene, const Settings& settings) {
+  /// A pipeline to walk and to prove with.
+  std::unique_ptr<app::Bench> bench(const Scene& scene, const Settings& settings = small()) {
     auto made = std::make_unique<app::Bench>(context(), scene, settings, kSize, VIEW_LIT, scene.cameras.at(0));
-    made->prepare({});
+    timings().reset();
+    made->pipeline().prepare();
     return made;
   }
   Timings& timings() { return context().timings; }
@@ -127,13 +106,12 @@ class EffectsTest : public GiTest {
   static bool any(const Stages& stages, const std::string& prefix) {
     return std::ranges::any_of(stages, [&](const std::string& s) { return s.starts_with(prefix); });
   }
-  /// Without staging, which is kept.
-  uint64_t usedBytes() {
-    context().finish();
-    uint64_t sum = 0;
-    for (const MemoryRow& row : context().device.memory().rows())
-      if (row.subsystem != Subsystem::Staging) sum += row.bytes;
-    return sum;
+  /// Effects that are on, but for a relight, which comes and goes with every edit.
+  static std::set<Effect> on(const Pipeline& pipeline) {
+    std::set<Effect> out;
+    for (const EffectRow& row : pipeline.plan().rows)
+      if (row.state == EffectState::on && row.effect != Effect::relight) out.insert(row.effect);
+    return out;
   }
   /// What there is, and was since the last call: "STAGE", "has MEMORY" (a buffer, an image, a subsystem), "EFFECT
   /// STATE", "shader NAME", "forward with N." (an effect's constant that is not left out), "second facets".
@@ -153,12 +131,12 @@ class EffectsTest : public GiTest {
     return out;
   }
   /// `terms`, apart by commas: how a fact begins; "-": none does. A name that some test of a suite finds absent,
-  /// another of its tests has to find present: it may be misspelt. `there` false: the other way round.
-  void expect(const Stages& facts, const std::string& terms, bool there = true) {
+  /// another of its tests has to find present: it may be misspelt.
+  void expect(const Stages& facts, const std::string& terms) {
     std::istringstream in(terms);
     for (std::string term; std::getline(in >> std::ws, term, ',');) {
-      const bool wanted = (term[0] != '-') == there;
-      const std::string name = term.substr(term[0] == '-' ? 1 : 0);
+      const bool wanted = term[0] != '-';
+      const std::string name = term.substr(wanted ? 0 : 1);
       EXPECT_EQ(any(facts, name), wanted) << name;
       (wanted ? found_ : absent_).insert(name);
     }
@@ -173,8 +151,11 @@ class EffectsTest : public GiTest {
   void walk(Pipeline& pipeline, const std::vector<Step>& steps) {
     for (const Step& step : steps) {
       SCOPED_TRACE(fmt::format("step {}: {}", &step - steps.data(), step.terms));
+      const std::set<Effect> until = on(pipeline);
       if (step.edit) step.edit(pipeline);
-      const auto work = [&] { return std::pair(context().counters().dispatches, usedBytes()); };
+      const bool asBefore = &step != steps.data() && (&step)[-1].terms == step.terms;
+      EXPECT_TRUE(!asBefore || on(pipeline) == until) << "the edit switches effects";
+      const auto work = [&] { return std::pair(context().counters().dispatches, app::heldBytes(context())); };
       const auto before = work();
       const bool slept = pipeline.asleep();
       pipeline.prepare();
@@ -182,6 +163,8 @@ class EffectsTest : public GiTest {
       EXPECT_NE(pipeline.asleep(), pipeline.plan().on(Effect::relight));
       Pixels picture = draw(pipeline, step.view);
       expect(facts(pipeline), step.terms);
+      const std::pair has(app::heldBytes(context()), on(pipeline));
+      EXPECT_EQ(has_.try_emplace(step.terms, has).first->second, has);
       EXPECT_TRUE(step.picture != '.' || isBlack(picture));
       if (step.picture == '.' || step.picture == ' ') continue;
       if (pipeline.lighting())
@@ -191,16 +174,12 @@ class EffectsTest : public GiTest {
     }
   }
   Pixels draw(Pipeline& pipeline, View view = VIEW_LIT) {
-    Targets targets(context(), kSize);
-    return draw(pipeline, targets, view);
-  }
-  Pixels draw(Pipeline& pipeline, Targets& targets, View view = VIEW_LIT) {
     Frame frame = context().begin();
-    pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
+    pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets_);
     frame.submitAndWait();
     timings().endFrame(0, /*setup=*/false, 0);
-    const std::vector<std::byte> raw = download(context(), targets.linear);
-    Pixels out(size_t{targets.size.x} * targets.size.y);
+    const std::vector<std::byte> raw = download(context(), targets_.linear);
+    Pixels out(size_t{kSize.x} * kSize.y);
     std::memcpy(out.data(), raw.data(), raw.size());
     return out;
   }
@@ -213,7 +192,9 @@ class EffectsTest : public GiTest {
 
  private:
   static inline Stages found_, absent_;  ///< names that expect() was told
-  std::map<char, Pixels> pictures_;      ///< of walks
+  Targets targets_{context(), kSize};
+  std::map<char, Pixels> pictures_;                                   ///< of a test's walks, by letter
+  std::map<std::string, std::pair<uint64_t, std::set<Effect>>> has_;  ///< memory and effects by terms
 };
 
 }  // namespace irad::test

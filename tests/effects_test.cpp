@@ -1,12 +1,13 @@
-// The pipeline obeys the plan: what is not called for is neither recorded nor allocated, appears with what calls for it
-// and goes with it. (Row by row: effect_rows_test.cpp.)
+// The pipeline obeys the plan: what is not called for is neither recorded nor allocated, and appears with what calls
+// for it, with the next picture, with its passes, memory and shader code; it goes with it, to the last byte. Where the
+// scene does not call for an effect, forced on it gives the same bits.
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
-#include "gi/plan.h"
 #include "renderer/base/csv.h"
 #include "renderer/shadow.h"
 #include "tests/effects_fixture.h"
@@ -14,63 +15,169 @@
 namespace irad::test::effects_suite {
 namespace {
 
-class Effects : public EffectsTest {};
+/// The first is what thresholds are judged by.
+constexpr View kViews[] = {VIEW_LIT,      VIEW_IRRADIANCE, VIEW_DIRECT_IRRADIANCE,
+                           VIEW_INDIRECT, VIEW_SPECULAR,   VIEW_NORMAL};
+
+const Scene kEmpty = room(/*emits=*/false), kGlossy = glossy(kEmpty), kLamp = room(/*emits=*/true, {lamp(0.3)}),
+            kTextured = room(/*emits=*/true, {spot()}, /*textured=*/true),
+            kEven = furnaceBox(0.5f);  // H is the same everywhere but for what lights add to it
+
+/// How one effect is called for, and what it brings along. Among them are lights of each kind alone, a spot with one
+/// map and with six, and of any two kinds.
+struct Row {
+  Effect effect;
+  const Scene& scene;
+  Edit off, on;       ///< the scene no longer calls for the effect; it does
+  std::string terms;  ///< of EffectsTest::expect(), for the effect alone
+};
+using E = Effect;
+std::string forwardWith(uint32_t constant) {
+  return fmt::format("forward with {}.", constant);
+}
+const Row kRows[] = {
+    {E::emission, kLamp, setting("effects.emission=off"), setting("effects.emission=auto"),
+     "GI Solve Emitters, has emitted share F M, " + forwardWith(FORWARD_EMISSION)},
+    {E::emitterSampling, kLamp, setting("matrix.emitter_sampling=off"), setting("matrix.emitter_sampling=on"),
+     "has emitters' correction, shader gi/sample_emitters"},
+    {E::sun, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), sun()}),
+     "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SUN)},
+    {E::point, kEmpty, lights({sun(), spot()}), lights({sun(), spot(), lamp(0.3)}),
+     "has shadow cubes, " + forwardWith(FORWARD_LIGHTS + LIGHT_POINT)},
+    {E::spot, kEmpty, lights({lamp(0.3)}), lights({lamp(0.3), spot(), spot(0.17f)}),
+     "has shadow maps, " + forwardWith(FORWARD_LIGHTS + LIGHT_SPOT)},
+    {E::matrix, kEmpty, lights({}), lights({lamp(0.3)}),
+     "GI BuildMatrix, has indirect irradiance H, " + forwardWith(FORWARD_INDIRECT)},
+    {E::specular, kGlossy, lights({}), lights({lamp(0.3)}),
+     "RE Specular, has specular radiance, " + forwardWith(FORWARD_F0)},
+    {E::secondFacet, kLamp, setting("effects.second_facet=off"), setting("effects.second_facet=auto"), "second facets"},
+    {E::field, kLamp, setting("matrix.traversal=dda"), setting("matrix.traversal=sdf"), "GI SDF, has chebyshev field"},
+    {E::alphaTest, kTextured, setting("effects.alpha_test=off"), setting("effects.alpha_test=auto"),
+     "shader forward/depth_masked.frag"},
+    {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
+     forwardWith(FORWARD_NORMAL_MAP)},
+    {E::blur, kEven, lights({}), lights({spot(0.17f)}), "has blurred H"},
+};
+
+class Effects : public EffectsTest {
+ protected:
+  static Scene litRoom(std::vector<Light> lights = {lamp(0)}) {
+    Scene scene = furnishedRoom();
+    scene.lights = std::move(lights);
+    return scene;
+  }
+};
+
+class EffectRows : public Effects, public ::testing::WithParamInterface<size_t> {};
+
+TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
+  const Row& row = kRows[GetParam()];
+  const std::string name = effectInfo(row.effect).name, there = fmt::format("{} on, {}", name, row.terms),
+                    absent = "-" + std::regex_replace(there, std::regex(", "), ", -");
+  const auto bench = this->bench(row.scene);
+  // From the dark, so that the light does not depend on what was there before.
+  const auto afresh = [](const Edit& edit) { return [edit](Pipeline& p) { edit(p), p.darken(); }; };
+  const Step off{afresh(row.off), absent, 'a'};
+  const Step on{afresh(row.on), there, row.effect == E::field ? 'a' : 'b'};  // the field only saves time
+  facts(bench->pipeline());                                                  // those of how it was opened
+  walk(bench->pipeline(), {off, on, off, on});
+  const uint64_t bytes = app::heldBytes(context());
+  walk(bench->pipeline(), {off});
+  EXPECT_TRUE(row.terms.find("has ") == std::string::npos || app::heldBytes(context()) < bytes);
+  app::require(app::proveEach(name + " off", *bench, kViews));
+  row.on(bench->pipeline());
+  bench->prepare({});
+  app::require(app::proveEach(name + " on", *bench, kViews));
+}
+
+INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
+  std::string name = effectInfo(kRows[info.param].effect).name;
+  std::erase(name, '-');
+  return name;
+});
+
+/// Lamps that are dragged about: what is there after the first place stays, and what is not does not come.
+TEST_F(Effects, LightsThatMoveSwitchNothing) {
+  /// By how much the blur would change the light at last.
+  const auto drag = [&](const Scene& scene, float blurNoise, std::string terms, char picture,
+                        std::initializer_list<Light> places) {
+    Settings s = small();
+    s.effects.blurNoise = blurNoise;
+    const auto bench = this->bench(scene, s);
+    std::vector<Step> steps;
+    for (const Light& place : places) steps.push_back({lights({place}), terms, picture});
+    walk(bench->pipeline(), steps);
+    return bench->pipeline().traits().light.noise.value_or(0);
+  };
+  // Where its range ends at the room's wall. 16 voxels of 1/8: two of them wide is the trigger, four where it lets go.
+  const auto atReach = [](double gap) {
+    Light light = lamp(1 + gap);
+    light.position.y = 0;
+    light.range = 1;
+    return light;
+  };
+  drag(kEmpty, 0.01f, "point on, has shadow cubes, has matrix", '.', {atReach(1.2), atReach(1.3), atReach(1.2)});
+  drag(kEmpty, 0.01f, "point off, -has shadow cubes, -has matrix", '.', {atReach(2), atReach(1.3), atReach(2)});
+  const auto places = {lamp(0.2), lamp(0.1), lamp(-0.2), lamp(0.3)};
+  // Lights do not change F M, nor what was found of its samples.
+  drag(kLamp, 0.01f, "emitter-sampling on, has emitters' correction", ' ', places);
+  // The blur is watched, not tried: where it shows nothing it stays off. What it would change is the same number,
+  // measured with its copies or without.
+  const float with = drag(kLamp, 1e-4f, "blur on, has blurred H", ' ', places),
+              without = drag(kLamp, 0.99f, "blur off, -has blurred H", ' ', places);
+  EXPECT_GT(with, 0);
+  EXPECT_EQ(with, without);
+}
 
 /// A light brings matrix, field and light in one prepare, keeps the matrix while it is turned down, and takes all of it
 /// along.
 TEST_F(Effects, WithoutLightThereIsNothingOfIt) {
-  const std::string nothing = "matrix off, -has matrix, -has solver, -has field";
-  const auto pipeline = prepared(furnishedRoom());
-  walk(*pipeline,
-       {{{},
-         "GI Voxelization, GI CompactList, -GI BuildMatrix, -GI SDF, -GI Gather, -GI Solve, -GI Scatter, " + nothing,
-         '.'}});
-  for (const ViewInfo& view : views()) draw(*pipeline, view.view);  // those of what is not there too
-  const uint64_t bytes = usedBytes();
+  const std::string nothing =
+      "-GI BuildMatrix, -GI SDF, -GI Gather, -GI Solve, -GI Scatter, matrix off, -has matrix, -has solver, -has field";
+  const auto bench = this->bench(furnishedRoom());
+  walk(bench->pipeline(), {{{}, "GI Voxelization, GI CompactList, " + nothing, '.'}});
+  for (const ViewInfo& view : views()) draw(bench->pipeline(), view.view);  // those of what is not there too
   recorded();
-  walk(*pipeline, {{lights({lamp(0)}), "matrix on, has matrix, has solver, has field, GI SDF, GI BuildMatrix", 'a'},
-                   {{}, "RE Forward, -GI ", 'a'},  // a camera that moves
-                   {lights({lamp(0.1)}), "GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
-                   {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, -has solver", '.'},
-                   {lights({lamp(0)}), "-GI BuildMatrix, GI Solve, GI Scatter", 'a'},  // from the dark, as before
-                   {lights({}), nothing, '.'}});
-  EXPECT_EQ(usedBytes(), bytes);
-  walk(*prepared(litRoom()), {{{}, "", 'a'}});
+  walk(bench->pipeline(),
+       {{{}, nothing, '.'},
+        {lights({lamp(0)}), "matrix on, has matrix, has solver, has field, GI SDF, GI BuildMatrix", 'a'},
+        {{}, "RE Forward, -GI ", 'a'},  // a camera that moves
+        {lights({lamp(0.1)}), "GI Gather, -GI Voxelization, -GI SDF, -GI CompactList, -GI BuildMatrix", 'b'},
+        {lights({lamp(0, /*candela=*/0)}), "matrix asleep, has matrix, -has solver", '.'},
+        {lights({lamp(0)}), "-GI BuildMatrix, GI Solve, GI Scatter", 'a'},  // from the dark, as before
+        {lights({}), nothing, '.'}});
+  walk(this->bench(litRoom())->pipeline(), {{{}, "", 'a'}});
 }
 
 TEST_F(Effects, LightsThatDoNotReachGetNoShadowMap) {
   Light far = lamp(100);
   far.range = 5;
-  Scene scene = litRoom();
-  scene.lights.push_back(far);
-  const auto pipeline = prepared(scene);
-  EXPECT_EQ(pipeline->shadows().cubes.desc.layers, 6u);
-  walk(*pipeline, {{lights({far}), "-has shadow cubes"}, {setting("effects.point=on"), "has shadow cubes"}});
+  const auto bench = this->bench(litRoom({lamp(0), far}));
+  EXPECT_EQ(bench->pipeline().shadows().cubes.desc.layers, 6u);
+  walk(bench->pipeline(), {{lights({far}), "-has shadow cubes"}, {setting("effects.point=on"), "has shadow cubes"}});
 }
 
 TEST_F(Effects, TheFieldIsMadeByItsViewsAndByForceWithoutAnotherMatrix) {
   Settings dda = small();  // the room is too rough for specular rays
   dda.matrix.gpu.traversal = Traversal::dda;
-  const auto pipeline = prepared(litRoom(), dda);
   const Edit traceAnew = [](Pipeline& p) {  // through the field
     p.invalidate(Redo::Matrix);
     p.darken();
   };
-  walk(*pipeline, {{{}, "-has field", 'a'},
-                   {{}, "has field", 'b', VIEW_DISTANCE},
-                   {{}, "-has field", 'a'},
-                   {setting("effects.field=on"), "has field, -GI BuildMatrix", 'a'},
-                   {traceAnew, "has field, GI BuildMatrix", 'a'}});
+  walk(bench(litRoom(), dda)->pipeline(), {{{}, "-has field", 'a'},
+                                           {{}, "has field", 'b', VIEW_DISTANCE},
+                                           {{}, "-has field", 'a'},
+                                           {setting("effects.field=on"), "has field, -GI BuildMatrix", 'a'},
+                                           {traceAnew, "has field, GI BuildMatrix", 'a'}});
 }
 
 TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
-  const auto pipeline = prepared(litRoom());
   const View h = VIEW_IRRADIANCE;
-  walk(*pipeline, {{{}, "relight asleep", 'a', h},
-                   {setting("effects.relight=off"), "", 'a', h},
-                   {lights({lamp(0.3)}), "-GI Gather", 'a', h},
-                   {setting("effects.relight=auto"), "GI Gather", 'b', h},
-                   {setting("effects.relight=on"), "GI Gather", ' '}});
+  walk(bench(litRoom())->pipeline(), {{{}, "relight asleep", 'a', h},
+                                      {setting("effects.relight=off"), "", 'a', h},
+                                      {lights({lamp(0.3)}), "-GI Gather", 'a', h},
+                                      {setting("effects.relight=auto"), "GI Gather", 'b', h},
+                                      {setting("effects.relight=on"), "GI Gather", ' ', h}});
 }
 
 RunResult irad(std::vector<std::string> arguments) {
@@ -82,17 +189,19 @@ RunResult irad(std::vector<std::string> arguments) {
 }
 
 TEST(IradPlan, PrintsTheTableWithWhatEachEffectThatIsOffWouldTake) {
-  const auto parsed = nlohmann::json::parse(irad({"plan", "box", "--json", "--measure", "--frames", "1"}).out);
-  ASSERT_EQ(parsed["effects"].size(), kEffects);
-  EXPECT_EQ(parsed["effects"][0]["effect"], "emission");
-  EXPECT_EQ(parsed["effects"][0]["state"], "on");
-  size_t measured = 0;
-  for (const auto& row : parsed["effects"]) {
-    EXPECT_EQ(row.contains("ms_not_spent"), row["state"] == "off") << row;  // each of them can be on
+  const auto rows = nlohmann::json::parse(irad({"plan", "box", "--json", "--measure", "--frames", "1"}).out)["effects"];
+  ASSERT_EQ(rows.size(), kEffects);
+  EXPECT_EQ(rows[0]["effect"], "emission");
+  EXPECT_EQ(rows[0]["state"], "on");
+  size_t off = 0;
+  for (const auto& row : rows) {
+    const bool measured = row.contains("ms_not_spent");
+    EXPECT_EQ(measured, row["state"] == "off") << row;  // each of them can be on
     for (const char* kind : {"rebuild", "relight", "frame"})
-      measured += row.contains("ms_not_spent") && std::isfinite(row["ms_not_spent"][kind].get<double>()) ? 1 : 0;
+      EXPECT_TRUE(!measured || row["ms_not_spent"][kind].is_number()) << row;  // what is no number is written as null
+    off += measured;
   }
-  EXPECT_GE(measured, 3u);
+  EXPECT_GT(off, 0u);
 }
 
 /// (What is compared and does not hold fails the command.)
@@ -100,16 +209,16 @@ TEST(IradPlan, ProvesEveryRowThatIsNotOn) {
   const std::string file = testing::TempDir() + "/proof.csv";
   irad({"plan", "check:lights-off", "check:plates", "--prove", "--frames", "2", "--csv", file});
   std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> columns = csvFields(line);
+  std::vector<std::string> columns;
   std::map<std::string, std::map<std::string, std::string>> rows;  // "SCENE EFFECT", column
   std::set<std::string> notProven;
-  while (std::getline(in, line)) {
+  for (std::string line; std::getline(in, line);) {
     const std::vector<std::string> fields = csvFields(line);
+    if (columns.empty()) columns = fields;
     ASSERT_EQ(fields.size(), columns.size()) << line;
     auto& row = rows[fields[0] + " " + fields[1]];
     for (size_t i = 0; i < fields.size(); ++i) row[columns[i]] = fields[i];
+    if (fields == columns) continue;
     EXPECT_TRUE(row["state"].empty() || row["pixels_different"].empty() != row["not_proven"].empty()) << line;
     EXPECT_EQ(row["state"].empty(), row["reason"].empty()) << line;
     if (!row["not_proven"].empty()) notProven.insert(fields[1] + ": " + row["not_proven"]);

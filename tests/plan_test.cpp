@@ -1,4 +1,4 @@
-// The effect plan: every row of it in both directions, on numbers alone.
+// The effect plan, on the CPU: every row of it in both directions, on numbers alone, and what is measured for them.
 #include "gi/plan.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "renderer/gpu_scene.h"
 #include "shaders/shared/pixel_emitters.h"
+#include "tests/forward_support.h"
 
 namespace irad::plan_suite {
 namespace {
@@ -60,7 +62,6 @@ struct Case {
   Effect effect;
   void (*edit)(T& t, S& s);
   const char* row;
-  bool pixelEmitters = false;
 };
 using E = Effect;
 constexpr uint32_t kMost = MAX_EMISSIVE_TRIANGLES;
@@ -68,8 +69,8 @@ const Case kCases[]{
     {E::emission, none, "on: 1 of 2 materials with emission, 3 W/(m^2 sr) at most"},
     {E::emission, EDIT(t.materials[1].triangles = 0), "off, 22000 B: none of 1 material with emission"},
     {E::emission, dark, "off: none of 2 materials with emission"},
-    {E::emission, byPixels, "on: *; pixels look for 2 triangles: 256 at most, with sample.gated alone", true},
-    {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost), "on: *; pixels look for 256 *", true},
+    {E::emission, byPixels, "on: *; pixels look for 2 triangles: 256 at most, with sample.gated alone"},
+    {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost), "on: *; pixels look for 256 *"},
     {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost + 1), "on: *; pixels do not look for 257 *"},
     {E::emission, EDIT(byPixels(t, s), s.sample.gpu.gated = 0), "on: *; pixels do not look for 2 triangles: *"},
     {E::emission, EDIT(byPixels(t, s), s.effects.matrix = EffectMode::off), "on: * at most"},
@@ -153,8 +154,18 @@ TEST(Plan, EachRowFollowsWhatCallsForIt) {
     c.edit(t, s);
     const EffectPlan p = plan(t, s);
     expectRow(p.row(c.effect), c.row);
-    EXPECT_EQ(p.pixelEmitters, c.pixelEmitters) << c.row;
-    EXPECT_EQ(obeyed(s, p).sample.emitters == EmitterLookup::pixels, c.pixelEmitters) << c.row;
+    std::vector<std::string> noLight;  // the reasons of all kinds
+    if (p.row(E::matrix).reason.find("no light at all") != std::string::npos)
+      for (const E e : {E::sun, E::point, E::spot, E::emission}) noLight.push_back(p.row(e).reason);
+    EXPECT_EQ(p.noLight, noLight) << c.row;
+    // The settings that stages get are decided, and what no effect decides stays as it is.
+    const S o = obeyed(s, p);
+    const bool pixels = p.row(E::emission).reason.find("; pixels look for") != std::string::npos;
+    EXPECT_TRUE(p.pixelEmitters == pixels && (o.sample.emitters == EmitterLookup::pixels) == pixels) << c.row;
+    for (const EffectRow& row : p.rows)
+      EXPECT_TRUE(!row.info().mode || forcedMode(o, row.effect) != EffectMode::automatic) << row.info().name;
+    EXPECT_EQ(o.matrix, s.matrix);
+    EXPECT_EQ(obeyed(o, plan(t, o)).sample, o.sample) << c.row;
   }
 }
 
@@ -171,22 +182,11 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
     const LightTraits lights = light(kind.type), dim = light(kind.type, /*shines=*/false),
                       far = light(kind.type, true, /*gap=*/5);
     says({}, "off: no *");
-    says({lights}, "on: 1 *: 1 with an intensity, of these 1 in reach of the scene and 0 nearly");
+    says({lights}, "on: 1 *: 1 with an intensity, of these 1 in reach of the scene");
     says({dim}, "off, 16777216 B: 1 *: 0 with an intensity, of these 0 *");
-    says({far}, "off, 16777216 B: 1 *: 1 with an intensity, of these 0 in reach of the scene and 0 nearly");
+    says({far}, "off, 16777216 B: 1 *: 1 with an intensity, of these 0 in reach of the scene");
     says({far, lights}, "on: 2 *: 2 with an intensity, of these 1 *");
   }
-}
-
-TEST(Plan, WithoutLightItSaysWhy) {
-  T t = lit();
-  S s = usual();
-  EXPECT_TRUE(plan(t, s).noLight.empty());
-  turnedDown(t, s);
-  const EffectPlan p = plan(t, s);
-  std::vector<std::string> reasons;
-  for (const E e : {E::sun, E::point, E::spot, E::emission}) reasons.push_back(p.row(e).reason);
-  EXPECT_EQ(p.noLight, reasons);
 }
 
 TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
@@ -215,43 +215,37 @@ TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
     EXPECT_TRUE(!row.info().mode || row.state == EffectState::on) << row.reason;
 }
 
-/// What an effect is to stay on for, as a share of what it comes on at.
-struct Trigger {
-  Effect effect;
-  void (*start)(T&, S&);
-  std::function<void(T&, S&, float share)> at;
-};
-std::vector<Trigger> triggers() {
-  constexpr auto watched = EDIT(s.effects.blurNoise = 0.01f);
-  std::vector<Trigger> all{{E::blur, watched, [](T& t, S&, float share) { t.light.noise = 0.01f * share; }},
-                           {E::blur, watched,
-                            [](T& t, S& s, float share) {
-                              s.sample.gpu.filter_ = share < 0.5f ? SampleFilter::linear : SampleFilter::blur;
-                              t.light.noise = share > 1 ? std::nullopt : std::optional(0.007f);
-                            }},
-                           // The field that specular rays alone read, while their roughness limit is dragged.
-                           {E::field, EDIT(glossy(t, s), dda(t, s)),
-                            [](T&, S& s, float share) { s.specular.gpu.maxRoughness = 0.3f + (share - 1) / 10; }}};
-  for (const LightKind& kind : lightKinds()) {
-    const auto at = [type = kind.type](T& t, S&, float share) { t.lights = {light(type, true, 2 / share)}; };
-    all.push_back({effectOf(kind.type), none, at});
-    all.push_back({E::matrix, unlit, at});  // a light alone, for which the matrix exists
-  }
-  return all;
-}
-
 TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
-  for (const Trigger& trigger : triggers()) {
-    T t = lit();
-    S s = usual();
-    trigger.start(t, s);
+  /// Edits the lit room; `share`: what the effect is to stay on for, as a share of what it comes on at.
+  using At = std::function<void(T&, S&, float share)>;
+  std::vector<std::pair<Effect, At>> triggers{
+      {E::blur, [](T& t, S& s, float share) { t.light.noise = s.effects.blurNoise * share; }},
+      {E::blur,
+       [](T& t, S& s, float share) {
+         s.sample.gpu.filter_ = share < 0.5f ? SampleFilter::linear : SampleFilter::blur;
+         t.light.noise = share > 1 ? std::nullopt : std::optional(0.7f * s.effects.blurNoise);
+       }},
+      // The field that specular rays alone read, while their roughness limit is dragged.
+      {E::field, [](T& t, S& s, float share) {
+         glossy(t, s), dda(t, s);
+         s.specular.gpu.maxRoughness = t.materials[0].leastRoughness + (share - 1) / 10;
+       }}};
+  for (const LightKind& kind : lightKinds())
+    for (const E effect : {effectOf(kind.type), E::matrix})  // which exists for such a light alone
+      triggers.emplace_back(effect, [type = kind.type](T& t, S& s, float share) {
+        unlit(t, s), t.lights = {light(type, true, 2 / share)};
+      });
+  for (const auto& [effect, at] : triggers) {
     std::optional<EffectPlan> before;
     const auto expect = [&](std::initializer_list<float> shares, bool on) {
       for (const float share : shares) {
-        trigger.at(t, s, share);
+        T t = lit();
+        S s = usual();
+        at(t, s, share);
         before = plan(t, s, before ? &*before : nullptr);
-        EXPECT_EQ(before->on(trigger.effect), on)
-            << effectInfo(trigger.effect).name << share << before->row(trigger.effect).reason;
+        const std::string reason = before->row(effect).reason;
+        EXPECT_EQ(before->on(effect), on) << effectInfo(effect).name << share << reason;
+        EXPECT_EQ(reason.ends_with("; near enough to stay on"), on && share < 1 && effect != E::matrix) << reason;
       }
     };
     expect({0.7f, 0.4f, 0.99f}, false);
@@ -260,7 +254,7 @@ TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
   }
 }
 
-TEST(Plan, ObeyedSettingsAreDecided) {
+TEST(Plan, AnEffectThatIsOffIsWhatItsOwnSettingSays) {
   const auto with = [](const std::string& assignment) {
     T t = lit();
     S s = usual();
@@ -268,17 +262,11 @@ TEST(Plan, ObeyedSettingsAreDecided) {
     applySetting(s, assignment);
     return obeyed(s, plan(t, s));
   };
-  // An effect that is off is what its own setting says where there is one.
   for (const auto& [off, own] : {std::pair{"effects.specular=off", "specular.mode=off"},
                                  {"effects.second_facet=off", "voxel.facets=1"},
                                  {"effects.blur=off", "sample.filter=linear"}}) {
-    const S o = with(off);
-    EXPECT_EQ(o, with(own)) << off;
-    EXPECT_NE(o, with("effects.sun=auto")) << off;
-    EXPECT_EQ(obeyed(o, plan(lit(), o)).sample, o.sample);
-    for (const EffectRow& row : plan(lit(), o).rows)
-      EXPECT_TRUE(!row.info().mode || forcedMode(o, row.effect) != EffectMode::automatic) << row.info().name;
-    EXPECT_EQ(o.matrix, usual().matrix);  // no effect decides it
+    EXPECT_EQ(with(off), with(own)) << off;
+    EXPECT_NE(with(off), with("effects.sun=auto")) << off;
   }
 }
 
@@ -294,6 +282,95 @@ TEST(Plan, Json) {
   EXPECT_EQ(json[static_cast<size_t>(E::relight)], nlohmann::json::parse(R"({"effect": "relight", "state": "asleep",
     "reason": "error bound 0.0001 <= 0.0002 W/m^2", "skip": "threshold", "epsilon": 0.002,
     "epsilon_of": "the mean H", "bytes_not_allocated": 0})"));
+}
+
+// ---- What is measured of scenes: materials over all that their textures hold, lights ----
+
+/// One quad of one material.
+struct Quad : test::SceneBuilder {
+  Material& material = scene.materials[0];
+  Quad() { addQuad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}); }
+  MaterialTraits traits() { return measure(finish(), 64).materials.at(0); }
+};
+
+TEST(Traits, OneLitTexelOfA4kTextureEmits) {
+  Quad quad;
+  quad.material.emission = glm::vec3(2);
+  quad.material.emissiveTexture.image = 0;
+  quad.material.emissiveTexture.transform = glm::mat3x2(0.01f);  // a corner of it is sampled: coordinates repeat
+  const size_t size = 4096, last = size * size - 1;
+  quad.scene.images.push_back({"emissive", size, size, /*srgb=*/true, std::vector<uint8_t>(4 * size * size, 0)});
+  std::vector<uint8_t>& rgba = quad.scene.images[0].rgba;
+  EXPECT_EQ(quad.traits().emission, 0.0f);
+  for (const size_t texel : {size_t{0}, last, size * 1234 + 567}) {
+    rgba[4 * texel + 2] = 1;  // blue
+    EXPECT_GT(quad.traits().emission, 0.0f);
+    rgba[4 * texel + 2] = 0;
+  }
+  rgba[4 * 7 + 1] = 255;  // green
+  EXPECT_NEAR(quad.traits().emission, 2 * 0.7152f, 1e-4f);
+  quad.material.emission = glm::vec3(2, 0, 2);  // the factor is 0 in that channel
+  EXPECT_EQ(quad.traits().emission, 0.0f);
+}
+
+TEST(Traits, MaterialsBoundTheirTextures) {
+  Quad quad;
+  Material& m = quad.material;
+  m.lambertian = false;
+  m.metallic = 1;
+  m.roughness = 0.8f;
+  m.baseColor = glm::vec4(0.5f, 0.25f, 0, 1);
+  m.metallicRoughnessTexture.image = 0;
+  m.normalTexture.image = 0;
+  m.alpha = AlphaMode::Mask;
+  quad.scene.images.push_back({"rough", 2, 1, false, {0, 128, 51, 255, 0, 255, 204, 255}});  // g: .5, 1; b: .2, .8
+  const MaterialTraits t = quad.traits();
+  EXPECT_EQ(t.triangles, 2u);
+  EXPECT_NEAR(t.leastRoughness, 0.8f * 128 / 255, 1e-6f);
+  EXPECT_NEAR(t.albedo, 0.5f * 0.8f, 1e-6f);
+  EXPECT_NEAR(t.f0, 0.5f * 0.8f, 1e-6f);
+  EXPECT_TRUE(t.alphaTest);
+  EXPECT_TRUE(t.normalMap);
+  m.baseColor = {0, 0, 0, 1};  // a black metal is not Lambertian
+  EXPECT_GT(quad.traits().f0, 0.0f);
+  m.lambertian = true;
+  EXPECT_EQ(quad.traits().f0, 0.0f);
+}
+
+TEST(Traits, LightsReachWhatTheirRangeAndConeLeave) {
+  test::SceneBuilder b;
+  b.addBox({-1, -1, -1}, {1, 1, 1});
+  const Scene scene = b.finish();
+  GpuLight light{};
+  for (const glm::vec3 intensity : {glm::vec3(0), {0, 0, 1e-20f}, glm::vec3(1)}) {
+    light.intensity = intensity;
+    EXPECT_EQ(measureLight(light, scene, 64).shines, intensity.z > 0);
+  }
+  enum Reach { out, near, in };
+  const auto reach = [&](uint32_t type, glm::vec3 position, float range, glm::vec3 direction = {}, float cone = 0.8f) {
+    light.type = type;
+    light.position = position;
+    light.range = range;
+    light.direction = direction;
+    light.outerCos = cone;
+    const double share = measureLight(light, scene, 64).share();
+    return share > 1 ? in : share > 0.5 ? near : out;
+  };
+  const glm::vec3 there{5, 0, 0};  // 4 from the box, of voxels of 1/32
+  EXPECT_EQ(reach(LIGHT_SUN, there, 0), in);
+  EXPECT_EQ(reach(LIGHT_POINT, there, 0), in);  // without a range
+  EXPECT_EQ(reach(LIGHT_POINT, there, 3.85f), out);
+  EXPECT_EQ(reach(LIGHT_POINT, there, 3.9f), near);
+  EXPECT_EQ(reach(LIGHT_POINT, there, 4.1f), in);
+  // Half an angle of 37 degrees about the direction; the box is seen under at most 20 from the horizontal. `beside` has
+  // .644 of half-angle; the bounds' sphere .354, two voxels wider .367, four .381.
+  const glm::vec3 beside{-std::cos(1.018f), std::sin(1.018f), 0};
+  EXPECT_EQ(reach(LIGHT_SPOT, there, 0, {-1, 0, 0}), in);
+  EXPECT_EQ(reach(LIGHT_SPOT, there, 0, {1, 0, 0}), out);
+  EXPECT_EQ(reach(LIGHT_SPOT, there, 0, {0, 1, 0}), out);
+  EXPECT_EQ(reach(LIGHT_SPOT, there, 0, beside), near);
+  EXPECT_EQ(reach(LIGHT_SPOT, there, 0, beside, 0.1f), in);
+  EXPECT_EQ(reach(LIGHT_SPOT, {0.5f, 0, 0}, 0, beside, 0.99f), in);  // inside
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ class Dice {
 Scene randomScene(Dice& dice) {
   const bool black = dice.one(5), emits = dice.one(2), textured = dice.one(2), masked = dice.one(3),
              mapped = dice.one(3), lobes = dice.one(2), coloured = dice.one(3), alone = dice.one(4);
-  Scene scene = room(emits, {}, /*textured=*/true, /*floorAlone=*/alone);
+  Scene scene = room(emits, {}, /*textured=*/true);
+  if (alone) scene.draws = {*std::ranges::find(scene.draws, 1u, &Draw::material)};
   enum { normals, holes, noise, darkness };  // images: the room's, and two more
   std::vector<uint8_t> texels(4 * 8 * 2);
   for (uint8_t& byte : texels) byte = static_cast<uint8_t>(dice.below(256));
@@ -96,10 +97,12 @@ Settings randomSettings(Dice& dice) {
   return s;
 }
 
-class RandomEffects : public EffectsTest {
- protected:
-  /// The scene of a seed with settings that it shares with others: compiling their kernels is what takes the time.
-  void comparePlannedWithForced(uint32_t seed) {
+class RandomEffects : public EffectsTest {};
+
+/// Each seed's scene with settings that it shares with others: compiling their kernels is what takes the time.
+TEST_F(RandomEffects, EverythingForcedOnGivesTheSameBits) {
+  std::map<Effect, int> leftOut;  // how often
+  for (uint32_t seed = 1; seed <= (everything() ? 60 : 6); ++seed) {
     Dice dice(seed), settingsDice(1000 + seed / 6);
     const Scene scene = randomScene(dice);
     const Settings settings = randomSettings(settingsDice);
@@ -109,7 +112,7 @@ class RandomEffects : public EffectsTest {
     for (const EffectRow& row : plan.rows)
       if (row.state == EffectState::off && !all.off(row.effect)) {
         name += std::string(" ") + row.info().name;
-        ++leftOut_[static_cast<size_t>(row.effect)];
+        ++leftOut[row.effect];
       }
     // Where light falls only on albedos of 0, no surface shows H: it is not computed, and its views are black.
     const bool shown = !plan.off(Effect::matrix) || forced->pipeline().lighting().report.largestH == 0;
@@ -117,20 +120,11 @@ class RandomEffects : public EffectsTest {
     const app::ProofRow proven = app::proveAll(name, *planned, *forced, std::span(kViews).first(shown ? 2 : 1));
     EXPECT_TRUE(proven.difference->pixels == 0) << name << ": " << proven.difference->text();
   }
-  static inline std::array<uint32_t, kEffects> leftOut_{};  ///< how often, of the seeds so far
-};
-
-TEST_F(RandomEffects, EverythingForcedOnGivesTheSameBits) {
-  for (uint32_t seed = 1; seed <= 6; ++seed) comparePlannedWithForced(seed);
-}
-
-TEST_F(RandomEffects, EverythingForcedOnGivesTheSameBitsOverAndOver) {
-  IRAD_ONLY_WITH_ALL();
-  for (uint32_t seed = 7; seed <= 60; ++seed) comparePlannedWithForced(seed);
+  if (!everything()) return;
   // Each of them, again and again.
   for (const Effect e : {Effect::emission, Effect::sun, Effect::point, Effect::spot, Effect::matrix, Effect::specular,
                          Effect::secondFacet, Effect::field, Effect::alphaTest, Effect::normalMap})
-    EXPECT_GT(leftOut_[static_cast<size_t>(e)], 1u) << effectInfo(e).name;
+    EXPECT_GT(leftOut[e], 1) << effectInfo(e).name;
 }
 
 }  // namespace

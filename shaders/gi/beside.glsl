@@ -6,8 +6,8 @@
 
 VoxelPieces piecesOf(SurfaceArrays surface, uint entry) {
   uint first = firstFacet(entry);
-  return voxelPieces(surface.corners, surface.pieces, surface.firstPiece.at[first],
-                     surface.firstPiece.at[first + facetsOf(entry)]);
+  return voxelPieces(surface.corners, surface.pieces, surface.boxes, vec3(unpackVoxel(surface.voxel.at[first])),
+                     surface.firstPiece.at[first], surface.firstPiece.at[first + facetsOf(entry)]);
 }
 
 uint entryOf(UintArray reverse, uvec3 dims, ivec3 v) {
@@ -49,21 +49,43 @@ bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint
   return clearBetween(surface, reverse, dims, from, to, a.triangle, b.triangle);
 }
 
-/// The facet of the surfel nearest to a point of the surface, on its side, in the 27 voxels around; or NO_FACET.
+/// The surfel of a facet that is nearest to a point.
+SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2) {
+  distance2 = 1e30;
+  uint nearest = 0u;
+  for (uint k = 0u; k < FACET_SURFELS; ++k) {
+    vec3 d = surfelOf(surface, facet, k).position - point;
+    if (dot(d, d) >= distance2) continue;
+    distance2 = dot(d, d);
+    nearest = k;
+  }
+  return surfelOf(surface, facet, nearest);
+}
+
+/// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side; or NO_FACET.
+uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SurfelPoint p,
+                   inout float nearest) {
+  uint found = NO_FACET, entry = entryOf(reverse, dims, voxel);
+  for (uint k = 0u; entry != NO_FACET && k < facetsOf(entry); ++k) {
+    uint facet = firstFacet(entry) + k;
+    float distance2;
+    SurfelPoint s = nearestSurfel(surface, facet, p.position, distance2);
+    if (distance2 >= nearest || !continues(surface, reverse, dims, p, s)) continue;
+    nearest = distance2;
+    found = facet;
+  }
+  return found;
+}
+
+/// The same in the voxel that holds the point or, where it has none, in the 27 around.
 uint facetBeside(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p) {
-  uint found = NO_FACET;
   float nearest = 1e30;
+  ivec3 voxel = ivec3(floor(p.position));
+  uint found = facetBesideIn(surface, reverse, dims, voxel, p, nearest);
+  if (found != NO_FACET) return found;
   for (int i = 0; i < 27; ++i) {
-    uint entry = entryOf(reverse, dims, ivec3(floor(p.position)) + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
-    if (entry == NO_FACET) continue;
-    uint end = (firstFacet(entry) + facetsOf(entry)) * FACET_SURFELS;
-    for (uint k = firstFacet(entry) * FACET_SURFELS; k < end; ++k) {
-      SurfelPoint s = surfelOf(surface, k / FACET_SURFELS, k % FACET_SURFELS);
-      vec3 d = s.position - p.position;
-      if (dot(d, d) >= nearest || !continues(surface, reverse, dims, p, s)) continue;
-      nearest = dot(d, d);
-      found = k / FACET_SURFELS;
-    }
+    uint other = facetBesideIn(surface, reverse, dims, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, p, nearest);
+    if (other != NO_FACET) found = other;
   }
   return found;
 }

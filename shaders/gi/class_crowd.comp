@@ -11,8 +11,9 @@ void main() {
   if (voxel >= push.count) return;
   uint me = gl_LocalInvocationID.x;
   SurfaceArrays surface = push.surface.at[0];
+  vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
   VoxelPieces pieces =
-      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+      voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
   if (end - first <= CROWD) return;
   uint stride = (end - first + MOST_COMPARED - 1u) / MOST_COMPARED;

@@ -1,18 +1,18 @@
 // Which facets of the voxels around continue a facet's surface on the same side (docs/method.md 4): one of the same
-// triangle, where nothing stands on it; or their normals are alike, and from the nearest surfel of the one to that of
-// the other nothing is in between. One invocation per facet and four voxels around.
+// triangle, where nothing stands on it; or their normals are alike, and from a surfel near the voxels' common border to
+// the nearest one of the other nothing is in between. 32 invocations per facet, of which 27 take a voxel each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/beside.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = 32, local_size_y = 2) in;
 layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 
 const uint NOTHING_STANDS = 0xFFFFu;
+shared uint whole[2][27];
 
 /// The facet of a side of a triangle in a voxel, counted from the first; NO_LINK where others stand on it, or it is too
 /// small to have one; NOTHING_STANDS where the triangle has no piece.
-uint wholePiece(SurfaceArrays surface, ivec3 v, uint side) {
-  uint entry = entryOf(push.reverse, push.dims, v);
+uint wholePiece(SurfaceArrays surface, uint entry, uint side) {
   if (entry == NO_FACET) return NOTHING_STANDS;
   uint piece = pieceIn(piecesOf(surface, entry), side & ~SURFEL_BACK);
   if (piece == NO_PIECE) return NOTHING_STANDS;
@@ -22,59 +22,58 @@ uint wholePiece(SurfaceArrays surface, ivec3 v, uint side) {
   return found < PIECE_UNKNOWN ? found : NO_LINK;
 }
 
-/// Whether a triangle goes on from one voxel to another: nothing stands on it in any voxel of the block between them,
-/// which is convex.
-bool goesOn(SurfaceArrays surface, ivec3 voxel, ivec3 step_, uint side) {
+/// Whether the facet's triangle goes on into the voxel at `step_`: nothing stands on it in any voxel of the block between
+/// them, which is convex.
+bool goesOn(ivec3 step_) {
   for (int corner = 0; corner < 8; ++corner) {
     ivec3 part = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-    if (all(equal(part * abs(step_), part)) && wholePiece(surface, voxel + part * step_, side) == NO_LINK) return false;
+    ivec3 at = part * step_ + 1;
+    if (all(equal(part * abs(step_), part)) && whole[gl_LocalInvocationID.y][at.x + 3 * at.y + 9 * at.z] == NO_LINK)
+      return false;
   }
   return true;
 }
 
 void main() {
-  uint index = irad_index();
-  if (index >= push.count * FACET_LINKS) return;
-  uint facet = index / FACET_LINKS, i = index % FACET_LINKS;
+  uint facet = 2u * irad_workgroup() + gl_LocalInvocationID.y;
+  uint i = gl_LocalInvocationID.x;
+  bool any = facet < push.count;
   SurfaceArrays surface = push.surface.at[0];
-  ivec3 voxel = ivec3(unpackVoxel(push.voxel.at[facet]));
-  ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-  uint entry = i < 27u ? entryOf(push.reverse, push.dims, voxel + step_) : NO_FACET;
-  uint own = facet - firstFacet(entryOf(push.reverse, push.dims, voxel));
-  uint link = i == 13u ? own : NO_LINK;
-  if (i != 13u && entry != NO_FACET) {
-    uint side = surface.surfels.at[FACET_SURFELS * facet + FACET_SURFELS / 2u].triangle;
-    if (wholePiece(surface, voxel, side) == own && goesOn(surface, voxel, step_, side))
-      link = min(wholePiece(surface, voxel + step_, side), NO_LINK);
+  ivec3 voxel = ivec3(0), step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+  uint entry = NO_FACET, side = 0u;
+  if (any) {
+    voxel = ivec3(unpackVoxel(push.voxel.at[facet]));
+    side = surface.surfels.at[FACET_SURFELS * facet + FACET_SURFELS / 2u].triangle;
+  }
+  if (any && i < 27u) {
+    entry = entryOf(push.reverse, push.dims, voxel + step_);
+    whole[gl_LocalInvocationID.y][i] = wholePiece(surface, entry, side);
+  }
+  barrier();
+  if (!any || i >= FACET_LINKS) return;
+  uint link = NO_LINK;
+  if (i == 13u) {
+    link = facet - firstFacet(entry);
+  } else if (entry != NO_FACET) {
+    uint own = facet - firstFacet(entryOf(push.reverse, push.dims, voxel));
+    if (whole[gl_LocalInvocationID.y][13] == own && goesOn(step_))
+      link = min(whole[gl_LocalInvocationID.y][i], NO_LINK);
     bool known = link != NO_LINK;
-    vec3 facing = triangleFacing(surface, side);
-    vec3 position[FACET_SURFELS];
-    if (!known)
-      for (uint m = 0u; m < FACET_SURFELS; ++m) position[m] = surfelOf(surface, facet, m).position;
-    float best = 1e30;
+    vec3 facing = triangleFacing(surface, side), border = vec3(voxel) + 0.5 + 0.5 * vec3(step_);
+    SurfelPoint from;
+    float best = 1e30, distance2;
+    bool chosen = false;
     for (uint k = 0u; k < facetsOf(entry) && !known; ++k) {
       uint other = firstFacet(entry) + k;
       uint otherSide = surface.surfels.at[FACET_SURFELS * other + FACET_SURFELS / 2u].triangle;
       if (dot(facing, triangleFacing(surface, otherSide)) < SAME_SIDE_COSINE) continue;
-      float nearest = 1e30;
-      uint from = 0u, to = 0u;
-      for (uint n = 0u; n < FACET_SURFELS; ++n) {
-        vec3 b = surfelOf(surface, other, n).position;
-        for (uint m = 0u; m < FACET_SURFELS; ++m) {
-          vec3 d = position[m] - b;
-          float distance2 = dot(d, d);
-          if (distance2 >= nearest) continue;
-          nearest = distance2;
-          from = m;
-          to = n;
-        }
-      }
-      if (nearest >= best || !continues(surface, push.reverse, push.dims, surfelOf(surface, facet, from),
-                                        surfelOf(surface, other, to)))
-        continue;
-      best = nearest;
+      if (!chosen) from = nearestSurfel(surface, facet, border, distance2);
+      chosen = true;
+      SurfelPoint to = nearestSurfel(surface, other, from.position, distance2);
+      if (distance2 >= best || !continues(surface, push.reverse, push.dims, from, to)) continue;
+      best = distance2;
       link = k;
     }
   }
-  push.links.at[index] = uint8_t(link);
+  push.links.at[FACET_LINKS * facet + i] = uint8_t(link);
 }

@@ -1,17 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// "GI BuildMatrix", kernel 3: one invocation per place of the chunk; those that hold an entry move it to its segment.
+// "GI BuildMatrix", kernel 3: moves the entries of each row of the chunk to its segment, 32 invocations a row.
 #include "shared/matrix_build.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PackRowsPush p; };
 
 void main() {
-  uint place = irad_index();
-  if (place >= p.rows * p.rays) return;
-  uint row = place / p.rays;
-  uint k = place % p.rays;
-  uint start = p.starts.at[row];
-  if (k == 0u) p.rowStart.at[p.firstRow + row] = start;
-  if (k < rowEntries(p.rowInfo.at[p.firstRow + row])) p.segment.at[start + k] = p.entries.at[place];
+  uint row = irad_index() / PACK_WIDTH, me = irad_index() % PACK_WIDTH;
+  if (row >= p.rows) return;
+  uint start = p.starts.at[row], entries = rowEntries(p.rowInfo.at[p.firstRow + row]);
+  if (me == 0u) p.rowStart.at[p.firstRow + row] = start;
+  for (uint k = me; k < entries; k += PACK_WIDTH) p.segment.at[start + k] = p.entries.at[row * p.rays + k];
 }

@@ -24,7 +24,7 @@ void main() {
   uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
   vec3 facing = facingOf(t, false);
   VoxelPieces others =
-      voxelPieces(surface.corners, surface.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+      voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   if (count == 0u) {
     vec3 middle = (t.a + t.b + t.c) * (1.0 / 3.0) - cell;
     if (n > 0u) polygonArea(from, n, middle);

@@ -1,4 +1,4 @@
-// The area of every piece, how many others stand on it, and how many points it needs to tell facets apart.
+// The area and box of every piece, how many others stand on it, and how many points it needs to tell facets apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/seen_in_voxel.glsl"
@@ -14,12 +14,21 @@ void main() {
   vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
   uint triangle = triangleOf(push.pieces, piece);
   Triangle t = triangleAt(push.corners, triangle);
-  vec3 centre;
-  push.area.at[piece] = max(clipToCell(t.a - cell, t.b - cell, t.c - cell, centre), 0.0);
+  uint from;
+  uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
+  vec3 centre, low = vec3(1.0), high = vec3(0.0);
+  push.area.at[piece] = n > 0u ? polygonArea(from, n, centre) : 0.0;
+  for (uint i = 0u; i < n; ++i) {
+    vec3 corner = clipCorners[clipPlace(from, i)];
+    low = min(low, corner);
+    high = max(high, corner);
+  }
+  // Where rounding leaves nothing of it the voxel's list still has it.
+  push.boxes.at[piece] = n > 0u ? packBox(low, high) : WHOLE_BOX;
   bool back = showsBack(push.corners, triangle);
   uint cuts = 0u;
   VoxelPieces others =
-      voxelPieces(push.corners, push.pieces, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+      voxelPieces(push.corners, push.pieces, push.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   for (uint i = others.first; i < others.endLarge && cuts < MOST_CUTS; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(push.corners, push.pieces.at[i]), t, back)) ++cuts;
   uint maskWords = hasHoles(push.corners, triangle) ? 2u : 0u;

@@ -7,7 +7,8 @@
 
 struct VoxelPieces {
   Vec4Array corners;
-  UintArray pieces;
+  UintArray pieces, boxes;
+  vec3 cell;  ///< the voxel's lower corner
   uint first, end;
   uint endLarge;  ///< of those that may stand on others or hide them
 };
@@ -22,8 +23,8 @@ uint pieceFrom(UintArray pieces, uint first, uint end, uint piece) {
   return first;
 }
 
-VoxelPieces voxelPieces(Vec4Array corners, UintArray pieces, uint first, uint end) {
-  return VoxelPieces(corners, pieces, first, end,
+VoxelPieces voxelPieces(Vec4Array corners, UintArray pieces, UintArray boxes, vec3 cell, uint first, uint end) {
+  return VoxelPieces(corners, pieces, boxes, cell, first, end,
                      end - first <= MOST_LARGE ? end : pieceFrom(pieces, first, end, PIECE_SMALL));
 }
 
@@ -41,12 +42,20 @@ const float SAME_SIDE_COSINE = 0.7;      ///< least between normals
 const float SAME_SIDE_LEVEL = 0.02;      ///< voxels: a face this far above another is another
 const float ABOVE_SURFACE = 1.0 / 256.0; ///< voxels: ways are at most this far above the surface
 
+/// Whether a segment comes near a piece's box: nearer than ways are above the surface, for what is cut off at the voxel's
+/// faces goes on beyond.
+bool nearBox(VoxelPieces voxel, uint piece, vec3 a, vec3 b) {
+  uint box = voxel.boxes.at[piece];
+  vec3 low = min(a, b) - voxel.cell - 2.0 * ABOVE_SURFACE, high = max(a, b) - voxel.cell + 2.0 * ABOVE_SURFACE;
+  return all(lessThanEqual(low, boxHigh(box))) && all(greaterThanEqual(high, boxLow(box)));
+}
+
 /// Whether the segment from `a` to `b` (voxel units) crosses no large piece but those of two triangles.
 bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
   ShearedRay ray = shearedRay(a, b - a);
   for (uint i = voxel.first; i < voxel.endLarge; ++i) {
     uint triangle = voxel.pieces.at[i];
-    if (triangle == except1 || triangle == except2) continue;
+    if (triangle == except1 || triangle == except2 || !nearBox(voxel, i, a, b)) continue;
     float t;
     bool front;
     if (meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0)
@@ -118,7 +127,8 @@ float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
     uint triangle = voxel.pieces.at[i];
     float t;
     bool front;
-    if (triangle != own && meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0)
+    if (triangle != own && nearBox(voxel, i, point, point + facing * clear) &&
+        meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0)
       clear = min(clear, t);
   }
   return 0.5 * clear;

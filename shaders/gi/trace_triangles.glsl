@@ -36,51 +36,85 @@ struct TriangleHit {
 };
 const uint NO_TRIANGLE = 0xFFFFFFFFu;
 
-/// The first triangle nearer than `reach` along a ray, but `own`, from which the ray starts.
-TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
-  TraceWalk w = traceStart(origin, direction);
-  ShearedRay ray = shearedRay(origin, w.direction);
-  TriangleHit hit = TriangleHit(NO_TRIANGLE, 0u, 0u, false, reach, 0u);
-  while (traceToSolid(world, w, hit.steps)) {
-    // What was met beyond a cell's end waits until no cell before it is left.
-    if (hit.t <= w.t) break;
-    uint entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
-    uint facet = firstFacet(entry);
-    uint end = surface.firstPiece.at[facet + facetsOf(entry)];
-    vec3 bounds = traceBounds(w, 1.0f);
-    float leave = min(bounds.x, min(bounds.y, bounds.z));
-    for (uint i = surface.firstPiece.at[facet]; i < end; ++i) {
-      uint triangle = triangleOf(surface.pieces, i);
-      if (triangle == own) continue;
-      float t;
-      bool front;
-      if (!meetsTriangle(ray, triangleAt(surface.corners, triangle), t, front)) continue;
-      if (t <= 0.0f || t > hit.t || (t == hit.t && triangle > hit.triangle)) continue;
-      // What has holes is there only where this cell's piece is.
-      if (hasHoles(surface.corners, triangle)) {
-        vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
-        if (t < w.t || t > leave || !isThere(surface, i, normal, origin + w.direction * t - vec3(w.cell))) continue;
-      }
-      hit.triangle = triangle;
-      hit.piece = i;
-      hit.entry = entry;
-      hit.front = front;
-      hit.t = t;
-    }
-    if (hit.t <= leave) break;
-    traceAdvance(w, 1.0f);
-    ++hit.steps;
-  }
-  return hit;
+/// A ray on its way: the cell that it is in, and of the pieces there the next one to ask.
+struct TriangleWalk {
+  TraceWalk at;
+  ShearedRay ray;
+  uint own;  ///< the triangle that it leaves
+  uint piece, endPiece, entry;
+  float leave;  ///< where it leaves the cell
+  TriangleHit hit;
+};
+
+TriangleWalk startTriangles(vec3 origin, vec3 direction, uint own, float reach) {
+  TriangleWalk w;
+  w.at = traceStart(origin, direction);
+  w.ray = shearedRay(origin, w.at.direction);
+  w.own = own;
+  w.piece = w.endPiece = 0u;
+  w.entry = NO_FACET;
+  w.leave = 0.0f;
+  w.hit = TriangleHit(NO_TRIANGLE, 0u, 0u, false, reach, 0u);
+  return w;
 }
 
-/// The facet on the first triangle along a ray but `own`; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided
-/// face, or TRACE_INVALID where it is not known which facet (PIECE_UNKNOWN).
-TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
-  TriangleHit hit = firstTriangle(world, surface, origin, direction, own, 1e30f);
+/// Whether a mask leaves the piece where the ray meets it: what has holes is there only where this cell's piece is.
+bool leavesMask(SurfaceArrays surface, TriangleWalk w, uint triangle, float t) {
+  if (!hasHoles(surface.corners, triangle)) return true;
+  vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
+  return t >= w.at.t && t <= w.leave &&
+         isThere(surface, w.piece, normal, w.at.origin + w.at.direction * t - w.at.cell);
+}
+
+/// Asks the next piece, or goes on to the next cell that may hold one; false: the ray has met what it meets. Steps of
+/// equal length, so that rays side by side wait little for each other.
+bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
+  if (w.piece < w.endPiece) {
+    uint triangle = triangleOf(surface.pieces, w.piece);
+    float t;
+    bool front;
+    if (triangle != w.own && meetsTriangle(w.ray, triangleAt(surface.corners, triangle), t, front) && t > 0.0f &&
+        (t < w.hit.t || (t == w.hit.t && triangle <= w.hit.triangle)) && leavesMask(surface, w, triangle, t))
+      w.hit = TriangleHit(triangle, w.piece, w.entry, front, t, w.hit.steps);
+    if (++w.piece < w.endPiece) return true;
+    if (w.hit.t <= w.leave) return false;
+    traceAdvance(w.at, 1.0f);
+    ++w.hit.steps;
+  }
+  // What was met beyond a cell's end waits until no cell before it is left.
+  if (!traceInside(w.at, world.dims) || w.hit.t <= w.at.t) return false;
+  float clearance = traceClearance(world, w.at.cell);
+  if (clearance > 0.0f) {
+    traceAdvance(w.at, clearance);
+    ++w.hit.steps;
+    return true;
+  }
+  w.entry = world.facets.reverse.at[traceIndex(w.at.cell, world.dims)];
+  w.piece = surface.firstPiece.at[firstFacet(w.entry)];
+  w.endPiece = surface.firstPiece.at[firstFacet(w.entry) + facetsOf(w.entry)];
+  vec3 bounds = traceBounds(w.at, 1.0f);
+  w.leave = min(bounds.x, min(bounds.y, bounds.z));
+  return true;
+}
+
+/// The first triangle nearer than `reach` along a ray, but `own`, from which the ray starts.
+TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
+  TriangleWalk w = startTriangles(origin, direction, own, reach);
+  while (stepTriangles(world, surface, w)) {}
+  return w.hit;
+}
+
+/// The facet that a ray has met; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided face, or TRACE_INVALID where it
+/// is not known which facet (PIECE_UNKNOWN).
+TraceHit facetMet(SurfaceArrays surface, TriangleHit hit, vec3 origin, vec3 direction) {
   if (hit.triangle == NO_TRIANGLE) return TraceHit(TRACE_ESCAPED, 0.0f, hit.steps);
   uint found = classAt(surface, hit.piece, !hit.front, origin + direction * hit.t);
   uint facet = found < PIECE_UNKNOWN ? firstFacet(hit.entry) + found
                                      : (found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return TraceHit(facet, hit.t, hit.steps);
+}
+
+/// The same of the first triangle along a ray but `own`.
+TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
+  return facetMet(surface, firstTriangle(world, surface, origin, direction, own, 1e30f), origin, direction);
 }

@@ -20,6 +20,8 @@ struct MergeRowsPush {
   uint firstRow, rows, rays, columnBits;
 };
 
+/// Invocations that gi/pack_rows.comp has for a row.
+IRAD_CONST uint PACK_WIDTH = 32u;
 /// gi/pack_rows.comp: moves the entries of a chunk into its exactly sized segment.
 struct PackRowsPush {
   UintArray entries;  ///< rows x rays, from merge_rows

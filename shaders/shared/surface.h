@@ -61,6 +61,24 @@ IRAD_CONST uint PIECE_SMALL = 0x80000000u;
 IRAD_CONST uint MOST_COUNTED = 1024u;
 IRAD_CONST uint MOST_PIECES = 16384u;
 
+/// The box around a triangle's part in a voxel, in steps of 1/32 voxel, a little too large: `lo` and `hi` from the voxel's
+/// lower corner. What passes it by need not ask the triangle.
+IRAD_CONST float BOX_STEPS = 32.0f;
+IRAD_CONST uint WHOLE_BOX = 0x3FFF8000u;
+IRAD_FN uint packBox(vec3 lo, vec3 hi) {
+  vec3 from = clamp(lo * BOX_STEPS - vec3(0.0625f), vec3(0.0f), vec3(BOX_STEPS - 1.0f));
+  vec3 to = clamp(hi * BOX_STEPS + vec3(0.0625f), vec3(0.0f), vec3(BOX_STEPS - 1.0f));
+  return uint(from.x) | (uint(from.y) << 5) | (uint(from.z) << 10) | (uint(to.x) << 15) | (uint(to.y) << 20) |
+         (uint(to.z) << 25);
+}
+IRAD_FN vec3 boxLow(uint box) {
+  return vec3(float(box & 31u), float((box >> 5) & 31u), float((box >> 10) & 31u)) * (1.0f / BOX_STEPS);
+}
+IRAD_FN vec3 boxHigh(uint box) {
+  return vec3(float((box >> 15) & 31u) + 1.0f, float((box >> 20) & 31u) + 1.0f, float((box >> 25) & 31u) + 1.0f) *
+         (1.0f / BOX_STEPS);
+}
+
 /// Corners, voxel units.
 struct Triangle {
   vec3 a, b, c;
@@ -140,6 +158,7 @@ struct SurfaceArrays {
                           ///< second: 1 where a mask may have cut holes, else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
+  UintArray boxes;        ///< per piece: packBox
   UintArray sides;        ///< per piece
   UintArray cuts;
   UintArray voxel;        ///< per facet, of FacetArrays
@@ -216,6 +235,7 @@ struct PieceShapePush {
   UintArray solid, firstPiece;
   Vec4Array corners;
   FloatArray area;    ///< per piece, voxel faces
+  UintArray boxes;    ///< of SurfaceArrays
   UintArray points;   ///< per piece: PiecePoints
   UintArray cuts;     ///< per piece: words of SurfaceArrays::cuts
   uint count, pad;    ///< pieces
@@ -246,6 +266,7 @@ struct PiecePointsPush {
 
 /// gi/class_points.comp and gi/class_crowd.comp: which points of a voxel belong to one facet.
 struct ClassPointsPush {
+  UintArray solid;
   UintArray firstPiece;  ///< per solid voxel; and the end
   SurfaceRecord surface;
   FloatArray area;

@@ -86,7 +86,13 @@ struct FacetCornersPush {
   uint slots;  ///< facets of a voxel that were looked for
 };
 
-/// Pushed to gi/trace_rays.comp.
+/// gi/trace_triangle_rays.comp: rays of an invocation; they are taken up when one lane in RAYS_WAIT of those under way
+/// waits for one, asked every RAYS_STEPS steps.
+IRAD_CONST uint RAYS_IN_TURN = 12u;
+IRAD_CONST uint RAYS_WAIT = 3u;
+IRAD_CONST uint RAYS_STEPS = 4u;
+
+/// Pushed to gi/trace_rays.comp and gi/trace_triangle_rays.comp.
 struct TraceRaysPush {
   FacetArrays facets;  ///< by value: lavapipe knows only pointers in push constants to be uniform
   ByteArray chebyshev;
