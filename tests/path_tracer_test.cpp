@@ -198,6 +198,60 @@ TEST_F(PathTracing, NothingComesFromBehindAFace) {
   EXPECT_NEAR(radianceOfFloor(scene, 0), 0.5 * 10 / std::sqrt(5.0) / kPi, 1e-6);
 }
 
+/// The same floor with a normal map of one texel that leans towards +x; the tangent of its angle.
+double lean(Scene& scene) {
+  scene.images = {{.name = "normals", .width = 1, .height = 1, .rgba = {204, 128, 230, 255}}};
+  for (Material& m : scene.materials) m.normalTexture.image = 0;
+  for (glm::vec4& t : scene.tangents) t = {1, 0, 0, 1};
+  return (2 * 204 / 255.0 - 1) / (2 * 230 / 255.0 - 1);
+}
+
+TEST_F(PathTracing, NormalMapsLean) {
+  Scene scene = floorScene();
+  scene.materials[0].doubleSided = true;
+  const double tangent = lean(scene);
+  const double y = 2 * 128 / 255.0 - 1, z = 2 * 230 / 255.0 - 1;
+  const glm::dvec3 n = glm::normalize(glm::dvec3(tangent * z, z, -y));
+  for (const double angle : {-80.0, -40.0, 0.0, 30.0, 60.0, 85.0})
+    for (const int side : {1, -1}) {  // from below the same bumps are dents: all of it is turned
+      const double a = angle * kPi / 180;
+      const glm::dvec3 towards = double(side) * glm::dvec3(std::sin(a), std::cos(a), 0);
+      scene.lights = {{.type = LightType::Sun, .direction = glm::vec3(-towards), .intensity = 10}};
+      const double cosine = std::max(0.0, glm::dot(n, double(side) * towards));
+      const double g = std::cos(a) / (n.y * std::max(cosine, 1e-9)), shadow = g >= 1 ? 1 : g + g * g - g * g * g;
+      const Camera camera = plan({0, 4 * side, 0}, {0, -side, 0}, 1e-3f);
+      EXPECT_NEAR(traced(scene, camera, {1, 1}, {.samples = 2, .centred = true}).lit.mean[0].x,
+                  0.5 * 10 * cosine * shadow / kPi, 1e-6)
+          << angle << " degrees, side " << side;
+    }
+}
+
+TEST_F(PathTracing, NormalMapsUnderAnEvenSky) {
+  // A black lamp all around a floor: what a leaning normal gets of it, by quadrature over the hemisphere.
+  SceneBuilder b;
+  const uint32_t grey = b.material(glm::vec3(0.5f)), lamp = b.material(glm::vec3(0), glm::vec3(1), true);
+  b.quad(grey, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  b.box(std::vector<uint32_t>(6, lamp), {-3, -1, -3}, {3, 5, 3}, /*inward=*/true);
+  Scene scene = b.finish("sky");
+  const double tangent = lean(scene);
+  scene.materials[lamp].normalTexture.image = -1;
+  const double y = 2 * 128 / 255.0 - 1, z = 2 * 230 / 255.0 - 1;
+  const glm::dvec3 n = glm::normalize(glm::dvec3(tangent * z, z, -y));
+  constexpr int kSteps = 1000;
+  double expected = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double up = (i + 0.5) / kSteps, phi = 2 * kPi * (j + 0.5) / kSteps, r = std::sqrt(1 - up * up);
+      const double cosine = glm::dot(n, glm::dvec3(r * std::cos(phi), up, r * std::sin(phi)));
+      if (cosine <= 0) continue;
+      const double g = up / (n.y * cosine);
+      expected += cosine * (g >= 1 ? 1 : g + g * g - g * g * g) * 2 / kSteps / kSteps;
+    }
+  printf("a normal that leans by %.1f degrees gets %.4f of an even sky\n", std::acos(n.y) * 180 / kPi, expected);
+  const TracedPicture p = traced(scene, plan({0, 1, 0}, {0, -1, 0}, 0.5f), {32, 32}, {.samples = 256});
+  expectMean(p.lit, 0.5 * expected / kPi, 0.003, "leaning normals");
+}
+
 TEST_F(PathTracing, TheSamePictureFromAnyNumberOfThreads) {
   const Scene scene = mixedRoom();
   const auto tracer = makePathTracer(scene);

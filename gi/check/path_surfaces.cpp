@@ -54,6 +54,11 @@ auto interpolated(const std::vector<Value>& values, const glm::uvec3& corner, gl
   return (1 - uv.x - uv.y) * Wide(values[corner.x]) + uv.x * Wide(values[corner.y]) + uv.y * Wide(values[corner.z]);
 }
 
+glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : otherwise;
+}
+
 /// Mean of an emissive texture, at least a thousandth: wherever light may come from has a density.
 double meanTexel(const Scene& scene, const TextureUse& use) {
   if (use.image < 0) return 1;
@@ -131,15 +136,26 @@ bool Surfaces::cutOut(uint32_t triangle, glm::dvec2 uv) const {
   return masked(triangle) && baseColor(triangle, uv).w < double{material(triangle).alphaCutoff};
 }
 
+glm::dvec3 Surfaces::bumped(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& normal) const {
+  const Material& m = material(triangle);
+  if (m.normalTexture.image < 0) return normal;
+  const glm::uvec3& corner = triangles_[triangle].corner;
+  const glm::dvec3 along(interpolated(scene_.tangents, corner, uv));
+  const glm::dvec3 tangent = unit(along - normal * glm::dot(normal, along), glm::dvec3(0));
+  const glm::dvec3 bitangent = glm::cross(normal, tangent) * double{scene_.tangents[corner.x].w};
+  const glm::dvec3 s = 2.0 * glm::dvec3(texel(triangle, m.normalTexture, uv)) - 1.0;
+  return unit(double{m.normalScale} * (s.x * tangent + s.y * bitangent) + s.z * normal, normal);
+}
+
 SurfacePoint Surfaces::at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const {
   const Triangle& t = triangles_[triangle];
   const Material& m = material(triangle);
   const bool front = glm::dot(direction, t.normal) < 0;
   SurfacePoint p{.position = position(triangle, uv), .face = front ? t.normal : -t.normal};
-  const glm::dvec3 smooth = interpolated(scene_.normals, t.corner, uv);
-  const double length = glm::length(smooth);
-  p.normal = length > 0 ? smooth / length : p.face;
-  if (glm::dot(p.normal, p.face) < 0) p.normal = -p.normal;
+  const glm::dvec3 smooth = unit(interpolated(scene_.normals, t.corner, uv), p.face);
+  const double side = glm::dot(smooth, p.face) < 0 ? -1 : 1;
+  p.smooth = side * smooth;
+  p.normal = side * bumped(triangle, uv, smooth);  // from behind, bumps are dents
   if (!front && !m.doubleSided) return p;
   const double metallic =
       m.lambertian ? 0.0 : std::clamp(double{m.metallic} * texel(triangle, m.metallicRoughnessTexture, uv).z, 0.0, 1.0);

@@ -42,7 +42,8 @@ struct Triangle {
 struct SurfacePoint {
   glm::dvec3 position{0};  ///< local
   glm::dvec3 face{0};      ///< unit, of the triangle, on the side that is seen
-  glm::dvec3 normal{0};    ///< unit, interpolated, on the same side
+  glm::dvec3 smooth{0};    ///< unit, interpolated between the vertices, on the same side
+  glm::dvec3 normal{0};    ///< unit, by the normal map about `smooth`
   glm::dvec3 albedo{0};    ///< 0..0.98; 0 on the back of a single-sided face
   glm::dvec3 emission{0};  ///< radiance, W/(m^2 sr)
 };
@@ -61,6 +62,13 @@ struct Arriving {
   double distance = 0;       ///< m; infinite for a sun
   glm::dvec3 irradiance{0};  ///< of a surface that faces it, W/m^2
 };
+
+/// The share of the light from a direction that reaches a normal which a map has tilted: what leans towards light that
+/// grazes the surface is in the shadow of other bumps (Chiang, Li and Burley 2019, "Taming the Shadow Terminator").
+inline double pastBumps(const SurfacePoint& p, const glm::dvec3& towards) {
+  const double g = glm::dot(p.smooth, towards) / (glm::dot(p.smooth, p.normal) * glm::dot(p.normal, towards));
+  return g >= 1 ? 1 : g > 0 ? g + g * g - g * g * g : 0;
+}
 
 class Surfaces {
  public:
@@ -92,6 +100,8 @@ class Surfaces {
   glm::dvec3 position(uint32_t triangle, glm::dvec2 uv) const;
   /// White where the material has no such texture; sRGB is decoded.
   glm::dvec4 texel(uint32_t triangle, const TextureUse& use, glm::dvec2 uv) const;
+  /// What the normal map makes of the vertices' normal.
+  glm::dvec3 bumped(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& normal) const;
   glm::dvec4 baseColor(uint32_t triangle, glm::dvec2 uv) const;
 
   Scene scene_;

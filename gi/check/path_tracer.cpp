@@ -236,6 +236,7 @@ class EmbreeTracer : public PathTracer {
         direction = cosineDirection(point.normal, random);
         throughput *= point.albedo;
         if (glm::dot(direction, point.face) <= 0) return;
+        throughput *= pastBumps(point, direction);
         if (depth >= 3) {
           const double survive = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
           if (random.next() >= survive) return;
@@ -254,7 +255,7 @@ class EmbreeTracer : public PathTracer {
       if (cosine <= 0 || glm::dot(point.face, arriving->towards) <= 0) return;
       const float far = std::isfinite(arriving->distance) ? static_cast<float>(arriving->distance) : kFar;
       if (clear(origin, arriving->towards, far, from, kNoTriangle))
-        add(reflected * arriving->irradiance * cosine, bounced);
+        add(reflected * arriving->irradiance * cosine * pastBumps(point, arriving->towards), bounced);
     }
 
     void fromEmitter(const SurfacePoint& point, uint32_t from, const glm::dvec3& origin, const glm::dvec3& reflected,
@@ -273,7 +274,7 @@ class EmbreeTracer : public PathTracer {
       if (!clear(origin, towards, static_cast<float>(distance * (1 - 0x1p-20)), from, drawn.triangle)) return;
       // Both densities per steradian: the balance heuristic's weight over the drawn one is 1 / (their sum).
       const double density = drawn.density * d2 / cosineThere + cosine / std::numbers::pi;
-      add(reflected * there.emission * cosine / density, /*bounced=*/true);
+      add(reflected * there.emission * cosine * pastBumps(point, towards) / density, /*bounced=*/true);
     }
   };
 

@@ -2,10 +2,11 @@
 // else: no facets, no shaders or headers of theirs, no sampler; its rays are Embree's, its random numbers its own.
 //
 // Surfaces are Lambertian with the albedo of docs/method.md (base colour x (1 - metallic), clamped to [0, .98]); there
-// is no specular lobe and no normal map, and what blends is opaque. Texels that a mask cuts out let every ray through.
+// is no specular lobe, and what blends is opaque. Texels that a mask cuts out let every ray through.
 // The back of a single-sided face stops all rays and is black, but for those of the camera, which see through it.
 // Cosines, at lights and of bounces, are taken with the vertices' interpolated normal, turned to the side that was
-// met; what comes from behind the face itself adds nothing (as in Cycles).
+// met, and the normal map about it; what comes from behind the face itself adds nothing, and what grazes bumps less
+// (pastBumps), both as in Cycles.
 #pragma once
 
 #include <array>
