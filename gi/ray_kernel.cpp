@@ -49,13 +49,8 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.jitter = params.jitter;
   push.seed = params.seed;
   push.surface = pass.inIfAny(kernel.facets.surface.record);
-  const uint64_t rays = uint64_t{rows} * params.rays;
-  if (params.hitRule == HitRule::triangles)
-    kernel.configure(pass, frame.context().device, "gi/trace_triangle_rays")
-        .push(push)
-        .dispatch((rays + RAYS_IN_TURN - 1) / RAYS_IN_TURN);
-  else
-    kernel.configure(pass, frame.context().device, "gi/trace_rays").push(push).dispatch(rays);
+  const char* shader = params.hitRule == HitRule::triangles ? "gi/trace_triangle_rays" : "gi/trace_rays";
+  kernel.configure(pass, frame.context().device, shader).push(push).dispatch(uint64_t{rows} * params.rays);
 }
 
 }  // namespace irad

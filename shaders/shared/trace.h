@@ -65,12 +65,6 @@ IRAD_FN vec3 rayDirection(vec3 facing, uint k, uint rays, uvec4 shifts) {
   return toWorld(cosineDirection(hammersley(k, rays, uvec2(shifts.x, shifts.y))), facing);
 }
 
-/// gi/trace_triangle_rays.comp: rays of an invocation; they are taken up when one lane in RAYS_WAIT of those under way
-/// waits for one, asked every RAYS_STEPS steps.
-IRAD_CONST uint RAYS_IN_TURN = 12u;
-IRAD_CONST uint RAYS_WAIT = 3u;
-IRAD_CONST uint RAYS_STEPS = 4u;
-
 /// Pushed to gi/trace_rays.comp and gi/trace_triangle_rays.comp.
 struct TraceRaysPush {
   FacetArrays facets;  ///< by value: lavapipe knows only pointers in push constants to be uniform
