@@ -30,7 +30,8 @@ void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& fa
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
   push.dims = facets.grid.dims;
-  pass.shader("gi/gather_surfels.comp").constant(CONSTANT_TRACE_METHOD, field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE);
+  pass.shader("gi/gather_surfels.comp")
+      .constant(CONSTANT_TRACE_METHOD, field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE);
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.push(push).dispatch(facets.count);
 }

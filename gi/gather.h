@@ -1,5 +1,5 @@
-// Direct light onto the facets: past the triangles where they are pieces of the true surface (Surface), through the shadow
-// maps where they are planes.
+// Direct light onto the facets: past the triangles where they are pieces of the true surface (Surface), through the
+// shadow maps where they are planes.
 #pragma once
 
 namespace irad {

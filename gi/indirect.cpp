@@ -1,5 +1,9 @@
 #include "gi/indirect.h"
 
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/views/passes.h"
+#include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
 
@@ -7,16 +11,18 @@ namespace irad {
 namespace {
 
 /// In compute, where no lane is spent outside a triangle.
-void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, Targets& targets) {
+void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, bool lights,
+                  Targets& targets) {
   Pass pass = frame.pass("RE Forward");
   IndirectPush push{};
   push.camera = pass.in(camera);
   push.grid = pass.in(*from.grid);
-  push.reverse = pass.in(*from.reverse);
-  push.voxel = pass.in(*from.voxel);
-  push.surface = pass.in(*from.surface);
+  push.reverse = pass.in(from.facets->reverse);
+  push.voxel = pass.in(from.facets->voxel);
+  push.surface = pass.in(from.facets->surface.record);
   push.shaded = pass.in(*from.shaded);
   if (emitted) push.shadedEmitted = pass.in(*from.shadedEmitted);
+  if (lights) push.direct = pass.in(*from.direct);
   push.sampling = from.sample;
   push.size = targets.size;
   pass.shader("gi/indirect_links.comp")
@@ -29,20 +35,49 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
       .dispatch(targets.size);
 }
 
+/// gi/direct_seen.comp.
+void checkDirect(Frame& frame, const SceneOnDevice& scene, const IndirectInputs& from, const Buffer& camera,
+                 Targets& targets) {
+  Pass pass = frame.pass("RE Forward");
+  DirectSeenPush push{};
+  push.camera = pass.in(camera);
+  push.scene = pass.in(scene.record);
+  push.facets = from.facets->arrays([&](const Buffer& buffer) { return pass.in(buffer); });
+  push.surface = pass.in(from.facets->surface.record);
+  push.chebyshev = pass.inIfAny(from.field->chebyshev);
+  push.origin = from.facets->grid.origin;
+  push.edge = from.facets->grid.edge;
+  push.dims = from.facets->grid.dims;
+  push.size = targets.size;
+  pass.shader("gi/direct_seen.comp")
+      .constant(CONSTANT_TRACE_METHOD, from.field->chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE)
+      .constant(CONSTANT_TARGETS, targets.present());
+  specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
+  pass.write(targets.indirect)
+      .write(targets.direct)
+      .write(targets.bound(&Targets::highlight))
+      .sample(targets.depth, pointSampler(frame.context().device))
+      .push(push)
+      .dispatch(targets.size);
+}
+
 }  // namespace
 
 void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
                const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects) {
   const bool wanted = effects.indirect && indirect.grid != nullptr;
   const bool fromVolume = wanted && indirect.volume != nullptr;
-  const bool fromFacets = wanted && indirect.surface != nullptr && indirect.shaded != nullptr;
+  const bool fromFacets = wanted && indirect.facets->surface && indirect.shaded != nullptr;
   const bool emitted = fromFacets && effects.emission && indirect.shadedEmitted != nullptr;
   ForwardEffects drawn = effects;
   drawn.indirect = fromVolume || fromFacets;
   targets.fit(frame.context(), &Targets::emitted, emitted);
   const VolumeLookup lookup{fromVolume ? indirect.volume : nullptr, indirect.grid, indirect.sample};
   drawForward(frame, scene, shadows, camera, shade, targets, drawn, lookup);
-  if (fromFacets) lookUpFacets(frame, indirect, camera, emitted, targets);
+  if (!fromFacets) return;
+  const bool lights = indirect.direct != nullptr && !scene.shining.empty();
+  lookUpFacets(frame, indirect, camera, emitted, lights, targets);
+  if (lights) checkDirect(frame, scene, indirect, camera, targets);
 }
 
 }  // namespace irad

@@ -7,12 +7,15 @@
 
 namespace irad {
 
+struct FacetList;
+struct Field;
+
 /// Where a picture finds indirect light. Null pointers: there is none, and no Targets::indirect.
 struct IndirectInputs {
   const Buffer* grid = nullptr;           ///< one Grid
-  const Buffer* reverse = nullptr;        ///< voxel -> facet
-  const Buffer* voxel = nullptr;          ///< of the facets
-  const Buffer* surface = nullptr;        ///< one SurfaceArrays: lookups go by its links
+  const FacetList* facets = nullptr;      ///< lookups go by their surface, where they have one
+  const Field* field = nullptr;           ///< for rays that check the shadow maps
+  const Buffer* direct = nullptr;         ///< vec4 per facet: D
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
   const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, no Targets::emitted
   bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
@@ -20,7 +23,8 @@ struct IndirectInputs {
   SampleParams sample{};
 };
 
-/// drawForward with the lookup of indirect light: in the facets by a pass of its own ("RE Forward", too).
+/// drawForward with the lookup of indirect light: in the facets by a pass of its own ("RE Forward", too). What shadow
+/// maps let through walls that are thinner than their texels is taken out where the facets know better.
 void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const IndirectInputs& indirect,
                const Buffer& camera, const ShadeParams& shade, Targets& targets, const ForwardEffects& effects = {});
 

@@ -18,9 +18,9 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   IndirectInputs in;
   if (!p.facets || p.facets->count == 0 || !p.light || !*p.light) return in;
   in.grid = &p.gridRecord;
-  in.reverse = &p.facets->reverse;
-  in.voxel = &p.facets->voxel;
-  if (p.facets->surface) in.surface = &p.facets->surface.record;
+  in.facets = &*p.facets;
+  in.field = &*p.field;
+  in.direct = &p.light->direct;
   in.shaded = &p.light->shaded();
   in.keepPosition = pixelEmitters && p.light->emitted;
   const ViewInfo* info = viewInfo(view);

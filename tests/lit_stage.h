@@ -58,9 +58,9 @@ struct Lit {
   IndirectInputs indirect() const {
     IndirectInputs in;
     in.grid = &grid;
-    in.reverse = &facets.reverse;
-    in.voxel = &facets.voxel;
-    if (facets.surface) in.surface = &facets.surface.record;
+    in.facets = &facets;
+    in.field = &field;
+    in.direct = &light.direct;
     in.shaded = &light.shaded();
     if (light.emitted) in.shadedEmitted = &light.shadedEmitted();
     in.volume = light.volume ? &light.volume.image : nullptr;

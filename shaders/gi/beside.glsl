@@ -77,7 +77,26 @@ uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 v
   return found;
 }
 
-/// The same in the voxel that holds the point or, where it has none, in the 27 around.
+/// Of a voxel with more pieces than are looked at to tell sides apart, the facet that is near and faces the point's way;
+/// NO_FACET of others.
+uint facetInCrowd(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SurfelPoint p) {
+  uint found = NO_FACET, entry = entryOf(reverse, dims, voxel);
+  if (entry == NO_FACET) return NO_FACET;
+  VoxelPieces pieces = piecesOf(surface, entry);
+  float best = 1e30;
+  for (uint k = 0u; pieces.endLarge < pieces.end && k < facetsOf(entry); ++k) {
+    uint facet = firstFacet(entry) + k;
+    float distance2;
+    SurfelPoint s = nearestSurfel(surface, facet, p.position, distance2);
+    float apart = distance2 + 1.0 - dot(s.facing, p.facing);
+    if (apart >= best) continue;
+    best = apart;
+    found = facet;
+  }
+  return found;
+}
+
+/// The same in the voxel that holds the point, then in the 27 around; where no surfel is seen in a crowd, a likely one.
 uint facetBeside(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p) {
   float nearest = 1e30;
   ivec3 voxel = ivec3(floor(p.position));
@@ -87,7 +106,7 @@ uint facetBeside(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoi
     uint other = facetBesideIn(surface, reverse, dims, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, p, nearest);
     if (other != NO_FACET) found = other;
   }
-  return found;
+  return found != NO_FACET ? found : facetInCrowd(surface, reverse, dims, voxel, p);
 }
 
 #endif

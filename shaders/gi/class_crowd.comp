@@ -5,6 +5,7 @@
 layout(local_size_x = 64) in;
 
 shared uint next;
+shared uint leaders[LAST_CLASS + 1u];
 
 void main() {
   uint voxel = irad_workgroup();
@@ -38,6 +39,7 @@ void main() {
       least = 0.0;
       continue;
     }
+    if (me == 0u) leaders[classes] = lead;
     ClassPoint leader = classPoint(surface, lead);
     for (uint i = first + me * stride; i < end; i += step_)
       if (push.classes.at[i] == NO_CLASS && (i == lead || sameSide(pieces, leader.at, classPoint(surface, i).at)))
@@ -49,11 +51,10 @@ void main() {
     if (classes == 0u) push.classes.at[first] = CLASS_LEADER;
     push.facets.at[voxel] = max(classes, 1u);
   }
-  if (stride == 1u) return;
   memoryBarrierBuffer();
   barrier();
   // Neighbours in the list are neighbours in the mesh: the others go with the next one that faces their way.
-  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
+  for (uint i = first + me; stride > 1u && i < end; i += gl_WorkGroupSize.x) {
     if ((i - first) % stride == 0u || push.classes.at[i] != NO_CLASS) continue;
     vec3 facing = classPoint(surface, i).at.facing;
     uint compared = i - (i - first) % stride;
@@ -65,6 +66,19 @@ void main() {
       if (dot(classPoint(surface, near).at.facing, facing) < SAME_SIDE_COSINE) continue;
       push.classes.at[i] = found & ~CLASS_LEADER;
       break;
+    }
+  }
+  // What is left of a voxel that would have more facets than there may be goes with those that face its way most.
+  if (classes <= LAST_CLASS) return;
+  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
+    if (push.classes.at[i] != NO_CLASS) continue;
+    vec3 facing = classPoint(surface, i).at.facing;
+    float most = 0.0;
+    for (uint k = 0u; k < classes; ++k) {
+      float alike = dot(classPoint(surface, leaders[k]).at.facing, facing);
+      if (alike <= most) continue;
+      most = alike;
+      push.classes.at[i] = k;
     }
   }
 }

@@ -43,5 +43,7 @@ void main() {
     if (EMITTED) e = tapped(taps, push.shadedEmitted);
   }
   if (EMITTED) imageStore(emittedTarget, pixel, vec4(e, 1.0));
-  imageStore(indirectTarget, pixel, vec4(h, seen));  // for the rays of reflections
+  // For rays of reflections; negative where gi/direct_seen.comp looks at the pixel's direct light.
+  bool dark = uint64_t(push.direct) != 0ul && facet != NO_FACET && push.direct.at[facet].xyz == vec3(0.0);
+  imageStore(indirectTarget, pixel, vec4(h, dark ? -seen : seen));
 }

@@ -18,7 +18,21 @@ struct IndirectPush {
   SurfaceRecord surface;
   Vec4Array shaded;         ///< H per facet
   Vec4Array shadedEmitted;  ///< F M per facet
+  Vec4Array direct;         ///< D per facet; 0: no light shines, or none is asked for
   SampleParams sampling;
+  uvec2 size;
+};
+
+/// gi/direct_seen.comp.
+struct DirectSeenPush {
+  CameraArray camera;
+  SceneArray scene;
+  FacetArrays facets;  ///< by value
+  SurfaceRecord surface;
+  ByteArray chebyshev;
+  vec3 origin;  ///< of the grid, local
+  float edge;
+  uvec3 dims;
   uvec2 size;
 };
 

@@ -55,7 +55,7 @@ IRAD_FN vec2 unpackPlace(uint place) { return vec2(float(place & 0xFFFFu), float
 
 /// Of a voxel with more pieces only the largest, at most as many, are taken to stand on others or to hide them: the work
 /// grows with their number to the third power. The others' bit puts them last in the voxel's order.
-IRAD_CONST uint MOST_LARGE = 64u;
+IRAD_CONST uint MOST_LARGE = 32u;
 IRAD_CONST uint PIECE_SMALL = 0x80000000u;
 /// Voxels with more pieces than this have no large ones, and with more than MOST_PIECES they are refused.
 IRAD_CONST uint MOST_COUNTED = 1024u;
