@@ -30,8 +30,10 @@ HostFacets hostFacets(Context& context, const FacetList& list) {
     const oracle::Facets surface = oracleFacets(context, list);
     for (uint32_t i = 0; i < list.count; ++i) {
       glm::dvec3 sum(0);
-      for (uint32_t k = 0; k < FACET_SURFELS; ++k) sum += surface.point(FACET_SURFELS * i + k);
-      host.position[i] = glm::dvec3(list.grid.origin) + double{list.grid.edge} / FACET_SURFELS * sum;
+      for (uint32_t k = 0; k < FACET_SURFELS; ++k)
+        sum += host.surfels.emplace_back(glm::dvec3(list.grid.origin) +
+                                         double{list.grid.edge} * surface.point(FACET_SURFELS * i + k));
+      host.position[i] = sum / double{FACET_SURFELS};
     }
   }
   host.emission = list.hasEmission ? downloadAs<glm::vec3>(context, list.emission)

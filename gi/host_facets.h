@@ -20,6 +20,7 @@ struct HostFacets {
   std::vector<glm::uvec3> voxel;
   /// The point of the facet's plane nearest to its voxel's centre, or the middle of its surfels; local.
   std::vector<glm::dvec3> position;
+  std::vector<glm::dvec3> surfels;          ///< local, FACET_SURFELS per facet; none where facets are planes
   std::vector<glm::dvec3> normal;           ///< as stored
   std::vector<glm::vec3> albedo, emission;  ///< rho; M, W/m^2
   std::vector<double> area;                 ///< of the plane inside the voxel, m^2

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "gi/check/balance.h"
 #include "gi/check/cases.h"
@@ -13,6 +14,7 @@
 #include "gi/check/pictures.h"
 #include "gi/lighting.h"
 #include "renderer/base/error.h"
+#include "shaders/shared/surface.h"
 
 namespace irad {
 namespace {
@@ -32,13 +34,23 @@ void judgeSealed(CheckRun& run, const Lit& lit) {
   const HostFacets facets = run.facets(lit.pipeline);
   const std::vector<glm::vec3> d = run.read(lit.pipeline, lit.pipeline.lighting().direct),
                                h = run.read(lit.pipeline, lit.pipeline.lighting().indirect);
-  // A tenth of a voxel in front of a facet is its side.
+  // A facet is inside where any of its surfels is: what stands for both sides of a wall is found, too. Planes have
+  // none: a tenth of a voxel in front of one is its side.
+  const auto isInside = [&](const glm::dvec3& p) {
+    return std::ranges::any_of(lit.member.sealed, [&](const Room& room) { return room.contains(p); });
+  };
+  const auto hasInside = [&](size_t i) {
+    const double edge = facets.grid.edge;
+    if (facets.surfels.empty()) return isInside(facets.position[i] + facets.normal[i] * (0.1 * edge));
+    const auto surfels = std::span(facets.surfels).subspan(FACET_SURFELS * i, FACET_SURFELS);
+    return std::ranges::any_of(surfels,
+                               [&](const glm::dvec3& p) { return isInside(p + facets.normal[i] * (1e-3 * edge)); });
+  };
   double outside = 0, mostD = 0, mostH = 0;
   uint64_t reached = 0, inside = 0;
   for (size_t i = 0; i < facets.count(); ++i) {
     outside = std::max(outside, double{d[i].x});
-    const glm::dvec3 before = facets.position[i] + facets.normal[i] * (0.1 * double{facets.grid.edge});
-    if (!std::ranges::any_of(lit.member.sealed, [&](const Room& room) { return room.contains(before); })) continue;
+    if (!hasInside(i)) continue;
     mostD = std::max(mostD, double{d[i].x});
     mostH = std::max(mostH, double{h[i].x});
     reached += h[i].x > 0;

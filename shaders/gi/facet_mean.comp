@@ -25,6 +25,7 @@ void main() {
   float offset = dot(middle * (1.0 / float(FACET_SURFELS)), decodeNormal(code, push.encoding));
   push.shape.at[facet] = code | packFacetOffset(offset);
 
+  // Running means: those of equal values are these values to the bit.
   vec3 albedo = vec3(0.0), emission = vec3(0.0);
   float weights = 0.0;
   FacetPoints points = pointsOf(surface, push.firstPoint, facet, entry);
@@ -32,11 +33,13 @@ void main() {
     if ((push.classes.at[i] & ~CLASS_LEADER) != points.own) continue;
     PiecePoint p = push.points.at[i];
     float weight = push.pointArea.at[i];
+    if (!(weight > 0.0)) continue;
     uint piece = p.side & ~SURFEL_BACK;
     weights += weight;
-    albedo += weight * push.pieceAlbedo.at[piece];
-    if (push.hasEmission != 0u) emission += weight * push.pieceEmission.at[piece];
+    float share = weight / weights;
+    albedo += share * (push.pieceAlbedo.at[piece] - albedo);
+    if (push.hasEmission != 0u) emission += share * (push.pieceEmission.at[piece] - emission);
   }
-  push.albedo.at[facet] = packAlbedo(weights > 0.0 ? albedo / weights : vec3(0.0));
-  if (push.hasEmission != 0u) push.emission.at[facet] = weights > 0.0 ? emission / weights : vec3(0.0);
+  push.albedo.at[facet] = packAlbedo(albedo);
+  if (push.hasEmission != 0u) push.emission.at[facet] = emission;
 }
