@@ -25,7 +25,7 @@ void main() {
   float offset = dot(middle * (1.0 / float(FACET_SURFELS)), decodeNormal(code, push.encoding));
   push.shape.at[facet] = code | packFacetOffset(offset);
 
-  // Running means: those of equal values are these values to the bit.
+  // Running means: those of equal values are these values to the bit. (A quotient of equal numbers need not be 1.)
   vec3 albedo = vec3(0.0), emission = vec3(0.0);
   float weights = 0.0;
   FacetPoints points = pointsOf(surface, push.firstPoint, facet, entry);
@@ -36,7 +36,7 @@ void main() {
     if (!(weight > 0.0)) continue;
     uint piece = p.side & ~SURFEL_BACK;
     weights += weight;
-    float share = weight / weights;
+    float share = weights > weight ? weight / weights : 1.0;
     albedo += share * (push.pieceAlbedo.at[piece] - albedo);
     if (push.hasEmission != 0u) emission += share * (push.pieceEmission.at[piece] - emission);
   }
