@@ -427,6 +427,8 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   makeRecord(context, list);
   Frame frame = context.begin();
   frame.pass(kListStage).fill(list.reverse, NO_FACET);
+  // A kernel that Mesa's CPU driver cuts short in a crowd leaves points of the first triangle, not of none.
+  frame.pass(kListStage).fill(surface.surfels, 0);
   frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
   if (list.count > 0) makeFacets(frame, grid, pieces, points, surface, list);
   frame.submitAndWait();
