@@ -59,8 +59,7 @@ TEST(Reflection, EveryEmbeddedShaderIsReadable) {
 TEST(Reflection, AddressesAreFoundWithinStructsToo) {
   const ShaderLibrary library;
   // The facets' five arrays, the field, the hits, the surface.
-  EXPECT_EQ(library.get("gi/trace_rays.comp").addressOffsets,
-            (std::vector<uint32_t>{0, 8, 16, 24, 32, 48, 56, 104}));
+  EXPECT_EQ(library.get("gi/trace_rays.comp").addressOffsets, (std::vector<uint32_t>{0, 8, 16, 24, 32, 48, 56, 104}));
   EXPECT_EQ(library.get("raster/store_depth.comp").addressOffsets, std::vector<uint32_t>{0});
 }
 
