@@ -262,7 +262,7 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
 }
 
 /// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels.
-void makeFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
+void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
                 const Surface& surface, const FacetList& list) {
   {
     Pass pass = frame.pass(kListStage);
@@ -430,7 +430,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   // A kernel that Mesa's CPU driver cuts short in a crowd leaves points of the first triangle, not of none.
   frame.pass(kListStage).fill(surface.surfels, 0);
   frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
-  if (list.count > 0) makeFacets(frame, grid, pieces, points, surface, list);
+  if (list.count > 0) fillFacets(frame, grid, pieces, points, surface, list);
   frame.submitAndWait();
   if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, points, list);
   recordFacets(context, list);
