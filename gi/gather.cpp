@@ -4,13 +4,13 @@
 #include "gi/facets.h"
 #include "gi/field.h"
 #include "gi/lighting.h"
+#include "gi/ray_kernel.h"
 #include "gi/settings.h"
 #include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
-#include "shaders/shared/trace.h"
 
 namespace irad {
 namespace {
@@ -30,8 +30,7 @@ void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& fa
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
   push.dims = facets.grid.dims;
-  pass.shader("gi/gather_surfels.comp")
-      .constant(CONSTANT_TRACE_METHOD, field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE);
+  pass.shader("gi/gather_surfels.comp").constant(CONSTANT_TRACE_METHOD, exactTraversal(field));
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.push(push).dispatch(facets.count);
 }

@@ -2,6 +2,7 @@
 
 #include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/ray_kernel.h"
 #include "gi/views/passes.h"
 #include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
@@ -50,7 +51,7 @@ void checkDirect(Frame& frame, const SceneOnDevice& scene, const IndirectInputs&
   push.dims = from.facets->grid.dims;
   push.size = targets.size;
   pass.shader("gi/direct_seen.comp")
-      .constant(CONSTANT_TRACE_METHOD, from.field->chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE)
+      .constant(CONSTANT_TRACE_METHOD, exactTraversal(*from.field))
       .constant(CONSTANT_TARGETS, targets.present());
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.write(targets.indirect)

@@ -18,6 +18,10 @@ RayKernel rayKernel(const FacetList& facets, const Field& field, const MatrixPar
   return {method, params.hitRule, facets.encoding, facets, field};
 }
 
+uint32_t exactTraversal(const Field& field) {
+  return field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE;
+}
+
 Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& name) const {
   const bool jfa = method == TRACE_JFA;
   pass.shader(name + (jfa ? "_jfa.comp" : ".comp"))

@@ -27,6 +27,9 @@ struct RayKernel {
   uint64_t chebyshev(Pass& pass) const { return pass.inIfAny(field.chebyshev); }
 };
 RayKernel rayKernel(const FacetList& facets, const Field& field, const MatrixParams& params);
+/// TRACE_* of rays that meet what is there whatever the settings say (shadow rays): by the field's bytes, if there are
+/// any.
+uint32_t exactTraversal(const Field& field);
 
 /// What every ray of some rows met, `rays` words per row: a facet or TRACE_*. The first kernel of the csr build; also
 /// read by tests and studies.
