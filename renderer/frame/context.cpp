@@ -7,6 +7,7 @@ namespace irad {
 namespace {
 
 constexpr size_t kFramesInFlight = 2;
+constexpr size_t kSlots = kFramesInFlight + 1;
 constexpr uint64_t kStagingKept = 4 * 1024 * 1024;  // larger readback chunks go back when their frame is done
 
 }  // namespace
@@ -58,11 +59,17 @@ const Image& Context::Impl::placeholder(bool cube) {
   return image;
 }
 
-std::unique_ptr<FrameSlot> Context::Impl::takeSlot() {
-  if (!idle.empty()) {
-    std::unique_ptr<FrameSlot> slot = std::move(idle.back());
-    idle.pop_back();
-    return slot;
+std::unique_ptr<FrameSlot> Context::Impl::takeSlot(Timings& timings) {
+  if (slots >= kSlots) {
+    while (idle.empty() && !inFlight.empty()) {
+      device.wait(inFlight.front()->timelineValue);
+      collect(timings);
+    }
+    if (!idle.empty()) {
+      std::unique_ptr<FrameSlot> slot = std::move(idle.front());
+      idle.pop_front();
+      return slot;
+    }
   }
   auto slot = std::make_unique<FrameSlot>();
   const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -74,6 +81,7 @@ std::unique_ptr<FrameSlot> Context::Impl::takeSlot() {
                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                              .commandBufferCount = 1};
   vkCheck(vkAllocateCommandBuffers(device.handle, &allocate, &slot->commands), "allocating a command buffer");
+  ++slots;
   return slot;
 }
 
@@ -131,6 +139,7 @@ void Context::Impl::reset(FrameSlot& slot) {
 }
 
 void Context::Impl::destroy(FrameSlot& slot) {
+  --slots;
   slot.staging.clear();
   device.retire(
       [device = device.handle, pool = slot.pool, descriptorPools = slot.descriptorPools, queryPools = slot.queryPools] {
@@ -164,11 +173,10 @@ Frame Context::begin(uint64_t frameIndex) {
 }
 
 Frame Context::beginUntimed() {
-  if (impl->idle.empty()) collect();
   Frame frame;
   frame.impl_ = std::make_unique<Frame::Impl>();
   frame.impl_->context = this;
-  frame.impl_->slot = impl->takeSlot();
+  frame.impl_->slot = impl->takeSlot(timings);
   frame.impl_->timed = false;
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};

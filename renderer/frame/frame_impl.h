@@ -52,10 +52,13 @@ struct Context::Impl {
   const Device& device;
   PipelineCache pipelines;
   std::array<Image, 2> placeholders;
-  std::vector<std::unique_ptr<FrameSlot>> idle;
+  size_t slots = 0;                                 ///< of frames recorded, in flight or idle
+  std::deque<std::unique_ptr<FrameSlot>> idle;      ///< the one that ended first, first
   std::deque<std::unique_ptr<FrameSlot>> inFlight;  ///< in order of submission
 
-  std::unique_ptr<FrameSlot> takeSlot();
+  /// The first few are made, then they take turns: which slot a frame has, and so what memory it takes, does not hang on
+  /// how fast the device is.
+  std::unique_ptr<FrameSlot> takeSlot(Timings& timings);
   /// One texel of depth, for Pass::sampleDepth. Nobody reads it.
   const Image& placeholder(bool cube);
   /// Delivers the readbacks and times of finished frames, in order of submission.
