@@ -7,7 +7,9 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <span>
 
+#include "gi/check/families.h"
 #include "gi/host_facets.h"
 #include "gi/lighting.h"
 #include "gi/pipeline.h"
@@ -360,6 +362,41 @@ TEST_F(SurfaceTest, WhatItCannotDoIsAnError) {
       EXPECT_GT(world(scene, triangles(8)).facets.count, 8u * 8u * 6u);
     else
       EXPECT_THROW(world(scene, triangles(8)), WorkError);
+  }
+}
+
+TEST_F(SurfaceTest, NoLightGetsIntoSealedBuildings) {
+  // Each was lit once: walls that cross at a shallow angle, edges of columns that stick out of the voxel, a wall on a
+  // voxel's border, more facets in a voxel than there may be.
+  struct Case {
+    uint64_t seed;
+    uint32_t resolution;
+  };
+  for (const Case c : {Case{22, 32}, Case{1, 32}, Case{21, 32}, Case{27, 48}}) {
+    const auto family = std::ranges::find_if(families(), &Family::dark);
+    const FamilyMember member = familyMember(*family, c.seed, c.resolution);
+    const Pipeline& p = prepare(member.scene, triangles(c.resolution, 64));
+    draw(*pipeline_, glm::vec3(0), glm::vec3(0, 0, -1), VIEW_LIT);
+    const HostFacets f = hostFacets(context(), p.facets());
+    const std::vector<glm::vec3> d = perFacet(context(), p.facets(), p.lighting().direct),
+                                 h = perFacet(context(), p.facets(), p.lighting().indirect);
+    const auto isInside = [&](const glm::dvec3& point) {
+      return std::ranges::any_of(member.sealed, [&](const Room& room) { return room.contains(point); });
+    };
+    size_t inside = 0;
+    double outside = 0, most = 0;
+    for (size_t i = 0; i < f.count(); ++i) {
+      outside = std::max(outside, double{d[i].x});
+      const auto surfels = std::span(f.surfels).subspan(FACET_SURFELS * i, FACET_SURFELS);
+      if (!std::ranges::all_of(surfels,
+                               [&](const glm::dvec3& s) { return isInside(s + 1e-3 * f.grid.edge * f.normal[i]); }))
+        continue;
+      ++inside;
+      most = std::max(most, double{d[i].x + h[i].x});
+    }
+    EXPECT_GT(inside, 1000u);
+    EXPECT_GT(outside, 1);
+    EXPECT_EQ(most, 0) << "seed " << c.seed << " at " << c.resolution;
   }
 }
 

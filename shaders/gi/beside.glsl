@@ -34,19 +34,20 @@ float liftOf(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p
 }
 
 bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint a, SurfelPoint b) {
-  float bulge;
-  if (!mayBeSameSide(a.position, a.facing, b.position, b.facing, bulge)) return false;
+  vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0;
+  SideWay way = wayBetween(surface.corners, low - AROUND_CELL, high + AROUND_CELL, a, b);
+  if (!way.open) return false;
   vec3 from = a.position + a.facing * liftOf(surface, reverse, dims, a);
   vec3 to = b.position + b.facing * liftOf(surface, reverse, dims, b);
-  if (bulge > ABOVE_SURFACE) {
-    vec3 fromHigh = from + a.facing * bulge, toHigh = to + b.facing * bulge;
-    if (!clearBetween(surface, reverse, dims, from, fromHigh, a.triangle, b.triangle) ||
-        !clearBetween(surface, reverse, dims, to, toHigh, a.triangle, b.triangle))
+  if (way.bulge > ABOVE_SURFACE) {
+    vec3 fromHigh = from + a.facing * way.bulge, toHigh = to + b.facing * way.bulge;
+    if (!clearBetween(surface, reverse, dims, from, fromHigh, way.pass1, way.pass2) ||
+        !clearBetween(surface, reverse, dims, to, toHigh, way.pass1, way.pass2))
       return false;
     from = fromHigh;
     to = toHigh;
   }
-  return clearBetween(surface, reverse, dims, from, to, a.triangle, b.triangle);
+  return clearBetween(surface, reverse, dims, from, to, way.pass1, way.pass2);
 }
 
 /// The surfel of a facet that is nearest to a point.

@@ -42,7 +42,7 @@ void main() {
     if (me == 0u) leaders[classes] = lead;
     ClassPoint leader = classPoint(surface, lead);
     for (uint i = first + me * stride; i < end; i += step_)
-      if (push.classes.at[i] == NO_CLASS && (i == lead || sameSide(pieces, leader.at, classPoint(surface, i).at)))
+      if (push.classes.at[i] == NO_CLASS && (i == lead || sameSide(pieces, leader.point, classPoint(surface, i).point)))
         push.classes.at[i] = classes | (i == lead ? CLASS_LEADER : 0u);
     ++classes;
   }
@@ -56,26 +56,27 @@ void main() {
   // Neighbours in the list are neighbours in the mesh: the others go with the next one that faces their way.
   for (uint i = first + me; stride > 1u && i < end; i += gl_WorkGroupSize.x) {
     if ((i - first) % stride == 0u || push.classes.at[i] != NO_CLASS) continue;
-    vec3 facing = classPoint(surface, i).at.facing;
+    vec3 facing = classPoint(surface, i).point.at.facing;
     uint compared = i - (i - first) % stride;
     for (uint k = 0u; k < 8u; ++k) {
       uint near = compared + (k % 2u == 0u ? -(k / 2u) * stride : (k / 2u + 1u) * stride);
       if (near < first || near >= end) continue;
       uint found = push.classes.at[near];
       if (found == NO_CLASS || found == CLASS_OF_PART) continue;
-      if (dot(classPoint(surface, near).at.facing, facing) < SAME_SIDE_COSINE) continue;
+      if (dot(classPoint(surface, near).point.at.facing, facing) < SAME_SIDE_COSINE) continue;
       push.classes.at[i] = found & ~CLASS_LEADER;
       break;
     }
   }
-  // What is left of a voxel that would have more facets than there may be goes with those that face its way most.
-  if (classes <= LAST_CLASS) return;
+  // What is left of a voxel that would have more facets than there may be: where all pieces are looked at, it has none,
+  // for it is known to be apart from the others; else it goes with those that face its way most.
+  if (classes <= LAST_CLASS || pieces.endLarge == pieces.end) return;
   for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
     if (push.classes.at[i] != NO_CLASS) continue;
-    vec3 facing = classPoint(surface, i).at.facing;
+    vec3 facing = classPoint(surface, i).point.at.facing;
     float most = 0.0;
     for (uint k = 0u; k < classes; ++k) {
-      float alike = dot(classPoint(surface, leaders[k]).at.facing, facing);
+      float alike = dot(classPoint(surface, leaders[k]).point.at.facing, facing);
       if (alike <= most) continue;
       most = alike;
       push.classes.at[i] = k;

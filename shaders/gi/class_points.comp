@@ -24,7 +24,7 @@ void main() {
       uint found = NO_CLASS;
       for (uint j = first; j < end && found == NO_CLASS; ++j) {
         uint other = push.classes.at[j];
-        if ((other & CLASS_LEADER) != 0u && sameSide(pieces, classPoint(surface, j).at, p.at)) found = other & ~CLASS_LEADER;
+        if ((other & CLASS_LEADER) != 0u && sameSide(pieces, classPoint(surface, j).point, p.point)) found = other & ~CLASS_LEADER;
       }
       if (found == NO_CLASS && (small == 0u ? classes <= LAST_CLASS : classes == 0u)) found = CLASS_LEADER | classes++;
       push.classes.at[i] = found;

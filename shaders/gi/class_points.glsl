@@ -5,7 +5,7 @@ layout(push_constant, scalar) uniform Push { ClassPointsPush push; };
 const float LEAST_FACET = 1e-4;  ///< voxel faces: pieces with less are no facet of their own
 
 struct ClassPoint {
-  SidePoint at;
+  SidePoint point;
   float area;  ///< of the piece
 };
 
@@ -14,5 +14,5 @@ ClassPoint classPoint(SurfaceArrays surface, uint i) {
   uint piece = p.side & ~SURFEL_BACK;
   uint triangle = triangleOf(surface.pieces, piece);
   vec3 facing = facingOf(triangleAt(surface.corners, triangle), (p.side & SURFEL_BACK) != 0u);
-  return ClassPoint(SidePoint(p.position, facing, triangle, p.lift), push.area.at[piece]);
+  return ClassPoint(SidePoint(SurfelPoint(p.position, facing, triangle), p.lift), push.area.at[piece]);
 }

@@ -38,15 +38,17 @@ uint pieceIn(VoxelPieces voxel, uint triangle) {
   return place < voxel.end && voxel.pieces.at[place] == (triangle | PIECE_SMALL) ? place : NO_PIECE;
 }
 
-const float SAME_SIDE_COSINE = 0.7;      ///< least between normals
-const float SAME_SIDE_LEVEL = 0.02;      ///< voxels: a face this far above another is another
-const float ABOVE_SURFACE = 1.0 / 256.0; ///< voxels: ways are at most this far above the surface
+const float SAME_SIDE_COSINE = 0.7;             ///< least between normals
+const float SAME_SIDE_LEVEL = 0.02;             ///< voxels: a face this far above another is another
+const float ABOVE_SURFACE = 1.0 / 256.0;        ///< voxels: ways are at most this far above the surface
+const float AROUND_CELL = 2.0 * ABOVE_SURFACE;  ///< ways from points on a cell's border pass outside it
 
-/// Whether a segment comes near a piece's box: nearer than ways are above the surface, for what is cut off at the voxel's
-/// faces goes on beyond.
+/// Whether a segment comes near a piece's box: nearer than ways are above the surface. What is cut off at the voxel's
+/// faces goes on beyond, and so may the segment.
 bool nearBox(VoxelPieces voxel, uint piece, vec3 a, vec3 b) {
   uint box = voxel.boxes.at[piece];
-  vec3 low = min(a, b) - voxel.cell - 2.0 * ABOVE_SURFACE, high = max(a, b) - voxel.cell + 2.0 * ABOVE_SURFACE;
+  vec3 low = min(min(a, b) - voxel.cell, vec3(1.0)) - AROUND_CELL;
+  vec3 high = max(max(a, b) - voxel.cell, vec3(0.0)) + AROUND_CELL;
   return all(lessThanEqual(low, boxHigh(box))) && all(greaterThanEqual(high, boxLow(box)));
 }
 
@@ -58,15 +60,14 @@ bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2)
     if (triangle == except1 || triangle == except2 || !nearBox(voxel, i, a, b)) continue;
     float t;
     bool front;
-    if (meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0)
-      return false;
+    if (meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0) return false;
   }
   return true;
 }
 
-/// Whether a triangle crosses the plane `above` another one's side, over that triangle, away from its edges and within a
-/// cell. `facing`: the side's unit normal.
-bool crossesAbove(vec3 cell, Triangle standing, Triangle t, vec3 facing, float above) {
+/// Whether a triangle crosses the plane `above` another one's side, over that triangle, away from its edges and in a
+/// box. `facing`: the side's unit normal.
+bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing, float above) {
   vec3 other[3] = vec3[3](standing.a, standing.b, standing.c);
   vec3 height = vec3(dot(facing, other[0] - t.a), dot(facing, other[1] - t.a), dot(facing, other[2] - t.a)) - above;
   bvec3 over = greaterThan(height, vec3(0.0));
@@ -79,7 +80,7 @@ bool crossesAbove(vec3 cell, Triangle standing, Triangle t, vec3 facing, float a
   float first = 0.0, last = 1.0;
   vec3 corner[3] = vec3[3](t.a, t.b, t.c);
   for (uint e = 0u; e < 9u; ++e) {
-    // Inside: of the triangle's three edges, and of the cell's six faces.
+    // Inside: of the triangle's three edges, and of the box's six faces.
     vec3 inward, base;
     float least = 2e-3;
     if (e < 3u) {
@@ -90,7 +91,7 @@ bool crossesAbove(vec3 cell, Triangle standing, Triangle t, vec3 facing, float a
       uint axis = (e - 3u) / 2u;
       bool upper = (e & 1u) == 0u;
       inward = vec3(axis == 0u ? 1.0 : 0.0, axis == 1u ? 1.0 : 0.0, axis == 2u ? 1.0 : 0.0) * (upper ? -1.0 : 1.0);
-      base = upper ? cell + 1.0 : cell;
+      base = upper ? high : low;
       least = 0.0;
     }
     float at = dot(inward, from - base) - least, rate = dot(inward, along);
@@ -105,17 +106,17 @@ bool crossesAbove(vec3 cell, Triangle standing, Triangle t, vec3 facing, float a
   return first < last;
 }
 
-/// Whether a triangle stands on another one's side within a cell: it comes up to the surface, to what rounding leaves of
+/// Whether a triangle stands on another one's side in a box: it comes up to the surface, to what rounding leaves of
 /// that, or to where ways pass over it.
-bool standsOn(vec3 cell, Triangle standing, Triangle t, vec3 facing) {
-  return crossesAbove(cell, standing, t, facing, ABOVE_SURFACE / 64.0) ||
-         crossesAbove(cell, standing, t, facing, ABOVE_SURFACE);
+bool standsOn(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing) {
+  return crossesAbove(low, high, standing, t, facing, ABOVE_SURFACE / 64.0) ||
+         crossesAbove(low, high, standing, t, facing, ABOVE_SURFACE);
 }
 
-/// The same for the front of a triangle and, where it shows, the back.
+/// The same in a cell and around it, for the front of a triangle and, where it shows, the back.
 bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
-  vec3 facing = facingOf(t, false);
-  return standsOn(cell, standing, t, facing) || (back && standsOn(cell, standing, t, -facing));
+  vec3 facing = facingOf(t, false), low = cell - AROUND_CELL, high = cell + (1.0 + AROUND_CELL);
+  return standsOn(low, high, standing, t, facing) || (back && standsOn(low, high, standing, t, -facing));
 }
 
 /// How far above a point of a surface ways from it begin: nothing is on the way there. Where a triangle leans over the
@@ -134,42 +135,59 @@ float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
   return 0.5 * clear;
 }
 
-/// What two points and the unit normals of their sides say by themselves; `bulge`: how far a way from one to the other
-/// has to be raised over what bulges between them, where it is convex.
-bool mayBeSameSide(vec3 a, vec3 normalA, vec3 b, vec3 normalB, out float bulge) {
-  bulge = 0.0;
-  float alike = dot(normalA, normalB);
-  if (alike < SAME_SIDE_COSINE) return false;
-  vec3 chord = b - a;
-  float above = dot(normalA, chord), below = -dot(normalB, chord);
-  if (max(above, below) > SAME_SIDE_LEVEL && min(above, below) < -SAME_SIDE_LEVEL) return false;
-  if (min(above, below) < 0.0) bulge = 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
-  return true;
+/// What a way from one point of a side to another has to do, by what the two say alone.
+struct SideWay {
+  bool open;          ///< there may be one
+  float bulge;        ///< how far it is raised over what bulges between them, where that is convex
+  uint pass1, pass2;  ///< triangles that it may pass through
+};
+
+/// In a box. Points are no nearer than CUT_WIDTH to what passes through their triangle.
+SideWay wayBetween(Vec4Array corners, vec3 low, vec3 high, SurfelPoint a, SurfelPoint b) {
+  SideWay way = SideWay(false, 0.0, a.triangle, b.triangle);
+  float alike = dot(a.facing, b.facing);
+  if (alike < SAME_SIDE_COSINE) return way;
+  vec3 chord = b.position - a.position;
+  float above = dot(a.facing, chord), below = -dot(b.facing, chord);
+  float most = max(above, below), least = min(above, below);
+  if (most > SAME_SIDE_LEVEL && least < -SAME_SIDE_LEVEL) return way;
+  if (least < 0.0) way.bulge = 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
+  way.open = true;
+  if (least > -0.5 * CUT_WIDTH) return way;
+  if (most > 0.0) {
+    // One is behind the other: it is seen past that triangle's end.
+    way.pass1 = way.pass2 = NO_PIECE;
+  } else {
+    // Over an edge between them; but triangles that go on through each other have no side in common there.
+    Triangle ta = triangleAt(corners, a.triangle), tb = triangleAt(corners, b.triangle);
+    way.open = !standsOn(low, high, tb, ta, a.facing) && !standsOn(low, high, ta, tb, b.facing);
+  }
+  return way;
 }
 
-/// A point of a triangle's side from which ways to others begin `lift` above it (clearAbove).
+/// A point from which ways to others begin `lift` above it (clearAbove).
 struct SidePoint {
-  vec3 position, facing;
-  uint triangle;
+  SurfelPoint at;
   float lift;
 };
 
 /// Points of triangles in one voxel.
-bool sameSide(VoxelPieces voxel, SidePoint a, SidePoint b) {
-  float bulge;
-  if (!mayBeSameSide(a.position, a.facing, b.position, b.facing, bulge)) return false;
+bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
+  SurfelPoint a = from.at, b = to.at;
+  SideWay way = wayBetween(voxel.corners, voxel.cell - AROUND_CELL, voxel.cell + (1.0 + AROUND_CELL), a, b);
+  if (!way.open) return false;
   vec3 chord = b.position - a.position;
   if (dot(chord, chord) < 1e-10) return true;
-  vec3 from = a.position + a.facing * a.lift, to = b.position + b.facing * b.lift;
-  if (bulge > ABOVE_SURFACE) {
-    vec3 fromHigh = from + a.facing * bulge, toHigh = to + b.facing * bulge;
-    if (!clearInVoxel(voxel, from, fromHigh, a.triangle, b.triangle) ||
-        !clearInVoxel(voxel, to, toHigh, a.triangle, b.triangle))
+  vec3 begin = a.position + a.facing * from.lift, end = b.position + b.facing * to.lift;
+  if (way.bulge > ABOVE_SURFACE) {
+    vec3 beginHigh = begin + a.facing * way.bulge, endHigh = end + b.facing * way.bulge;
+    if (!clearInVoxel(voxel, begin, beginHigh, way.pass1, way.pass2) ||
+        !clearInVoxel(voxel, end, endHigh, way.pass1, way.pass2))
       return false;
-    from = fromHigh;
-    to = toHigh;
+    begin = beginHigh;
+    end = endHigh;
   }
-  return clearInVoxel(voxel, from, to, a.triangle, b.triangle);
+  return clearInVoxel(voxel, begin, end, way.pass1, way.pass2);
 }
 
 #endif
