@@ -82,7 +82,7 @@ bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facin
   for (uint e = 0u; e < 9u; ++e) {
     // Inside: of the triangle's three edges, and of the box's six faces.
     vec3 inward, base;
-    float least = 2e-3;
+    float least = 0.5 * above + 1e-4;  // what stands on the edge, and leans over it, is no cut
     if (e < 3u) {
       base = corner[e];
       inward = normalize(cross(facing, corner[(e + 1u) % 3u] - base));
