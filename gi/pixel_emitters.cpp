@@ -66,13 +66,14 @@ void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& set
   push.rays = settings.sample.emitterRays;
   push.gain = inputs.lighting->gain.indirect;
   push.size = targets.size;
+  push.everywhere = settings.sample.emitters == EmitterLookup::pixels;
   Pass seen = frame.pass("RE Emitters");
   push.facets = seen.in(facets.record);
   push.surface = seen.inIfAny(facets.surface.record);
   push.chebyshev = kernel.chebyshev(seen);
   push.triangles = seen.in(emissive.triangles);
   kernel.configure(seen, frame.context().device, "gi/emitters_seen")
-      .read(targets.linear, targets.normal, targets.geometric)
+      .read(targets.linear, targets.normal, targets.geometric, targets.emitted)
       .write(targets.seen)
       .push(push)
       .dispatch(targets.size);

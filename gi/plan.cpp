@@ -189,14 +189,22 @@ class Planner {
   }
 
   void pixelEmitters() {
-    if (s_.sample.emitters != EmitterLookup::pixels || !plan_.on(Effect::emission)) return;
+    if (s_.sample.emitters == EmitterLookup::facets || !plan_.on(Effect::emission)) return;
+    const bool automatic = s_.sample.emitters == EmitterLookup::automatic;
     uint64_t triangles = 0;
-    for (const MaterialTraits& m : t_.materials) triangles += m.emission > 0 ? m.triangles : 0;
+    bool even = true;
+    for (const MaterialTraits& m : t_.materials) {
+      if (m.emission <= 0) continue;
+      triangles += m.triangles;
+      even = even && m.evenEmission;
+    }
     if (triangles == 0 || plan_.off(Effect::matrix)) return;
-    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles();
+    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles() && (even || !automatic);
     row(Effect::emission).reason +=
-        fmt::format("; {} look for {} triangles: {} at most, with matrix.hit_rule=triangles alone",
-                    plan_.pixelEmitters ? "pixels" : "pixels do not", triangles, MAX_EMISSIVE_TRIANGLES);
+        fmt::format("; {} look for {} triangles{}: {} at most{}, with matrix.hit_rule=triangles alone",
+                    plan_.pixelEmitters ? "pixels" : "pixels do not", triangles,
+                    automatic && plan_.pixelEmitters ? " where facets differ" : "", MAX_EMISSIVE_TRIANGLES,
+                    automatic ? " and no textures" : "");
   }
 
   void field() {

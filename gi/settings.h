@@ -24,7 +24,7 @@ namespace irad {
 #define IRAD_VOXEL_METHODS(X) X(raster, "raster") X(conservative, "conservative")
 #define IRAD_FIELD_METHODS(X) X(chebyshev, "chebyshev") X(jfa, "jfa")
 #define IRAD_SPECULAR_MODES(X) X(off, "off") X(fragment, "fragment") X(compute, "compute")
-#define IRAD_EMITTER_LOOKUPS(X) X(facets, "facets") X(pixels, "pixels")
+#define IRAD_EMITTER_LOOKUPS(X) X(automatic, "auto") X(facets, "facets") X(pixels, "pixels")
 #define IRAD_SOLVER_KERNELS(X) X(automatic, "auto") X(tree, "tree") X(subgroup, "subgroup") X(row, "row")
 #define IRAD_SOLVER_ACCELERATIONS(X) X(off, "off") X(anderson, "anderson")
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
@@ -82,7 +82,7 @@ struct ScatterSettings {
 };
 struct SampleSettings {
   SampleParams gpu{SampleFilter::blur, true, 0.5f};
-  EmitterLookup emitters = EmitterLookup::facets;
+  EmitterLookup emitters = EmitterLookup::automatic;
   uint32_t emitterRays = 8;  ///< per pixel
   bool operator==(const SampleSettings&) const = default;
 };

@@ -114,7 +114,8 @@ constexpr Setting kTable[] = {
             "Offset of the lookup in the thesis's volume along the normal.", Shade),
     SETTING(sample.emitters, "sample.emitters",
             "Who gives a pixel the light that comes straight from emissive faces. facets: the voxels around it, like "
-            "the rest of H; pixels: the faces' true outlines, with shadow rays of each pixel.",
+            "the rest of H; pixels: the faces' true outlines, with shadow rays of each pixel; auto: pixels where the "
+            "voxels around differ much, near a lamp and at the rim of its shadows.",
             Shade),
     SETTING(sample.emitterRays, "sample.emitter_rays", {1, 256, "rays"}, "Shadow rays per pixel to emissive triangles.",
             Shade),

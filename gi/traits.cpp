@@ -42,6 +42,7 @@ MaterialTraits measureMaterial(const Material& m, const Texels& texels) {
     t.leastRoughness = std::min(m.roughness * rough.least.g, 1.0f);
   }
   t.normalMap = m.normalTexture.image >= 0;
+  t.evenEmission = m.emissiveTexture.image < 0 && m.alpha != AlphaMode::Mask;
   t.alphaTest = m.alpha == AlphaMode::Mask || (m.alpha == AlphaMode::Blend && m.baseColorTexture.image >= 0);
   return t;
 }

@@ -16,6 +16,7 @@ namespace irad {
 struct MaterialTraits {
   uint32_t triangles = 0;    ///< that have it
   float emission = 0;        ///< emitted radiance, luminance, W/(m^2 sr); > 0 where any channel of any texel is
+  bool evenEmission = true;  ///< no texture or alpha mask varies it
   float albedo = 0;          ///< of the largest channel
   float f0 = 0;              ///< specular reflectance at normal incidence; 0: Lambertian
   float leastRoughness = 1;  ///< lower bound

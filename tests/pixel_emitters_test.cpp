@@ -300,6 +300,29 @@ TEST_F(PixelEmitters, ComeAndGoWithTheSetting) {
   EXPECT_TRUE(same(draw(pipeline, above(2), VIEW_LIT), facets));
 }
 
+TEST_F(PixelEmitters, AutoLooksWhereFacetsDiffer) {
+  // A lamp less than a voxel above the floor: beside it light falls off within a voxel, further away slowly.
+  SceneBuilder b;
+  add(b, b.material(glm::vec3(0.5f)), kFloor);
+  Quad low = kLamp;
+  for (glm::dvec3& p : low) p.y = 0.05;
+  add(b, b.material(glm::vec3(0.1f), glm::vec3(3)), low);
+  const Scene scene = b.finish("lamp at a floor");
+  const auto pixels = draw(scene, settings(), above(2)),
+             facets = draw(scene, settings(EmitterLookup::facets), above(2)),
+             automatic = draw(scene, settings(EmitterLookup::automatic), above(2));
+  int asPixels = 0, asFacets = 0;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const float p = pixels[i].x, f = facets[i].x, a = automatic[i].x;
+    if (std::abs(p - f) < 0.05f * f) continue;
+    // What a pixel's rays find is averaged with those around that look as well.
+    asPixels += std::abs(a - p) < 0.1f * std::abs(p - f);
+    asFacets += a == f;
+  }
+  EXPECT_GT(asPixels, 100);
+  EXPECT_GT(asFacets, 100);
+}
+
 TEST_F(PixelEmitters, FacetsServeWhereThereAreTooManyTriangles) {
   const auto one = draw(lampAboveFloor(), settings(), above(2));
   // 242 triangles in place of 2.

@@ -98,6 +98,7 @@ CheckOutcome runCheck(Context& context, const CheckCase& check, const Settings& 
 void applyCheckSizes(Settings& settings) {
   settings.voxel.resolution = 64;
   settings.matrix.gpu.rays = 384;
+  settings.sample.emitters = EmitterLookup::automatic;
 }
 
 Settings thesisBeside(const Settings& settings) {

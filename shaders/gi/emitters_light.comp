@@ -16,7 +16,9 @@ void main() {
   ivec2 pixel = tilePixel();
   if (!inPicture(pixel)) return;
   vec4 position = imageLoad(positionTarget, pixel);
-  if (position.w == 0.0) return;
+  vec4 emitted = imageLoad(emittedTarget, pixel);
+  float share = shareOfPixel(emitted);
+  if (position.w == 0.0 || share == 0.0) return;
   vec3 p = inVoxels(position.xyz);
   vec3 n = normalize(imageLoad(normalTarget, pixel).xyz);
   vec3 light = vec3(0.0);
@@ -35,14 +37,15 @@ void main() {
         float facing = max(dot(face, imageLoad(geometricTarget, at).xyz), 0.0);
         facing *= facing;
         float plane = abs(dot(face, inVoxels(imageLoad(positionTarget, at).xyz) - p));
-        vec4 share = imageLoad(seenTarget, at);
-        seen += facing * facing * clamp(2.0 - plane / SAME_SURFACE, 0.0, 1.0) * share.w * vec4(share.rgb, 1.0);
+        vec4 found = imageLoad(seenTarget, at);
+        seen += facing * facing * clamp(2.0 - plane / SAME_SURFACE, 0.0, 1.0) * found.w * vec4(found.rgb, 1.0);
       }
     }
     if (seen.w == 0.0) return;  // no ray was asked: the facets' value is kept
     light *= seen.rgb / seen.w;
   }
   vec4 indirect = imageLoad(indirectTarget, pixel);
-  imageStore(indirectTarget, pixel, indirect + vec4(push.gain * (light - imageLoad(emittedTarget, pixel).rgb), 0.0));
+  light = mix(emitted.rgb, light, share);
+  imageStore(indirectTarget, pixel, indirect + vec4(push.gain * (light - emitted.rgb), 0.0));
   imageStore(emittedTarget, pixel, vec4(light, 1.0));
 }

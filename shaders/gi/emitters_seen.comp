@@ -10,7 +10,8 @@
 #include "shared/passes.h"
 #include "shared/sampling.h"
 
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D seenTarget;  ///< w = 0: unknown
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D emittedTarget;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D seenTarget;  ///< w = 0: unknown
 
 void main() {
   ivec2 pixel = tilePixel();
@@ -20,7 +21,8 @@ void main() {
   vec3 n = normalize(imageLoad(normalTarget, pixel).xyz);
   vec3 face = normalize(imageLoad(geometricTarget, pixel).xyz);
   float total = 0.0;
-  for (uint i = 0u; position.w != 0.0 && i < push.count; ++i) {
+  bool looks = position.w != 0.0 && shareOfPixel(imageLoad(emittedTarget, pixel)) > 0.0;
+  for (uint i = 0u; looks && i < push.count; ++i) {
     EmissiveTriangle t = push.triangles.at[i];
     total += formFactor(t, p, n) * luminance(t.exitance);
   }

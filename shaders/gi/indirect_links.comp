@@ -20,6 +20,19 @@ layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
 layout(set = 0, binding = 1, rgba32f) uniform image2D lookupTarget;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
 
+/// How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
+float spread(SurfaceTaps taps) {
+  float least = 1e30, most = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    if (taps.weight[i] == 0.0) continue;
+    vec3 e = push.shadedEmitted.at[taps.facet[i]].xyz;
+    float value = max(e.r, max(e.g, e.b));
+    least = min(least, value);
+    most = max(most, value);
+  }
+  return most > 0.0 ? smoothstep(0.3, 0.5, 1.0 - least / most) : 0.0;
+}
+
 void main() {
   Grid grid = push.grid.at[0];
   SurfaceArrays surface = push.surface.at[0];
@@ -36,13 +49,14 @@ void main() {
   vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
   bool back = dot(triangleFacing(surface, triangle), viewer) < 0.0;
   uint facet = facetAt(surface, push.reverse, grid.dims, p, triangle | (back ? SURFEL_BACK : 0u));
-  vec3 h = vec3(0.0), e = vec3(0.0);
+  vec3 h = vec3(0.0);
+  vec4 e = vec4(0.0, 0.0, 0.0, 1.0);
   if (facet != NO_FACET) {
     SurfaceTaps taps = surfaceTaps(surface, push.reverse, push.voxel, grid.dims, facet, p, push.sampling.filter_);
     h = tapped(taps, push.shaded);
-    if (EMITTED) e = tapped(taps, push.shadedEmitted);
+    if (EMITTED) e = vec4(tapped(taps, push.shadedEmitted), spread(taps));
   }
-  if (EMITTED) imageStore(emittedTarget, pixel, vec4(e, 1.0));
+  if (EMITTED) imageStore(emittedTarget, pixel, e);
   // For rays of reflections; negative where gi/direct_seen.comp looks at the pixel's direct light.
   bool dark = uint64_t(push.direct) != 0ul && facet != NO_FACET && push.direct.at[facet].xyz == vec3(0.0);
   imageStore(indirectTarget, pixel, vec4(h, dark ? -seen : seen));

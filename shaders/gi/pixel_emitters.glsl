@@ -24,6 +24,9 @@ vec3 inVoxels(vec3 position) {
   return (position - push.grid.origin) * push.grid.inverseEdge;
 }
 
+/// How much a pixel goes by what it finds itself; `emitted`: of Targets::emitted as gi/indirect_links.comp left it.
+float shareOfPixel(vec4 emitted) { return push.everywhere != 0u ? 1.0 : emitted.w; }
+
 /// F to the whole triangle from point `p` with normal `n`; 0 behind it.
 float formFactor(EmissiveTriangle t, vec3 p, vec3 n) {
   vec3 a = t.corner - p;

@@ -41,6 +41,7 @@ struct PixelEmittersPush {
   uint rays;
   float gain;  ///< the factor on F M in H
   uvec2 size;
+  uint everywhere;  ///< or only where facets differ (shareOfPixel)
 };
 
 /// The angle whose tangent is y / x, both >= 0 and not both 0, to 3e-7 (GLSL's atan may err by 4096 ulp). Halved twice,
