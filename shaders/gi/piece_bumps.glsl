@@ -10,10 +10,8 @@ bool hasBumps(SceneArray scenes, uint triangle) {
 
 /// At one point. From the map's finest level: the mean of normals is flatter than they are.
 float keptByBumps(SceneArray scenes, MaterialPoint p) {
-  vec3 s = textureLod(normalTexture, textureCoordinates(scenes, p, TEXTURE_NORMAL, ivec2(1)).xy, 0.0).xyz * 2.0 - 1.0;
-  s.xy *= scenes.at[0].materials.at[p.material].normalScale;
-  // The tangent frame is orthonormal: no need of it for the angle to the vertices' normal.
-  return keptOfEvenSky(s.z * inversesqrt(max(dot(s, s), 1e-20)));
+  vec3 s = textureLod(normalTexture, textureCoordinates(scenes, p, TEXTURE_NORMAL, ivec2(1)).xy, 0.0).xyz;
+  return keptOfEvenSky(tangentCosine(s, scenes.at[0].materials.at[p.material].normalScale));
 }
 
 /// The mean over the polygon that clipPolygon has left.
