@@ -132,7 +132,18 @@ TEST_F(NormalMaps, LightOnBothSidesOfALeaningMap) {
   EXPECT_LT(least, 0.9);  // something was in the shadow of bumps, or leaned away
 }
 
-/// A closed room of edge 2 whose walls emit M = 1 and reflect .8, under a map of 8 x 8 texels.
+/// Six walls that face inwards.
+void addRoom(SceneBuilder& b, float half) {
+  const glm::vec3 x(2 * half, 0, 0), y(0, 2 * half, 0), z(0, 0, 2 * half), lo(-half), hi(half);
+  b.addQuad(lo, y, z);
+  b.addQuad(lo, z, x);
+  b.addQuad(lo, x, y);
+  b.addQuad(hi, -z, -y);
+  b.addQuad(hi, -x, -z);
+  b.addQuad(hi, -y, -x);
+}
+
+/// A closed room whose walls emit M = 1 and reflect .8, under a map of 8 x 8 texels.
 Scene bumpyRoom() {
   SceneBuilder b;
   Material& m = b.scene.materials[0];
@@ -145,15 +156,26 @@ Scene bumpyRoom() {
     image.rgba.insert(image.rgba.end(), {lean(31), lean(57), 220, 255});
   }
   b.scene.images.push_back(image);
-  const glm::vec3 x(2, 0, 0), y(0, 2, 0), z(0, 0, 2), lo(-1), hi(1);
-  b.addQuad(lo, y, z);
-  b.addQuad(lo, z, x);
-  b.addQuad(lo, x, y);
-  b.addQuad(hi, -z, -y);
-  b.addQuad(hi, -x, -z);
-  b.addQuad(hi, -y, -x);
+  addRoom(b, 1);
   b.addCamera({0.3, 0.2, 0.8}, {-0.4, -0.3, -1}, 1.2f);
   return b.finish();
+}
+
+/// A square whose normals lean to one side and to the other, texel by texel: their mean is flat, and what each leaves
+/// is not 1.
+void addRidges(SceneBuilder& b) {
+  Material& m = b.scene.materials[0];
+  m.baseColor = glm::vec4(glm::vec3(0.6f), 1);
+  m.doubleSided = true;
+  m.normalTexture.image = 0;
+  m.normalTexture.sampler.linearMag = false;
+  SceneImage image{.name = "ridges", .width = 128, .height = 128, .srgb = false, .rgba = {}};
+  for (uint32_t i = 0; i < 128 * 128; ++i) {
+    const bool left = (i + i / 128) % 2 != 0;
+    image.rgba.insert(image.rgba.end(), {uint8_t(left ? 51 : 204), uint8_t(left ? 103 : 152), 230, 255});
+  }
+  b.scene.images.push_back(image);
+  b.addQuad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
 }
 
 TEST_F(NormalMaps, FurnaceWithBumpsIsThatOfThePathTracer) {
@@ -175,20 +197,8 @@ TEST_F(NormalMaps, FurnaceWithBumpsIsThatOfThePathTracer) {
 }
 
 TEST_F(NormalMaps, FacetsTakeTheMeanOfWhatBumpsLeave) {
-  // Texels far smaller than a voxel that lean to either side: their mean is flat, and what each leaves is not 1.
   SceneBuilder b;
-  Material& m = b.scene.materials[0];
-  m.baseColor = glm::vec4(glm::vec3(0.6f), 1);
-  m.doubleSided = true;
-  m.normalTexture.image = 0;
-  m.normalTexture.sampler.linearMag = false;
-  SceneImage image{.name = "ridges", .width = 128, .height = 128, .srgb = false, .rgba = {}};
-  for (uint32_t i = 0; i < 128 * 128; ++i) {
-    const bool left = (i + i / 128) % 2 != 0;
-    image.rgba.insert(image.rgba.end(), {uint8_t(left ? 51 : 204), uint8_t(left ? 103 : 152), 230, 255});
-  }
-  b.scene.images.push_back(image);
-  b.addQuad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+  addRidges(b);
   const Scene scene = b.finish();
   const SceneOnDevice device(context(), scene);
   const HostFacets facets = hostFacets(context(), makeFacets(context(), device, small()));
@@ -196,6 +206,23 @@ TEST_F(NormalMaps, FacetsTakeTheMeanOfWhatBumpsLeave) {
   const double expected = 0.6 * double{keptOfEvenSky(float(leaningCosine()))};
   EXPECT_LT(expected, 0.59);
   for (const glm::vec3& albedo : facets.albedo) ASSERT_NEAR(albedo.x, expected, 2e-3);
+}
+
+TEST_F(NormalMaps, PixelsLargerThanTexelsTakeTheMean) {
+  SceneBuilder b;
+  addRidges(b);
+  Material& lamp = b.newMaterial();
+  lamp = Material{.emission = glm::vec3(float(1 / kPi)), .lambertian = true};
+  lamp.baseColor = glm::vec4(0, 0, 0, 1);
+  addRoom(b, 2);
+  b.addCamera({0, 1.8, 0}, {0, 0, 0}, 0.8f, {0, 0, -1});  // 6 texels to a pixel
+  const Scene scene = b.finish();
+  const TracedPicture expected = traced(scene, {16, 16}, {.samples = 1024});
+  Lit lit(context(), scene, small());
+  const glm::dvec3 drawn = mean(lit.draw(VIEW_LIT, {16, 16}));
+  printf("lit %.5f, path tracer %.5f +- %.5f\n", drawn.x, expected.lit.pictureMean.x, expected.lit.pictureError.x);
+  EXPECT_NEAR(drawn.x, expected.lit.pictureMean.x, 4 * expected.lit.pictureError.x);
+  EXPECT_LT(expected.lit.pictureMean.x, 0.95 * 0.6 / kPi);
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ vec3 mappedNormal(GpuMaterial m, Interpolants v, vec3 n) {
 }
 
 #ifndef IRAD_VOLUME
-/// The share of an even sky that bumps leave: the mean of four points of the pixel, by the map's finest level, since what
-/// the mean of normals leaves is not the mean of what they leave (a picture of 320 x 320 of Sponza loses half of it).
+/// The share of an even sky that bumps leave: the mean of four points of the pixel, by the map's finest level, since
+/// what the mean of normals leaves is not the mean of what they leave.
 float keptByBumps(GpuMaterial m, Interpolants v) {
   vec2 at = textureUv(m, TEXTURE_NORMAL, v.uv);
   vec2 right = uvDifference(m, TEXTURE_NORMAL, uvDx), below = uvDifference(m, TEXTURE_NORMAL, uvDy);
