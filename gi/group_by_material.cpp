@@ -7,14 +7,12 @@
 
 namespace irad {
 
-Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles) {
-  constexpr uint32_t kSampled =
-      MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles, uint32_t textures) {
   Order order;
   order.groups.push_back({0, false});
   std::vector<uint32_t> groupOf(scene.scene.triangleCount(), 0);
   for (const Draw& draw : scene.scene.draws) {
-    if ((scene.materialValues.at(draw.material).flags & kSampled) == 0) continue;
+    if ((scene.materialValues.at(draw.material).flags & textures) == 0) continue;
     std::fill_n(groupOf.begin() + draw.firstIndex / 3, draw.indexCount / 3, static_cast<uint32_t>(order.groups.size()));
     order.groups.push_back({draw.material, true});
   }

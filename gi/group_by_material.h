@@ -8,6 +8,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/scene_gpu.h"
 
 namespace irad {
 
@@ -21,9 +22,13 @@ struct Order {
   std::vector<MaterialGroup> groups;
   std::vector<uint32_t> items;  ///< indices, group after group
 };
-/// Groups items, given by their triangles (bit 31 is ignored), by material, those that sample no texture together: a
-/// counting sort on the host, since a dispatch over all items for each material would mostly idle.
-Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles);
+/// What albedo and emission are read from.
+inline constexpr uint32_t kColorTextures =
+    MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+/// Groups items, given by their triangles (bit 31 is ignored), by material, those that sample none of `textures`
+/// together: a counting sort on the host, since a dispatch over all items for each material would mostly idle.
+Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles,
+                      uint32_t textures = kColorTextures);
 
 /// Records a shader over every item, group after group: those that sample no texture in a pass of their own. `push`
 /// makes a pass's push constants; of these `first` and `count` are filled in here.

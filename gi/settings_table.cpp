@@ -189,7 +189,7 @@ constexpr Setting kTable[] = {
             "the window; off: the light stays as it is.",
             Nothing),
     SETTING(effects.alphaTest, "effects.alpha_test", "Cut-outs by alpha; auto: where a material has one.", Voxels),
-    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Shade),
+    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Voxels),
     SETTING(effects.blur, "effects.blur",
             "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than "
             "effects.blur_noise.",

@@ -341,7 +341,8 @@ uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridR
                const Points& points, FacetList& list) {
   const Surface& surface = list.surface;
   const Device& device = context.device;
-  const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces));
+  const Order order =
+      groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces), kColorTextures | MATERIAL_NORMAL_TEXTURE);
   const Buffer ordered =
       makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
   const Buffer clamped = words(device, "clamped albedo", 1);

@@ -199,7 +199,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       pass.constant(FORWARD_TARGETS, targets.present() & (TARGET_F0 | TARGET_HIGHLIGHT | TARGET_INDIRECT))
           .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
                  targets.bound(&Targets::highlight), targets.bound(&Targets::indirect));
-      if (!inVolume) pass.write(targets.linear);  // the lookup's normal
+      if (!inVolume) pass.write(targets.linear);  // for the lookup
       push.lists = pass.in(targets.pixelLists);
       push.listed = pass.in(targets.listedPixels);
       pass.indirect(targets.pixelLists).run([&](Commands& commands) {
@@ -220,7 +220,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
         .color(targets.direct)
         .colorIfAny(targets.highlight)
         .colorIfAny(targets.indirect);
-    if (!inVolume) pass.colorIfAny(effects.indirect ? targets.linear : none);  // the lookup's normal
+    if (!inVolume) pass.colorIfAny(effects.indirect ? targets.linear : none);  // for the lookup
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {
         if (!drawnHere(draw)) continue;

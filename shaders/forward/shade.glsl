@@ -16,6 +16,9 @@ layout(constant_id = FORWARD_MANY_LIGHTS) const bool MANY_LIGHTS = true;
 #include "forward/material.glsl"
 #include "forward/shadow.glsl"
 #include "shared/ggx.h"
+#ifndef IRAD_VOLUME
+#include "shared/normal_maps.h"
+#endif
 
 layout(push_constant, scalar) uniform PushBlock {
   ForwardPush push;
@@ -49,7 +52,8 @@ struct Shaded {
 #ifdef IRAD_VOLUME
   vec4 indirect;
 #else
-  vec4 indirect, lookup;  ///< where indirect light is looked up, local space, w = 1; the normal for that, seenAs(triangle)
+  vec4 indirect;  ///< where indirect light is looked up, local space, w = 1
+  vec4 lookup;    ///< x: the share of it that bumps leave; w: seenAs(triangle)
 #endif
 };
 
@@ -59,8 +63,10 @@ vec3 orientedFace(Interpolants v, vec3 view) {
   return dot(n, view) < 0.0 ? -n : n;
 }
 
+bool hasNormalMap(GpuMaterial m) { return TEXTURED && NORMAL_MAP && (m.flags & MATERIAL_NORMAL_TEXTURE) != 0u; }
+
 vec3 mappedNormal(GpuMaterial m, Interpolants v, vec3 n) {
-  if (!TEXTURED || !NORMAL_MAP || (m.flags & MATERIAL_NORMAL_TEXTURE) == 0u) return n;
+  if (!hasNormalMap(m)) return n;
   vec3 t = v.tangent.xyz - n * dot(n, v.tangent.xyz);
   float l2 = dot(t, t);
   if (!(l2 > 0.0)) return n;
@@ -69,6 +75,23 @@ vec3 mappedNormal(GpuMaterial m, Interpolants v, vec3 n) {
   s.xy *= m.normalScale;
   return normalize(t * s.x + cross(n, t) * (v.tangent.w * s.y) + n * s.z);
 }
+
+#ifndef IRAD_VOLUME
+/// The share of an even sky that bumps leave: the mean of four points of the pixel, by the map's finest level, since
+/// what the mean of normals leaves is not the mean of what they leave.
+float keptByBumps(GpuMaterial m, Interpolants v) {
+  vec2 at = textureUv(m, TEXTURE_NORMAL, v.uv);
+  vec2 right = uvDifference(m, TEXTURE_NORMAL, uvDx), below = uvDifference(m, TEXTURE_NORMAL, uvDy);
+  float sum = 0.0;
+  for (uint k = 0u; k < 4u; ++k) {
+    // One point in each quarter, no two in a row or column.
+    vec2 off = (vec2(float(k), float((2u * k + 1u) % 5u)) - 1.5) * 0.25;
+    vec3 s = textureLod(normalTexture, at + right * off.x + below * off.y, 0.0).xyz;
+    sum += keptOfEvenSky(tangentCosine(s, m.normalScale));
+  }
+  return 0.25 * sum;
+}
+#endif
 
 Shaded shade(Interpolants v) {
   GpuMaterial m;  // members that only textures need stay in memory
@@ -83,9 +106,21 @@ Shaded shade(Interpolants v) {
   vec3 view = normalize(v.towardsEye);
   vec3 face = orientedFace(v, view);
   vec3 smooth_ = normalize(v.normal);
+#ifdef IRAD_VOLUME
   if (dot(smooth_, face) < 0.0) smooth_ = -smooth_;
   vec3 n = mappedNormal(m, v, smooth_);
   vec3 lookup = dot(smooth_, face) > 0.3 ? smooth_ : face;
+#else
+  // On backs all of the mapped normal is turned (glTF 2.0, section 3.9.6): bumps are dents from behind.
+  vec3 n = mappedNormal(m, v, smooth_);
+  if (dot(smooth_, face) < 0.0) {
+    smooth_ = -smooth_;
+    n = -n;
+  }
+  bool mapped = hasNormalMap(m);
+  precise float smoothMapped = 1.0;
+  if (mapped) smoothMapped = preciseDot(smooth_, n);
+#endif
 
   // Material: metallic-roughness, glTF 2.0 section 3.9.2.
   vec4 base = clamp(materialBaseColor(m, v.uv, v.tint), 0.0, 1.0);
@@ -130,7 +165,12 @@ Shaded shade(Interpolants v) {
     // of direct light, gi/gather.comp, which knows its planes less well, takes the whole lift.)
     float bias = hasCubeMap(light) ? push.shadowBias : 0.5 * push.shadowBias;
     e *= shadowVisibility(light, v.local, face, bias, PCF);
-    direct += e;
+    vec3 diffuse = e;
+#ifndef IRAD_VOLUME
+    // As in Cycles, of the diffuse part alone: the lobe's microfacets shadow each other by a law of their own.
+    if (mapped) diffuse *= pastBumps(smoothMapped, preciseDot(smooth_, l), nl);
+#endif
+    direct += diffuse;
     if (!HIGHLIGHTS || lambertian || push.specularDirect == 0u) continue;
     vec3 h = normalize(l + view);
     vec3 nxh = cross(n, h);
@@ -152,7 +192,7 @@ Shaded shade(Interpolants v) {
   o.indirect = vec4(volumeIndirect(grid, push.sampling, p, lookup), 1.0);
 #else
   o.indirect = vec4(v.local, 1.0);
-  o.lookup = vec4(lookup, seenAs(v.triangle));
+  o.lookup = vec4(mapped ? keptByBumps(m, v) : 1.0, 0.0, 0.0, seenAs(v.triangle));
 #endif
   return o;
 }

@@ -1,5 +1,6 @@
 // "RE Forward", last step: indirect light of each visible point from the facet that it lies on and those that continue
-// its surface (docs/method.md 7). The forward pass has left position and triangle in the targets (forward/shade.glsl).
+// its surface (docs/method.md 7), less what the bumps of a normal map keep from it. The forward pass has left position,
+// triangle and that share in the targets (forward/shade.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
@@ -11,7 +12,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;  ///< F M too: there is a target for it
-/// In the normal's place; w: seenAs(), 0 where nothing is drawn.
+/// In the place of what the lookup needs; w: seenAs(), 0 where nothing is drawn.
 layout(constant_id = CONSTANT_KEEPS_POSITION) const bool KEEPS_POSITION = false;
 layout(push_constant, scalar) uniform PushBlock {
   IndirectPush push;
@@ -39,7 +40,8 @@ void main() {
   ivec2 pixel = tilePixel();
   if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
   vec4 position = imageLoad(indirectTarget, pixel);
-  float seen = imageLoad(lookupTarget, pixel).w;
+  vec4 lookup = imageLoad(lookupTarget, pixel);
+  float seen = lookup.w;
   bool drawn = position.w != 0.0;
   if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, drawn ? seen : 0.0));
   if (!drawn) return;
@@ -53,8 +55,8 @@ void main() {
   vec4 e = vec4(0.0, 0.0, 0.0, 1.0);
   if (facet != NO_FACET) {
     SurfaceTaps taps = surfaceTaps(surface, push.reverse, push.voxel, grid.dims, facet, p, push.sampling.filter_);
-    h = tapped(taps, push.shaded);
-    if (EMITTED) e = vec4(tapped(taps, push.shadedEmitted), spread(taps));
+    h = lookup.x * tapped(taps, push.shaded);
+    if (EMITTED) e = vec4(lookup.x * tapped(taps, push.shadedEmitted), spread(taps));
   }
   if (EMITTED) imageStore(emittedTarget, pixel, e);
   // For rays of reflections; negative where gi/direct_seen.comp looks at the pixel's direct light.

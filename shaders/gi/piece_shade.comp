@@ -1,12 +1,13 @@
 // Albedo = base colour x (1 - metallic) clamped to [0, .98] and emitted exitance of each piece, at its middle
-// (docs/method.md 1-2). One dispatch per textured material, whose set 1 is bound, and one for all pieces that sample no
-// texture.
+// (docs/method.md 1-2). The albedo is what the surface gives back of an even sky: the bumps of a normal map take their
+// share of it (docs/method.md 9). One dispatch per textured material, whose set 1 is bound, and one for all pieces that
+// sample no texture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_material.glsl"
-#include "gi/voxel_clip.glsl"
 #include "gi/piece_cuts.glsl"
+#include "gi/piece_bumps.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
 
@@ -18,27 +19,38 @@ void main() {
   uint triangle = triangleOf(surface.pieces, piece);
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   vec3 cell = vec3(unpackVoxel(push.solid.at[push.pieceVoxel.at[piece]]));
-  vec3 centre;
-  clipToCell(t.v[0] - cell, t.v[1] - cell, t.v[2] - cell, centre);
+  uint from;
+  vec3 a = t.v[0] - cell, b = t.v[1] - cell, c = t.v[2] - cell;
+  uint n = clipPolygon(a, b, c, 0.0, from);
+  vec3 centre = (a + b + c) * (1.0 / 3.0);
+  float area = 0.0;
+  if (n != 0u) area = polygonArea(from, n, centre);
   MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
+  bool bumps = hasBumps(push.scene, triangle);
+  float kept = 1.0;
   bool clamped;
   vec3 albedo = albedoAt(push.scene, p, clamped);
   if (SAMPLES_TEXTURES != 0u && hasHoles(surface.corners, triangle)) {
     // The mean of what the mask leaves.
     vec3 sum = vec3(0.0);
-    float left = 0.0;
+    float left = 0.0, keptSum = 0.0;
     uint mask = (surface.sides.at[piece] & ~PIECE_CUT) + 1u;
     for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
       if (((surface.cuts.at[mask + bit / 32u] >> (bit % 32u)) & 1u) == 0u) continue;
-      MaterialPoint q = materialPoint(push.scene, t, triangle, cell + maskPoint(t.normal, t.v[0] - cell, bit));
+      MaterialPoint q = materialPoint(push.scene, t, triangle, cell + maskPoint(t.normal, a, bit));
       q.area *= float(MASK_EDGE * MASK_EDGE);
       bool clampedHere;
       sum += albedoAt(push.scene, q, clampedHere);
       clamped = clamped || clampedHere;
+      if (bumps) keptSum += keptByBumps(push.scene, q);
       left += 1.0;
     }
     if (left > 0.0) albedo = sum / left;
+    if (left > 0.0 && bumps) kept = keptSum / left;
+  } else if (bumps && n != 0u) {
+    kept = keptByBumps(push.scene, t, triangle, piece, cell, from, n, area);
   }
+  if (bumps) albedo *= kept;
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[piece] = albedo;
   if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emittedRadianceAt(push.scene, p));

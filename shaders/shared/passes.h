@@ -64,8 +64,8 @@ struct PixelListPush {
   uint materials;
 };
 
-/// The triangle that a pixel sees, beside the normal for its lookup of indirect light, as a float that no step on the way
-/// takes for a denormal or for no number.
+/// The triangle that a pixel sees, beside what else its lookup of indirect light needs, as a float that no step on the
+/// way takes for a denormal or for no number.
 #ifndef __cplusplus
 float seenAs(uint triangle) { return uintBitsToFloat(triangle + 0x3F800000u); }
 uint seenTriangle(float seen) { return floatBitsToUint(seen) - 0x3F800000u; }

@@ -306,14 +306,14 @@ struct FacetSurfelsPush {
   uint count;
 };
 
-/// gi/piece_shade.comp: albedo and exitance of each piece at its middle.
+/// gi/piece_shade.comp: albedo, less what bumps take, and exitance of each piece.
 struct PieceShadePush {
   SceneArray scene;
   GridArray grid;
   UintArray order;  ///< pieces grouped by material; all that sample no texture are one group
   UintArray pieceVoxel, solid;
   SurfaceRecord surface;
-  Vec3Array albedo;    ///< per piece, clamped to [0, .98]
+  Vec3Array albedo;    ///< per piece, in [0, .98]
   Vec3Array emission;  ///< M per piece
   UintArray clamped;   ///< [0]: pieces whose albedo had to be clamped
   uint first, count;   ///< this group, within `order`
