@@ -24,8 +24,7 @@ struct Family {
   const char* setup;
   /// Builds the member of this seed with voxels of this edge, m. Pure.
   FamilyMember (*build)(uint64_t seed, double voxel);
-  bool dark = false;              ///< truth is 0 inside
-  const char* pending = nullptr;  ///< why its marks are not met
+  bool dark = false;  ///< truth is 0 inside
 };
 
 std::span<const Family> families();

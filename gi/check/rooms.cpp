@@ -155,8 +155,7 @@ std::vector<CheckCase> casesOf(std::index_sequence<index...>) {
          .oracle = family.dark ? "inside 0" : "a path tracer on the triangles",
          .mark = family.dark ? "0 at N >= 64, <= 1e-7 at 32; energy 2 %" : "N = 128: mean 5 %, relMSE .02; energy 2 %",
          .run = work,
-         .scene = scene,
-         .pending = family.pending});
+         .scene = scene});
   };
   (add(families()[index], familyCase<index>, familyScene<index>), ...);
   return cases;
