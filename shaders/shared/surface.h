@@ -109,6 +109,15 @@ IRAD_FN vec3 liftedStart(vec3 position, vec3 facing) {
   return position + facing * (START_LIFT * max(1.0f, max(size.x, max(size.y, size.z))));
 }
 
+/// By how much later than it is the back of a face that does not show its back counts as met, in lengths of a ray's
+/// direction: a face that lies in the same plane and shows its side wins, whatever the two distances round to. Both round
+/// with the coordinates, of which the grid's size is the largest, and the more the flatter the ray; `cosine`: of the ray
+/// and the face's normal, either sign.
+IRAD_CONST float LEAST_COSINE = 1e-2f;
+IRAD_FN float backDelay(uvec3 dims, float cosine) {
+  return START_LIFT * float(max(dims.x, max(dims.y, dims.z))) / max(abs(cosine), LEAST_COSINE);
+}
+
 /// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
