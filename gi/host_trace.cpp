@@ -154,7 +154,8 @@ class EmbreeTrace : public HostTrace {
   }
   static std::vector<uint32_t> corners(const oracle::Facets& facets) {
     std::vector<uint32_t> indices(facets.corners.size());
-    for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
+    // Triangles that repeat others become points, which rays do not meet.
+    for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = facets.repeats(i / 3) ? i / 3 * 3 : i;
     return indices;
   }
 

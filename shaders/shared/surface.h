@@ -164,7 +164,8 @@ IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
   Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0; of the
-                          ///< second: 1 where a mask may have cut holes, else 0
+                          ///< second: 1 where a mask may have cut holes, else 0; of the
+                          ///< third: 1 + the triangle that it repeats (gi/repeated.h), else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray boxes;        ///< per piece: packBox
@@ -202,13 +203,15 @@ struct SurfaceCornersPush {
   SceneArray scene;
   GridArray grid;
   Vec4Array corners;
-  uint triangles, pad;
+  UintArray repeated;  ///< per triangle, if hasRepeated
+  uint triangles, hasRepeated;
 };
 
 /// gi/list_pieces.comp: counts the pieces of each voxel, or lists them.
 struct ListPiecesPush {
   SceneArray scene;
   GridArray grid;
+  Vec4Array corners;
   UintArray tileStart;  ///< as for voxelization
   UintArray counts;     ///< per voxel: pieces; or the place of its next one
   UintArray pieces;     ///< unread where they are counted
