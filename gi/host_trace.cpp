@@ -99,11 +99,17 @@ uint32_t classAt(const oracle::Facets& facets, uint32_t piece, bool back, const 
   return cuts.facet(part, back);
 }
 
+/// Whether a ray comes upon a side that does not show. `normal`: of the front.
+bool atHiddenBack(const oracle::Facets& facets, const HostRay& ray, uint32_t triangle, const glm::vec3& normal) {
+  return glm::dot(normal, ray.direction) > 0 && !facets.showsBack(triangle);
+}
+
 /// For a ray that passes through the triangle that it leaves, or through triangles where they have no piece.
 struct PassedThrough {
   RTCIntersectContext context;  // first: Embree hands back its address
   const oracle::Facets* facets;
   const HostRay* ray;
+  bool hiddenBacks;  ///< through these, too
 };
 
 void passThrough(const RTCFilterFunctionNArguments* arguments) {
@@ -112,7 +118,11 @@ void passThrough(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[i] == 0) continue;
     const uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
     const float t = RTCRayN_tfar(arguments->ray, arguments->N, i);
-    if (triangle == passed.ray->own || !pieceAt(*passed.facets, passed.ray->at(t), triangle)) arguments->valid[i] = 0;
+    const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, arguments->N, i), RTCHitN_Ng_y(arguments->hit, arguments->N, i),
+                           RTCHitN_Ng_z(arguments->hit, arguments->N, i));
+    if (triangle == passed.ray->own || !pieceAt(*passed.facets, passed.ray->at(t), triangle) ||
+        (passed.hiddenBacks && atHiddenBack(*passed.facets, *passed.ray, triangle, normal)))
+      arguments->valid[i] = 0;
   }
 }
 
@@ -144,7 +154,8 @@ class EmbreeTrace : public HostTrace {
   }
   static std::vector<uint32_t> corners(const oracle::Facets& facets) {
     std::vector<uint32_t> indices(facets.corners.size());
-    for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
+    // Triangles that repeat others become points, which rays do not meet.
+    for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = facets.repeats(i / 3) ? i / 3 * 3 : i;
     return indices;
   }
 
@@ -196,11 +207,14 @@ class EmbreeTrace : public HostTrace {
 
   /// A ray that has come upon something to pass through, as few do.
   uint32_t traceThrough(const HostRay& ray) const {
-    PassedThrough passed{.context = {}, .facets = &facets_, .ray = &ray};
+    return traceBetween(ray, 0, std::numeric_limits<float>::infinity(), /*hiddenBacks=*/false);
+  }
+
+  uint32_t traceBetween(const HostRay& ray, float near, float far, bool hiddenBacks) const {
+    PassedThrough passed{.context = {}, .facets = &facets_, .ray = &ray, .hiddenBacks = hiddenBacks};
     rtcInitIntersectContext(&passed.context);
     passed.context.filter = passThrough;
-    RTCRayHit met{.ray = EmbreeScene::ray(ray.origin, ray.direction, 0, std::numeric_limits<float>::infinity()),
-                  .hit = {}};
+    RTCRayHit met{.ray = EmbreeScene::ray(ray.origin, ray.direction, near, far), .hit = {}};
     met.hit.geomID = met.hit.primID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.handle(), &passed.context, &met);
     return facetMet(ray, met.hit.primID, met.ray.tfar, {met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z})
@@ -214,6 +228,12 @@ class EmbreeTrace : public HostTrace {
     const glm::vec3 at = ray.at(t);
     const std::optional<Piece> piece = pieceAt(facets_, at, triangle);
     if (!piece) return std::nullopt;
+    if (atHiddenBack(facets_, ray, triangle, normal)) {
+      // What shows a side there wins.
+      const float delay = backDelay(facets_.grid.dims, glm::dot(glm::normalize(normal), ray.direction));
+      const uint32_t shown = traceBetween(ray, std::max(0.0f, t - delay), t + delay, /*hiddenBacks=*/true);
+      if (shown != TRACE_ESCAPED) return shown;
+    }
     const uint32_t found = classAt(facets_, piece->index, glm::dot(normal, ray.direction) > 0, at);
     if (found < PIECE_UNKNOWN) return piece->firstFacet + found;
     return found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID;

@@ -35,6 +35,8 @@ EmissiveTriangles listEmissiveTriangles(Context& context, const SceneOnDevice& s
   push.scene = pass.in(scene.record);
   push.grid = pass.in(grid);
   push.triangles = pass.out(out.triangles);
+  push.corners = pass.inIfAny(facets.surface.corners);
+  push.hasCorners = static_cast<bool>(facets.surface.corners);
   pass.shader("gi/emissive_triangles.comp").constant(CONSTANT_SAMPLES_TEXTURES, true).run([&](Commands& commands) {
     for (const Draw& draw : scene.scene.draws) {
       if (!emits(draw)) continue;

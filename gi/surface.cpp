@@ -9,6 +9,7 @@
 #include "gi/facets.h"
 #include "gi/grid.h"
 #include "gi/group_by_material.h"
+#include "gi/repeated.h"
 #include "gi/scan.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
@@ -50,13 +51,15 @@ struct Points {
 };
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
-void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, const Tiles& tiles,
-                 const std::vector<TriangleRange>& ranges, const Buffer& counts, const Buffer* pieces) {
+void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, const Buffer& corners,
+                 const Tiles& tiles, const std::vector<TriangleRange>& ranges, const Buffer& counts,
+                 const Buffer* pieces) {
   if (ranges.empty()) return;
   Pass pass = frame.pass(kVoxelizeStage);
   ListPiecesPush push{};
   push.scene = pass.in(scene.record);
   push.grid = pass.in(grid);
+  push.corners = pass.in(corners);
   push.tileStart = pass.in(tiles.starts);
   push.counts = pass.accumulate(counts);
   if (pieces) push.pieces = pass.accumulate(*pieces);
@@ -97,7 +100,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     Frame frame = context.begin();
     frame.pass(kVoxelizeStage).fill(counts, 0);
     frame.pass(kVoxelizeStage).fill(most, 0);
-    listOrCount(frame, scene, gridRecord, tiles, ranges, counts, nullptr);
+    listOrCount(frame, scene, gridRecord, corners, tiles, ranges, counts, nullptr);
     Pass pass = frame.pass(kListStage);
     push.grid = pass.in(gridRecord);
     push.counts = pass.in(counts);
@@ -137,7 +140,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     push.firstPiece = pass.out(p.first);
     pass.shader("gi/solid_emit.comp").push(push).dispatch(push.blocks);
   }
-  listOrCount(frame, scene, gridRecord, tiles, ranges, counts, &unsorted);
+  listOrCount(frame, scene, gridRecord, corners, tiles, ranges, counts, &unsorted);
   p.firstPoint = words(device, "pieces' points", uint64_t{p.count} + 1);
   p.firstCut = words(device, "pieces' cuts", uint64_t{p.count} + 1);
   if (p.count > 0) {
@@ -399,6 +402,10 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   Surface& surface = list.surface;
   surface.corners = words(device, "triangles' corners", 12ull * triangles);
+  const std::vector<uint32_t> repeated = repeatedTriangles(scene);
+  const Buffer repeats = repeated.empty() ? Buffer()
+                                          : makeBuffer<uint32_t>(context, "repeated triangles", Subsystem::Facets,
+                                                                 std::span<const uint32_t>(repeated));
   {
     Frame frame = context.begin();
     Pass pass = frame.pass(kVoxelizeStage);
@@ -406,6 +413,8 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
     push.scene = pass.in(scene.record);
     push.grid = pass.in(grid);
     push.corners = pass.out(surface.corners);
+    push.repeated = pass.inIfAny(repeats);
+    push.hasRepeated = !repeated.empty();
     push.triangles = triangles;
     pass.shader("gi/surface_corners.comp").push(push).dispatch(triangles);
     frame.submit();

@@ -155,6 +155,29 @@ TEST_F(PathTracing, SidesOfFaces) {
   }
 }
 
+TEST_F(PathTracing, OfTwoFacesInOnePlaneTheSideThatShowsIsMet) {
+  // A lamp that faces down close above a floor, and the same quad facing up, before it or after it.
+  const std::array<glm::dvec3, 4> lamp{glm::dvec3(-0.6, 0.05, -0.6), glm::dvec3(0.8, 0.05, -0.6),
+                                       glm::dvec3(0.8, 0.05, 0.7), glm::dvec3(-0.6, 0.05, 0.7)};
+  double known = 0;
+  for (int i = 0; i < 64; ++i)
+    for (int j = 0; j < 64; ++j)
+      known += formFactorPolygon({(i + 0.5) / 32 - 1, 0, (j + 0.5) / 32 - 1}, {0, 1, 0}, lamp) / 4096;
+  for (const bool lampFirst : {true, false}) {
+    SceneBuilder b;
+    const uint32_t one = b.material(glm::vec3(0.5f)), two = b.material(glm::vec3(0.5f)),
+                   floor = b.material(glm::vec3(0.5f));
+    const uint32_t shining = lampFirst ? one : two;
+    b.edit(shining).baseColor = glm::vec4(0, 0, 0, 1);
+    b.edit(shining).emission = glm::vec3(static_cast<float>(1 / kPi));
+    b.quad(floor, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+    b.quad(shining, lamp[0], lamp[1], lamp[2], lamp[3]);
+    b.quad(lampFirst ? two : one, lamp[3], lamp[2], lamp[1], lamp[0]);
+    const TracedPicture p = traced(b.finish("twins"), plan({0, 0.04, 0}, {0, -1, 0}, 1), {32, 32}, {.samples = 64});
+    expectMean(p.lit, 0.5 / kPi * known, 0.01, lampFirst ? "lamp first" : "lamp last");
+  }
+}
+
 TEST_F(PathTracing, MasksAndTextures) {
   // A lid over a floor with a texture of four columns of texels, two of which are cut out; nearest texels.
   SceneBuilder b;

@@ -107,6 +107,57 @@ TEST_F(SurfaceTest, FacetsHaveTheAreaAndThePowerOfTheirTriangles) {
   }
 }
 
+TEST_F(SurfaceTest, TheAreaOfAFaceThatIsThereTwiceCountsOnce) {
+  struct Repeat {
+    const char* name;
+    uint32_t material;
+    bool first;          ///< it comes before the face in the file
+    double area, power;  ///< of the quad's facets, 1 m^2 with M = 3
+  };
+  constexpr uint32_t kLamp = 1, kGrey = 2, kSheet = 3, kMasked = 4;
+  const glm::vec3 p[4] = {{-0.5f, 0.1f, 0.5f}, {0.5f, 0.1f, 0.5f}, {0.5f, 0.15f, -0.5f}, {-0.5f, 0.15f, -0.5f}};
+  const double size = std::sqrt(1 + 0.05 * 0.05);
+  for (const Repeat& repeat : {Repeat{"none", 0, false, 1, 1},
+                               {"the same", kLamp, false, 1, 1},
+                               {"grey", kGrey, false, 1, 1},
+                               {"grey first", kGrey, true, 1, 0},
+                               {"shows its back", kSheet, false, 3, 1},
+                               {"shows its back, first", kSheet, true, 2, 0},
+                               {"has holes", kMasked, false, 1, 1},
+                               {"has holes, first", kMasked, true, 2, 1}})
+    for (const uint32_t turn : {0u, 1u, 2u}) {
+      SceneBuilder b;
+      const auto add = [&](uint32_t material, uint32_t turned) {  // each triangle from that corner on
+        const glm::vec3 t[2][3] = {{p[0], p[1], p[2]}, {p[0], p[2], p[3]}};
+        for (const auto& c : t) {
+          const glm::vec3 last = c[(turned + 2) % 3];
+          b.quad(material, c[turned % 3], c[(turned + 1) % 3], last, last);
+        }
+      };
+      b.material(glm::vec3(0.5f));
+      b.material(glm::vec3(0.2f), glm::vec3(3));
+      b.material(glm::vec3(0.7f));
+      b.material(glm::vec3(0.7f), glm::vec3(0), /*doubleSided=*/true);
+      b.material(glm::vec3(0.7f));
+      b.edit(kMasked).alpha = AlphaMode::Mask;
+      b.quad(0, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1});
+      add(kLamp, 0);
+      if (repeat.material != 0) add(repeat.material, turn);
+      Scene scene = b.finish("repeat");
+      if (repeat.first) reverseTriangles(scene);
+      const World w = world(std::move(scene), triangles(17, 32));
+      const HostFacets f = hostFacets(context(), w.facets);
+      double area = 0, power = 0;
+      for (size_t i = 0; i < f.count(); ++i) {
+        if (f.position[i].y - w.scene->boundsMin.y < 0.5) continue;
+        area += f.area[i];
+        power += f.area[i] * double{f.emission[i].x};
+      }
+      EXPECT_NEAR(area, repeat.area * size, 1e-3) << repeat.name << ", from corner " << turn;
+      EXPECT_NEAR(power, 3 * repeat.power * size, 3e-3) << repeat.name << ", from corner " << turn;
+    }
+}
+
 TEST_F(SurfaceTest, RaysMeetTheFirstOfAllTriangles) {
   // Of every triangle of the scene, in double precision, without voxels.
   const Settings settings = triangles(20, 16);

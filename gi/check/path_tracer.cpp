@@ -21,14 +21,18 @@ using truth::Surfaces;
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
-/// What a ray passes through: the triangle that it leaves, the one that it goes to, holes of masks, and for the
-/// camera's rays backs of single-sided faces.
+/// What a ray passes through: the triangle that it leaves, the one that it goes to, holes of masks, and from some
+/// distance on hidden backs, those of single-sided faces.
 struct Passing {
   RTCIntersectContext context;  // first: Embree hands back its address
   const Surfaces* surfaces;
   uint32_t from = kNoTriangle, to = kNoTriangle;
-  bool camera = false;
+  float shownFrom = kFar;  ///< passes such backs from here on, lengths of the direction
 };
+
+bool atHiddenBack(const Surfaces& surfaces, uint32_t triangle, const glm::dvec3& direction) {
+  return surfaces.singleSided(triangle) && glm::dot(direction, surfaces.triangles()[triangle].normal) >= 0;
+}
 
 void pass(const RTCFilterFunctionNArguments* arguments) {
   const auto& passing = *reinterpret_cast<const Passing*>(arguments->context);
@@ -41,8 +45,8 @@ void pass(const RTCFilterFunctionNArguments* arguments) {
                                RTCRayN_dir_y(arguments->ray, arguments->N, i),
                                RTCRayN_dir_z(arguments->ray, arguments->N, i));
     const bool through = triangle == passing.from || triangle == passing.to ||
-                         (passing.camera && surfaces.singleSided(triangle) &&
-                          glm::dot(direction, surfaces.triangles()[triangle].normal) >= 0) ||
+                         (RTCRayN_tfar(arguments->ray, arguments->N, i) >= passing.shownFrom &&
+                          atHiddenBack(surfaces, triangle, direction)) ||
                          surfaces.cutOut(triangle, uv);
     if (through) arguments->valid[i] = 0;
   }
@@ -167,25 +171,41 @@ class EmbreeTracer : public PathTracer {
       ++rays;
       return EmbreeScene::ray(origin, direction, near, far);
     }
-    Passing passing(uint32_t from, uint32_t to, bool fromCamera) const {
-      Passing p{.context = {}, .surfaces = &surfaces, .from = from, .to = to, .camera = fromCamera};
+    Passing passing(uint32_t from, uint32_t to, float shownFrom) const {
+      Passing p{.context = {}, .surfaces = &surfaces, .from = from, .to = to, .shownFrom = shownFrom};
       rtcInitIntersectContext(&p.context);
       p.context.filter = pass;
       return p;
     }
 
+    /// `t`: where.
     Met meet(const glm::dvec3& origin, const glm::dvec3& direction, float near, float far, uint32_t from,
-             bool fromCamera) {
-      Passing p = passing(from, kNoTriangle, fromCamera);
+             float shownFrom, float& t) {
+      Passing p = passing(from, kNoTriangle, shownFrom);
       RTCRayHit hit{.ray = ray(origin, direction, near, far), .hit = {}};
       hit.hit.geomID = hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(tracer.scene_.handle(), &p.context, &hit);
+      t = hit.ray.tfar;
       if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
       return {hit.hit.primID, {hit.hit.u, hit.hit.v}};
     }
-    /// Whether nothing lies on the first `far` lengths of `direction`.
-    bool clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to) {
-      Passing p = passing(from, to, /*fromCamera=*/false);
+    /// Within what distance of a triangle, along a ray from another, faces may lie in its plane but for rounding.
+    float around(uint32_t from, uint32_t to, double cosine) const {
+      return static_cast<float>(std::max(surfaces.offset(from), surfaces.offset(to)) / std::max(cosine, 1e-2));
+    }
+    /// From triangle `from` on. Of two faces in one plane the side that shows is met, whatever the distances round to.
+    Met meetNext(const glm::dvec3& origin, const glm::dvec3& direction, uint32_t from) {
+      float t;
+      const Met met = meet(origin, direction, 0, kFar, from, kFar, t);
+      if (met.triangle == kNoTriangle || !atHiddenBack(surfaces, met.triangle, direction)) return met;
+      const float d = around(from, met.triangle, glm::dot(direction, surfaces.triangles()[met.triangle].normal));
+      const Met shown = meet(origin, direction, std::max(0.0f, t - d), t + d, from, /*shownFrom=*/0, t);
+      return shown.triangle == kNoTriangle ? met : shown;
+    }
+    /// Whether nothing lies on the first `far` lengths of `direction`, but for hidden backs from `shownFrom` on.
+    bool clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to,
+               float shownFrom) {
+      Passing p = passing(from, to, shownFrom);
       RTCRay shadow = ray(origin, direction, 0, far);
       rtcOccluded1(tracer.scene_.handle(), &p.context, &shadow);
       return shadow.tfar >= 0;
@@ -207,7 +227,8 @@ class EmbreeTracer : public PathTracer {
       glm::dvec3 direction = -axes[2];
       (camera.orthographic ? origin : direction) += aside;
       const float far = camera.zfar > camera.znear ? camera.zfar : kFar;
-      Met met = meet(origin, direction, std::max(camera.znear, 0.0f), far, kNoTriangle, /*fromCamera=*/true);
+      float depth1;
+      Met met = meet(origin, direction, std::max(camera.znear, 0.0f), far, kNoTriangle, /*shownFrom=*/0, depth1);
       direction = glm::normalize(direction);
 
       glm::dvec3 throughput(1);
@@ -243,7 +264,7 @@ class EmbreeTracer : public PathTracer {
           throughput /= survive;
         }
         bounceDensity = glm::dot(direction, point.normal) / std::numbers::pi;
-        met = meet(origin, direction, 0, kFar, met.triangle, /*fromCamera=*/false);
+        met = meetNext(origin, direction, met.triangle);
       }
     }
 
@@ -254,7 +275,7 @@ class EmbreeTracer : public PathTracer {
       const double cosine = glm::dot(point.normal, arriving->towards);
       if (cosine <= 0 || glm::dot(point.face, arriving->towards) <= 0) return;
       const float far = std::isfinite(arriving->distance) ? static_cast<float>(arriving->distance) : kFar;
-      if (clear(origin, arriving->towards, far, from, kNoTriangle))
+      if (clear(origin, arriving->towards, far, from, kNoTriangle, kFar))
         add(reflected * arriving->irradiance * cosine * pastBumps(point, arriving->towards), bounced);
     }
 
@@ -271,7 +292,8 @@ class EmbreeTracer : public PathTracer {
       const double cosineThere = -glm::dot(there.face, towards);
       if (there.emission == glm::dvec3(0) || !(cosineThere > 0)) return;
       // Just short of the other triangle, lest its neighbour in the same plane is in the way.
-      if (!clear(origin, towards, static_cast<float>(distance * (1 - 0x1p-20)), from, drawn.triangle)) return;
+      const auto far = static_cast<float>(distance * (1 - 0x1p-20));
+      if (!clear(origin, towards, far, from, drawn.triangle, far - around(from, drawn.triangle, cosineThere))) return;
       // Both densities per steradian: the balance heuristic's weight over the drawn one is 1 / (their sum).
       const double density = drawn.density * d2 / cosineThere + cosine / std::numbers::pi;
       add(reflected * there.emission * cosine * pastBumps(point, towards) / density, /*bounced=*/true);

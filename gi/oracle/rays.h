@@ -26,6 +26,8 @@ struct Facets {
   std::vector<float> area;  ///< voxel faces
   glm::dvec3 corner(uint32_t triangle, uint32_t i) const { return glm::dvec3(corners.at(3 * triangle + i)); }
   bool hasHoles(uint32_t triangle) const { return corners.at(3 * triangle + 1).w > 0; }  ///< cut by a mask
+  bool showsBack(uint32_t triangle) const { return corners.at(3 * triangle).w > 0; }
+  bool repeats(uint32_t triangle) const { return corners.at(3 * triangle + 2).w > 0; }  ///< another: has no pieces
   /// What stands on a cut piece, and its points (SurfaceArrays::cuts).
   struct Cuts {
     std::span<const uint32_t> triangles, points;

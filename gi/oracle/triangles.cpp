@@ -12,7 +12,8 @@ using glm::dvec3;
 struct Meeting {
   double t = 0;
   bool front = false;
-  double edge = 0;  ///< least weight of a corner: how close to an edge
+  double counts = 0;  ///< at which t it counts as met: later where nothing is seen (backDelay)
+  double edge = 0;    ///< least weight of a corner: how close to an edge
 };
 
 /// Where a line meets a triangle (Moller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection").
@@ -27,7 +28,11 @@ std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& 
   const double v = glm::dot(ray.direction, q) / determinant;
   const double least = std::min({u, v, 1 - u - v});
   if (least < 0) return std::nullopt;
-  return Meeting{glm::dot(c, q) / determinant, determinant > 0, least};
+  const double t = glm::dot(c, q) / determinant;
+  const bool front = determinant > 0;
+  if (front || facets.showsBack(triangle)) return Meeting{t, front, t, least};
+  const auto cosine = static_cast<float>(glm::dot(glm::normalize(glm::cross(b, c)), ray.direction));
+  return Meeting{t, front, t + double{backDelay(facets.grid.dims, cosine)}, least};
 }
 
 /// gi/piece_cuts.glsl.
@@ -81,9 +86,9 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
         if (m->t < walk.enter || m->t > walk.leave) continue;
         if (!isThere(facets, i, triangle, ray.origin + m->t * ray.direction - dvec3(walk.cell), hit.margin)) continue;
       }
-      if (triangle != met) second = std::min(second, std::max(nearest, m->t));
-      if (m->t > nearest || (m->t == nearest && triangle > met)) continue;
-      nearest = m->t;
+      if (triangle != met) second = std::min(second, std::max(nearest, m->counts));
+      if (m->counts > nearest || (m->counts == nearest && triangle > met)) continue;
+      nearest = m->counts;
       met = triangle;
       metPiece = i;
       metFirst = here.front();
@@ -93,9 +98,9 @@ Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage)
   }
   hit.margin = std::min(hit.margin, walk.margin);
   if (met == kNoTriangle) return hit;
-  hit.t = nearest;
+  hit.t = found.t;
   hit.margin = std::min({hit.margin, found.edge, second - nearest});
-  const uint32_t side = classAt(facets, metPiece, !found.front, ray.origin + nearest * ray.direction, hit.margin);
+  const uint32_t side = classAt(facets, metPiece, !found.front, ray.origin + hit.t * ray.direction, hit.margin);
   hit.facet = side < PIECE_UNKNOWN ? metFirst + side : (side == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID);
   return hit;
 }

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
 #include "voxel_material.glsl"
+#include "gi/triangle_hit.glsl"
 #include "shared/pixel_emitters.h"
 #include "shared/sampling.h"
 layout(local_size_x = 64) in;
@@ -27,7 +28,9 @@ void main() {
   uint flags = triangleFlags(push.scene, triangle);
   uint samples = SAMPLES_TEXTURES != 0u ? SAMPLES : 1u;
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < samples && !degenerate(t); ++k) {
+  // What repeats another triangle gives nothing: no ray meets it, and no facet is made of it.
+  bool shines = !degenerate(t) && (push.hasCorners == 0u || firstInPlace(push.corners, triangle) == triangle);
+  for (uint k = 0u; k < samples && shines; ++k) {
     vec3 point = pointOf(t, hammersley(k, samples, uvec2(0u)));
     MaterialPoint p = materialPoint(push.scene, t, triangle, point);
     if (!masked(push.scene, t, triangle, flags, point)) sum += emittedRadianceAt(push.scene, p);

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_clip.glsl"
+#include "gi/triangle_hit.glsl"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ListPiecesPush push; };
@@ -26,6 +27,8 @@ void main() {
     if (push.tileStart.at[middle] <= tile) triangle = middle;
     else end = middle;
   }
+  // The area of a face that is there twice counts once.
+  if (firstInPlace(push.corners, triangle) != triangle) return;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   uvec3 dims = push.grid.at[0].dims;
   ivec3 lo, hi;

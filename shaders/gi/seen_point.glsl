@@ -7,6 +7,7 @@
 /// A visible point `p` of a triangle, voxel units: put back into the triangle's plane, which interpolation has left by
 /// a few roundings, and lifted off the side that is seen from the direction `viewer`.
 SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer) {
+  triangle = firstInPlace(surface.corners, triangle);  // which rays may meet
   Triangle t = triangleAt(surface.corners, triangle);
   vec3 facing = facingOf(t, false);
   facing = dot(facing, viewer) < 0.0 ? -facing : facing;

@@ -24,6 +24,7 @@ uint facetInVoxel(SurfaceArrays surface, uint entry, vec3 p, uint side) {
 /// The facet on which `p` lies, a point of a triangle's side: in the voxel that holds p or, where rounding has put it
 /// into another, the next one. Where no surfel of the side is seen from p, the nearest surfel around that is.
 uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side) {
+  side = firstInPlace(surface.corners, side & ~SURFEL_BACK) | (side & SURFEL_BACK);
   vec3 facing = triangleFacing(surface, side);
   const float ROUNDING = 1e-2;
   ivec3 cell = ivec3(floor(p));

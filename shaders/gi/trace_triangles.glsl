@@ -42,7 +42,8 @@ struct TriangleWalk {
   ShearedRay ray;
   uint own;  ///< the triangle that it leaves
   uint piece, endPiece, entry;
-  float leave;  ///< where it leaves the cell
+  float leave;    ///< where it leaves the cell
+  float nearest;  ///< at which the hit counts as met: its t, or later (backDelay)
   TriangleHit hit;
 };
 
@@ -54,6 +55,7 @@ TriangleWalk startTriangles(vec3 origin, vec3 direction, uint own, float reach) 
   w.piece = w.endPiece = 0u;
   w.entry = NO_FACET;
   w.leave = 0.0f;
+  w.nearest = reach;
   w.hit = TriangleHit(NO_TRIANGLE, 0u, 0u, false, reach, 0u);
   return w;
 }
@@ -66,6 +68,12 @@ bool leavesMask(SurfaceArrays surface, TriangleWalk w, uint triangle, float t) {
          isThere(surface, w.piece, normal, w.at.origin + w.at.direction * t - w.at.cell);
 }
 
+/// Where a meeting that is as near as the hit counts as met. What shows a side costs no further read.
+float countsAt(TraceWorld world, SurfaceArrays surface, TriangleWalk w, uint triangle, float t, bool front) {
+  if (front || showsBack(surface.corners, triangle)) return t;
+  return t + backDelay(world.dims, dot(facingOf(triangleAt(surface.corners, triangle), false), w.at.direction));
+}
+
 /// Asks the next piece, or goes on to the next cell that may hold one; false: the ray has met what it meets. Steps of
 /// equal length, so that rays side by side wait little for each other.
 bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
@@ -74,15 +82,20 @@ bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w
     float t;
     bool front;
     if (triangle != w.own && meetsTriangle(w.ray, triangleAt(surface.corners, triangle), t, front) && t > 0.0f &&
-        (t < w.hit.t || (t == w.hit.t && triangle <= w.hit.triangle)) && leavesMask(surface, w, triangle, t))
-      w.hit = TriangleHit(triangle, w.piece, w.entry, front, t, w.hit.steps);
+        t <= w.nearest && leavesMask(surface, w, triangle, t)) {
+      float at = countsAt(world, surface, w, triangle, t, front);
+      if (at < w.nearest || (at == w.nearest && triangle <= w.hit.triangle)) {
+        w.nearest = at;
+        w.hit = TriangleHit(triangle, w.piece, w.entry, front, t, w.hit.steps);
+      }
+    }
     if (++w.piece < w.endPiece) return true;
-    if (w.hit.t <= w.leave) return false;
+    if (w.nearest <= w.leave) return false;
     traceAdvance(w.at, 1.0f);
     ++w.hit.steps;
   }
   // What was met beyond a cell's end waits until no cell before it is left.
-  if (!traceInside(w.at, world.dims) || w.hit.t <= w.at.t) return false;
+  if (!traceInside(w.at, world.dims) || w.nearest <= w.at.t) return false;
   float clearance = traceClearance(world, w.at.cell);
   if (clearance > 0.0f) {
     traceAdvance(w.at, clearance);

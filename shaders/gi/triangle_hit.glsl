@@ -21,6 +21,12 @@ bool hasHoles(Vec4Array corners, uint triangle) {
   return second.w > 0.0;
 }
 
+/// The triangle itself or, where it repeats another one, that: it alone has pieces.
+uint firstInPlace(Vec4Array corners, uint triangle) {
+  vec4 third = corners.at[3u * triangle + 2u];
+  return third.w > 0.0 ? uint(third.w) - 1u : triangle;
+}
+
 struct ShearedRay {
   vec3 origin;
   uint axis;   ///< along which the direction is longest

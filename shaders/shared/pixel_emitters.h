@@ -25,9 +25,11 @@ struct EmissiveTrianglesPush {
   SceneArray scene;
   GridArray grid;
   EmissiveTriangleArray triangles;
-  uint first;  ///< triangle of the scene
-  uint place;  ///< of that in `triangles`
+  Vec4Array corners;  ///< of SurfaceArrays, if hasCorners
+  uint first;         ///< triangle of the scene
+  uint place;         ///< of that in `triangles`
   uint count;
+  uint hasCorners;
 };
 
 /// Pushed to gi/emitters_seen.comp and gi/emitters_light.comp.

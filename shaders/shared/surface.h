@@ -109,6 +109,15 @@ IRAD_FN vec3 liftedStart(vec3 position, vec3 facing) {
   return position + facing * (START_LIFT * max(1.0f, max(size.x, max(size.y, size.z))));
 }
 
+/// By how much later than it is the back of a face that does not show its back counts as met, in lengths of a ray's
+/// direction: a face that lies in the same plane and shows its side wins, whatever the two distances round to. Both round
+/// with the coordinates, of which the grid's size is the largest, and the more the flatter the ray; `cosine`: of the ray
+/// and the face's normal, either sign.
+IRAD_CONST float LEAST_COSINE = 1e-2f;
+IRAD_FN float backDelay(uvec3 dims, float cosine) {
+  return START_LIFT * float(max(dims.x, max(dims.y, dims.z))) / max(abs(cosine), LEAST_COSINE);
+}
+
 /// Which facet of its voxel either side of a piece belongs to: the front's in bits 0-7, the back's in 8-15.
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
@@ -155,7 +164,8 @@ IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
   Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0; of the
-                          ///< second: 1 where a mask may have cut holes, else 0
+                          ///< second: 1 where a mask may have cut holes, else 0; of the
+                          ///< third: 1 + the triangle that it repeats (gi/repeated.h), else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray boxes;        ///< per piece: packBox
@@ -193,13 +203,15 @@ struct SurfaceCornersPush {
   SceneArray scene;
   GridArray grid;
   Vec4Array corners;
-  uint triangles, pad;
+  UintArray repeated;  ///< per triangle, if hasRepeated
+  uint triangles, hasRepeated;
 };
 
 /// gi/list_pieces.comp: counts the pieces of each voxel, or lists them.
 struct ListPiecesPush {
   SceneArray scene;
   GridArray grid;
+  Vec4Array corners;
   UintArray tileStart;  ///< as for voxelization
   UintArray counts;     ///< per voxel: pieces; or the place of its next one
   UintArray pieces;     ///< unread where they are counted
