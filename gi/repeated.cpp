@@ -48,17 +48,25 @@ std::vector<uint32_t> repeatedTriangles(const SceneOnDevice& scene) {
   const uint32_t count = scene.scene.triangleCount();
   const std::vector<uint32_t> flags = flagsOf(scene);
   std::vector<uint32_t> repeated;
-  // Open addressing: of each place a triangle that may stand for others, from 1.
-  std::vector<uint32_t> table(std::bit_ceil(2 * size_t{count} + 1), 0);
+  // Open addressing. Upper bits of hashes, lest corners are read of places that only share a slot.
+  struct Slot {
+    uint32_t hash = 0;
+    uint32_t first = 0;  ///< a triangle that may stand for others, from 1
+  };
+  std::vector<Slot> table(std::bit_ceil(2 * size_t{count} + 1));
   for (uint32_t t = 0; t < count; ++t) {
     const Place place = placeOf(scene.scene, t);
-    size_t slot = hashOf(place) & (table.size() - 1);
-    while (table[slot] != 0 && placeOf(scene.scene, table[slot] - 1) != place) slot = (slot + 1) & (table.size() - 1);
-    const uint32_t first = table[slot];
+    const uint64_t hash = hashOf(place);
+    const auto upper = static_cast<uint32_t>(hash >> 32);
+    size_t slot = hash & (table.size() - 1);
+    while (table[slot].first != 0 &&
+           (table[slot].hash != upper || placeOf(scene.scene, table[slot].first - 1) != place))
+      slot = (slot + 1) & (table.size() - 1);
+    const uint32_t first = table[slot].first;
     const bool stands = first != 0 && (flags[first - 1] & MATERIAL_ALPHA_MASK) == 0 &&
                         ((flags[first - 1] & MATERIAL_DOUBLE_SIDED) != 0 || (flags[t] & MATERIAL_DOUBLE_SIDED) == 0);
     if (!stands) {
-      table[slot] = t + 1;
+      table[slot] = {upper, t + 1};
       continue;
     }
     repeated.resize(count, 0);
