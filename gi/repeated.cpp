@@ -20,7 +20,7 @@ Place placeOf(const Scene& scene, uint32_t triangle) {
     for (int axis = 0; axis < 3; ++axis)
       place[i][axis] = p[axis] == 0 ? 0 : std::bit_cast<uint32_t>(p[axis]);  // -0 is 0
   }
-  std::ranges::rotate(place, std::ranges::min_element(place));
+  std::rotate(place.begin(), std::ranges::min_element(place), place.end());  // Clang 14 cannot compile the ranges' own
   return place;
 }
 
