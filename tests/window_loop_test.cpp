@@ -173,8 +173,8 @@ TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
     from = timings_.now();
     // The handle of the Box's spot light, in the upper right of the picture.
     screen_->xdotool(
-        "mousemove 829 72 sleep 0.4 mousedown 1 sleep 0.4 mousemove 760 90 sleep 0.4 mousemove 700 120 sleep 0.4 "
-        "mouseup 1 mousemove 360 510");
+        "mousemove 829 72 sleep 1 mousedown 1 sleep 1 mousemove 760 90 sleep 1 mousemove 700 120 sleep 1 mouseup 1 "
+        "mousemove 360 510");
     EXPECT_TRUE(until([&] { return rests(); }));
     moved = viewport(*screen_);
     to = timings_.now();
