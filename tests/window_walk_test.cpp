@@ -303,7 +303,7 @@ TEST_F(WindowWalk, SettingsOfTheSceneAndOfEmittersAreDrawnAtOnce) {
   for (const auto& panel : makePanels())
     if (panel->title() != std::string("Settings")) folded.emplace_back(panel->title());
   fold(nlohmann::json(folded).dump().c_str());
-  start(settings());
+  start(settings({"--set", "sample.emitter_rays=1"}));  // more take seconds a frame here
   rests();
   click("Lights");
   click("Lights/handles in the picture");
@@ -318,7 +318,7 @@ TEST_F(WindowWalk, SettingsOfTheSceneAndOfEmittersAreDrawnAtOnce) {
   EXPECT_TRUE(shows(render("lit", {}), lit));
   choose("Settings/sample.emitters", "pixels");
   rest();
-  EXPECT_TRUE(shows(render("lit", {"--set", "sample.emitters=pixels"}), lit));
+  EXPECT_TRUE(shows(render("lit", {"--set", "sample.emitters=pixels", "--set", "sample.emitter_rays=1"}), lit));
   quitDiscarding();
 }
 
