@@ -1,4 +1,4 @@
-"""Builds .glb files with Python's standard library alone: vectors, shapes, PNG images, a glTF 2.0 writer and reader.
+"""Builds .glb files with Python's standard library alone: PNG images, a glTF 2.0 writer and reader, checks.
 
 The bytes are the same on every run and machine: coordinates are rounded to 1e-6 before they become fp32, images are
 stored uncompressed inside their PNG.
@@ -7,136 +7,16 @@ stored uncompressed inside their PNG.
 import json
 import math
 import struct
+import sys
 import zlib
+from pathlib import Path
+from types import SimpleNamespace
+
+from shapes import add, cross, dot, look, rotate, sub, unit
 
 FLOAT, UINT16 = 5126, 5123
 VERTEX_BUFFER, INDEX_BUFFER = 34962, 34963
 REPEAT, LINEAR, LINEAR_MIPMAP_LINEAR = 10497, 9729, 9987
-
-
-# ---- small vector arithmetic ----------------------------------------------------------------------------------------
-
-
-def add(a, b): return tuple(x + y for x, y in zip(a, b))
-def sub(a, b): return tuple(x - y for x, y in zip(a, b))
-def scale(a, s): return tuple(x * s for x in a)
-def dot(a, b): return sum(x * y for x, y in zip(a, b))
-def cross(a, b): return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-def unit(a): return scale(a, 1 / math.sqrt(dot(a, a)))
-
-
-def turn_y(degrees):
-    """Quaternion (x, y, z, w) of a turn about the vertical."""
-    half = math.radians(degrees) / 2
-    return (0.0, math.sin(half), 0.0, math.cos(half))
-
-
-def look(eye, target):
-    """Quaternion that takes -Z to the direction from eye to target and keeps the horizon level."""
-    x, y, z = unit(sub(target, eye))
-    yaw, pitch = math.atan2(-x, -z) / 2, math.asin(y) / 2
-    return (math.cos(yaw) * math.sin(pitch), math.sin(yaw) * math.cos(pitch),
-            -math.sin(yaw) * math.sin(pitch), math.cos(yaw) * math.cos(pitch))
-
-
-def rotate(q, v):
-    u, w = q[:3], q[3]
-    t = scale(cross(u, v), 2)
-    return add(add(v, scale(t, w)), cross(u, t))
-
-
-# ---- shapes: lists of vertices (position, normal, uv) and triangles, counter-clockwise from outside -------------------
-
-
-class Shape:
-    def __init__(self):
-        self.vertices, self.triangles = [], []
-
-    def quad(self, corner, u, v, repeat=(1.0, 1.0)):
-        """The parallelogram corner + s u + t v, facing u x v; texture coordinates run from 0 to repeat."""
-        n, first = unit(cross(u, v)), len(self.vertices)
-        for s, t in ((0, 0), (1, 0), (1, 1), (0, 1)):
-            position = add(corner, add(scale(u, s), scale(v, t)))
-            self.vertices.append((position, n, (s * repeat[0], (1 - t) * repeat[1])))
-        self.triangles += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
-        return self
-
-    def grid(self, columns, rows, vertex):
-        """A surface over the unit square: vertex(s, t) -> (position, normal), (d/ds) x (d/dt) pointing outwards.
-        Triangles that shrink to nothing (poles) are left out."""
-        first = len(self.vertices)
-        for j in range(rows + 1):
-            for i in range(columns + 1):
-                s, t = i / columns, j / rows
-                self.vertices.append((*vertex(s, t), (s, 1 - t)))
-        for j in range(rows):
-            for i in range(columns):
-                a = first + j * (columns + 1) + i
-                b, c, d = a + 1, a + columns + 2, a + columns + 1
-                for triangle in ((a, b, c), (a, c, d)):
-                    p, q, r = (self.vertices[k][0] for k in triangle)
-                    if math.hypot(*cross(sub(q, p), sub(r, p))) > 1e-7:
-                        self.triangles.append(triangle)
-        return self
-
-
-def box(width, height, depth, skip_bottom=False):
-    """Centred over the origin, standing on y = 0."""
-    x, y, z = width / 2, height, depth / 2
-    shape = Shape()
-    shape.quad((-x, 0, z), (width, 0, 0), (0, y, 0))        # front
-    shape.quad((x, 0, -z), (-width, 0, 0), (0, y, 0))       # back
-    shape.quad((x, 0, z), (0, 0, -depth), (0, y, 0))        # right
-    shape.quad((-x, 0, -z), (0, 0, depth), (0, y, 0))       # left
-    shape.quad((-x, y, z), (width, 0, 0), (0, 0, -depth))   # top
-    if not skip_bottom:
-        shape.quad((-x, 0, -z), (width, 0, 0), (0, 0, depth))
-    return shape
-
-
-def sphere(radius, columns, rows):
-    """Centred over the origin, standing on y = 0."""
-    def vertex(s, t):
-        longitude, latitude = 2 * math.pi * s, math.pi * (t - 0.5)
-        n = (math.cos(latitude) * math.sin(longitude), math.sin(latitude), math.cos(latitude) * math.cos(longitude))
-        return add(scale(n, radius), (0, radius, 0)), n
-    return Shape().grid(columns, rows, vertex)
-
-
-def knot(radius, tube, columns, rows):
-    """A (2, 3) torus knot in the xy plane swept by a circle of radius `tube`; its lowest ring is found by the caller."""
-    def curve(s):
-        angle = 2 * math.pi * s
-        reach = radius * (1 + 0.42 * math.cos(3 * angle))
-        return (reach * math.sin(2 * angle), reach * math.cos(2 * angle), 0.62 * radius * math.sin(3 * angle))
-
-    def vertex(s, t):
-        centre, step = curve(s), 1e-5
-        along = unit(sub(curve(s + step), curve(s - step)))
-        side = unit(cross(along, centre))  # the curve never passes through the origin
-        across = cross(side, along)
-        angle = 2 * math.pi * t
-        n = add(scale(across, math.cos(angle)), scale(side, -math.sin(angle)))
-        return add(centre, scale(n, tube)), n
-    return Shape().grid(columns, rows, vertex)
-
-
-def lathe(profile, columns):
-    """Turns smooth strips of (radius, height) about the y axis; every strip runs with its outer side on the right."""
-    shape = Shape()
-    for strip in profile:
-        rows = len(strip) - 1
-
-        def vertex(s, t, strip=strip, rows=rows):
-            k = round(t * rows)
-            before, after = strip[max(k - 1, 0)], strip[min(k + 1, rows)]
-            dr, dy = after[0] - before[0], after[1] - before[1]
-            length, angle = math.hypot(dr, dy), 2 * math.pi * s
-            out = (math.sin(angle), 0.0, math.cos(angle))
-            r, y = strip[k]
-            return (out[0] * r, y, out[2] * r), (out[0] * dy / length, -dr / length, out[2] * dy / length)
-        shape.grid(columns, rows, vertex)
-    return shape
 
 
 # ---- images ---------------------------------------------------------------------------------------------------------
@@ -164,8 +44,8 @@ def srgb(linear):
 class Scene:
     """Collects glTF objects and one binary buffer."""
 
-    def __init__(self, name, generator):
-        self.binary = bytearray()
+    def __init__(self, name, generator, textured=True):
+        self.binary, self.textured = bytearray(), textured
         self.gltf = {
             "asset": {"version": "2.0", "generator": generator},
             "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_emissive_strength"],
@@ -220,10 +100,13 @@ class Scene:
         for shape, material in parts:
             assert len(shape.vertices) < 65536
             positions, normals, uvs = zip(*shape.vertices)
+            attributes = {"POSITION": self.floats(positions, "VEC3", bounds=True),
+                          "NORMAL": self.floats(normals, "VEC3")}
+            if self.textured:
+                attributes["TEXCOORD_0"] = self.floats(uvs, "VEC2")
             indices = struct.pack(f"<{3 * len(shape.triangles)}H", *(i for t in shape.triangles for i in t))
             primitives.append({
-                "attributes": {"POSITION": self.floats(positions, "VEC3", bounds=True),
-                               "NORMAL": self.floats(normals, "VEC3"), "TEXCOORD_0": self.floats(uvs, "VEC2")},
+                "attributes": attributes,
                 "indices": self.append("accessors", {
                     "bufferView": self.view(indices, target=INDEX_BUFFER), "componentType": UINT16,
                     "count": 3 * len(shape.triangles), "type": "SCALAR"}),
@@ -242,9 +125,22 @@ class Scene:
         siblings.append(index)
         return index
 
+    def light(self, kind, name, eye, target, colour, intensity, **more):
+        """A sun (`directional`, W/m^2), point or spot light (W/sr) at `eye`, turned to `target`."""
+        lights = self.gltf["extensions"]["KHR_lights_punctual"]["lights"]
+        lights.append({"name": name, "type": kind, "color": list(colour), "intensity": intensity, **more})
+        self.node(name, at=eye, turn=look(eye, target),
+                  extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
+
+    def camera(self, name, eye, target, degrees, near=0.1, far=100.0):
+        index = self.append("cameras", {"name": name, "type": "perspective", "perspective": {
+            "aspectRatio": 1.0, "yfov": round(math.radians(degrees), 6), "znear": near, "zfar": far}})
+        self.node(name, at=eye, turn=look(eye, target), camera=index)
+
     def glb(self):
+        gltf = {key: value for key, value in self.gltf.items() if value != []}  # glTF allows no empty lists
         binary = bytes(self.binary) + bytes(-len(self.binary) % 4)
-        text = json.dumps({**self.gltf, "buffers": [{"byteLength": len(binary)}]}, separators=(",", ":")).encode()
+        text = json.dumps({**gltf, "buffers": [{"byteLength": len(binary)}]}, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
         chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
@@ -265,3 +161,88 @@ def read(data):
             assert a["min"] == [min(c) for c in zip(*rows)] and a["max"] == [max(c) for c in zip(*rows)], "min/max"
         return rows
     return gltf, accessor
+
+
+# ---- checks ---------------------------------------------------------------------------------------------------------
+
+
+def inspect(data):
+    """Asserts that a file is sound. Returns its glTF, the triangles as placed in the scene, also by object, how many vertices
+    there are, and the bounds of each object that is a child of the scene."""
+    gltf, accessor = read(data)
+    triangles, vertices, bounds, parts = [], 0, {}, []
+
+    def visit(index, group, placements):
+        nonlocal vertices
+        node = gltf["nodes"][index]
+        placements = placements + [(node.get("rotation", (0, 0, 0, 1)), node.get("translation", (0, 0, 0)))]
+        for primitive in gltf["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+            positions, normals, *uvs = map(accessor, primitive["attributes"].values())
+            indices = [i for i, in accessor(primitive["indices"])]
+            assert all(len(a) == len(positions) for a in (normals, *uvs)), node["name"]
+            assert set(indices) <= set(range(len(positions))), node["name"]
+            for n in normals:
+                assert abs(math.sqrt(dot(n, n)) - 1) < 1e-5, (node["name"], "normal", n)
+            placed = []
+            for p in positions:
+                for turn, at in reversed(placements):
+                    p = add(rotate(turn, p), at)
+                placed.append(p)
+                low, high = bounds.get(group, (p, p))
+                bounds[group] = (tuple(map(min, low, p)), tuple(map(max, high, p)))
+            for k in range(0, len(indices), 3):
+                a, b, c = indices[k:k + 3]
+                face = cross(sub(positions[b], positions[a]), sub(positions[c], positions[a]))
+                assert dot(face, face) > 0, (node["name"], "triangle without area", k // 3)
+                for v in (a, b, c):
+                    assert dot(unit(face), normals[v]) > 0.5, (node["name"], "winding against normal", k // 3)
+                triangles.append((placed[a], placed[b], placed[c]))
+            vertices += len(positions)
+            parts.append((node["name"], triangles[-len(indices) // 3:]))
+        for child in node.get("children", ()):
+            visit(child, group, placements)
+
+    for root in gltf["scenes"][0]["nodes"]:
+        visit(root, gltf["nodes"][root]["name"], [])
+    for kind in ("nodes", "meshes", "materials", "cameras", "images", "textures"):
+        assert all(item.get("name") for item in gltf.get(kind, ())), kind
+    return SimpleNamespace(gltf=gltf, triangles=triangles, vertices=vertices, bounds=bounds, parts=parts)
+
+
+def check_closed(scene, except_for=()):
+    """Asserts that every object is a closed surface with its faces outwards, but for those whose names begin so."""
+    for name, triangles in scene.parts:
+        edges, volume = {}, 0.0
+        for t in triangles:
+            corners = [tuple(round(c, 3) for c in p) for p in t]
+            volume += dot(t[0], cross(t[1], t[2])) / 6
+            for a, b in zip(corners, corners[1:] + corners[:1]):
+                edges[a, b] = edges.get((a, b), 0) + 1
+        assert volume > 0 or name.startswith(except_for), (name, "is inside out", volume)
+        unpaired = sum(n != edges.get((b, a), 0) for (a, b), n in edges.items())
+        assert unpaired == 0 or name.startswith(except_for), (name, "is not closed:", unpaired, "edges")
+
+
+def extents(scene):
+    low, high = (tuple(map(f, zip(*(b[k] for b in scene.bounds.values())))) for k, f in ((0, min), (1, max)))
+    return sub(high, low)
+
+
+def main(usage, scenes):
+    """A script's command line: `scenes` gives, by the file's name, what makes its bytes and what more to check of it."""
+    arguments = sys.argv[1:]
+    checking = "--check" in arguments
+    folders = [a for a in arguments if a != "--check"]
+    if len(folders) > 1 or any(a.startswith("-") for a in folders):
+        sys.exit(usage)
+    folder = Path(folders[0]) if folders else Path(__file__).resolve().parent
+    for name, (make, check) in scenes.items():
+        data, path = make(), folder / name
+        if checking:
+            assert path.read_bytes() == data, f"{path} is not what this script writes"
+        else:
+            path.write_bytes(data)
+        scene = inspect(data)
+        check(scene)
+        print(f"{name}: {' x '.join(f'{e:.2f}' for e in extents(scene))}, {len(scene.triangles)} triangles, "
+              f"{scene.vertices} vertices, {len(scene.gltf['materials'])} materials, {len(data)} bytes")

@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
-"""Writes assets/box.glb, the built-in scene: a Cornell-like room of 10.65^3 units, open towards +Z.
+"""Writes box.glb, the first built-in scene: a Cornell-like room of 10.65^3 units, open towards +Z; and box-hard.glb, the
+same room in hard light (thesis Fig. 22): the panel is dark, and all light comes from a small spot in a corner behind
+the thin panel, which few rays find.
 
 Python's standard library only; the same bytes on every run and machine.
 
-    make_box.py [FILE]            write it (default: box.glb beside this script)
-    make_box.py --check [FILE]    verify that FILE is what this script writes, and that what it writes is sound
+    make_box.py [FOLDER]            write them (default: beside this script)
+    make_box.py --check [FOLDER]    verify that the files are what this script writes, and that they are sound
 
 Axes: x to the right, y up, z towards the viewer; the floor is y = 0. Units: glTF's metres; radiance of the panel in
 W/(m^2 sr), intensity of the spot in W/sr (the engine reads 1 cd as 1 W/sr).
 """
 
 import math
-import sys
-from pathlib import Path
 
-from gltf_writer import (Scene, Shape, add, box, cross, dot, knot, lathe, look, png, read, rotate, sphere, srgb, sub,
-                         turn_y, unit)
+from gltf_writer import Scene, main, png, srgb
+from shapes import Shape, box, knot, lathe, sphere, turn_y, unit
 
 SIDE = 10.65  # the room, thesis Table 3 "Box"
 HALF = SIDE / 2
@@ -52,8 +52,13 @@ def ribs(x, y, size=64):
     return tuple(round(127.5 + 127.5 * c) for c in n)
 
 
-def make():
+def make(hard=False):
     s = Scene("Box", "irad assets/make_box.py")
+
+    def spot(eye, target, intensity, inner, outer):
+        cone = {"innerConeAngle": round(math.radians(inner), 6), "outerConeAngle": round(math.radians(outer), 6)}
+        s.light("spot", "spot", eye, target, (1.0, 0.93, 0.82), intensity, spot=cone)
+
     stone, hammered = s.texture("floor tiles", png(128, tiles)), s.texture("vase bumps", png(64, ribs))
     white = s.material("white wall", (0.725, 0.71, 0.68))
     red = s.material("red wall", (0.65, 0.09, 0.07))
@@ -66,7 +71,7 @@ def make():
     pearl = s.material("pearl", (0.74, 0.70, 0.72), roughness=0.9)
     metal = s.material("polished metal", (0.95, 0.88, 0.76), roughness=0.15, metallic=1.0)
     clay = s.material("rough clay", (0.62, 0.33, 0.22), roughness=0.8, normal=hammered)
-    glow = s.material("light panel", (0.7, 0.7, 0.7), radiance=(26.0, 24.0, 21.0))
+    glow = s.material("light panel", (0.7, 0.7, 0.7), radiance=None if hard else (26.0, 24.0, 21.0))
 
     # The room: five squares facing inwards; seen from outside they are culled.
     room = s.node("room")
@@ -110,59 +115,22 @@ def make():
     rod = s.mesh("rod", (box(0.06, SIDE - 9.75 - 0.14, 0.06), plaster))
     for name, offset in (("left rod", -1.1), ("right rod", 1.1)):
         s.node(name, lamp, at=(offset, 0.14, 0), mesh=rod)
-    s.gltf["extensions"]["KHR_lights_punctual"]["lights"].append({
-        "name": "spot", "type": "spot", "color": [1.0, 0.93, 0.82], "intensity": 600.0,
-        "spot": {"innerConeAngle": round(math.radians(15), 6), "outerConeAngle": round(math.radians(27), 6)}})
-    eye = (3.9, 10.3, 3.6)
-    s.node("spot", at=eye, turn=look(eye, (-2.3, 1.2, -1.5)), extensions={"KHR_lights_punctual": {"light": 0}})
-
-    def camera(name, eye, target, degrees):
-        index = s.append("cameras", {"name": name, "type": "perspective", "perspective": {
-            "aspectRatio": 1.0, "yfov": round(math.radians(degrees), 6), "znear": 0.1, "zfar": 100.0}})
-        s.node(name, at=eye, turn=look(eye, target), camera=index)
-    camera("main", (0, HALF, 20.0), (0, HALF, 0), 40)
-    camera("close", (0.5, 2.5, 5.2), (-2.3, 1.75, -0.6), 45)
+    if hard:
+        spot((-4.5, 10.0, -3.0), (4.55, 1.2, -5.2), intensity=150000.0, inner=3, outer=4)
+    else:
+        spot((3.9, 10.3, 3.6), (-2.3, 1.2, -1.5), intensity=600.0, inner=15, outer=27)
+    s.camera("main", (0, HALF, 20.0), (0, HALF, 0), 40)
+    s.camera("close", (0.5, 2.5, 5.2), (-2.3, 1.75, -0.6), 45)
     return s.glb()
 
 
 # ---- checks ---------------------------------------------------------------------------------------------------------
 
 
-def check(data):
-    """Asserts that the file is sound; returns a line of figures."""
-    gltf, accessor = read(data)
-    triangles = vertices = 0
-    bounds = {}  # of every object that is a child of the scene
-
-    def visit(index, group, placements):
-        nonlocal triangles, vertices
-        node = gltf["nodes"][index]
-        placements = placements + [(node.get("rotation", (0, 0, 0, 1)), node.get("translation", (0, 0, 0)))]
-        for primitive in gltf["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
-            positions, normals, uvs = (accessor(primitive["attributes"][a]) for a in ("POSITION", "NORMAL", "TEXCOORD_0"))
-            indices = [i for i, in accessor(primitive["indices"])]
-            assert len(positions) == len(normals) == len(uvs) and max(indices) < len(positions), node["name"]
-            assert set(indices) <= set(range(len(positions))), node["name"]
-            for n in normals:
-                assert abs(math.sqrt(dot(n, n)) - 1) < 1e-5, (node["name"], "normal", n)
-            for k in range(0, len(indices), 3):
-                a, b, c = indices[k:k + 3]
-                face = cross(sub(positions[b], positions[a]), sub(positions[c], positions[a]))
-                assert dot(face, face) > 0, (node["name"], "triangle without area", k // 3)
-                for v in (a, b, c):
-                    assert dot(unit(face), normals[v]) > 0.5, (node["name"], "winding against normal", k // 3)
-            triangles, vertices = triangles + len(indices) // 3, vertices + len(positions)
-            for p in positions:
-                for turn, at in reversed(placements):
-                    p = add(rotate(turn, p), at)
-                low, high = bounds.get(group, (p, p))
-                bounds[group] = (tuple(map(min, low, p)), tuple(map(max, high, p)))
-        for child in node.get("children", ()):
-            visit(child, group, placements)
-
-    for root in gltf["scenes"][0]["nodes"]:
-        visit(root, gltf["nodes"][root]["name"], [])
-    low, high = bounds.pop("room")
+def check(scene):
+    """Everything stands on the floor of the room, inside it, and by itself."""
+    bounds = {name: b for name, b in scene.bounds.items() if name != "room"}
+    low, high = scene.bounds["room"]
     assert max(abs(h - l - SIDE) for l, h in zip(low, high)) < 1e-5, (low, high)
     for name, (a, b) in bounds.items():
         assert all(x >= l - 1e-5 and y <= h + 1e-5 for x, y, l, h in zip(a, b, low, high)), (name, "leaves the room")
@@ -171,24 +139,7 @@ def check(data):
             if other < name:
                 apart = any(y <= w or z <= x for x, y, w, z in zip(a, b, c, d))
                 assert apart, (name, other, "boxes overlap")
-    for kind in ("nodes", "meshes", "materials", "cameras", "images", "textures"):
-        assert all(item.get("name") for item in gltf[kind]), kind
-    return f"{triangles} triangles, {vertices} vertices, {len(gltf['materials'])} materials, {len(data)} bytes"
-
-
-def main(arguments):
-    checking = "--check" in arguments
-    files = [a for a in arguments if a != "--check"]
-    if len(files) > 1 or any(a.startswith("-") for a in files):
-        sys.exit(__doc__)
-    path = Path(files[0]) if files else Path(__file__).resolve().parent / "box.glb"
-    data = make()
-    if checking:
-        assert path.read_bytes() == data, f"{path} is not what this script writes"
-    else:
-        path.write_bytes(data)
-    print(f"{path.name}: {check(data)}")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(__doc__, {"box.glb": (make, check), "box-hard.glb": (lambda: make(hard=True), check)})
