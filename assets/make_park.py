@@ -35,7 +35,7 @@ def dome(radius, thickness, height, columns=16, rows=4):
 def make():
     s = Scene("Abstract Park", "irad assets/make_park.py", textured=False)
     concrete = s.material("concrete", (0.56, 0.55, 0.53), roughness=0.9)
-    plaster = s.material("white plaster", (0.78, 0.77, 0.74), roughness=0.95)
+    plaster = s.material("white plaster", (0.74, 0.73, 0.70), roughness=0.95)
     terracotta = s.material("terracotta plaster", (0.66, 0.26, 0.17), roughness=0.95)
     ochre = s.material("ochre plaster", (0.74, 0.53, 0.20), roughness=0.95)
     red = s.material("matte red", (0.62, 0.06, 0.05), roughness=0.9)
@@ -71,7 +71,7 @@ def make():
     put("right wall", court, ochre, block((INNER, 0, -INNER), (HALF, TOP, HALF)))
     put("front wall", court, plaster, block((-INNER, 0, INNER), (INNER, 9, HALF)))
     put("roof", court, plaster, block((-INNER, TOP - WALL, -INNER), (-13, TOP, HALF)))
-    louvre = s.mesh("louvre", (block((-13, -1.4, -0.12), (INNER, 0, 0.12)), plaster))
+    louvre = s.mesh("louvre", (block((-13, -0.7, -0.12), (INNER, 0, 0.12)), plaster))
     for k in range(7):
         s.node(f"louvre {k + 1}", court, at=(0, TOP, -19 + 3 * k), mesh=louvre)
 
@@ -88,8 +88,8 @@ def make():
     # Standing slabs, with and without reflections.
     slabs = s.node("slabs")
     for name, material, size, at, turn in (
-            ("steel slab", steel, (5.5, 8.5, 0.6), (-4.6, 0, -8.2), 24),
-            ("gold slab", gold, (3.6, 6.0, 0.6), (8.0, 0.15, -4.0), -38),
+            ("gold slab", gold, (5.0, 8.0, 0.6), (-4.6, 0, -8.2), -18),
+            ("steel slab", steel, (4.4, 6.6, 0.6), (7.4, 0, -7.0), -34),
             ("copper slab", copper, (2.4, 12.0, 0.7), (3.2, 0, -11.5), -12),
             ("bronze slab", bronze, (3.2, 4.2, 0.5), (-18.0, 0, 3.2), 68),
             ("granite slab", granite, (3.0, 10.0, 0.7), (-9.6, 0, -17.5), 8),
@@ -171,7 +171,7 @@ def make():
         s.node(f"globe {k + 1}", lamp, at=(0, 3.4, 0), mesh=globe)
 
     sun = (0.30, 0.62, 0.72)
-    s.light("directional", "sun", scale(sun, 40), (0, 0, 0), (1.0, 0.95, 0.87), 5.5)
+    s.light("directional", "sun", scale(sun, 40), (0, 0, 0), (1.0, 0.95, 0.87), 4.2)
     s.camera("main", (3.6, 6.4, 21.2), (-1.6, 4.6, -8), 62)
     s.camera("slabs", (-1.2, 2.0, 10.4), (-1.0, 3.6, -8), 56)
     return s.glb()
