@@ -160,9 +160,9 @@ def make():
     canyon = s.node("canyon")
     put("ground", canyon, sand, block((-X, -GROUND, -Z), (X, 0, Z)))
     put("dunes", canyon, dune, dunes())
-    put("western cliff", canyon, sandstone, cliff(lambda d, y, w: (d - X, y, w), 2 * Z, 12, 30, 40))
+    put("western cliff", canyon, sandstone, cliff(lambda d, y, w: (d - X, y, w), 2 * Z, 12, 30, 50))
     put("eastern cliff", canyon, sandstone, cliff(lambda d, y, w: (X - d, y, -w), 2 * Z, 12, 26, 46))
-    put("northern cliff", canyon, sandstone, cliff(lambda d, y, w: (-w, y, d - Z), 2 * X, 6, 24, 52))
+    put("northern cliff", canyon, sandstone, cliff(lambda d, y, w: (-w, y, d - Z), 2 * X, 6, 24, 46))
     put("mountain", canyon, sandstone, make_mountain())
 
     # Rocks: an arch, worn columns, boulders.
@@ -256,7 +256,7 @@ def make():
     sun = (0.32, 0.48, 0.82)
     s.light("directional", "sun", scale(sun, 300), (0, 0, 0), (1.0, 0.93, 0.82), 5.0)
     s.camera("main", (50, 50, 258), (-12, -4, 60), 56, near=0.5, far=1000.0)
-    s.camera("cave", (-18, 9, -152), (8, 9, -100), 74, near=0.5, far=1000.0)
+    s.camera("cave", (-6, 8, -128), (14, 9, -80), 76, near=0.5, far=1000.0)
     return s.glb()
 
 

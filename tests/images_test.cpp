@@ -1,4 +1,5 @@
-// Pictures of Box and Sponza against those of tests/golden, which a person has looked at. After a change that is meant:
+// Pictures of the built-in scenes and of Sponza against those of tests/golden, which a person has looked at. After a
+// change that is meant:
 //
 //   IRAD_BLESS=1 ctest --test-dir build -R '^images$'    (then look at them: git difftool, or any viewer of EXR)
 //
@@ -9,6 +10,7 @@
 #if IRAD_OIIO
 
 #include <cstdlib>
+#include <span>
 
 #include "gi/pipeline.h"
 #include "renderer/base/output_file.h"
@@ -128,10 +130,11 @@ class GoldenImages : public GpuTest {
     if (!box_) box_ = std::make_unique<Pictures>(context(), assets() / "box.glb");
     return *box_;
   }
-  /// Every view of one camera against its golden picture, or makes these.
-  void check(Pictures& pictures, size_t camera, const std::string& prefix) {
+  /// Views of one camera against its golden picture, or makes these.
+  void check(Pictures& pictures, size_t camera, const std::string& prefix,
+             std::span<const char* const> views = kViews) {
     const char* bless = std::getenv("IRAD_BLESS");
-    for (const char* view : kViews) {
+    for (const char* view : views) {
       const std::string name = prefix + "." + view;
       const ExrPicture ours = pictures.draw(view, camera);
       if (bless && *bless == '1') {
@@ -171,6 +174,27 @@ TEST_F(GoldenImages, BoxFromBothCameras) {
   Pictures& box = this->box();
   ASSERT_EQ(box.scene().cameras.size(), 2u);
   for (size_t camera = 0; camera < 2; ++camera) check(box, camera, "box." + box.scene().cameras[camera].name);
+}
+
+TEST_F(GoldenImages, FurtherBuiltInScenes) {
+  constexpr const char* kLit[] = {"lit"};
+  for (const char* name : {"park", "arena", "box-hard"}) {
+    Pictures pictures(context(), assets() / (std::string(name) + ".glb"));
+    const std::vector<Camera>& cameras = pictures.scene().cameras;
+    for (size_t camera = 0; camera < cameras.size(); ++camera)
+      check(pictures, camera, std::string(name) + "." + cameras[camera].name, kLit);
+  }
+}
+
+TEST_F(GoldenImages, OnlyIndirectLightReachesIntoTheArenasCaves) {
+  Pictures arena(context(), assets() / "arena.glb");
+  ASSERT_EQ(arena.scene().cameras.at(1).name, "cave");
+  const ExrPicture direct = arena.draw("no-gi", 1), lit = arena.draw("lit", 1);
+  // The upper fifth is the ceiling of the hall.
+  for (size_t i = 0; i < size_t{kSide} * (kSide / 5); ++i) {
+    EXPECT_EQ(direct.pixels[i], glm::vec3(0)) << i;
+    EXPECT_GT(lit.pixels[i].x, 0) << i;
+  }
 }
 
 TEST_F(GoldenImages, Sponza) {
