@@ -200,6 +200,10 @@ std::vector<std::string> builtInScenes() {
   return names;
 }
 
+std::string sceneHelp() {
+  return fmt::format("A .gltf or .glb file, or a built-in scene ({})", fmt::join(builtInScenes(), ", "));
+}
+
 fs::path findScene(const std::optional<std::string>& argument, const Config& config,
                    const std::optional<std::string>& otherwise) {
   std::optional<std::string> wanted = argument;

@@ -233,7 +233,7 @@ Command benchCommand() {
   return {
       "bench", "Time every stage: set-up, relight, camera frames",
       [arguments](Options& options) {
-        options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or a built-in scene (default: box)");
+        options.argument("SCENE", arguments->scene, sceneHelp() + "; default: box");
         options.value("--csv", "FILE", arguments->csv, "Write the table as CSV too");
         options.value("--record", "DIR", arguments->record,
                       "Write a recording: frames.csv, summary.csv and trace.json, which Perfetto opens (with --versus "

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <new>
 
+#include "app/arguments.h"
 #include "app/command.h"
 #include "app/devices.h"
 #include "app/version.h"
@@ -86,7 +87,10 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
     command.declare(options);
     subcommands.push_back(sub);
   }
-  app.footer("Exit status: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no suitable device or memory.");
+  app.footer(fmt::format(
+      "Built-in scenes: {}.\n"
+      "Exit status: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no suitable device or memory.",
+      fmt::join(builtInScenes(), ", ")));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -197,7 +197,7 @@ Command exportCommand() {
   const auto arguments = std::make_shared<ExportArguments>();
   return {"export", "Write volumes, the matrix or facets for numpy, OpenVDB, spreadsheets, or a voxel's record as JSON",
           [arguments](Options& options) {
-            options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");
+            options.argument("SCENE", arguments->scene, sceneHelp());
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--volume", "NAME[,NAME...]", arguments->volumes,
                            "radiosity, irradiance, albedo, normal, emission, distance, or all (repeatable): NAME.npy, "

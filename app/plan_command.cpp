@@ -165,8 +165,9 @@ Command planCommand() {
   return {"plan", "Show which effects a scene calls for, why, and what leaving the others out saves",
           [arguments](Options& options) {
             options.arguments("SCENE", arguments->scenes,
-                              "A .gltf or .glb file, a built-in scene or check:NAME (default: box; with --prove any "
-                              "number, default: every built-in one)");
+                              sceneHelp() +
+                                  ", or check:NAME; default: box; with --prove any number, default: every "
+                                  "built-in one");
             options.flag("--json", arguments->json, "The table as JSON");
             options.flag("--measure", arguments->measure,
                          "Measure what each effect that is off would take: forced on and off in turn");

@@ -192,7 +192,7 @@ Command renderCommand() {
   const auto arguments = std::make_shared<RenderArguments>();
   return {"render", "Render pictures of a scene, with timings, memory table and manifest",
           [arguments](Options& options) {
-            options.argument("SCENE", arguments->scene, "A .gltf or .glb file, or the name of a built-in scene (box)");
+            options.argument("SCENE", arguments->scene, sceneHelp());
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");

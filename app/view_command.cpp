@@ -32,7 +32,7 @@ struct ViewArguments {
       controls;
 
   void declare(Options& options) {
-    options.argument("SCENE", scene, "glTF scene, or the name of a built-in one (default: box)");
+    options.argument("SCENE", scene, sceneHelp() + "; default: box");
     options.value("--view", "NAME", view,
                   "View to begin with (default: the manifest's first, or lit; 'irad views' lists them)");
     options.value("--camera", "NAME", camera,
