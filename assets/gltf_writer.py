@@ -125,6 +125,13 @@ class Scene:
         siblings.append(index)
         return index
 
+    def put(self, name, parent, material, *shapes, at=None, turn=None):
+        """The shapes as one object."""
+        whole = shapes[0]
+        for shape in shapes[1:]:
+            whole = whole + shape
+        return self.node(name, parent, at=at, turn=turn, mesh=self.mesh(name, (whole, material)))
+
     def light(self, kind, name, eye, target, colour, intensity, **more):
         """A sun (`directional`, W/m^2), point or spot light (W/sr) at `eye`, turned to `target`."""
         lights = self.gltf["extensions"]["KHR_lights_punctual"]["lights"]
@@ -167,8 +174,8 @@ def read(data):
 
 
 def inspect(data):
-    """Asserts that a file is sound. Returns its glTF, the triangles as placed in the scene, also by object, how many vertices
-    there are, and the bounds of each object that is a child of the scene."""
+    """Asserts that a file is sound. Returns its glTF, the triangles as placed in the scene, also by object, how many
+    vertices there are, and the bounds of each object that is a child of the scene."""
     gltf, accessor = read(data)
     triangles, vertices, bounds, parts = [], 0, {}, []
 
@@ -229,7 +236,7 @@ def extents(scene):
 
 
 def main(usage, scenes):
-    """A script's command line: `scenes` gives, by the file's name, what makes its bytes and what more to check of it."""
+    """A script's command line. `scenes` gives, by the file's name, what makes its bytes and what checks it further."""
     arguments = sys.argv[1:]
     checking = "--check" in arguments
     folders = [a for a in arguments if a != "--check"]

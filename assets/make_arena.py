@@ -13,8 +13,8 @@ Axes: x to the right, y up, z towards the viewer; the sand is y = 0. Units: metr
 import math
 
 from gltf_writer import Scene, check_closed, extents, main
-from shapes import (Shape, add, block, box, cross, cylinder, dot, lathe, loft, revolve, scale, sheet, smooth, sub, surface, tube,
-                    turn_y, unit)
+from shapes import (Shape, add, block, box, cross, cylinder, dot, lathe, loft, revolve, scale, sheet, smooth, sub,
+                    surface, tube, turn_y, unit)
 
 EXTENTS = (304.56, 79.18, 543.48)  # thesis Table 2
 TRIANGLES = 5187                   # thesis Table 3
@@ -37,7 +37,7 @@ def wave(*numbers):
     return math.sin(1.3 * a + 0.6 * sum(numbers))
 
 
-# ---- the mountain: a field that is negative inside -------------------------------------------------------------------
+# ---- the mountain: a field that is negative inside ------------------------------------------------------------------
 
 
 def rounded_box(p, middle, half, radius):
@@ -89,7 +89,7 @@ def make_mountain():
     return smooth(points, [t for t in triangles if max(points[v][1] for v in t) > -1], crease=42)
 
 
-# ---- rocks ------------------------------------------------------------------------------------------------------------
+# ---- rocks ----------------------------------------------------------------------------------------------------------
 
 
 def cliff(along, length, stations, depth, height):
@@ -110,7 +110,8 @@ def hoodoo(height, radius, seed):
     for k in range(steps + 1):
         t = k / steps
         profile.append((radius * (0.95 - 0.5 * math.sin(math.pi * t) + 0.12 * wave(4 * t, seed) + 0.3 * t), height * t))
-    return lathe([[(0, SUNK), (1.1 * radius, SUNK)], [(1.1 * radius, SUNK), *profile], [profile[-1], (0, height + 1.5)]], 8)
+    foot = (1.1 * radius, SUNK)
+    return lathe([[(0, SUNK), foot], [foot, *profile], [profile[-1], (0, height + 1.5)]], 8)
 
 
 def boulder(radius, seed):
@@ -149,12 +150,7 @@ def make():
     water = s.material("still water", (0.03, 0.10, 0.09), roughness=0.04)
     leaves = s.material("palm leaves", (0.16, 0.33, 0.09))
 
-    def put(name, parent, material, *shapes, at=None, turn=None):
-        """The shapes, as one object."""
-        whole = shapes[0]
-        for shape in shapes[1:]:
-            whole = whole + shape
-        return s.node(name, parent, at=at, turn=turn, mesh=s.mesh(name, (whole, material)))
+    put = s.put
 
     # The canyon.
     canyon = s.node("canyon")
@@ -195,15 +191,16 @@ def make():
     for name, start, end, columns in (("beam 1", 34, 59, 3), ("beam 2", 121, 146, 3), ("beam 3", 214, 239, 3),
                                       ("beam 4", 280, 305, 3)):
         put(name, arena, marble, revolve(beam, start, end, columns))
-    put("altar", arena, marble, cylinder(9, 1, 10), cylinder(6.5, 1, 10).moved((0, 1, 0)), box(4, 3, 4).moved((0, 2, 0)))
+    put("altar", arena, marble, cylinder(9, 1, 10), cylinder(6.5, 1, 10).moved((0, 1, 0)),
+        box(4, 3, 4).moved((0, 2, 0)))
     bowl = lathe([[(0, 0), (1.2, 0)], [(1.2, 0), (3.4, 2.4)], [(3.4, 2.4), (3.0, 2.4)], [(3.0, 2.4), (0, 0.6)]], 10)
     put("bronze bowl", arena, bronze, bowl, at=(0, 5, 0))
 
     # The fort at the south: walls with a gate, towers, the tall one with a copper dome.
     fort = s.node("fort")
     front, back = Z, Z - 9
-    put("fort wall", fort, brick, block((-X + 1, SUNK, back), (-12, 20, front)), block((12, SUNK, back), (X - 1, 20, front)),
-        block((-12, 14, back + 1), (12, 20, front - 1)))
+    put("fort wall", fort, brick, block((-X + 1, SUNK, back), (-12, 20, front)),
+        block((12, SUNK, back), (X - 1, 20, front)), block((-12, 14, back + 1), (12, 20, front - 1)))
     merlon = s.mesh("merlon", (box(7, 4, 3), brick))
     for k in range(7):
         s.node(f"merlon {k + 1}", fort, at=(-96 + 32 * k, 20, back + 1.6), mesh=merlon)
@@ -212,11 +209,10 @@ def make():
         s.node(name, fort, at=(x, SUNK, Z - 12), mesh=tower)
     minaret = s.node("minaret", fort, at=(-84, 0, 104))
     put("minaret foot", minaret, limestone, box(16, 14, 16))
-    put("minaret shaft", minaret, limestone, lathe([[(0, 14), (5.5, 14)], [(5.5, 14), (4.2, 52)], [(4.2, 52), (6.4, 54)],
-                                                    [(6.4, 54), (6.4, 57)], [(6.4, 57), (0, 57)]], 10))
-    put("copper dome", minaret, copper, lathe([[(0, 57), (4.4, 57)],
-                                               [(4.4, 57), (4.9, 59.5), (4.3, 62), (2.6, 64.5), (0.7, 66.5), (0.35, TOP - 1)],
-                                               [(0.35, TOP - 1), (0, TOP)]], 10))
+    corners = [(0, 14), (5.5, 14), (4.2, 52), (6.4, 54), (6.4, 57), (0, 57)]
+    put("minaret shaft", minaret, limestone, lathe(list(zip(corners, corners[1:])), 10))
+    bulge = [(4.4, 57), (4.9, 59.5), (4.3, 62), (2.6, 64.5), (0.7, 66.5), (0.35, TOP - 1)]
+    put("copper dome", minaret, copper, lathe([[(0, 57), bulge[0]], bulge, [bulge[-1], (0, TOP)]], 10))
     obelisk = s.mesh("obelisk", (loft([[(r * x, y, r * z) for x, z in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
                                        for y, r in ((SUNK, 2.4), (22, 1.5), (25, 0.1))]), marble))
     for k, (x, z) in enumerate(((-20, 160), (10, 160), (-20, 208), (10, 208))):
@@ -236,7 +232,8 @@ def make():
 
     def sail(s, t): return (14 * (s - 0.5), 9 - 3.2 * math.sin(math.pi * s) * math.sin(math.pi * t), 12 * (0.5 - t))
     poles = [box(0.35, 13, 0.35).moved((7 * x, SUNK, 6 * z)) for x in (-1, 1) for z in (-1, 1)]
-    for name, material, at, turn in (("blue awning", canvas, (44, 0, 196), 15), ("red awning", red_canvas, (-56, 0, 232), -20)):
+    for name, material, at, turn in (("blue awning", canvas, (44, 0, 196), 15),
+                                     ("red awning", red_canvas, (-56, 0, 232), -20)):
         awning = s.node(name, at=at, turn=turn_y(turn))
         put(name + "'s sail", awning, material, sheet(4, 3, sail, 0.15))
         put(name + "'s poles", awning, wood, *poles)
@@ -260,7 +257,7 @@ def make():
     return s.glb()
 
 
-# ---- checks -----------------------------------------------------------------------------------------------------------
+# ---- checks ---------------------------------------------------------------------------------------------------------
 
 
 def first_hit(origin, direction, triangles):

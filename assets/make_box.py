@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes box.glb, the first built-in scene: a Cornell-like room of 10.65^3 units, open towards +Z; and box-hard.glb, the
-same room in hard light (thesis Fig. 22): the panel is dark, and all light comes from a small spot in a corner behind
-the thin panel, which few rays find.
+"""Writes box.glb, the first built-in scene: a Cornell-like room of 10.65^3 units, open towards +Z; and box-hard.glb,
+the same room in hard light (thesis Fig. 22): the panel is dark, and all light comes from a small spot in a corner
+behind the thin panel, which few rays find.
 
 Python's standard library only; the same bytes on every run and machine.
 

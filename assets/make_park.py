@@ -56,12 +56,7 @@ def make():
     iron = s.material("painted iron", (0.10, 0.11, 0.12), roughness=0.5)
     glow = s.material("lamp", (0.8, 0.8, 0.8), radiance=(14.0, 11.5, 8.0))
 
-    def put(name, parent, material, *shapes, at=None, turn=None):
-        """The shapes, as one object."""
-        whole = shapes[0]
-        for shape in shapes[1:]:
-            whole = whole + shape
-        return s.node(name, parent, at=at, turn=turn, mesh=s.mesh(name, (whole, material)))
+    put = s.put
 
     # The court: ground, four walls, a roof along the left, louvres over the back.
     court = s.node("court")
@@ -79,8 +74,9 @@ def make():
     zones = s.node("zones")
     put("plaza", zones, granite, block((-7, 0, -6), (9, 0.15, 8)))
     put("pool", zones, water, block((-19, 0, -4.5), (-8.6, 0.12, 1.5)))
-    put("pool rim", zones, travertine, block((-19.4, 0, -4.9), (-8.2, 0.3, -4.5)), block((-19.4, 0, 1.5), (-8.2, 0.3, 1.9)),
-        block((-19.4, 0, -4.5), (-19, 0.3, 1.5)), block((-8.6, 0, -4.5), (-8.2, 0.3, 1.5)))
+    put("pool rim", zones, travertine, block((-19.4, 0, -4.9), (-8.2, 0.3, -4.5)),
+        block((-19.4, 0, 1.5), (-8.2, 0.3, 1.9)), block((-19.4, 0, -4.5), (-19, 0.3, 1.5)),
+        block((-8.6, 0, -4.5), (-8.2, 0.3, 1.5)))
     put("lawn", zones, lawn, block((-INNER, 0, 4), (-8, 0.1, INNER)))
     put("back lawn", zones, lawn, block((-INNER, 0, -INNER), (-5, 0.1, -7)))
     put("gravel", zones, gravel, block((10.5, 0, -4), (17.5, 0.08, 18)))
@@ -102,8 +98,7 @@ def make():
     pavilion = s.node("pavilion", at=(12.6, 0, -13.8))
     put("podium", pavilion, travertine, block((-6.5, 0, -6.5), (6.5, 0.6, 5)), block((-3, 0, 5), (3, 0.4, 5.6)),
         block((-3, 0, 5.6), (3, 0.2, 6.2)))
-    column = s.mesh("cross column", (block((-0.16, 0, -0.04), (0.16, 4.8, 0.04)) + block((-0.04, 0, -0.16), (0.04, 4.8, 0.16)),
-                                     steel))
+    column = s.mesh("cross column", (box(0.32, 4.8, 0.08) + box(0.08, 4.8, 0.32), steel))
     for k, (x, z) in enumerate((x, z) for x in (-5, 0, 5) for z in (-4.6, 3.4)):
         s.node(f"column {k + 1}", pavilion, at=(x, 0.6, z), mesh=column)
     put("marble wall", pavilion, marble, block((-3.4, 0.6, -2.4), (3.4, 5.4, -2.0)))
@@ -120,13 +115,14 @@ def make():
     for k in range(8):
         angle = math.radians(45 * k + 22.5)
         s.node(f"temple column {k + 1}", temple, at=(4.3 * math.sin(angle), 0.7, 4.3 * math.cos(angle)), mesh=shaft)
-    put("temple ring", temple, plaster, lathe([[(4.8, 5.9), (4.8, 6.7)], [(4.8, 6.7), (3.8, 6.7)], [(3.8, 6.7), (3.8, 5.9)],
-                                               [(3.8, 5.9), (4.8, 5.9)]], 20))
+    corners = [(4.8, 5.9), (4.8, 6.7), (3.8, 6.7), (3.8, 5.9), (4.8, 5.9)]
+    put("temple ring", temple, plaster, lathe(list(zip(corners, corners[1:])), 20))
     put("temple dome", temple, copper, dome(4.5, 0.35, 6.7))
 
     # A thin pergola over a path at the left, its slats 0.08 thick.
     pergola = s.node("pergola", at=(-14.6, 0, 13.4))
-    post, beam = s.mesh("pergola post", (box(0.22, 3.6, 0.22), oak)), s.mesh("pergola beam", (box(0.14, 0.3, 12.4), oak))
+    post = s.mesh("pergola post", (box(0.22, 3.6, 0.22), oak))
+    beam = s.mesh("pergola beam", (box(0.14, 0.3, 12.4), oak))
     slat = s.mesh("pergola slat", (box(5.6, 0.26, 0.08), oak))
     for x in (-2.4, 2.4):
         for z in (-5.6, 0, 5.6):
@@ -146,8 +142,9 @@ def make():
 
     # Curves: a bench around the plaza's front, a ring on a plinth, a stone ball.
     curves = s.node("curves")
-    put("bench seat", curves, oak, revolve([(9.5, 0.45), (9.5, 0.55), (8.6, 0.55), (8.6, 0.45)], -52, 38, 14), at=(1, 0.0, 2.4))
-    put("bench wall", curves, plaster, revolve([(9.3, 0), (9.3, 0.45), (8.8, 0.45), (8.8, 0)], -50, 36, 14), at=(1, 0, 2.4))
+    seat, foot = [(9.5, 0.45), (9.5, 0.55), (8.6, 0.55), (8.6, 0.45)], [(9.3, 0), (9.3, 0.45), (8.8, 0.45), (8.8, 0)]
+    put("bench seat", curves, oak, revolve(seat, -52, 38, 14), at=(1, 0, 2.4))
+    put("bench wall", curves, plaster, revolve(foot, -50, 36, 14), at=(1, 0, 2.4))
     put("plinth", curves, travertine, box(2.4, 1.1, 2.4), at=(1.6, 0.15, -0.8), turn=turn_y(20))
 
     def circle(t): return (1.7 * math.sin(2 * math.pi * t), 2.0 - 1.7 * math.cos(2 * math.pi * t), 0.0)
@@ -159,9 +156,10 @@ def make():
     trunk = s.mesh("trunk", (lathe([[(0.22, 0), (0.14, 3.0)]], 6), bark))
     round_crown = s.mesh("round crown", (sphere(1.9, 12, 7), leaves))
     pointed_crown = s.mesh("pointed crown", (lathe([[(0, 0), (1.5, 0)], [(1.5, 0), (1.1, 2.4), (0, 6.2)]], 10), leaves))
-    for k, (crown, x, z) in enumerate(((round_crown, -19.0, 7.2), (pointed_crown, -10.0, 18.6), (round_crown, -19.8, 19.4),
-                                       (pointed_crown, -20.0, -7.6), (pointed_crown, 15.2, 5.4), (round_crown, 15.4, 15.6),
-                                       (pointed_crown, -7.0, -20.2))):
+    for k, (crown, x, z) in enumerate((
+            (round_crown, -19.0, 7.2), (pointed_crown, -10.0, 18.6), (round_crown, -19.8, 19.4),
+            (pointed_crown, -20.0, -7.6), (pointed_crown, 15.2, 5.4), (round_crown, 15.4, 15.6),
+            (pointed_crown, -7.0, -20.2))):
         tree = s.node(f"tree {k + 1}", trees, at=(x, 0.05, z))
         s.node(f"trunk {k + 1}", tree, mesh=trunk)
         s.node(f"crown {k + 1}", tree, at=(0, 2.6, 0), mesh=crown)
@@ -181,7 +179,8 @@ def make():
 
 
 def check(scene):
-    check_closed(scene, except_for=("temple column", "trunk", "pavilion lamp"))  # ends inside others; a body and its face
+    # The ends of columns and trunks are inside others; the lamp is a body and its shining face.
+    check_closed(scene, except_for=("temple column", "trunk", "pavilion lamp"))
     assert all(abs(a - b) < 0.005 for a, b in zip(extents(scene), EXTENTS)), extents(scene)
     assert abs(len(scene.triangles) / TRIANGLES - 1) < 0.1, len(scene.triangles)
 

@@ -33,7 +33,7 @@ def rotate(q, v):
     return add(add(v, scale(t, w)), cross(u, t))
 
 
-# ---- shapes: lists of vertices (position, normal, uv) and triangles, counter-clockwise from outside -------------------
+# ---- shapes: lists of vertices (position, normal, uv) and triangles, counter-clockwise from outside -----------------
 
 
 class Shape:
@@ -247,7 +247,8 @@ def smooth(points, triangles, crease):
 
 def surface(field, low, counts, cell):
     """The surface field(p) = 0 of what is inside where field < 0, by surface nets on counts[0..2] cubes from `low`: one
-    point for each cube that the surface passes, two triangles for each edge that it cuts. Returns both, for smooth()."""
+    point for each cube that the surface passes, two triangles for each edge that it cuts. Returns both,
+    for smooth()."""
     nx, ny, nz = counts
 
     def node(i, j, k): return add(low, (cell * i, cell * j, cell * k))
