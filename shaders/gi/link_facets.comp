@@ -9,6 +9,7 @@ layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 
 const uint NOTHING_STANDS = 0xFFFFu;
 shared uint whole[2][27];
+shared vec3 surfels[2][FACET_SURFELS];  ///< positions of the facet's own
 
 /// The facet of a side of a triangle in a voxel, counted from the first; NO_LINK where others stand on it, or it is too
 /// small to have one; NOTHING_STANDS where the triangle has no piece.
@@ -20,6 +21,19 @@ uint wholePiece(SurfaceArrays surface, uint entry, uint side) {
   if ((sides & PIECE_CUT) != 0u) return NO_LINK;
   uint found = ((side & SURFEL_BACK) != 0u ? sides >> 8 : sides) & 0xFFu;
   return found < PIECE_UNKNOWN ? found : NO_LINK;
+}
+
+/// The facet's surfel that is nearest to a point.
+SurfelPoint ownSurfel(SurfaceArrays surface, uint facet, vec3 point) {
+  uint nearest = 0u;
+  float best = 1e30;
+  for (uint k = 0u; k < FACET_SURFELS; ++k) {
+    vec3 d = surfels[gl_LocalInvocationID.y][k] - point;
+    if (dot(d, d) >= best) continue;
+    best = dot(d, d);
+    nearest = k;
+  }
+  return surfelOf(surface, facet, nearest);
 }
 
 /// Whether the facet's triangle goes on into the voxel at `step_`: nothing stands on it in any voxel of the block between
@@ -44,6 +58,7 @@ void main() {
   if (any) {
     voxel = ivec3(unpackVoxel(push.voxel.at[facet]));
     side = surface.surfels.at[FACET_SURFELS * facet + FACET_SURFELS / 2u].triangle;
+    if (i < FACET_SURFELS) surfels[gl_LocalInvocationID.y][i] = surfelOf(surface, facet, i).position;
   }
   if (any && i < 27u) {
     entry = entryOf(push.reverse, push.dims, voxel + step_);
@@ -67,7 +82,7 @@ void main() {
       uint other = firstFacet(entry) + k;
       uint otherSide = surface.surfels.at[FACET_SURFELS * other + FACET_SURFELS / 2u].triangle;
       if (dot(facing, triangleFacing(surface, otherSide)) < SAME_SIDE_COSINE) continue;
-      if (!chosen) from = nearestSurfel(surface, facet, border, distance2);
+      if (!chosen) from = ownSurfel(surface, facet, border);
       chosen = true;
       SurfelPoint to = nearestSurfel(surface, other, from.position, distance2);
       if (distance2 >= best || !continues(surface, push.reverse, push.dims, from, to)) continue;
