@@ -18,6 +18,7 @@
 #include "gi/plan.h"
 #include "gi/products.h"
 #include "gi/scatter.h"
+#include "gi/sky.h"
 #include "gi/solve.h"
 #include "gi/specular.h"
 #include "gi/stage_keys.h"
@@ -47,6 +48,7 @@ struct Pipeline::Impl {
         onDevice(c, scene) {
     materials = onDevice.materialValues;
     content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
+    lookAtSky();
     decide();
   }
 
@@ -72,6 +74,10 @@ struct Pipeline::Impl {
   Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
+
+  std::shared_ptr<const SkyImage> skyImage;
+  Sky sky;                  ///< that the settings ask for
+  SkyOnDevice skyOnDevice;  ///< that the light is made with; none where the plan has it off
 
   // ---- What the plan says ----
 
@@ -113,6 +119,12 @@ struct Pipeline::Impl {
       planned.traits.lights.push_back(measureLight(light, scene, settings.voxel.resolution));
     content.lights = lightContent(lights);
     decide();
+  }
+
+  void lookAtSky() {
+    sky = makeSky(settings.sky, skyImage.get());
+    planned.traits.sky = sky.largest();
+    content.sky = skyImage ? Digest().add(std::as_bytes(std::span(skyImage->sha256))).value() : 0;
   }
 
   void learn(const Products& p) { planned.traits.build = buildTraits(p); }
@@ -239,6 +251,7 @@ struct Pipeline::Impl {
     ++revision.light;
     // A new list has no light yet: if it were given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
+    if (first <= Redo::Gather || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
     if (!p.light || !*p.light) {
       planned.traits.light.noise.reset();
@@ -251,6 +264,7 @@ struct Pipeline::Impl {
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
+      gatherSky(frame, *p.matrix, skyOnDevice, *p.light);
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
@@ -330,13 +344,16 @@ const SceneTraits& Pipeline::traits() const {
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
   p.settings = settings;
+  p.lookAtSky();
   p.lookAtLights(p.onDevice.lightValues);
   return p.due();
 }
 
 Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
-  const EffectPlan plan = irad::plan(p.planned.traits, settings, &p.planned.plan());
+  SceneTraits traits = p.planned.traits;
+  traits.sky = makeSky(settings.sky, p.skyImage.get()).largest();
+  const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
 
@@ -380,6 +397,18 @@ bool Pipeline::adopt(Scene& scene) {
 void Pipeline::lightsChanged() {
   impl_->shadowsMade = 0;
   impl_->made.forget(Redo::Gather);
+}
+
+void Pipeline::setSky(std::shared_ptr<const SkyImage> image) {
+  impl_->skyImage = std::move(image);
+  impl_->lookAtSky();
+  impl_->decide();
+}
+const SkyImage* Pipeline::skyImage() const {
+  return impl_->skyImage.get();
+}
+const Sky& Pipeline::sky() const {
+  return impl_->sky;
 }
 
 void Pipeline::darken() {
@@ -461,6 +490,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.scene = &p.onDevice;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;
+  if (p.skyOnDevice) inputs.sky = &p.skyOnDevice.record;
   inputs.range = range;
   lightByEmitters(frame, inputs, p.planned.settings(), targets);
   traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);

@@ -135,6 +135,16 @@ constexpr Setting kTable[] = {
     SETTING(specular.gpu.filter_, "specular.filter", "Edge-aware filter over traced reflections.", Shade),
     SETTING(light.shadowResolution, "light.shadow_resolution", {64, 8192, "texels"},
             "Shadow-map size; point lights use half per cube face.", Gather),
+    SETTING(sky.source, "sky.source",
+            "Light from where no surface is. constant: of one radiance; image: a picture of the whole sphere (--sky). "
+            "With matrix.hit_rule=triangles.",
+            Gather),
+    SETTING(sky.intensity, "sky.intensity", {0, 1e6}, "Factor on the sky; of a constant one its radiance, W/(m^2 sr).",
+            Gather),
+    SETTING(sky.rotation, "sky.rotation", {-360, 360, "degrees"}, "Turns the sky about the vertical axis, +Y.", Gather),
+    SETTING(sky.red, "sky.red", {0, 1}, "Colour of a constant sky, linear.", Gather),
+    SETTING(sky.green, "sky.green", {0, 1}, "Colour of a constant sky, linear.", Gather),
+    SETTING(sky.blue, "sky.blue", {0, 1}, "Colour of a constant sky, linear.", Gather),
     SETTING(camera.exposureEv, "camera.exposure", {-16, 16, "EV"},
             "Exposure of the displayed picture; EXR files stay linear.", Nothing),
     SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),
@@ -179,6 +189,11 @@ constexpr Setting kTable[] = {
     SETTING(effects.spot, "effects.spot",
             "Spot lights with their shadow maps; auto: those with an intensity whose range and cone reach the scene.",
             Gather),
+    SETTING(
+        effects.sky, "effects.sky",
+        "The sky: its light, in reflections and behind the scene; auto: where there is one. On keeps what a sky needs "
+        "beside the matrix, off leaves the sky out.",
+        Matrix),
     SETTING(effects.matrix, "effects.matrix",
             "Indirect light: matrix and solver; auto: where there is light, and something that reflects it.", Matrix),
     SETTING(effects.specular, "effects.specular",
