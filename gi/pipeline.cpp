@@ -48,7 +48,7 @@ struct Pipeline::Impl {
         onDevice(c, scene) {
     materials = onDevice.materialValues;
     content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
-    lookAtSky();
+    lookAtSky(onDevice.lightValues);
     decide();
   }
 
@@ -75,7 +75,6 @@ struct Pipeline::Impl {
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
 
-  std::shared_ptr<const SkyImage> skyImage;
   Sky sky;                  ///< that the settings ask for
   SkyOnDevice skyOnDevice;  ///< that the light is made with; none where the plan has it off
 
@@ -118,13 +117,20 @@ struct Pipeline::Impl {
     for (const GpuLight& light : lights)
       planned.traits.lights.push_back(measureLight(light, scene, settings.voxel.resolution));
     content.lights = lightContent(lights);
+    lookAtSky(lights);
     decide();
   }
 
-  void lookAtSky() {
-    sky = makeSky(settings.sky, skyImage.get());
+  SkyInputs skyInputs(std::span<const GpuLight> lights) const {
+    SkyInputs in{.image = scene.sky.get(), .sun = {}};
+    for (const GpuLight& light : lights)
+      if (lightHas(light.type, LIGHT_DISTANT) && !in.sun) in.sun = -light.direction;
+    return in;
+  }
+  void lookAtSky(std::span<const GpuLight> lights) {
+    sky = makeSky(settings.sky, skyInputs(lights), &sky);
     planned.traits.sky = sky.largest();
-    content.sky = skyImage ? Digest().add(std::as_bytes(std::span(skyImage->sha256))).value() : 0;
+    content.sky = scene.sky ? Digest().add(std::as_bytes(std::span(scene.sky->sha256))).value() : 0;
   }
 
   void learn(const Products& p) { planned.traits.build = buildTraits(p); }
@@ -344,7 +350,6 @@ const SceneTraits& Pipeline::traits() const {
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
   p.settings = settings;
-  p.lookAtSky();
   p.lookAtLights(p.onDevice.lightValues);
   return p.due();
 }
@@ -352,7 +357,7 @@ Redo Pipeline::set(const Settings& settings) {
 Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
   SceneTraits traits = p.planned.traits;
-  traits.sky = makeSky(settings.sky, p.skyImage.get()).largest();
+  traits.sky = makeSky(settings.sky, p.skyInputs(p.onDevice.lightValues), &p.sky).largest();
   const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
@@ -391,6 +396,7 @@ bool Pipeline::adopt(Scene& scene) {
   if (surfaceContent(scene) != p.content.surfaces) return false;
   setLights(scene.lights);
   p.scene = std::move(scene);  // where p.onDevice looks for it
+  p.lookAtLights(p.onDevice.lightValues);
   return true;
 }
 
@@ -400,12 +406,9 @@ void Pipeline::lightsChanged() {
 }
 
 void Pipeline::setSky(std::shared_ptr<const SkyImage> image) {
-  impl_->skyImage = std::move(image);
-  impl_->lookAtSky();
-  impl_->decide();
-}
-const SkyImage* Pipeline::skyImage() const {
-  return impl_->skyImage.get();
+  Impl& p = *impl_;
+  p.scene.sky = std::move(image);
+  p.lookAtLights(p.onDevice.lightValues);
 }
 const Sky& Pipeline::sky() const {
   return impl_->sky;

@@ -76,9 +76,8 @@ class Pipeline {
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
 
-  /// Takes a picture for sky.source = image, or none (null).
+  /// Takes a picture for sky.source = image, or none (null), in place of the scene's.
   void setSky(std::shared_ptr<const SkyImage> image);
-  const SkyImage* skyImage() const;
   /// The sky that the settings ask for.
   const Sky& sky() const;
 

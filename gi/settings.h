@@ -29,7 +29,7 @@ namespace irad {
 #define IRAD_SOLVER_ACCELERATIONS(X) X(off, "off") X(anderson, "anderson")
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
 #define IRAD_EFFECT_MODES(X) X(automatic, "auto") X(on, "on") X(off, "off")
-#define IRAD_SKY_SOURCES(X) X(none, "none") X(constant, "constant") X(image, "image")
+#define IRAD_SKY_SOURCES(X) X(none, "none") X(constant, "constant") X(image, "image") X(preetham, "preetham")
 #define IRAD_REDOS(X) \
   X(Voxels, "voxels") X(Field, "field") X(Matrix, "matrix") X(Emission, "emission") X(Gather, "gather") \
   X(Solve, "solve") X(Scatter, "scatter") X(Shade, "shade") X(Nothing, "nothing")
@@ -103,6 +103,9 @@ struct SkySettings {
   float intensity = 1;                 ///< factor; of a constant sky its radiance, W/(m^2 sr)
   float rotation = 0;                  ///< about +Y, degrees
   float red = 1, green = 1, blue = 1;  ///< of a constant sky, linear
+  // Of Preetham's: haze, and where the sun is if it is not the scene's first; degrees, the azimuth from -Z towards +X.
+  float turbidity = 3, elevation = 45, azimuth = 0;
+  bool coupled = true;
   bool operator==(const SkySettings&) const = default;
 };
 struct CameraSettings {

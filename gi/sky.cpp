@@ -1,9 +1,11 @@
 #include "gi/sky.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gi/lighting.h"
 #include "gi/matrix.h"
+#include "gi/preetham.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "renderer/frame/frame.h"
@@ -14,6 +16,12 @@ namespace {
 
 /// Samples of a bin in each direction.
 constexpr uint32_t kBinSamples = 16;
+
+glm::vec3 towardsSun(const SkySettings& s, const SkyInputs& inputs) {
+  if (s.coupled && inputs.sun) return *inputs.sun;
+  const float elevation = glm::radians(s.elevation), azimuth = glm::radians(s.azimuth);
+  return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
+}
 
 float largestOf(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
@@ -36,21 +44,28 @@ float Sky::largest() const {
   return most;
 }
 
-Sky makeSky(const SkySettings& s, const SkyImage* image) {
+Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
   Sky sky;
   sky.turn = s.rotation / 360;
   sky.scale = glm::vec3(s.intensity);
   switch (s.source) {
     case SkySource::none:
       return {};
-    case SkySource::constant:
+    case SkySource::constant: {
       static const auto white = std::make_shared<const SkyTexels>();
       sky.texels = white;
       sky.scale *= glm::vec3(s.red, s.green, s.blue);
       break;
+    }
     case SkySource::image:
-      if (image == nullptr) return {};
-      sky.texels = image->texels;
+      if (inputs.image == nullptr) return {};
+      sky.texels = inputs.image->texels;
+      break;
+    case SkySource::preetham:
+      sky.model = glm::vec4(towardsSun(s, inputs), s.turbidity);
+      sky.texels = before != nullptr && before->model == sky.model
+                       ? before->texels
+                       : std::make_shared<const SkyTexels>(preethamSky(s.turbidity, glm::vec3(sky.model)));
       break;
   }
   return sky;

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "renderer/resources.h"
+#include "renderer/scene/sky_image.h"
 #include "shaders/shared/sky.h"
 
 namespace irad {
@@ -20,30 +20,23 @@ struct FormFactors;
 struct Lighting;
 struct SkySettings;
 
-/// Radiance, equirectangular, top row first (shared/sky.h), finite and not negative.
-struct SkyTexels {
-  glm::uvec2 size{1};
-  std::vector<glm::vec3> texels{glm::vec3(1)};
-};
-
-/// A sky by others.
-struct SkyImage {
-  std::filesystem::path path;  ///< absolute
-  std::string sha256;          ///< of the file
-  std::shared_ptr<const SkyTexels> texels;
-};
-
 /// What the settings make of it: `scale` times the texels, turned. Without texels it is black.
 struct Sky {
   std::shared_ptr<const SkyTexels> texels;
   float turn = 0;  ///< about +Y, as a share of a full turn
   glm::vec3 scale{0};
+  glm::vec4 model{0};  ///< what texels were computed from: towards the sun, turbidity
   glm::vec3 radiance(const glm::vec3& direction) const;
   float largest() const;  ///< radiance, of any channel
   bool operator==(const Sky&) const = default;
 };
-/// `image`: of sky.source = image; null: there is none, and the sky is black.
-Sky makeSky(const SkySettings& settings, const SkyImage* image);
+/// Where a sky takes what is not in its settings from.
+struct SkyInputs {
+  const SkyImage* image = nullptr;  ///< null: there is none, and sky.source = image is black
+  std::optional<glm::vec3> sun;     ///< towards the scene's first, unit
+};
+/// `before`: one whose computed texels may serve again.
+Sky makeSky(const SkySettings& settings, const SkyInputs& inputs, const Sky* before = nullptr);
 
 /// The mean radiance of each bin of directions, of those with `edge` x `edge` squares on a face of the cube.
 std::vector<glm::vec4> skyBins(const Sky& sky, uint32_t edge = SKY_EDGE);

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "gi/check/path_tracer.h"
@@ -16,7 +18,10 @@
 #include "gi/oracle/rays.h"
 #include "gi/pipeline.h"
 #include "gi/plan.h"
+#include "gi/preetham.h"
 #include "gi/ray_kernel.h"
+#include "renderer/base/error.h"
+#include "renderer/image_io.h"
 #include "renderer/targets.h"
 #include "tests/gi_fixture.h"
 
@@ -262,7 +267,7 @@ TEST_F(Skies, AnotherIntensityOrRotationRelightsAlone) {
 }
 
 TEST_F(Skies, APictureTurnsAboutTheVertical) {
-  const Sky still{evening()->texels, 0, glm::vec3(1)}, turned{evening()->texels, 0.25f, glm::vec3(1)};
+  const Sky still{evening()->texels, 0, glm::vec3(1), {}}, turned{evening()->texels, 0.25f, glm::vec3(1), {}};
   // By the right hand about +Y: what was at -Z goes to -X.
   for (const glm::vec3& d : {glm::vec3(0.3f, 0.5f, -0.8f), glm::vec3(0, 1, 0), glm::vec3(-0.6f, 0.1f, 0.2f)})
     EXPECT_LT(
@@ -273,7 +278,7 @@ TEST_F(Skies, APictureTurnsAboutTheVertical) {
   texels->size = {4, 2};
   texels->texels = {glm::vec3(1), glm::vec3(1), glm::vec3(2), glm::vec3(2),
                     glm::vec3(3), glm::vec3(3), glm::vec3(4), glm::vec3(4)};
-  const Sky quarters{texels, 0, glm::vec3(1)};
+  const Sky quarters{texels, 0, glm::vec3(1), {}};
   EXPECT_NEAR(quarters.radiance(glm::normalize(glm::vec3(1, 1, 0))).x, 2, 1e-5);
   EXPECT_NEAR(quarters.radiance(glm::normalize(glm::vec3(-1, 1, 0))).x, 1, 1e-5);
   EXPECT_NEAR(quarters.radiance(glm::normalize(glm::vec3(1, -1, 0))).x, 4, 1e-5);
@@ -282,7 +287,7 @@ TEST_F(Skies, APictureTurnsAboutTheVertical) {
 
 TEST_F(Skies, BinsAreFineEnough) {
   const World w = world(stillLife(0).finish("still life"), at(12, 128));
-  const Sky sky{evening({512, 256})->texels, 0.1f, glm::vec3(1)};
+  const Sky sky{evening({512, 256})->texels, 0.1f, glm::vec3(1), {}};
   const oracle::Facets facets = oracleFacets(context(), w.facets);
   // Each facet's irradiance by so many rays, each by what `radiance` makes of its direction; W/m^2 over pi.
   const auto gathered = [&](uint32_t rays, const std::function<float(const glm::vec3&)>& radiance) {
@@ -325,6 +330,91 @@ TEST_F(Skies, BinsAreFineEnough) {
     EXPECT_LT(e.rms, noise.rms);
     EXPECT_NEAR(e.sum, 0, 0.005);
   }
+}
+
+TEST_F(Skies, ReadsAPictureOfTheSphere) {
+  const TemporaryFolder folder;
+  const auto file = [&](glm::uvec2 size, const std::function<void(std::vector<glm::vec4>&)>& edit) {
+    std::vector<glm::vec4> pixels(size_t{size.x} * size.y, glm::vec4(0.25f, 0.5f, 2e4f, 1));
+    edit(pixels);
+    writePfm(folder.path / "sky.pfm", size, pixels);
+    return folder.path / "sky.pfm";
+  };
+  const auto nothing = [](std::vector<glm::vec4>&) {};
+  const SkyImage small = readSky(file({8, 4}, nothing));
+  EXPECT_EQ(small.texels->size, glm::uvec2(8, 4));
+  EXPECT_EQ(small.texels->texels.at(31), glm::vec3(0.25f, 0.5f, 2e4f));
+  EXPECT_EQ(small.sha256.size(), 64u);
+  // What is larger than what is held is averaged.
+  const SkyImage large = readSky(file({6144, 3072}, [](auto& p) { p[0].x = 4.25f; }));
+  EXPECT_EQ(large.texels->size, glm::uvec2(3072, 1536));
+  EXPECT_EQ(large.texels->texels.at(0).x, 1.25f);
+  EXPECT_EQ(large.texels->texels.at(1).x, 0.25f);
+
+  const auto refusal = [](const std::filesystem::path& path) {
+    try {
+      (void)readSky(path);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("(none)");
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+  EXPECT_TRUE(contains(refusal(file({8, 4}, [&](auto& p) { p[3].y = nan, p[9].z = infinite, p[10].x = -1; })),
+                       "sky.pfm: 1 NaN, 1 infinite and 1 negative of 32 texels, the first at 3, 0"));
+  EXPECT_TRUE(contains(refusal(file({6, 4}, nothing)), "is 6 x 4 pixels: a sky is a picture of the whole sphere"));
+  EXPECT_NE(refusal(folder.path / "gone.pfm"), "(none)");
+  std::ofstream(folder.path / "bad.hdr") << "no picture";
+  EXPECT_TRUE(contains(refusal(folder.path / "bad.hdr"), "bad.hdr"));
+  if (!canDrawText()) return;  // no OpenImageIO: .pfm alone
+  const std::vector<glm::u8vec4> bytes(32, glm::u8vec4(200));
+  EXPECT_TRUE(
+      contains(refusal(writeDisplay(folder.path / "eight", {8, 4}, bytes)), "holds integers, which end at white"));
+}
+
+TEST_F(Skies, PreethamsIsThePapers) {
+  // The zenith's luminance and chromaticity by the paper's formulas (appendix A.2), written out anew.
+  const auto zenith = [](const SkyTexels& sky) {
+    glm::dvec3 sum(0);
+    for (uint32_t x = 0; x < sky.size.x; ++x) sum += glm::dvec3(sky.texels[x]) / static_cast<double>(sky.size.x);
+    return sum;
+  };
+  for (const double turbidity : {2.0, 3.0, 6.0})
+    for (const double degrees : {15.0, 45.0, 80.0}) {
+      const double s = glm::radians(degrees), chi = (4.0 / 9 - turbidity / 120) * (kPi - 2 * s);
+      const double expected = (4.0453 * turbidity - 4.971) * std::tan(chi) - 0.2155 * turbidity + 2.4192;
+      EXPECT_NEAR(preethamZenith(turbidity, s), expected, 1e-9);
+      const SkyTexels sky = preethamSky(static_cast<float>(turbidity), {std::sin(s), std::cos(s), 0});
+      const glm::dvec3 rgb = zenith(sky);
+      // Luminance of Rec. 709, and x of its XYZ.
+      const double y = 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
+      const double x = 0.4124 * rgb.x + 0.3576 * rgb.y + 0.1805 * rgb.z,
+                   z = 0.0193 * rgb.x + 0.1192 * rgb.y + 0.9505 * rgb.z;
+      const double s2 = s * s, s3 = s2 * s, t2 = turbidity * turbidity;
+      const double zenithX = t2 * (0.00166 * s3 - 0.00375 * s2 + 0.00209 * s) +
+                             turbidity * (-0.02903 * s3 + 0.06377 * s2 - 0.03202 * s + 0.00394) +
+                             (0.11693 * s3 - 0.21196 * s2 + 0.06052 * s + 0.25886);
+      EXPECT_NEAR(y / expected, 1, 0.01) << turbidity << " " << degrees;
+      EXPECT_NEAR(x / (x + y + z), zenithX, 0.002) << turbidity << " " << degrees;
+      // Nothing from below, and the brightest of what is seen is around the sun.
+      EXPECT_EQ(sky.texels.back(), glm::vec3(0));
+      for (const glm::vec3& t : sky.texels) EXPECT_TRUE(glm::all(glm::greaterThanEqual(t, glm::vec3(0))));
+    }
+  EXPECT_LT(preethamZenith(2, glm::radians(80.0)), preethamZenith(2, glm::radians(15.0)));
+
+  // Coupled, its sun is the scene's; alone, that of the settings.
+  SceneBuilder b = stillLife(0);
+  b.sun(glm::normalize(glm::vec3(1, -1, 0)), 3);
+  Settings s = under(SkySource::preetham);
+  Pipeline p(context(), b.finish("sunny"), s);
+  EXPECT_LT(glm::distance(glm::vec3(p.sky().model), glm::normalize(glm::vec3(-1, 1, 0))), 1e-5f);
+  const auto before = p.sky().texels;
+  s.sky.intensity = 2;
+  p.set(s);
+  EXPECT_EQ(p.sky().texels, before) << "computed anew";
+  s.sky.coupled = false, s.sky.elevation = 30, s.sky.azimuth = 90;
+  p.set(s);
+  EXPECT_LT(glm::distance(glm::vec3(p.sky().model), glm::vec3(std::sqrt(0.75f), 0.5f, 0)), 1e-5f);
 }
 
 TEST_F(Skies, PicturesAreThePathTracers) {
