@@ -12,6 +12,7 @@
 #include "renderer/base/near_match.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/sky_image.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
@@ -124,7 +125,19 @@ std::vector<Camera> PictureArguments::resolveCameras(const Config& config, const
 
 void SceneArguments::declare(Options& options) {
   options.value("--lights", "JSON", lights, "Lights in place of the scene's, an array as manifests hold it");
+  options.value(
+      "--sky", "FILE", sky,
+      "Picture of the sky, equirectangular (.hdr, .exr, .pfm), or a built-in one (evening); sky.* turn and scale it");
   options.flag("--no-sidecar", noSidecar, "Leave lights and cameras of SCENE.irad.json aside");
+}
+
+/// A file, or the name of a built-in one.
+static fs::path findSky(const std::string& wanted) {
+  std::error_code ignored;
+  if (!fs::exists(wanted, ignored) && fs::path(wanted).filename() == wanted && !fs::path(wanted).has_extension())
+    for (const fs::path& folder : builtInFolders())
+      if (const fs::path path = folder / (wanted + ".pfm"); fs::exists(path, ignored)) return path;
+  return wanted;
 }
 
 void SceneArguments::check() const {
@@ -138,7 +151,14 @@ LoadOptions SceneArguments::load(const Config& config, const Settings& settings)
   out.sidecar = !noSidecar && !config.manifest;
   out.lights = config.lights;
   if (lights) out.lights = lightsFromJson(*lights, "--lights");
+  if (sky || config.sky) out.sky = std::make_shared<SkyImage>(readSky(sky ? findSky(*sky) : *config.sky));
   return out;
+}
+
+void useSky(Settings& settings, const LoadOptions& options) {
+  if (options.sky && settings.sky.source == SkySource::none) settings.sky.source = SkySource::image;
+  if (!options.sky && settings.sky.source == SkySource::image)
+    throw UsageError("sky.source=image: no picture of the sky was given (--sky FILE)");
 }
 
 uint64_t parseInteger(const std::string& option, const std::string& text, uint64_t min, uint64_t max) {

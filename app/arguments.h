@@ -55,9 +55,9 @@ glm::uvec2 parseSize(const std::string& text);
 /// Elements of "a,b,c", empty ones refused.
 std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values);
 
-/// --lights, --no-sidecar.
+/// --lights, --no-sidecar, --sky.
 struct SceneArguments {
-  std::optional<std::string> lights;
+  std::optional<std::string> lights, sky;
   bool noSidecar = false;
   void declare(Options& options);
   void check() const;  ///< checks what it can before a scene is loaded
@@ -65,6 +65,9 @@ struct SceneArguments {
   /// does not count.
   LoadOptions load(const Config& config, const Settings& settings) const;
 };
+/// A sky that was given is shown: sky.source becomes `image` where it is `none`. UsageError where it is `image`, and
+/// none was given.
+void useSky(Settings& settings, const LoadOptions& options);
 
 /// The path of a scene argument: a file, or the name of a built-in scene ("box"); absent: the config's, else
 /// `otherwise`, else a usage error.

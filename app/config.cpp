@@ -97,6 +97,7 @@ Config readConfigFile(const fs::path& path) {
   config.settings = json["settings"].dump();
   std::tie(config.scene, config.sceneSha256) = readNamedFile(path, json, "scene");
   std::tie(config.reference, config.referenceSha256) = readNamedFile(path, json, "reference");
+  std::tie(config.sky, config.skySha256) = readNamedFile(path, json, "sky");
   if (json.contains("size")) {
     const Json& size = json["size"];
     if (!size.is_array() || size.size() != 2)

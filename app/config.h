@@ -28,6 +28,8 @@ struct Config {
   std::vector<std::string> views;
   std::optional<std::filesystem::path> reference;  ///< picture to compare with
   std::optional<std::string> referenceSha256;
+  std::optional<std::filesystem::path> sky;  ///< picture of it
+  std::optional<std::string> skySha256;
   std::vector<std::string> shaders;  ///< that were not the program's own
 };
 /// InputError when the file cannot be read, is not what it should be, or is of a newer format.

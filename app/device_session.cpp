@@ -9,6 +9,7 @@
 #include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/sidecar.h"
+#include "renderer/scene/sky_image.h"
 
 namespace irad::app {
 
@@ -23,6 +24,7 @@ DeviceSession::DeviceSession(const SettingArguments& arguments, const DeviceArgu
 
 Scene DeviceSession::load(const std::filesystem::path& path, const SceneArguments& arguments) {
   LoadOptions options = arguments.load(config, settings);
+  useSky(settings, options);
   options.progress = [this](float fraction, const char* step) { progress(step, fraction); };
   Scene scene = openScene(path, options);
   if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
@@ -30,6 +32,9 @@ Scene DeviceSession::load(const std::filesystem::path& path, const SceneArgument
   if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
     progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
                               config.path.string(), scene.sha256, *config.sceneSha256));
+  if (scene.sky && !arguments.sky && config.skySha256 && *config.skySha256 != scene.sky->sha256)
+    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}",
+                              scene.sky->path.string(), config.path.string(), scene.sky->sha256, *config.skySha256));
   if (!config.shaders.empty())
     progress.note(
         fmt::format("warning: {} was made with shaders compiled in the window, which this run does not have: {}",

@@ -120,6 +120,7 @@ void openWindow(WindowOptions options, const Config& config, const SettingArgume
   options.settings = settings.resolve(config, opened->isCpu);
   options.defaults = defaultSettings(opened->isCpu);
   options.load = scene.load(config, options.settings);
+  useSky(options.settings, options.load);
   {
     Context context(*opened, shaders, timings);
     runWindow(context, options);

@@ -14,6 +14,7 @@
 #include "renderer/base/error.h"
 #include "renderer/frame/context.h"
 #include "renderer/resources.h"
+#include "shaders/shared/sky.h"
 #include "shaders/shared/trace.h"
 
 namespace irad {
@@ -132,14 +133,14 @@ class EmbreeTrace : public HostTrace {
       : facets_(oracleFacets(context, list)),
         scene_(positions(facets_), corners(facets_), std::min(memory, free(context.device.memory()))) {}
 
-  void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
-            uint32_t threads) const override {
+  void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits, uint32_t threads,
+            bool sky) const override {
     IRAD_CHECK_OP(hits.size(), >=, uint64_t{rows} * params.rays);
     std::atomic<uint32_t> next = 0;
     const auto work = [&] {
       for (uint32_t block; (block = kBlock * next++) < rows;)
         for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r)
-          row(params, firstRow + r, hits.subspan(uint64_t{r} * params.rays, params.rays));
+          row(params, firstRow + r, sky, hits.subspan(uint64_t{r} * params.rays, params.rays));
     };
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> others;
@@ -159,7 +160,7 @@ class EmbreeTrace : public HostTrace {
     return indices;
   }
 
-  void row(const MatrixParams& params, uint32_t facet, std::span<uint32_t> hits) const {
+  void row(const MatrixParams& params, uint32_t facet, bool sky, std::span<uint32_t> hits) const {
     const uvec4 shifts = rayShifts(facets_.voxel[facet], params.seed, params.jitter);
     std::array<SurfelPoint, FACET_SURFELS> from;
     for (uint32_t i = 0; i < FACET_SURFELS; ++i) {
@@ -177,6 +178,8 @@ class EmbreeTrace : public HostTrace {
         ray = {start.position, rayDirection(start.facing, k++, rays, shifts), start.triangle};
       }
       trace(some, &hits[first]);
+      for (size_t i = 0; sky && i < some.size(); ++i)
+        if (hits[first + i] == TRACE_ESCAPED) hits[first + i] = metSky(some[i].direction);
     }
   }
 

@@ -18,9 +18,9 @@ class HostTrace {
  public:
   virtual ~HostTrace() = default;
   /// What every ray of some rows met, as traceRows has it (gi/ray_kernel.h): params.rays words per row, a facet or
-  /// TRACE_*. `threads` 0: all cores; the hits do not depend on it, to the bit.
+  /// TRACE_*. `threads` 0: all cores; the hits do not depend on it, to the bit. `sky`: of those that escape the bin.
   virtual void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
-                    uint32_t threads = 0) const = 0;
+                    uint32_t threads = 0, bool sky = false) const = 0;
 };
 
 /// Whether this build has one (IRAD_EMBREE).

@@ -20,6 +20,7 @@
 #include "gi/oracle/voxels.h"
 #include "gi/ray_kernel.h"
 #include "gi/solve.h"
+#include "gi/subsystems.h"
 #include "renderer/base/angle.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
@@ -60,6 +61,7 @@ void Inspector::refresh() {
   irradiance_ = perFacet(context_, list, light.indirect);
   radiosity_ = perFacet(context_, list, light.radiosity);
   correction_ = perFacet(context_, list, light.correction);
+  sky_ = perFacet(context_, list, light.sky);
 }
 
 bool Inspector::contains(const glm::ivec3& voxel) const {
@@ -177,6 +179,7 @@ InspectedFacet Inspector::facet(uint32_t i) const {
   r.radiosity = radiosity_[i];
   const double gain = pipeline_.lighting().gain.radiosity;
   r.correction = gain * glm::dvec3(correction_[i]);
+  r.sky = sky_[i];
   r.met = traceOnDevice(i);
   addLinks(i, r);
 
@@ -188,7 +191,7 @@ InspectedFacet Inspector::facet(uint32_t i) const {
                               : r.rays.hits);
 
   // One more sweep of the kind that made B: H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
-  const glm::dvec3 h = r.row.contribution + r.correction;
+  const glm::dvec3 h = r.row.contribution + r.correction + r.sky;
   const glm::dvec3 undamped = gain * (r.emission + r.albedo * (r.direct + h));
   const glm::dvec3 change = double{pipeline_.settings().solver.gpu.omega} * glm::abs(undamped - r.radiosity);
   r.residual = std::max({change.x, change.y, change.z});
@@ -295,6 +298,10 @@ SolveHistory replaySolve(Context& context, const Pipeline& pipeline, const std::
   Lighting light = makeLighting(context, list, settings);
   Frame copy = context.beginUntimed();
   copy.pass("Copy").copy(pipeline.lighting().direct, light.direct, light.direct.bytes);
+  if (const Buffer& sky = pipeline.lighting().sky) {
+    light.sky = Buffer(context.device, sky.name, Subsystem::Solver, sky.bytes);
+    copy.pass("Copy").copy(sky, light.sky, sky.bytes);
+  }
   copy.submit();
   const Emitters emitters = listEmitters(context, list);
   gatherEmitters(context, list, pipeline.matrix(), {&emitters, &pipeline.field()}, settings, light);

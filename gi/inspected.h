@@ -27,9 +27,9 @@ struct Link {
 };
 /// A row (what a facet gathers from) or a column (who gathers from it).
 struct Links {
-  std::vector<Link> links;            ///< by luminance of the contribution, strongest first
-  double sum = 0;                     ///< of form factors
-  glm::dvec3 contribution{0};         ///< of contributions, W/m^2; of a row: H but for `correction` and the residual
+  std::vector<Link> links;     ///< by luminance of the contribution, strongest first
+  double sum = 0;              ///< of form factors
+  glm::dvec3 contribution{0};  ///< of contributions, W/m^2; of a row: H but for `correction`, `sky`, the residual
   double exchange = 0, opposite = 0;  ///< sums, m^2
 };
 
@@ -58,6 +58,7 @@ struct InspectedFacet {
   glm::dvec3 albedo{0};
   glm::dvec3 emission{0}, direct{0}, irradiance{0}, radiosity{0};  ///< M, D, H, B, W/m^2
   glm::dvec3 correction{0};  ///< what samples of the emitters add to H in place of rays, W/m^2
+  glm::dvec3 sky{0};         ///< the part of H that comes straight from the sky, W/m^2
   double residual = 0;       ///< how far one more sweep would move B, largest channel, W/m^2
   RayShares rays;
   std::vector<uint32_t> met;  ///< by ray: a facet or TRACE_*, traced again on the device

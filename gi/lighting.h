@@ -47,6 +47,7 @@ struct Lighting {
   /// Sum of F M by samples over that by rays; 0: not sampled. Far from 1 the samples are not used
   /// (gather_emitters.cpp).
   float sampledShare = 0;
+  Buffer sky;                       ///< the part of H that comes straight from the sky; none without one
   Buffer indirect;                  ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer; w: v, the gains' answer (docs/method.md 1)
   std::array<Buffer, 3> history;    ///< B of earlier sweeps, where they are accelerated

@@ -9,6 +9,7 @@
 #include "gi/picture.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/sky_image.h"
 
 namespace irad {
 namespace fs = std::filesystem;
@@ -53,6 +54,7 @@ std::string Manifest::commandLine() const {
     if (setting.get(*settings) != setting.get(usual))
       words.insert(words.end(), {"--set", fmt::format("{}={}", setting.name, setting.text(*settings))});
   if (reference) words.insert(words.end(), {"--reference", reference->path.string()});
+  if (scene->sky) words.insert(words.end(), {"--sky", scene->sky->path.string()});
   words.insert(words.end(), arguments.begin(), arguments.end());
   for (std::string& word : words) word = shellQuote(word);
   return fmt::format("{}", fmt::join(words, " "));
@@ -82,6 +84,7 @@ std::string Manifest::toJson() const {
   if (!views.empty()) json["views"] = views;
   if (!viewRanges.empty()) json["view_ranges"] = Json::parse(fmt::format("[{}]", fmt::join(viewRanges, ",")));
   if (reference) json["reference"] = {{"path", reference->path.string()}, {"sha256", reference->sha256}};
+  if (scene->sky) json["sky"] = {{"path", scene->sky->path.string()}, {"sha256", scene->sky->sha256}};
   if (!shaders.empty()) json["shaders"] = shaders;
   for (const auto& [name, text] : details) json[name] = Json::parse(text);
   json["files"] = files;

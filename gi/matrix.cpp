@@ -12,9 +12,11 @@
 #include "gi/merge_rows.h"
 #include "gi/ray_kernel.h"
 #include "gi/scan.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/padded_rows.h"
 #include "renderer/base/error.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 namespace {
@@ -43,7 +45,8 @@ struct CsrBuild {
 /// GPUs: sorted and merged where they are, counted, scanned, packed.
 void mergeAndPackOnDevice(CsrBuild& build, Frame frame, const Chunk& chunk, const Buffer& hits, const Buffer& counts,
                           const Buffer& total, const Buffer& sums) {
-  mergeOnDevice(frame, chunk, hits, counts, build.matrix.rowInfo, sums);
+  const Buffer& rowSky = build.matrix.rowSky;
+  mergeOnDevice(frame, chunk, hits, counts, build.matrix.rowInfo, sums, rowSky ? &rowSky : nullptr);
   exclusiveScan(frame, kMatrixStage, counts, chunk.rows, total);
   ChunkCounts found{};
   uint32_t entries = 0;
@@ -57,46 +60,51 @@ void mergeAndPackOnDevice(CsrBuild& build, Frame frame, const Chunk& chunk, cons
   pack.entries = pass.in(hits);
   pack.starts = pass.in(counts);
   pack.rowInfo = pass.in(build.matrix.rowInfo);
+  pack.rowSky = pass.inIfAny(rowSky);
   pack.rowStart = pass.out(build.matrix.rowStart);
   pack.segment = pass.out(segment);
   pack.firstRow = chunk.firstRow;
   pack.rows = chunk.rows;
   pack.rays = chunk.rays;
-  pass.shader("gi/pack_rows.comp").push(pack).dispatch(uint64_t{chunk.rows} * PACK_WIDTH);
+  pass.shader("gi/pack_rows.comp")
+      .constant(CONSTANT_SKY, static_cast<bool>(rowSky))
+      .push(pack)
+      .dispatch(uint64_t{chunk.rows} * PACK_WIDTH);
   packing.submit();
 }
 
 /// CPU devices: the same by the host in mapped memory.
 void mergeAndPackOnHost(CsrBuild& build, const Chunk& chunk, const Buffer& hits) {
   std::vector<glm::uvec2> info(chunk.rows);
-  std::vector<uint32_t> start(chunk.rows);
+  std::vector<uint32_t> start(chunk.rows), sky(build.matrix.rowSky ? chunk.rows : 0);
   ChunkCounts sums{};
   const std::span<uint32_t> mapped(static_cast<uint32_t*>(hits.mapped), uint64_t{chunk.rows} * chunk.rays);
-  std::vector<uint32_t> entries = mergeOnHost(chunk, mapped, info, start, sums);
+  std::vector<uint32_t> entries = mergeOnHost(chunk, mapped, info, start, sums, sky);
   const auto count = static_cast<uint32_t>(entries.size());
   if (count % 2) entries.push_back(0);  // gi/solve_row.comp reads pairs on such devices
   const Buffer& segment = build.addSegment(chunk, sums, count, entries.size());
   if (!entries.empty()) upload(build.context, segment, std::as_bytes(std::span(entries)));
   upload(build.context, build.matrix.rowInfo, std::as_bytes(std::span(info)), 8ull * chunk.firstRow);
   upload(build.context, build.matrix.rowStart, std::as_bytes(std::span(start)), 4ull * chunk.firstRow);
+  if (!sky.empty()) upload(build.context, build.matrix.rowSky, std::as_bytes(std::span(sky)), 4ull * chunk.firstRow);
 }
 
 /// What the rays of each chunk meet, in mapped memory: of the driver's kernel, or of the host itself where it can.
 class HitsOnHost {
  public:
-  HitsOnHost(Context& context, const RayKernel& kernel, const MatrixParams& params)
-      : context_(context), kernel_(kernel), params_(params) {
+  HitsOnHost(Context& context, const RayKernel& kernel, const MatrixParams& params, bool sky)
+      : context_(context), kernel_(kernel), params_(params), sky_(sky) {
     if (params.hitRule == HitRule::triangles && canTraceOnHost())
       timed([&] { host_ = makeHostTrace(context, kernel.facets); });
   }
   void trace(const Chunk& chunk, const Buffer& hits) {
     if (host_) {
       const std::span<uint32_t> mapped(static_cast<uint32_t*>(hits.mapped), uint64_t{chunk.rows} * chunk.rays);
-      timed([&] { host_->rows(params_, chunk.firstRow, chunk.rows, mapped); });
+      timed([&] { host_->rows(params_, chunk.firstRow, chunk.rows, mapped, /*threads=*/0, sky_); });
       return;
     }
     Frame frame = context_.begin();
-    traceRows(frame, kernel_, params_, chunk.firstRow, chunk.rows, hits);
+    traceRows(frame, kernel_, params_, chunk.firstRow, chunk.rows, hits, sky_);
     // The device's writes are made visible to the host.
     frame.pass(kMatrixStage)
         .declare(hits, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT})
@@ -113,11 +121,13 @@ class HitsOnHost {
   Context& context_;
   const RayKernel& kernel_;
   const MatrixParams& params_;
+  const bool sky_;
   std::unique_ptr<HostTrace> host_;
 };
 
-/// csr: each chunk of rows is traced once into a scratch array, and turned into a segment of the exact size.
-void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params,
+/// csr: each chunk of rows is traced once into a scratch array, and turned into a segment of the exact size. `sky`:
+/// rays that escape are kept by bins.
+void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params, bool sky,
               FormFactors& matrix, const std::function<bool(float)>& progress) {
   const Device& device = context.device;
   const uint32_t rows = matrix.rows, rays = params.rays;
@@ -134,6 +144,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   const uint64_t places = uint64_t{segmentRows} * rays;
 
   matrix.rowStart = Buffer(device, "matrix row starts", Subsystem::Matrix, 4ull * rows);
+  if (sky) matrix.rowSky = Buffer(device, "matrix rows' bins of the sky", Subsystem::Matrix, 4ull * rows);
   Buffer hits(device, "matrix scratch: hits of a chunk", Subsystem::Matrix, 4 * places,
               device.isCpu ? Access::Readback : Access::Device);
   Buffer counts(device, "matrix scratch: row counts", Subsystem::Matrix, 4ull * segmentRows);
@@ -142,7 +153,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   const RayKernel kernel = rayKernel(facets, field, params);
   CsrBuild build{context, matrix, rows, arrays.segmentShift};
   std::optional<HitsOnHost> onHost;
-  if (device.isCpu) onHost.emplace(context, kernel, params);
+  if (device.isCpu) onHost.emplace(context, kernel, params, sky);
   for (uint32_t first = 0; first < rows; first += segmentRows) {
     const Chunk chunk{first, std::min(segmentRows, rows - first), rays, arrays.columnBits};
     if (onHost) {
@@ -150,7 +161,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
       mergeAndPackOnHost(build, chunk, hits);
     } else {
       Frame frame = context.begin();
-      traceRows(frame, kernel, params, first, chunk.rows, hits);
+      traceRows(frame, kernel, params, first, chunk.rows, hits, sky);
       mergeAndPackOnDevice(build, std::move(frame), chunk, hits, counts, total, sums);
     }
     reportRows(progress, uint64_t{first} + chunk.rows, rows);
@@ -177,11 +188,12 @@ FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& 
   }
   reportRows(progress, 0, 1);
   if (matrix.format == MatrixFormat::csr)
-    buildCsr(context, facets, field, params, matrix, progress);
+    buildCsr(context, facets, field, params, settings.effects.sky == EffectMode::on, matrix, progress);
   else
     buildPaddedRows(context, facets, field, params, matrix, progress);
   for (const Buffer& segment : matrix.segments) matrix.stats.bytesAllocated += segment.bytes;
-  matrix.stats.bytesAllocated += matrix.rowStart.bytes + matrix.rowInfo.bytes + matrix.record.bytes;
+  matrix.stats.bytesAllocated +=
+      matrix.rowStart.bytes + matrix.rowInfo.bytes + matrix.rowSky.bytes + matrix.record.bytes;
   return matrix;
 }
 

@@ -15,7 +15,7 @@ struct Field;
 struct Settings;
 
 struct MatrixStats {
-  uint64_t rays = 0, hits = 0, entries = 0, escaped = 0, invalid = 0;
+  uint64_t rays = 0, hits = 0, entries = 0, escaped = 0, invalid = 0;  ///< entries: the sky's bins included
   uint64_t bytesUsed = 0, bytesAllocated = 0;  ///< used: of filled entries (padded: 8 B per hit)
   uint32_t largestRow = 0;
 };
@@ -26,6 +26,7 @@ struct FormFactors {
   std::vector<Buffer> segments;  ///< entries of rowsPerSegment rows each (csr), or of fixed stride (padded)
   Buffer rowStart;               ///< rows: first entry within its segment
   Buffer rowInfo;                ///< rows: entries | ... see shared/matrix.h
+  Buffer rowSky;                 ///< rows: entries behind each, bins of the sky; only where rays that escape are kept
   Buffer record;                 ///< one MatrixArrays; from kSegmentTable on, the segments' addresses
   static constexpr uint64_t kSegmentTable = 64;
   MatrixStats stats;

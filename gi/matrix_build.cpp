@@ -35,6 +35,7 @@ void writeMatrixRecord(Context& context, FormFactors& matrix, const MatrixArrays
   written.segments = record.own(FormFactors::kSegmentTable);
   written.rowStart = record.of(matrix.rowStart);
   written.rowInfo = record.of(matrix.rowInfo);
+  if (matrix.rowSky) written.rowSky = record.of(matrix.rowSky);
   written.rows = matrix.rows;
   std::memcpy(bytes.data(), &written, sizeof(written));
   for (size_t i = 0; i < matrix.segments.size(); ++i) {

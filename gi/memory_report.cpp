@@ -58,6 +58,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
       kEntries, matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries : paddedBytes(matrix.rows, matrix.rays));
   buffer(matrix.rowStart, 4 * uint64_t{matrix.rows});
   buffer(matrix.rowInfo, 8 * uint64_t{matrix.rows});
+  buffer(matrix.rowSky, 4 * uint64_t{matrix.rows});
   buffer(matrix.record, FormFactors::kSegmentTable + 8 * std::max<uint64_t>(1, matrix.segments.size()));
   // Light: one fp32 vec4 per facet in each array; the thesis's volume holds half-precision RGBA.
   for (const Buffer* b : {&lighting.direct, &lighting.emitted, &lighting.indirect, &lighting.radiosity,
@@ -68,6 +69,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
          sizeof(glm::vec4) * SOLVE_SUMS *
              std::min<uint64_t>((s + SOLVE_SUMS_FACETS - 1) / SOLVE_SUMS_FACETS, SOLVE_SUMS_INVOCATIONS));
   buffer(lighting.correction, 16 * s);
+  buffer(lighting.sky, 16 * s);
   buffer(lighting.rowSum, 4 * s);
   buffer(lighting.residual, sizeof(SolveResidual) * SOLVE_RESIDUALS);
   buffer(lighting.blurChange, sizeof(uint32_t));

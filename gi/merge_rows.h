@@ -14,13 +14,14 @@ struct Chunk {
 };
 
 /// On the device, one workgroup per row: in `hits` every row's entries replace its hits; counts, rowInfo and sums
-/// follow.
+/// follow. `rowSky`: where the hits tell rays that escape by bins.
 void mergeOnDevice(Frame& frame, const Chunk& chunk, const Buffer& hits, const Buffer& counts, const Buffer& rowInfo,
-                   const Buffer& sums);
+                   const Buffer& sums, const Buffer* rowSky = nullptr);
 
 /// On the host, with the same result: for CPU devices, whose memory this is anyway and whose workgroups are slow at
-/// sorting. `hits` is mapped; `info` and `start` are the chunk's; the packed entries are returned.
+/// sorting. `hits` is mapped; `info`, `start` and, where it is wanted, `sky` are the chunk's; the packed entries are
+/// returned.
 std::vector<uint32_t> mergeOnHost(const Chunk& chunk, std::span<uint32_t> hits, std::span<glm::uvec2> info,
-                                  std::span<uint32_t> start, ChunkCounts& sums);
+                                  std::span<uint32_t> start, ChunkCounts& sums, std::span<uint32_t> sky = {});
 
 }  // namespace irad

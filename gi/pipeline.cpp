@@ -18,6 +18,7 @@
 #include "gi/plan.h"
 #include "gi/products.h"
 #include "gi/scatter.h"
+#include "gi/sky.h"
 #include "gi/solve.h"
 #include "gi/specular.h"
 #include "gi/stage_keys.h"
@@ -47,6 +48,7 @@ struct Pipeline::Impl {
         onDevice(c, scene) {
     materials = onDevice.materialValues;
     content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
+    lookAtSky(onDevice.lightValues);
     decide();
   }
 
@@ -72,6 +74,9 @@ struct Pipeline::Impl {
   Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
+
+  Sky sky;                  ///< that the settings ask for
+  SkyOnDevice skyOnDevice;  ///< that the light is made with; none where the plan has it off
 
   // ---- What the plan says ----
 
@@ -112,7 +117,20 @@ struct Pipeline::Impl {
     for (const GpuLight& light : lights)
       planned.traits.lights.push_back(measureLight(light, scene, settings.voxel.resolution));
     content.lights = lightContent(lights);
+    lookAtSky(lights);
     decide();
+  }
+
+  SkyInputs skyInputs(std::span<const GpuLight> lights) const {
+    SkyInputs in{.image = scene.sky.get(), .sun = {}};
+    for (const GpuLight& light : lights)
+      if (lightHas(light.type, LIGHT_DISTANT) && !in.sun) in.sun = -light.direction;
+    return in;
+  }
+  void lookAtSky(std::span<const GpuLight> lights) {
+    sky = makeSky(settings.sky, skyInputs(lights), &sky);
+    planned.traits.sky = sky.largest();
+    content.sky = scene.sky ? Digest().add(std::as_bytes(std::span(scene.sky->sha256))).value() : 0;
   }
 
   void learn(const Products& p) { planned.traits.build = buildTraits(p); }
@@ -239,6 +257,7 @@ struct Pipeline::Impl {
     ++revision.light;
     // A new list has no light yet: if it were given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
+    if (first <= Redo::Gather || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
     if (!p.light || !*p.light) {
       planned.traits.light.noise.reset();
@@ -251,6 +270,7 @@ struct Pipeline::Impl {
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
+      gatherSky(frame, *p.matrix, skyOnDevice, *p.light);
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
@@ -336,7 +356,9 @@ Redo Pipeline::set(const Settings& settings) {
 
 Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
-  const EffectPlan plan = irad::plan(p.planned.traits, settings, &p.planned.plan());
+  SceneTraits traits = p.planned.traits;
+  traits.sky = makeSky(settings.sky, p.skyInputs(p.onDevice.lightValues), &p.sky).largest();
+  const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
 
@@ -374,12 +396,22 @@ bool Pipeline::adopt(Scene& scene) {
   if (surfaceContent(scene) != p.content.surfaces) return false;
   setLights(scene.lights);
   p.scene = std::move(scene);  // where p.onDevice looks for it
+  p.lookAtLights(p.onDevice.lightValues);
   return true;
 }
 
 void Pipeline::lightsChanged() {
   impl_->shadowsMade = 0;
   impl_->made.forget(Redo::Gather);
+}
+
+void Pipeline::setSky(std::shared_ptr<const SkyImage> image) {
+  Impl& p = *impl_;
+  p.scene.sky = std::move(image);
+  p.lookAtLights(p.onDevice.lightValues);
+}
+const Sky& Pipeline::sky() const {
+  return impl_->sky;
 }
 
 void Pipeline::darken() {
@@ -461,6 +493,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.scene = &p.onDevice;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;
+  if (p.skyOnDevice) inputs.sky = &p.skyOnDevice.record;
   inputs.range = range;
   lightByEmitters(frame, inputs, p.planned.settings(), targets);
   traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);

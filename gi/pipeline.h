@@ -29,6 +29,8 @@ struct Lighting;
 struct Scene;
 struct SceneTraits;
 struct ShadowMaps;
+struct Sky;
+struct SkyImage;
 struct Targets;
 
 /// Called between steps with the running stage's name and its share done; returns false to cancel.
@@ -73,6 +75,11 @@ class Pipeline {
   bool adopt(Scene& scene);
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
+
+  /// Takes a picture for sky.source = image, or none (null), in place of the scene's.
+  void setSky(std::shared_ptr<const SkyImage> image);
+  /// The sky that the settings ask for.
+  const Sky& sky() const;
 
   /// H and B become 0: the next prepare() solves from the dark.
   void darken();

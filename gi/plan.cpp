@@ -32,6 +32,7 @@ class Planner {
   EffectPlan run() {
     for (const LightKind& kind : lightKinds()) light(kind);
     emission();
+    sky();
     if (shines_) plan_.noLight.clear();
     specular();
     matrix();
@@ -126,6 +127,28 @@ class Planner {
     lit(effect, calledFor);
   }
 
+  void sky() {
+    // A start for every row's bins, an entry for each of them in which a ray escapes, and what that brings.
+    const uint64_t bytes =
+        b_.facets * (4 + 16) + static_cast<uint64_t>(4 * b_.escaped * double(b_.facets * s_.matrix.gpu.rays));
+    const SkySource source = s_.sky.source;
+    std::string reason = fmt::format("sky.source = {}", nameOf(source));
+    if (source != SkySource::none) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", t_.sky);
+    if (!byTriangles() && source != SkySource::none) reason += "; not with matrix.hit_rule = thesis, which has no sky";
+    if (byTriangles())
+      decide(Effect::sky, t_.sky > 0, std::move(reason), bytes);
+    else
+      without(Effect::sky, std::move(reason), bytes);
+    lit(Effect::sky, t_.sky > 0);
+    // A sky that is there may be turned up again: what was built for it is kept.
+    EffectRow& r = row(Effect::sky);
+    const bool kept = byTriangles() && source != SkySource::none && b_.sky;
+    if (r.state == EffectState::on || s_.effects.sky != EffectMode::automatic || !kept) return;
+    r.state = EffectState::asleep;
+    r.reason += "; what was built for it is kept";
+    r.bytesNotAllocated = 0;
+  }
+
   void specular() {
     const SpecularParams& rays = s_.specular.gpu;
     const uint64_t bytes = t_.pixels * (16 + 4);  // reflected radiance, the list of pixels that trace
@@ -155,8 +178,8 @@ class Planner {
     decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight));
     // Lights that are there may be turned up again: what was built for them is kept.
     EffectRow& r = row(Effect::matrix);
-    if (r.state == EffectState::on || s_.effects.matrix != EffectMode::automatic || t_.lights.empty() || !b_.matrix)
-      return;
+    const bool mayShine = !t_.lights.empty() || !plan_.off(Effect::sky);
+    if (r.state == EffectState::on || s_.effects.matrix != EffectMode::automatic || !mayShine || !b_.matrix) return;
     r.state = EffectState::asleep;
     r.reason += "; kept for the lights that there are";
     r.bytesNotAllocated = 0;
@@ -321,6 +344,7 @@ Settings obeyed(const Settings& settings, const EffectPlan& plan) {
   for (const EffectRow& row : plan.rows)
     if (const auto mode = row.info().mode)
       s.effects.*mode = row.state == EffectState::off ? EffectMode::off : EffectMode::on;
+  if (plan.off(Effect::sky)) s.sky = {};
   if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
   if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
   if (plan.off(Effect::blur) && s.sample.gpu.filter_ == SampleFilter::blur) s.sample.gpu.filter_ = SampleFilter::linear;

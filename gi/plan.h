@@ -22,6 +22,7 @@ struct ForwardEffects;
   X(sun, "sun", "Sun", "effects.sun", &EffectSettings::sun)                                      \
   X(point, "point", "Point lights", "effects.point", &EffectSettings::point)                     \
   X(spot, "spot", "Spot lights", "effects.spot", &EffectSettings::spot)                          \
+  X(sky, "sky", "Sky", "effects.sky", &EffectSettings::sky)                                      \
   X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)             \
   X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)             \
   X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                   \

@@ -85,6 +85,7 @@ void applyPreset(Settings& settings, std::string_view name, bool cpuDevice) {
   preset.camera.exposureEv = settings.camera.exposureEv;
   preset.camera.gpu.toneCurve = settings.camera.gpu.toneCurve;
   preset.view = settings.view;
+  preset.sky = settings.sky;
   preset.rasterizer = settings.rasterizer;
   preset.scene = settings.scene;
   settings = preset;

@@ -11,7 +11,8 @@ BuildTraits buildTraits(const Products& p) {
           .sampledShare = p.light ? p.light->sampledShare : 0,
           .sampled = p.light && p.light->correction,
           .matrix = p.matrix && *p.matrix,
-          .escaped = stats.rays > 0 ? static_cast<double>(stats.escaped) / static_cast<double>(stats.rays) : 0};
+          .escaped = stats.rays > 0 ? static_cast<double>(stats.escaped) / static_cast<double>(stats.rays) : 0,
+          .sky = p.matrix && p.matrix->rowSky};
 }
 
 IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, const Settings& obeyed) {

@@ -39,7 +39,7 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
 }
 
 void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params, uint32_t firstRow, uint32_t rows,
-               const Buffer& hits) {
+               const Buffer& hits, bool sky) {
   Pass pass = frame.pass("GI BuildMatrix");
   TraceRaysPush push{};
   push.facets = kernel.facets.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
@@ -53,8 +53,11 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.jitter = params.jitter;
   push.seed = params.seed;
   push.surface = pass.inIfAny(kernel.facets.surface.record);
-  const char* shader = params.hitRule == HitRule::triangles ? "gi/trace_triangle_rays" : "gi/trace_rays";
-  kernel.configure(pass, frame.context().device, shader).push(push).dispatch(uint64_t{rows} * params.rays);
+  const bool triangles = params.hitRule == HitRule::triangles;
+  kernel.configure(pass, frame.context().device, triangles ? "gi/trace_triangle_rays" : "gi/trace_rays")
+      .constant(CONSTANT_SKY, triangles && sky)
+      .push(push)
+      .dispatch(uint64_t{rows} * params.rays);
 }
 
 }  // namespace irad

@@ -29,6 +29,7 @@ namespace irad {
 #define IRAD_SOLVER_ACCELERATIONS(X) X(off, "off") X(anderson, "anderson")
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
 #define IRAD_EFFECT_MODES(X) X(automatic, "auto") X(on, "on") X(off, "off")
+#define IRAD_SKY_SOURCES(X) X(none, "none") X(constant, "constant") X(image, "image") X(preetham, "preetham")
 #define IRAD_REDOS(X) \
   X(Voxels, "voxels") X(Field, "field") X(Matrix, "matrix") X(Emission, "emission") X(Gather, "gather") \
   X(Solve, "solve") X(Scatter, "scatter") X(Shade, "shade") X(Nothing, "nothing")
@@ -44,6 +45,7 @@ IRAD_ENUM(SolverKernel, IRAD_SOLVER_KERNELS)
 IRAD_ENUM(SolverAcceleration, IRAD_SOLVER_ACCELERATIONS)
 /// Who turns triangles into pixels: the graphics pipeline, or compute kernels (shaders/raster).
 IRAD_ENUM(Rasterizer, IRAD_RASTERIZERS)
+IRAD_ENUM(SkySource, IRAD_SKY_SOURCES)
 /// Whether an effect (gi/plan.h) runs. automatic: where the scene calls for it; on: always; off: never.
 IRAD_ENUM(EffectMode, IRAD_EFFECT_MODES)
 /// The first stage that has to run again when a setting changes; later ones follow. Ordered. (Emission: the first
@@ -95,6 +97,17 @@ struct LightSettings {
   uint32_t shadowResolution = 2048;  ///< texels per side; point lights use half per cube face
   bool operator==(const LightSettings&) const = default;
 };
+/// Light from where no surface is (gi/sky.h).
+struct SkySettings {
+  SkySource source = SkySource::none;
+  float intensity = 1;                 ///< factor; of a constant sky its radiance, W/(m^2 sr)
+  float rotation = 0;                  ///< about +Y, degrees
+  float red = 1, green = 1, blue = 1;  ///< of a constant sky, linear
+  // Of Preetham's: haze, and where the sun is if it is not the scene's first; degrees, the azimuth from -Z towards +X.
+  float turbidity = 3, elevation = 45, azimuth = 0;
+  bool coupled = true;
+  bool operator==(const SkySettings&) const = default;
+};
 struct CameraSettings {
   float exposureEv = 0.0f;
   ShadeParams gpu{1.0f, ToneCurve::neutral, 1.5f, 3, true};
@@ -122,7 +135,7 @@ struct ThesisSettings {
 
 /// Overrides of the effect plan.
 struct EffectSettings {
-  EffectMode emission{}, matrix{}, specular{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
+  EffectMode emission{}, sky{}, matrix{}, specular{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
   // One for each kind of light: sun, point, spot.
 #define IRAD_LIGHT_MODE(constant, number, id, effect, gltf, name, one, many, map, traits) EffectMode effect{};
   IRAD_LIGHT_KINDS(IRAD_LIGHT_MODE)
@@ -146,6 +159,7 @@ struct Settings {
   SampleSettings sample;
   SpecularSettings specular;
   LightSettings light;
+  SkySettings sky;
   CameraSettings camera;
   ViewSettings view;
   ThesisSettings thesis;
@@ -189,9 +203,9 @@ std::span<const Setting> settingTable();
 /// UsageError names the near matches.
 const Setting& findSetting(std::string_view name);
 
-/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view,
-/// device.rasterizer and scene.*, which are the user's own; UsageError lists the names. `cpuDevice` picks the sizes by
-/// device class (CPU rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
+/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view, the
+/// sky, device.rasterizer and scene.*, which are the user's own; UsageError lists the names. `cpuDevice` picks the
+/// sizes by device class (CPU rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);
 std::vector<std::string> presetNames();

@@ -19,7 +19,7 @@ struct Defect {
 /// Where the light of a converged solve comes from and goes to, W/m^2 x voxels^2, by colour channel. By reciprocity
 /// what enters is what is absorbed and what escapes; the rest is how far F departs from A_i F_ij = A_j F_ji.
 struct EnergyBalance {
-  glm::dvec3 entering{0};  ///< sum of A (M + D)
+  glm::dvec3 entering{0};  ///< sum of A (M + D + what comes from the sky)
   glm::dvec3 absorbed{0};  ///< sum of A (1 - rho) (D + H)
   glm::dvec3 escaped{0};   ///< sum of A B (1 - sum_j F_ij)
   /// (absorbed + escaped - entering) / entering of the channel where it is largest; 0 in the dark.

@@ -77,10 +77,12 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
   push.chebyshev = pass.inIfAny(picture.inputs.field->chebyshev);
   push.glossy = pass.inIfAny(targets.glossy);
   if (emitters != nullptr) push.emitters = pass.in(emitters->record);
+  if (picture.inputs.sky != nullptr) push.sky = pass.in(*picture.inputs.sky);
   return pass.constant(CONSTANT_TRACE_METHOD, picture.method)
       .constant(CONSTANT_TRACE_HIT_RULE, picture.settings.matrix.gpu.hitRule)
       .constant(CONSTANT_NORMALS, facets.encoding)
       .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
+      .constant(CONSTANT_SKY, picture.inputs.sky != nullptr)
       .sample(targets.depth, pointSampler(picture.frame.context().device))
       .read(targets.normal, targets.geometric, targets.f0, targets.indirect)
       .push(push);

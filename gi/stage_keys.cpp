@@ -65,7 +65,7 @@ StageKeys stageKeys(const SceneContent& content, const Settings& obeyed) {
   Digest chain;
   for (size_t stage = 0; stage < keys.of.size(); ++stage) {
     if (stage == static_cast<size_t>(Redo::Voxels)) chain.add(content.surfaces);
-    if (stage == static_cast<size_t>(Redo::Gather)) chain.add(content.lights);
+    if (stage == static_cast<size_t>(Redo::Gather)) chain.add(content.lights).add(content.sky);
     keys.of[stage] = chain.add(own[stage].value()).value();
   }
   return keys;

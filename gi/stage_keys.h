@@ -18,6 +18,7 @@ namespace irad {
 struct SceneContent {
   uint64_t surfaces = 0;  ///< vertices, triangles, materials, every texel
   uint64_t lights = 0;
+  uint64_t sky = 0;  ///< texels of a picture of it
 };
 uint64_t surfaceContent(const Scene& scene);
 /// Without what drawShadows fills in.

@@ -69,7 +69,11 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
   push.lambda = lambda_;
   push.omega = omega;
   push.flush = flush;
-  pass.constant(CONSTANT_MATRIX_FORMAT, matrix_.format).constant(CONSTANT_SOLVE_WORK, work).push(push);
+  push.sky = pass.inIfAny(light.sky);
+  pass.constant(CONSTANT_MATRIX_FORMAT, matrix_.format)
+      .constant(CONSTANT_SOLVE_WORK, work)
+      .constant(CONSTANT_SKY, static_cast<bool>(light.sky))
+      .push(push);
   switch (work == SOLVE_GAINS ? gains_ : kernel_) {
     case SolverKernel::row:
       if (images_) {

@@ -43,6 +43,7 @@ struct BuildTraits {
   bool sampled = false;    ///< the emitters' light is by samples
   bool matrix = false;     ///< there is one
   double escaped = 0;      ///< share of its rays that left the grid
+  bool sky = false;        ///< these are kept, for a sky
 };
 
 /// The light as it is.
@@ -60,6 +61,7 @@ struct SceneTraits {
   std::vector<LightTraits> lights;
   std::optional<BuildTraits> build;
   LightState light;
+  float sky = 0;                 ///< largest radiance of the sky that the settings ask for
   uint64_t pixels = 0;           ///< of the picture that was drawn last
   std::optional<bool> redraw{};  ///< the window has to draw its picture again; none: pictures are drawn on request
 };

@@ -100,7 +100,8 @@ LinearPicture readLinear(const std::filesystem::path& path) {
   if (spec.depth > 1 || spec.nchannels < 1)
     throw InputError(fmt::format("{}: {} channels, {} deep: not a picture", path.string(), spec.nchannels, spec.depth));
   const std::array<int, 3> channels = colorChannels(spec);
-  LinearPicture picture{{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)}, {}};
+  LinearPicture picture{
+      {static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)}, {}, !spec.format.is_floating_point()};
   picture.pixels.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height), glm::vec4(1));
   for (int c = 0; c < 3; ++c)
     if (!input->read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT, &picture.pixels[0][c],

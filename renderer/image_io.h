@@ -37,6 +37,7 @@ void writePfm(const std::filesystem::path& path, glm::uvec2 size, std::span<cons
 struct LinearPicture {
   glm::uvec2 size{0};
   std::vector<glm::vec4> pixels;  ///< top row first; alpha 1
+  bool integers = false;          ///< the file holds integers, which end at white
 };
 /// A picture to compare with: the channels R, G, B of an EXR or of its first layer that has them, the first three of
 /// any other format that OpenImageIO reads; in builds without it .pfm alone. InputError where that fails.

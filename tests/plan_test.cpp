@@ -55,6 +55,7 @@ constexpr auto dda = EDIT(s.matrix.gpu.traversal = Traversal::dda);
 constexpr auto noMode = EDIT(glossy(t, s), s.specular.mode = SpecularMode::off);
 constexpr auto few = EDIT(t.build->emitters = 49, t.build->sampled = false);  // emitters, not tried yet or in vain
 constexpr auto thesis = EDIT(applyPreset(s, "thesis"), dark(t, s));           // forces on what its stages always do
+constexpr auto sky = EDIT(s.sky.source = SkySource::constant, t.sky = 2);
 constexpr auto byPixels = EDIT(s.sample.emitters = EmitterLookup::pixels);
 
 /// What an edit makes of an effect: its row in words, * for any.
@@ -100,6 +101,15 @@ const Case kCases[]{
     {E::matrix, EDIT(turnedDown(t, s), t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
     {E::matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
     {E::matrix, thesis, "on: *"},
+    {E::sky, none, "off, 10000 B: sky.source = none"},
+    {E::sky, sky, "on: sky.source = constant, 2 W/(m^2 sr) at most"},
+    {E::sky, EDIT(sky(t, s), s.matrix.gpu.hitRule = HitRule::thesis), "off, 10000 B: *; not with matrix.hit_rule *"},
+    {E::sky, EDIT(sky(t, s), s.effects.sky = EffectMode::off), "off, 10000 B: forced off: sky.source = constant, 2 *"},
+    {E::sky, EDIT(s.effects.sky = EffectMode::on), "on: forced on: sky.source = none"},
+    {E::sky, EDIT(sky(t, s), t.sky = 0), "off, 10000 B: sky.source = constant, 0 W/(m^2 sr) at most"},
+    {E::sky, EDIT(sky(t, s), t.sky = 0, t.build->sky = true), "asleep: *; what was built for it is kept"},
+    {E::sky, thesis, "off: sky.source = none"},
+    {E::matrix, EDIT(unlit(t, s), sky(t, s)), "on: light, and albedos of up to 0.5; 0 % of the rays escape"},
     {E::specular, thesis, "on: *"},
     {E::specular, none, "off: none of 2 materials with a specular lobe"},
     {E::specular, glossy,
@@ -154,7 +164,7 @@ TEST(Plan, EachRowFollowsWhatCallsForIt) {
     expectRow(p.row(c.effect), c.row);
     std::vector<std::string> noLight;  // the reasons of all kinds
     if (p.row(E::matrix).reason.find("no light at all") != std::string::npos)
-      for (const E e : {E::sun, E::point, E::spot, E::emission}) noLight.push_back(p.row(e).reason);
+      for (const E e : {E::sun, E::point, E::spot, E::emission, E::sky}) noLight.push_back(p.row(e).reason);
     EXPECT_EQ(p.noLight, noLight) << c.row;
     // The settings that stages get are decided, and what no effect decides stays as it is.
     const S o = obeyed(s, p);

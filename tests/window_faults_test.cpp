@@ -98,6 +98,18 @@ TEST_F(WindowFaultsTest, ADroppedPictureIsTheReference) {
   quit();
 }
 
+TEST_F(WindowFaultsTest, ADroppedPictureOfTheSphereIsTheSky) {
+  start({});
+  const ScreenPart before = part();
+  // What is none is said, and nothing is lost.
+  ASSERT_TRUE(drop({sourceFolder() / "docs/pictures/eight.png"}));
+  EXPECT_TRUE(says("eight.png")) << window_->log();
+  ASSERT_TRUE(drop({assets() / "evening.pfm"}));
+  EXPECT_TRUE(says("evening.pfm is the sky")) << window_->log();
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(before) > 0.02; }));
+  quit();
+}
+
 TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
   const std::filesystem::path shaders = copyShaders();
   start({"--shaders", shaders.string(), "--view", "voxel-albedo"});

@@ -11,6 +11,8 @@
 #include "gi/lighting.h"
 #include "gi/plan.h"
 #include "renderer/base/error.h"
+#include "renderer/image_io.h"
+#include "renderer/scene/sky_image.h"
 
 namespace irad {
 namespace {
@@ -108,8 +110,15 @@ void Builder::giveReference(Pipeline& pipeline) {
   if (session_.reference) pipeline.setReference(session_.reference->picture.size, session_.reference->picture.pixels);
 }
 
-void Builder::openReference(const std::filesystem::path& path) {
+void Builder::openPicture(const std::filesystem::path& path) {
   try {
+    if (const LinearPicture picture = readLinear(path); maySkyBe(picture) || picture.integers) {
+      session_.load.sky = std::make_shared<SkyImage>(skyOf(path, picture));
+      session_.edited.sky.source = SkySource::image;
+      for (Side* side : session_.sides())
+        if (side->pipeline) side->pipeline->setSky(session_.load.sky);
+      return session_.note(fmt::format("{} is the sky", path.string()));
+    }
     session_.reference = readReference(path);
     for (Side* side : session_.sides())
       if (side->pipeline) giveReference(*side->pipeline);

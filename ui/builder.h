@@ -19,8 +19,9 @@ class Builder {
   /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded; throws what went
   /// wrong. Of the scene that is shown, read again, it takes lights and cameras alone where the surfaces are the same.
   void load(const std::filesystem::path& path);
-  /// Takes another reference picture, for every side; where the file is wrong that is reported, and the old one stays.
-  void openReference(const std::filesystem::path& path);
+  /// Takes another sky, of a picture that is twice as wide as high, or reference picture, for every side; where the
+  /// file is wrong that is reported, and the old one stays.
+  void openPicture(const std::filesystem::path& path);
   /// Hands edits to the pipeline, redoes what they call for, and lets the solver go on until it sleeps. What will be
   /// redone is shown for a frame before it starts, and waits as long as the mouse `holds` the widget.
   void apply(bool held);

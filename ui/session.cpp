@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "gi/check/check.h"
@@ -75,9 +76,10 @@ void Session::useSceneCamera(int index) {
 
 void Session::open(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  const bool picture = extension == ".exr" || extension == ".hdr" || extension == ".pfm";
-  if (picture)
-    openReference = path;
+  // Those of 8 bits too, so that it is said what they lack.
+  constexpr std::array kPictures{".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg"};
+  if (std::find(kPictures.begin(), kPictures.end(), extension) != kPictures.end())
+    openPicture = path;
   else
     leave(
         {path.filename().string().ends_with(kSidecarExtension) ? Leaving::What::OpenSidecar : Leaving::What::OpenScene,

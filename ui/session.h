@@ -139,7 +139,7 @@ struct Session : Side {
   Inspection inspection;
 
   // Requests; those that may lose work come from leave().
-  std::optional<std::filesystem::path> openScene, openReference;
+  std::optional<std::filesystem::path> openScene, openPicture;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
   std::optional<bool> compare;        ///< begin or end a comparison
   bool step = false, darken = false;  ///< of the paused solver: a sweep; of any: from H = 0 again
@@ -153,7 +153,7 @@ struct Session : Side {
   std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
   void startAt(const Camera& from);     ///< the window's camera
   void useSceneCamera(int index);       ///< of cameras()
-  /// A scene, a sidecar, or a reference picture, by its extension. It may be asked first.
+  /// A scene, a sidecar, or a picture (a sky or a reference), by its extension. It may be asked first.
   void open(const std::filesystem::path& path);
   void saveEdits();                        ///< reports what became of it
   void settingsSaved(const Settings& as);  ///< the sides that have these

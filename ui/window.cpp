@@ -178,7 +178,7 @@ bool Window::measured() {
 
 /// There is something to do that needs no frame.
 bool Window::working() const {
-  return session_.work || session_.openScene || session_.openReference || session_.capture || session_.captureAll ||
+  return session_.work || session_.openScene || session_.openPicture || session_.capture || session_.captureAll ||
          session_.captureFrame || session_.reloadShaders || session_.rebuild || session_.compare ||
          session_.inspection.wanted() || builder_.stale() ||
          (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
@@ -239,7 +239,7 @@ void Window::takeRequests() {
   savePreferences();
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
   serveRecorder(session_, options_.captures);
-  if (session_.openReference) builder_.openReference(*std::exchange(session_.openReference, std::nullopt));
+  if (session_.openPicture) builder_.openPicture(*std::exchange(session_.openPicture, std::nullopt));
   if (std::exchange(session_.darken, false)) builder_.darken();
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
   if (const std::optional<bool> compare = std::exchange(session_.compare, std::nullopt)) {

@@ -50,6 +50,7 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   scene.path = path;
   scene.fileLights = scene.lights;
   if (options.lights) replaceLights(scene, *options.lights);
+  scene.sky = options.sky;
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <thread>
 
+#include "gi/check/path_sky.h"
 #include "gi/check/path_surfaces.h"
 #include "gi/embree_scene.h"
 #include "renderer/base/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 using truth::kNoTriangle;
 using truth::Random;
+using truth::SkyLight;
 using truth::SurfacePoint;
 using truth::Surfaces;
 
@@ -98,8 +100,8 @@ void sumUp(TracedLight& light) {
 
 class EmbreeTracer : public PathTracer {
  public:
-  explicit EmbreeTracer(Scene scene)
-      : surfaces_(std::move(scene)), scene_(surfaces_.scene().positions, corners(surfaces_)) {}
+  EmbreeTracer(Scene scene, Sky sky)
+      : surfaces_(std::move(scene)), sky_(std::move(sky)), scene_(surfaces_.scene().positions, corners(surfaces_)) {}
 
   TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const override {
     IRAD_CHECK(options.samples > 0 && options.samples % 2 == 0, "{} samples", options.samples);
@@ -141,9 +143,10 @@ class EmbreeTracer : public PathTracer {
   /// The paths of some pixels.
   struct Paths {
     Paths(const EmbreeTracer& tracer, const Camera& camera, glm::uvec2 size, const TraceOptions& options)
-        : tracer(tracer), surfaces(tracer.surfaces_), camera(camera), size(size), options(options) {}
+        : tracer(tracer), surfaces(tracer.surfaces_), sky(tracer.sky_), camera(camera), size(size), options(options) {}
     const EmbreeTracer& tracer;
     const Surfaces& surfaces;
+    const SkyLight& sky;
     const Camera& camera;
     const glm::uvec2 size;
     const TraceOptions& options;
@@ -233,7 +236,8 @@ class EmbreeTracer : public PathTracer {
 
       glm::dvec3 throughput(1);
       double bounceDensity = 0;  // per steradian, of the direction that led here
-      for (uint32_t depth = 0; met.triangle != kNoTriangle; ++depth) {
+      uint32_t depth = 0;
+      for (; met.triangle != kNoTriangle; ++depth) {
         const SurfacePoint point = surfaces.at(met.triangle, met.uv, direction);
         // Emission that the ray has come upon. From the second vertex on it may have been drawn there, too.
         if (point.emission != glm::dvec3(0)) {
@@ -251,6 +255,7 @@ class EmbreeTracer : public PathTracer {
         const glm::dvec3 reflected = throughput * point.albedo / std::numbers::pi;
         for (size_t l = 0; l < surfaces.lights(); ++l) fromLight(l, point, met.triangle, origin, reflected, depth > 0);
         if (surfaces.emits()) fromEmitter(point, met.triangle, origin, reflected, random);
+        if (sky.shines()) fromSky(point, met.triangle, origin, reflected, random);
 
         // Go on in proportion to the cosine; the albedo is what is left of the weight. From the fourth bounce on a path
         // survives with the probability of its largest channel.
@@ -266,6 +271,22 @@ class EmbreeTracer : public PathTracer {
         bounceDensity = glm::dot(direction, point.normal) / std::numbers::pi;
         met = meetNext(origin, direction, met.triangle);
       }
+      // The sky that the ray has come upon, which from the second vertex on may have been drawn, too.
+      if (!sky.shines()) return;
+      const double drawn = depth > 0 ? sky.density(direction) : 0;
+      add(throughput * sky.radiance(direction) * (depth > 0 ? bounceDensity / (bounceDensity + drawn) : 1), depth > 0);
+    }
+
+    void fromSky(const SurfacePoint& point, uint32_t from, const glm::dvec3& origin, const glm::dvec3& reflected,
+                 Random& random) {
+      const SkyLight::Drawn drawn = sky.draw(random);
+      const double cosine = glm::dot(point.normal, drawn.direction);
+      if (cosine <= 0 || glm::dot(point.face, drawn.direction) <= 0) return;
+      if (!clear(origin, drawn.direction, kFar, from, kNoTriangle, kFar)) return;
+      // The balance heuristic, as in fromEmitter.
+      add(reflected * sky.radiance(drawn.direction) * cosine * pastBumps(point, drawn.direction) /
+              (drawn.density + cosine / std::numbers::pi),
+          /*bounced=*/true);
     }
 
     void fromLight(size_t light, const SurfacePoint& point, uint32_t from, const glm::dvec3& origin,
@@ -301,6 +322,7 @@ class EmbreeTracer : public PathTracer {
   };
 
   Surfaces surfaces_;
+  SkyLight sky_;
   EmbreeScene scene_;
 };
 
@@ -310,8 +332,8 @@ bool hasPathTracer() {
   return true;
 }
 
-std::unique_ptr<PathTracer> makePathTracer(Scene scene) {
-  return std::make_unique<EmbreeTracer>(std::move(scene));
+std::unique_ptr<PathTracer> makePathTracer(Scene scene, Sky sky) {
+  return std::make_unique<EmbreeTracer>(std::move(scene), std::move(sky));
 }
 
 }  // namespace irad

@@ -15,6 +15,8 @@
 #include <memory>
 #include <vector>
 
+#include "gi/sky.h"
+
 namespace irad {
 
 struct Camera;
@@ -41,8 +43,9 @@ struct TracedLight {
 struct TracedPicture {
   glm::uvec2 size{0};
   uint32_t samples = 0;
-  TracedLight lit;       ///< everything
-  TracedLight indirect;  ///< without emission that is seen and without suns, points and spots at what is seen: rho H/pi
+  TracedLight lit;       ///< everything, the sky behind the scene included
+  TracedLight indirect;  ///< without emission and sky that are seen and without suns, points and spots at what is seen:
+                         ///< rho H/pi
   uint64_t rays = 0;     ///< that were traced
   double seconds = 0;
 };
@@ -53,13 +56,13 @@ class PathTracer {
   /// Unbiased: paths end by Russian roulette alone. Samples have independent random numbers, sums are in double
   /// precision and in a fixed order. Light: suns, points and spots in full at every vertex of a path; emissive
   /// triangles by one point in proportion to their power and by the bounce, joined by the balance heuristic (Veach and
-  /// Guibas 1995).
+  /// Guibas 1995); the sky likewise, by one direction.
   virtual TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const = 0;
 };
 
 /// Whether this build has one (IRAD_EMBREE).
 bool hasPathTracer();
-/// Takes the scene by value and keeps it. WorkError where this build has none.
-std::unique_ptr<PathTracer> makePathTracer(Scene scene);
+/// Takes scene and sky by value and keeps them. WorkError where this build has none.
+std::unique_ptr<PathTracer> makePathTracer(Scene scene, Sky sky = {});
 
 }  // namespace irad

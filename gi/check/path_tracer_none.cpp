@@ -9,7 +9,7 @@ bool hasPathTracer() {
   return false;
 }
 
-std::unique_ptr<PathTracer> makePathTracer(Scene) {
+std::unique_ptr<PathTracer> makePathTracer(Scene, Sky) {
   throw WorkError("this build has no path tracer (IRAD_EMBREE)");
 }
 

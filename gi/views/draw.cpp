@@ -22,16 +22,19 @@ float linearExposure(const Settings& settings) {
   return settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
 }
 
-void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& settings, Targets& targets) {
+void drawTargets(Frame& frame, View view, const Buffer* sky, const Buffer& camera, const Settings& settings,
+                 Targets& targets) {
   const ViewInfo* info = viewInfo(view);
   Pass pass = frame.pass("View");
   ViewPush push{};
   push.camera = pass.in(camera);
+  if (sky != nullptr) push.sky = pass.in(*sky);
   push.kind = info != nullptr ? info->kind : VIEW_KIND_COLOR;
   push.exposure = linearExposure(settings);
   push.toneCurve = settings.camera.gpu.toneCurve;
   pass.shader("view/debug_view.comp")
       .constant(CONSTANT_VIEW, view)
+      .constant(CONSTANT_SKY, sky != nullptr)
       .constant(CONSTANT_TARGETS, targets.present())
       .sample(targets.depth, pointSampler(frame.context().device))
       .read(targets.normal, targets.geometric, targets.albedo, targets.direct, targets.bound(&Targets::highlight),
@@ -46,20 +49,20 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   const ViewInfo* known = viewInfo(view);
   if (inputs.fields != nullptr && (known == nullptr || !known->isFrom(FROM_ANY_FIELD | FROM_MATRIX_ROW)))
     *inputs.fields = {};  // no memory for what is not shown
-  if (known == nullptr) return drawTargets(frame, view, camera, settings, targets);
+  if (known == nullptr) return drawTargets(frame, view, inputs.sky, camera, settings, targets);
 
   const ViewInfo& info = *known;
   if (info.shape) {
     drawVoxels(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_PICTURE)) {
-    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, VIEW_LIT, camera, settings, targets);
+    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, VIEW_LIT, inputs.sky, camera, settings, targets);
     drawReference(frame, info, inputs, targets);
   } else if (info.isFrom(FROM_SHADOW_MAPS)) {
     drawShadowView(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_FACETS)) {
     drawPinHoles(frame, inputs, camera, targets);
   } else {
-    drawTargets(frame, view, camera, settings, targets);
+    drawTargets(frame, view, inputs.sky, camera, settings, targets);
     if (!info.hasRange()) return;  // the display picture is there
   }
   if (info.hasRange()) {

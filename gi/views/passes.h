@@ -6,8 +6,10 @@
 
 namespace irad {
 
-/// Over the targets of the forward pass; draws the display picture too where the view's kind has no range.
-void drawTargets(Frame& frame, View view, const Buffer& camera, const Settings& settings, Targets& targets);
+/// Over the targets of the forward pass; draws the display picture too where the view's kind has no range. `sky`:
+/// behind the scene, where light is shown; null: none.
+void drawTargets(Frame& frame, View view, const Buffer* sky, const Buffer& camera, const Settings& settings,
+                 Targets& targets);
 /// Over the voxels.
 void drawVoxels(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, const Buffer& camera,
                 const Settings& settings, Targets& targets);

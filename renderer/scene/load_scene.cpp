@@ -53,6 +53,7 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     scene.fileLights = scene.lights;
     if (options.sidecar) takeSidecar(scene);
     if (options.lights) replaceLights(scene, *options.lights);
+    scene.sky = options.sky;
     if (options.progress) options.progress(1.0f, "scene");
     return scene;
   } catch (const Error&) {

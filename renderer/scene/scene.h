@@ -11,6 +11,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@
 #include "renderer/scene/light_kind.h"
 
 namespace irad {
+
+struct SkyImage;
 
 constexpr double kMaxLightOrEmission = 1e12;  ///< of intensities, colours and emitted radiance
 
@@ -103,6 +106,8 @@ struct Scene {
   std::vector<Light> fileLights;  ///< those of the scene file (or the default sun), where others took their place
   std::vector<Camera> cameras;    ///< at least one after addDefaults
   std::vector<Camera> bookmarks;  ///< further cameras, the sidecar's
+  std::shared_ptr<const SkyImage>
+      sky;                        ///< a picture of what is around (renderer/scene/sky_image.h), where one was given
   std::filesystem::path sidecar;  ///< that lights and bookmarks come from; empty: none
 
   std::vector<std::string> warnings;  ///< in words, each once
@@ -119,6 +124,7 @@ struct LoadOptions {
   bool doubleSided = false;
   bool sidecar = false;                      ///< take the sidecar beside the file (scene/sidecar.h), if there is one
   std::optional<std::vector<Light>> lights;  ///< in place of the file's and the sidecar's
+  std::shared_ptr<const SkyImage> sky;       ///< Scene::sky
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };
 

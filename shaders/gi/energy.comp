@@ -2,9 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI Solve Energy": the light that enters, is absorbed and escapes, summed over some facets per invocation. No atomics,
 // so that the sums are the same bits in every run; the host adds them up in double.
+#include "shared/constants.h"
 #include "shared/energy.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 layout(push_constant, scalar) uniform Push { EnergyPush p; };
 
 void main() {
@@ -17,6 +19,7 @@ void main() {
     vec3 direct = p.direct.at[facet].xyz;
     vec3 exitance = f.hasEmission != 0u ? f.emission.at[facet] : vec3(0.0f);
     sum.entering += area * (exitance + direct);
+    if (SKY) sum.entering += area * p.sky.at[facet].xyz;
     sum.absorbed += area * (vec3(1.0f) - unpackAlbedo(f.albedo.at[facet])) * (direct + p.indirect.at[facet].xyz);
     sum.escaped += area * (1.0f - p.rowSum.at[facet]) * p.radiosity.at[facet].xyz;
   }

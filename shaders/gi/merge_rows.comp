@@ -1,19 +1,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // "GI BuildMatrix", kernel 2: one workgroup per row. Equal columns are counted in a hash table in shared memory, and what
-// is left, a third of the rays, is sorted (Batcher 1968): entries column | hits << columnBits, ascending. Integers only:
-// the same on every device.
+// is left, a third of the rays, is sorted (Batcher 1968): entries column | hits << columnBits, ascending, and behind them
+// those of the sky's bins. Integers only: the same on every device.
 #include "shared/constants.h"
 #include "shared/matrix_build.h"
+#include "shared/sky.h"
 
 layout(local_size_x_id = CONSTANT_MERGE_WORKGROUP) in;
 layout(constant_id = CONSTANT_SORTED) const uint SORTED = 128u;  ///< power of two >= rays
+layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 const uint MERGE_HELD = (SORTED + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 layout(push_constant, scalar) uniform Push { MergeRowsPush p; };
 
 const uint FREE = TRACE_ESCAPED;
 shared uint column[SORTED], count[SORTED];
-shared uint places, found, escaped, invalid, notCast;
+shared uint places, skyPlaces, found, escaped, invalid, notCast;
 
 /// Counts a hit of `c` in the table.
 void add(uint c) {
@@ -36,7 +38,7 @@ void main() {
     column[i] = FREE;
     count[i] = 0u;
   }
-  if (me == 0u) places = found = escaped = invalid = notCast = 0u;
+  if (me == 0u) places = skyPlaces = found = escaped = invalid = notCast = 0u;
   barrier();
   uint out_ = 0u, lost = 0u, missing = 0u, mine = 0u;
   for (uint i = me; i < p.rays; i += width) {
@@ -46,6 +48,10 @@ void main() {
       ++mine;
     }
     if (c == TRACE_ESCAPED) ++out_;
+    if (SKY && isSky(c)) {
+      add(c);
+      ++out_;
+    }
     if (c == TRACE_INVALID) ++lost;
     if (c == TRACE_NOT_CAST) ++missing;
   }
@@ -68,6 +74,7 @@ void main() {
     uint place = atomicAdd(places, 1u);
     column[place] = held[k];
     count[place] = hits[k];
+    if (SKY && held[k] > TRACE_LAST_FACET) atomicAdd(skyPlaces, 1u);
   }
   barrier();
   uint entries = places, sorted = 2u;
@@ -89,12 +96,19 @@ void main() {
       }
       barrier();
     }
-  for (uint i = me; i < entries; i += width) p.hits.at[base + i] = column[i] | (count[i] << p.columnBits);
+  for (uint i = me; i < entries; i += width) {
+    bool bin = SKY && column[i] > TRACE_LAST_FACET;
+    p.hits.at[base + i] = bin ? (column[i] - TRACE_SKY) | (count[i] << SKY_BIN_BITS) : column[i] | (count[i] << p.columnBits);
+  }
 
   if (me == 0u) {
     uint cast_ = p.rays - notCast;
     float weight = invalid < cast_ ? 1.0f / float(cast_ - invalid) : 0.0f;
     p.counts.at[row] = entries;
+    if (SKY) {
+      p.rowSky.at[p.firstRow + row] = skyPlaces;
+      entries -= skyPlaces;
+    }
     p.rowInfo.at[p.firstRow + row] = uvec2(entries | (invalid << 16), floatBitsToUint(weight));
     atomicAdd(p.sums.at[0].hits, found);
     atomicAdd(p.sums.at[0].escaped, escaped);

@@ -9,6 +9,7 @@
 
 layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
 layout(constant_id = CONSTANT_SOLVE_WORK) const uint WORK = SOLVE_WATCH;
+layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 layout(push_constant, scalar) uniform Push { SolvePush p; };
 const bool GAINS = WORK == SOLVE_GAINS;
 const bool WATCHES = WORK == SOLVE_WATCH || GAINS;
@@ -79,6 +80,12 @@ Watch finishRow(uint row, Sum sum, float weight) {
   vec3 rho = unpackAlbedo(f.albedo.at[row]);
   vec3 source = rho * p.direct.at[row].xyz;
   if (f.hasEmission != 0u) source += f.emission.at[row];
+  // The sky is a source, like D: no row's gain has a part in it. It counts as H, the light that comes with the rays.
+  vec3 sky;
+  if (SKY) {
+    sky = p.sky.at[row].xyz;
+    source += rho * sky;
+  }
   vec3 h = sum.light.xyz;
   // The emitters' share of the row's rays replaced by that of the samples; below 0 by rounding alone.
   if (p.correctionGain != 0.0f) {
@@ -94,6 +101,7 @@ Watch finishRow(uint row, Sum sum, float weight) {
   float reach = before.w;
   sum.row *= weight;
   if (GAINS) reach = nextReach(reach, p.lambda * largest(rho), sum, w);
+  if (SKY) h += sky;
   putOutput(row, vec4(now, reach));
   p.indirect.at[row] = vec4(h, 0.0f);
   if (WATCHES) {

@@ -2,9 +2,12 @@
 // met.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/constants.h"
+#include "shared/sky.h"
 #include "shared/trace.h"
 
 layout(local_size_x = 128) in;
+layout(constant_id = CONSTANT_SKY) const bool SKY = false;  ///< rays that escape are told by bins
 layout(push_constant, scalar) uniform Push { TraceRaysPush p; };
 
 #include "gi/trace.glsl"
@@ -21,5 +24,7 @@ void main() {
   }
   FacetRay r = facetRay(surface, row, p.facets.voxel.at[row], k, cast_, p.seed, p.jitter);
   TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, p.jfaMax);
-  p.hits.at[ray] = traceTriangles(world, surface, r.from.position, r.direction, r.from.triangle).facet;
+  uint met = traceTriangles(world, surface, r.from.position, r.direction, r.from.triangle).facet;
+  if (SKY && met == TRACE_ESCAPED) met = metSky(r.direction);
+  p.hits.at[ray] = met;
 }

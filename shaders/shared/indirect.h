@@ -6,6 +6,7 @@
 #include "shared/gi_params.h"
 #include "shared/grid.h"
 #include "shared/scene_gpu.h"
+#include "shared/sky.h"
 #include "shared/surface.h"
 #include "shared/trace.h"
 IRAD_BEGIN
@@ -52,6 +53,7 @@ struct SpecularPush {
   ByteArray chebyshev;
   UintArray glossy;
   EmitterRecord emitters;  ///< 0: there are none
+  SkyRecord sky;           ///< 0: there is none
   uvec3 dims;              ///< these three: of the Grid
   vec3 origin;
   float inverseEdge;

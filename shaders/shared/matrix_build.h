@@ -16,6 +16,7 @@ struct MergeRowsPush {
   UintArray hits;      ///< rows x rays: in, what each ray met; out, the row's entries
   UintArray counts;    ///< rows: entries, later scanned
   Uvec2Array rowInfo;  ///< of all rows
+  UintArray rowSky;    ///< of all rows, where there is a sky
   ChunkCountsArray sums;
   uint firstRow, rows, rays, columnBits;
 };
@@ -27,6 +28,7 @@ struct PackRowsPush {
   UintArray entries;  ///< rows x rays, from merge_rows
   UintArray starts;   ///< rows: exclusive scan of the counts
   Uvec2Array rowInfo;
+  UintArray rowSky;  ///< where there is a sky
   UintArray rowStart;
   UintArray segment;
   uint firstRow, rows, rays, pad;

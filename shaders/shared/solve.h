@@ -45,6 +45,7 @@ struct SolvePush {
   ResidualArray residual;
   FloatArray rowSum;     ///< sum_j F_ij, written where it is watched
   Vec4Array correction;  ///< F M by samples of the emitters less that by rays
+  Vec4Array sky;         ///< irradiance from the sky, where there is one
   float lambda, omega, flush;
   float correctionGain;  ///< the factor on M in B, and so on the correction to F B. 0: there is none
 };

@@ -8,11 +8,13 @@
 #include "shared/matrix.h"
 #include "shared/normals.h"
 #include "shared/scene_gpu.h"
+#include "shared/sky.h"
 IRAD_BEGIN
 
 /// view/debug_view.comp: over the targets of the forward pass.
 struct ViewPush {
   CameraArray camera;
+  SkyRecord sky;  ///< behind the scene, where there is one
   uint kind;
   float exposure;  ///< linear factor
   IRAD_AS(ToneCurve) toneCurve;

@@ -1,7 +1,8 @@
 // Specular rays of one pixel through the voxels (docs/method.md 8). Radiance at a hit is B / pi; rays that
-// escape bring nothing.
+// escape bring the sky's, if there is one.
 #include "gi/emitter_point.glsl"
 #include "gi/seen_point.glsl"
+#include "gi/sky.glsl"
 #include "gi/surface_lookup.glsl"
 #include "gi/trace.glsl"
 #include "shared/constants.h"
@@ -11,6 +12,8 @@
 
 /// traceLobe sends rays to emitters too; with rule `triangles` alone.
 layout(constant_id = CONSTANT_TRACE_EMITTERS) const bool EMITTERS = false;
+
+layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 
 /// Start of the rays where voxels are met: off the surface, so that its own are behind them.
 const float RAY_LIFT = 1.5;
@@ -55,6 +58,12 @@ vec3 radiosityAt(TraceWorld world, SurfaceArrays surface, uint facet, vec3 at) {
   if (TRACE_HIT_RULE != HIT_RULE_TRIANGLES) return push.radiosity.at[facet].xyz;
   return tapped(surfaceTaps(surface, world.facets.reverse, world.facets.voxel, world.dims, facet, at, FILTER_LINEAR),
                 push.radiosity);
+}
+
+/// pi x the radiance of what a ray that has met no facet has met instead: as a radiosity.
+vec3 beyond(TraceHit hit, vec3 direction) {
+  if (!SKY || hit.facet != TRACE_ESCAPED) return vec3(0.0);
+  return IRAD_PI * skyRadiance(push.sky.at[0], direction);
 }
 
 /// Mean reflected radiance before the lobe's reflectance. Rays follow visible normals of GGX (Heitz 2018), each
@@ -112,7 +121,10 @@ vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) 
       hit.t = reach;
     } else {
       hit = traceFrom(world, surface, s, direction);
-      if (hit.facet > TRACE_LAST_FACET) continue;
+      if (hit.facet > TRACE_LAST_FACET) {
+        if (SKY) sum += weight * beyond(hit, direction);
+        continue;
+      }
     }
     vec3 at = rayStart(s) + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);

@@ -1,6 +1,8 @@
 // Views composed from the targets of the forward pass (docs/method.md 1: radiance = albedo (D + H) / pi + ...).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "forward/camera_view.glsl"
+#include "gi/sky.glsl"
 #include "shared/constants.h"
 #include "shared/passes.h"
 #include "shared/view.h"
@@ -8,6 +10,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = CONSTANT_VIEW) const uint VIEW = 0u;  ///< a constant: no view pays for the others
+layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 layout(constant_id = CONSTANT_TARGETS) const uint TARGETS = TARGETS_ALL;  ///< those that are there
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
@@ -24,6 +27,12 @@ layout(push_constant, scalar) uniform PushBlock { ViewPush push; };
 
 /// A term of the picture; 0 where its target is absent.
 #define IRAD_TERM(bit, target) ((TARGETS & bit) != 0u ? imageLoad(target, pixel).rgb : vec3(0.0))
+
+/// What is behind the scene at a pixel.
+vec3 skyBehind(GpuCamera camera, ivec2 pixel) {
+  vec3 axis = viewAxis(camera);
+  return skyRadiance(push.sky.at[0], -towardsViewer(camera, pixelPosition(camera, pixel, 1.0, axis), axis));
+}
 
 void main() {
   GpuCamera camera = push.camera.at[0];
@@ -68,6 +77,10 @@ void main() {
       imageStore(displayTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));
       return;
     }
+  }
+  if (SKY && !drawn && (VIEW == VIEW_LIT || VIEW == VIEW_NO_GI)) {
+    value = skyBehind(camera, pixel);
+    drawn = true;
   }
   imageStore(linearTarget, pixel, vec4(value, drawn ? 1.0 : 0.0));
   if (viewHasRange(push.kind)) return;  // view/finish.comp follows

@@ -115,6 +115,10 @@ class InspectorPanel : public Panel {
     helpTooltip("Radiosity M + \u03C1 (D + H), W/m\u00B2");
     valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
     helpTooltip("How far one more sweep would move B here");
+    if (facet.sky != glm::dvec3(0)) {
+      valueRow("sky", three(facet.sky));
+      helpTooltip("The part of H that comes straight from the sky, W/m\u00B2");
+    }
     if (facet.correction != glm::dvec3(0)) {
       valueRow("emitters", three(facet.correction));
       helpTooltip("What samples of the emitters add to H in place of the row's rays, W/m\u00B2");

@@ -1,0 +1,15 @@
+// The clear sky of Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight" (SIGGRAPH 1999).
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "renderer/scene/sky_image.h"
+
+namespace irad {
+
+/// The zenith's luminance, kcd/m^2; `fromZenith`: of the sun, radians, pi/2 at most.
+double preethamZenith(double turbidity, double fromZenith);
+/// The sky, linear, its luminance in kcd/m^2; black below the horizon. A sun that has set counts as setting.
+SkyTexels preethamSky(float turbidity, const glm::vec3& towardsSun);
+
+}  // namespace irad

@@ -1,0 +1,119 @@
+#include "gi/sky.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/preetham.h"
+#include "gi/settings.h"
+#include "gi/subsystems.h"
+#include "renderer/frame/frame.h"
+#include "renderer/frame/record.h"
+
+namespace irad {
+namespace {
+
+/// Samples of a bin in each direction.
+constexpr uint32_t kBinSamples = 16;
+
+glm::vec3 towardsSun(const SkySettings& s, const SkyInputs& inputs) {
+  if (s.coupled && inputs.sun) return *inputs.sun;
+  const float elevation = glm::radians(s.elevation), azimuth = glm::radians(s.azimuth);
+  return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
+}
+
+float largestOf(const glm::vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+}  // namespace
+
+glm::vec3 Sky::radiance(const glm::vec3& direction) const {
+  if (!texels) return glm::vec3(0);
+  const SkyTaps taps = skyTaps(direction, texels->size, turn);
+  glm::vec3 sum(0);
+  for (int i = 0; i < 4; ++i) sum += taps.weight[i] * texels->texels[taps.texel[i]];
+  return sum * scale;
+}
+
+float Sky::largest() const {
+  float most = 0;
+  if (texels)
+    for (const glm::vec3& t : texels->texels) most = std::max(most, largestOf(t * scale));
+  return most;
+}
+
+Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
+  Sky sky;
+  sky.turn = s.rotation / 360;
+  sky.scale = glm::vec3(s.intensity);
+  switch (s.source) {
+    case SkySource::none:
+      return {};
+    case SkySource::constant: {
+      static const auto white = std::make_shared<const SkyTexels>();
+      sky.texels = white;
+      sky.scale *= glm::vec3(s.red, s.green, s.blue);
+      break;
+    }
+    case SkySource::image:
+      if (inputs.image == nullptr) return {};
+      sky.texels = inputs.image->texels;
+      break;
+    case SkySource::preetham:
+      sky.model = glm::vec4(towardsSun(s, inputs), s.turbidity);
+      sky.texels = before != nullptr && before->model == sky.model
+                       ? before->texels
+                       : std::make_shared<const SkyTexels>(preethamSky(s.turbidity, glm::vec3(sky.model)));
+      break;
+  }
+  return sky;
+}
+
+std::vector<glm::vec4> skyBins(const Sky& sky, uint32_t edge) {
+  std::vector<glm::vec4> bins(6 * size_t{edge} * edge, glm::vec4(0));
+  for (uint32_t bin = 0; bin < bins.size(); ++bin) {
+    glm::dvec3 sum(0);
+    double solidAngle = 0;
+    for (uint32_t i = 0; i < kBinSamples * kBinSamples; ++i) {
+      const glm::vec2 within = (glm::vec2(i % kBinSamples, i / kBinSamples) + 0.5f) / float{kBinSamples};
+      const glm::vec3 p = skyBinPoint(bin, within, edge);
+      const double r = glm::length(p), share = 1 / (r * r * r);
+      sum += share * glm::dvec3(sky.radiance(p / static_cast<float>(r)));
+      solidAngle += share;
+    }
+    bins[bin] = glm::vec4(sum / solidAngle, 0);
+  }
+  return bins;
+}
+
+void place(Context& context, const Sky& sky, SkyOnDevice& onDevice) {
+  if (sky == onDevice.sky) return;
+  if (!(sky.largest() > 0)) {
+    onDevice = {};
+    onDevice.sky = sky;
+    return;
+  }
+  if (sky.texels != onDevice.sky.texels || !onDevice.texels)
+    onDevice.texels = makeBuffer<glm::vec3>(context, "sky", Subsystem::Scene, sky.texels->texels);
+  onDevice.bins = makeBuffer<glm::vec4>(context, "sky by bins", Subsystem::Scene, skyBins(sky));
+  RecordMaker maker(context, "sky record", Subsystem::Scene, sizeof(SkyPicture));
+  onDevice.record = maker.make(SkyPicture{maker.of(onDevice.texels), sky.texels->size, sky.turn, sky.scale});
+  onDevice.sky = sky;
+}
+
+void gatherSky(Frame& frame, const FormFactors& matrix, const SkyOnDevice& sky, Lighting& light) {
+  if (!sky || !matrix.rowSky) {
+    light.sky = Buffer();
+    return;
+  }
+  if (!light.sky)
+    light.sky = Buffer(frame.context().device, "irradiance from the sky", Subsystem::Solver, light.direct.bytes);
+  Pass pass = frame.pass("GI Gather");
+  pass.shader("gi/gather_sky.comp")
+      .push(GatherSkyPush{pass.in(matrix.record), pass.in(sky.bins), pass.out(light.sky)})
+      .dispatch(matrix.rows);
+}
+
+}  // namespace irad

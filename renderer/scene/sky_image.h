@@ -1,0 +1,36 @@
+// A picture of the whole sphere around a scene.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace irad {
+
+struct LinearPicture;
+
+/// Radiance, equirectangular, top row first (shaders/shared/sky.h), finite and not negative.
+struct SkyTexels {
+  glm::uvec2 size{1};
+  std::vector<glm::vec3> texels{glm::vec3(1)};
+};
+
+struct SkyImage {
+  std::filesystem::path path;  ///< absolute
+  std::string sha256;          ///< of the file
+  std::shared_ptr<const SkyTexels> texels;
+};
+
+/// Skies are held at most so wide; wider ones are averaged.
+inline constexpr uint32_t kMostSkyWidth = 4096;
+
+/// Whether a picture may be one of the whole sphere: twice as wide as high.
+bool maySkyBe(const LinearPicture& picture);
+/// What a file (renderer/image_io.h, readLinear) holds as a sky. InputError where that is no picture of the sphere,
+/// holds integers, which end at white, or numbers that are no light.
+SkyImage skyOf(const std::filesystem::path& path, const LinearPicture& picture);
+SkyImage readSky(const std::filesystem::path& path);
+
+}  // namespace irad

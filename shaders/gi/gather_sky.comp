@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// "GI Gather" from the sky (docs/method.md 6): pi x the share of a facet's rays that escape into each bin of directions x
+// the bin's mean radiance. One invocation per row.
+#include "shared/sky.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { GatherSkyPush p; };
+
+void main() {
+  uint row = irad_index();
+  MatrixArrays m = p.matrix.at[0];
+  if (row >= m.rows) return;
+  uvec2 info = m.rowInfo.at[row];
+  UintArray segment = m.segments.at[row >> m.segmentShift];
+  uint start = m.rowStart.at[row] + rowEntries(info), count = m.rowSky.at[row];
+  vec3 sum = vec3(0.0f);
+  for (uint i = 0u; i < count; ++i) {
+    uint entry = segment.at[start + i];
+    sum += float(entry >> SKY_BIN_BITS) * p.bins.at[entry & ((1u << SKY_BIN_BITS) - 1u)].xyz;
+  }
+  p.sky.at[row] = vec4(sum * (uintBitsToFloat(info.y) * IRAD_PI), 0.0f);
+}
