@@ -37,8 +37,10 @@ struct Targets {
   Buffer pixelLists;    ///< a PixelList per material and one more
   Buffer listedPixels;  ///< the lists' entries: x | y << 16, triangle
 
-  Buffer
-      glossy;  ///< pixels that trace specular rays (shaders/shared/indirect.h); with `specular`, where that is listed
+  // Lists of pixels (shaders/shared/picked.h), where there are the passes that make them:
+  Buffer sought;   ///< whose facet is searched for
+  Buffer doubted;  ///< whose direct light is asked of rays
+  Buffer glossy;   ///< that trace specular rays
 
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);
