@@ -63,19 +63,35 @@ SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out flo
   return surfelOf(surface, facet, nearest);
 }
 
-/// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side; or NO_FACET.
+/// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side, and nearer than `nearest`;
+/// or NO_FACET. They are asked the nearest first: looking for that is little beside `continues`.
 uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SurfelPoint p,
                    inout float nearest) {
-  uint found = NO_FACET, entry = entryOf(reverse, dims, voxel);
-  for (uint k = 0u; entry != NO_FACET && k < facetsOf(entry); ++k) {
-    uint facet = firstFacet(entry) + k;
-    float distance2;
-    SurfelPoint s = nearestSurfel(surface, facet, p.position, distance2);
-    if (distance2 >= nearest || !continues(surface, reverse, dims, p, s)) continue;
-    nearest = distance2;
-    found = facet;
+  uint entry = entryOf(reverse, dims, voxel);
+  if (entry == NO_FACET) return NO_FACET;
+  float asked = -1.0;  // the distance of the last that was asked
+  uint last = 0u;      // and which it was, from 1
+  for (uint tries = 0u; tries < facetsOf(entry); ++tries) {
+    float best = nearest;
+    uint next = NO_FACET;
+    SurfelPoint to;
+    for (uint k = 0u; k < facetsOf(entry); ++k) {
+      float distance2;
+      SurfelPoint s = nearestSurfel(surface, firstFacet(entry) + k, p.position, distance2);
+      if (distance2 >= best || distance2 < asked || (distance2 == asked && k < last) || !mayContinue(p, s)) continue;
+      best = distance2;
+      next = k;
+      to = s;
+    }
+    if (next == NO_FACET) return NO_FACET;
+    if (continues(surface, reverse, dims, p, to)) {
+      nearest = best;
+      return firstFacet(entry) + next;
+    }
+    asked = best;
+    last = next + 1u;
   }
-  return found;
+  return NO_FACET;
 }
 
 /// Of a voxel with more pieces than are looked at to tell sides apart, the facet that is near and faces the point's way;

@@ -142,15 +142,23 @@ struct SideWay {
   uint pass1, pass2;  ///< triangles that it may pass through
 };
 
+/// Whether two points may lie on one side, by what they say alone: their normals are alike, and neither stands above the
+/// other's plane while that one lies below its own.
+bool mayContinue(SurfelPoint a, SurfelPoint b) {
+  vec3 chord = b.position - a.position;
+  float above = dot(a.facing, chord), below = -dot(b.facing, chord);
+  return dot(a.facing, b.facing) >= SAME_SIDE_COSINE &&
+         (max(above, below) <= SAME_SIDE_LEVEL || min(above, below) >= -SAME_SIDE_LEVEL);
+}
+
 /// In a box. Points are no nearer than CUT_WIDTH to what passes through their triangle.
 SideWay wayBetween(Vec4Array corners, vec3 low, vec3 high, SurfelPoint a, SurfelPoint b) {
   SideWay way = SideWay(false, 0.0, a.triangle, b.triangle);
+  if (!mayContinue(a, b)) return way;
   float alike = dot(a.facing, b.facing);
-  if (alike < SAME_SIDE_COSINE) return way;
   vec3 chord = b.position - a.position;
   float above = dot(a.facing, chord), below = -dot(b.facing, chord);
   float most = max(above, below), least = min(above, below);
-  if (most > SAME_SIDE_LEVEL && least < -SAME_SIDE_LEVEL) return way;
   if (least < 0.0) way.bulge = 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
   way.open = true;
   if (least > -0.5 * CUT_WIDTH) return way;
