@@ -37,17 +37,14 @@ bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint
   vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0;
   SideWay way = wayBetween(surface.corners, low - AROUND_CELL, high + AROUND_CELL, a, b);
   if (!way.open) return false;
-  vec3 from = a.position + a.facing * liftOf(surface, reverse, dims, a);
-  vec3 to = b.position + b.facing * liftOf(surface, reverse, dims, b);
-  if (way.bulge > ABOVE_SURFACE) {
-    vec3 fromHigh = from + a.facing * way.bulge, toHigh = to + b.facing * way.bulge;
-    if (!clearBetween(surface, reverse, dims, from, fromHigh, way.pass1, way.pass2) ||
-        !clearBetween(surface, reverse, dims, to, toHigh, way.pass1, way.pass2))
-      return false;
-    from = fromHigh;
-    to = toHigh;
+  SidePath path = pathOf(way, SidePoint(a, liftOf(surface, reverse, dims, a)),
+                         SidePoint(b, liftOf(surface, reverse, dims, b)));
+  for (uint i = 0u; i < segmentsOf(path); ++i) {
+    vec3 p, q;
+    segmentAt(path, i, p, q);
+    if (!clearBetween(surface, reverse, dims, p, q, way.pass1, way.pass2)) return false;
   }
-  return clearBetween(surface, reverse, dims, from, to, way.pass1, way.pass2);
+  return true;
 }
 
 /// The surfel of a facet that is nearest to a point.

@@ -179,6 +179,31 @@ struct SidePoint {
   float lift;
 };
 
+/// The segments of a way: straight from above one point to above the other or, where it is raised, up from both and
+/// across.
+struct SidePath {
+  vec3 begin, end;
+  vec3 beginHigh, endHigh;
+  bool raised;
+};
+
+SidePath pathOf(SideWay way, SidePoint from, SidePoint to) {
+  SidePath path;
+  path.begin = from.at.position + from.at.facing * from.lift;
+  path.end = to.at.position + to.at.facing * to.lift;
+  path.raised = way.bulge > ABOVE_SURFACE;
+  path.beginHigh = path.begin + from.at.facing * way.bulge;
+  path.endHigh = path.end + to.at.facing * way.bulge;
+  return path;
+}
+
+uint segmentsOf(SidePath path) { return path.raised ? 3u : 1u; }
+
+void segmentAt(SidePath path, uint i, out vec3 a, out vec3 b) {
+  a = i == 0u ? path.begin : (i == 1u ? path.end : path.beginHigh);
+  b = i == 0u ? (path.raised ? path.beginHigh : path.end) : path.endHigh;
+}
+
 /// Points of triangles in one voxel.
 bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
   SurfelPoint a = from.at, b = to.at;
@@ -186,16 +211,13 @@ bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
   if (!way.open) return false;
   vec3 chord = b.position - a.position;
   if (dot(chord, chord) < 1e-10) return true;
-  vec3 begin = a.position + a.facing * from.lift, end = b.position + b.facing * to.lift;
-  if (way.bulge > ABOVE_SURFACE) {
-    vec3 beginHigh = begin + a.facing * way.bulge, endHigh = end + b.facing * way.bulge;
-    if (!clearInVoxel(voxel, begin, beginHigh, way.pass1, way.pass2) ||
-        !clearInVoxel(voxel, end, endHigh, way.pass1, way.pass2))
-      return false;
-    begin = beginHigh;
-    end = endHigh;
+  SidePath path = pathOf(way, from, to);
+  for (uint i = 0u; i < segmentsOf(path); ++i) {
+    vec3 p, q;
+    segmentAt(path, i, p, q);
+    if (!clearInVoxel(voxel, p, q, way.pass1, way.pass2)) return false;
   }
-  return clearInVoxel(voxel, begin, end, way.pass1, way.pass2);
+  return true;
 }
 
 #endif
