@@ -2,6 +2,7 @@
 
 #include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/picked.h"
 #include "gi/ray_kernel.h"
 #include "gi/views/passes.h"
 #include "renderer/shadow.h"
@@ -11,35 +12,50 @@
 namespace irad {
 namespace {
 
+constexpr const char* kForwardStage = "RE Forward";
+
 /// In compute, where no lane is spent outside a triangle.
 void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, bool lights,
                   Targets& targets) {
-  Pass pass = frame.pass("RE Forward");
-  IndirectPush push{};
-  push.camera = pass.in(camera);
-  push.grid = pass.in(*from.grid);
-  push.reverse = pass.in(from.facets->reverse);
-  push.voxel = pass.in(from.facets->voxel);
-  push.surface = pass.in(from.facets->surface.record);
-  push.shaded = pass.in(*from.shaded);
-  if (emitted) push.shadedEmitted = pass.in(*from.shadedEmitted);
-  if (lights) push.direct = pass.in(*from.direct);
-  push.sampling = from.sample;
-  push.size = targets.size;
-  pass.shader("gi/indirect_links.comp")
-      .constant(CONSTANT_EMITTED, emitted)
-      .constant(CONSTANT_KEEPS_POSITION, from.keepPosition)
-      .write(targets.indirect)
-      .write(targets.linear)
-      .write(emitted ? targets.emitted : targets.indirect)
-      .push(push)
-      .dispatch(targets.size);
+  pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought, SOUGHT_PARTS);
+  if (lights) pickNone(frame, kForwardStage, "pixels whose light is doubted", targets.size, targets.doubted);
+  for (const bool seeks : {false, true}) {
+    Pass pass = frame.pass(kForwardStage);
+    IndirectPush push{};
+    push.camera = pass.in(camera);
+    push.grid = pass.in(*from.grid);
+    push.reverse = pass.in(from.facets->reverse);
+    push.voxel = pass.in(from.facets->voxel);
+    push.surface = pass.in(from.facets->surface.record);
+    push.shaded = pass.in(*from.shaded);
+    if (emitted) push.shadedEmitted = pass.in(*from.shadedEmitted);
+    push.sought = seeks ? pass.in(targets.sought) : pass.out(targets.sought);
+    if (lights) {
+      push.direct = pass.in(*from.direct);
+      push.doubted = pass.out(targets.doubted);
+    }
+    push.sampling = from.sample;
+    push.size = targets.size;
+    pass.shader("gi/indirect_links.comp")
+        .constant(CONSTANT_EMITTED, emitted)
+        .constant(CONSTANT_KEEPS_POSITION, from.keepPosition)
+        .constant(CONSTANT_SEEKS, seeks)
+        .write(targets.indirect)
+        .write(targets.linear)
+        .write(emitted ? targets.emitted : targets.indirect)
+        .read(targets.direct)
+        .push(push);
+    if (seeks)
+      pass.dispatchIndirect(targets.sought);
+    else
+      pass.dispatch(targets.size);
+  }
 }
 
 /// gi/direct_seen.comp.
 void checkDirect(Frame& frame, const SceneOnDevice& scene, const IndirectInputs& from, const Buffer& camera,
                  Targets& targets) {
-  Pass pass = frame.pass("RE Forward");
+  Pass pass = frame.pass(kForwardStage);
   DirectSeenPush push{};
   push.camera = pass.in(camera);
   push.scene = pass.in(scene.record);
@@ -49,17 +65,17 @@ void checkDirect(Frame& frame, const SceneOnDevice& scene, const IndirectInputs&
   push.origin = from.facets->grid.origin;
   push.edge = from.facets->grid.edge;
   push.dims = from.facets->grid.dims;
-  push.size = targets.size;
+  push.doubted = pass.in(targets.doubted);
   pass.shader("gi/direct_seen.comp")
       .constant(CONSTANT_TRACE_METHOD, exactTraversal(*from.field))
       .constant(CONSTANT_TARGETS, targets.present());
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
-  pass.write(targets.indirect)
+  pass.read(targets.indirect)
       .write(targets.direct)
       .write(targets.bound(&Targets::highlight))
       .sample(targets.depth, pointSampler(frame.context().device))
       .push(push)
-      .dispatch(targets.size);
+      .dispatchIndirect(targets.doubted);
 }
 
 }  // namespace
@@ -75,8 +91,10 @@ void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shado
   targets.fit(frame.context(), &Targets::emitted, emitted);
   const VolumeLookup lookup{fromVolume ? indirect.volume : nullptr, indirect.grid, indirect.sample};
   drawForward(frame, scene, shadows, camera, shade, targets, drawn, lookup);
+  const bool lights = fromFacets && indirect.direct != nullptr && !scene.shining.empty();
+  if (!fromFacets) targets.sought = Buffer();
+  if (!lights) targets.doubted = Buffer();
   if (!fromFacets) return;
-  const bool lights = indirect.direct != nullptr && !scene.shining.empty();
   lookUpFacets(frame, indirect, camera, emitted, lights, targets);
   if (lights) checkDirect(frame, scene, indirect, camera, targets);
 }

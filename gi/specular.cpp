@@ -10,6 +10,7 @@
 #include "gi/facets.h"
 #include "gi/field.h"
 #include "gi/lighting.h"
+#include "gi/picked.h"
 #include "gi/settings.h"
 #include "gi/specular_pass.h"
 #include "gi/subsystems.h"
@@ -49,10 +50,7 @@ void listGlossy(SpecularPicture& picture, bool filtered, uint32_t parts) {
   Frame& frame = picture.frame;
   Targets& targets = picture.targets;
   const Device& device = frame.context().device;
-  if (!targets.glossy)
-    targets.glossy =
-        Buffer(device, "glossy pixels", Subsystem::Targets, 4ull * (GLOSSY_FIRST + targets.size.x * targets.size.y));
-  frame.pass(kSpecularStage).update(targets.glossy, glm::uvec4(0, parts, 1, 0));
+  pickNone(frame, kSpecularStage, "glossy pixels", targets.size, targets.glossy, parts);
   Pass pass = frame.pass(kSpecularStage);
   SpecularPush push = picture.push;
   push.camera = pass.in(picture.camera);

@@ -26,7 +26,9 @@ struct Targets {
   Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
   Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; w: with facets of the true surface the triangle seen
                     ///< (seenAs()). Before a pass looks it up, the position
-  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive surfaces, where a view asks
+  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive surfaces, where a view asks; w: how far
+                    ///< a pixel is to go by what it finds itself ("RE Emitters"), 0 to 1: not at all where the facets
+                    ///< around agree, wholly where there is none
   Image seen;       ///< RGBA16F: how much of the emitters' light arrives, by channel, where pixels look for it; w = 0:
                     ///< unknown. No picture is composed from it
   Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
@@ -37,8 +39,10 @@ struct Targets {
   Buffer pixelLists;    ///< a PixelList per material and one more
   Buffer listedPixels;  ///< the lists' entries: x | y << 16, triangle
 
-  Buffer
-      glossy;  ///< pixels that trace specular rays (shaders/shared/indirect.h); with `specular`, where that is listed
+  // Lists of pixels (shaders/shared/picked.h), where there are the passes that make them:
+  Buffer sought;   ///< whose facet is searched for
+  Buffer doubted;  ///< whose direct light is asked of rays
+  Buffer glossy;   ///< that trace specular rays
 
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);

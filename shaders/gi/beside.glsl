@@ -37,17 +37,14 @@ bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint
   vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0;
   SideWay way = wayBetween(surface.corners, low - AROUND_CELL, high + AROUND_CELL, a, b);
   if (!way.open) return false;
-  vec3 from = a.position + a.facing * liftOf(surface, reverse, dims, a);
-  vec3 to = b.position + b.facing * liftOf(surface, reverse, dims, b);
-  if (way.bulge > ABOVE_SURFACE) {
-    vec3 fromHigh = from + a.facing * way.bulge, toHigh = to + b.facing * way.bulge;
-    if (!clearBetween(surface, reverse, dims, from, fromHigh, way.pass1, way.pass2) ||
-        !clearBetween(surface, reverse, dims, to, toHigh, way.pass1, way.pass2))
-      return false;
-    from = fromHigh;
-    to = toHigh;
+  SidePath path = pathOf(way, SidePoint(a, liftOf(surface, reverse, dims, a)),
+                         SidePoint(b, liftOf(surface, reverse, dims, b)));
+  for (uint i = 0u; i < segmentsOf(path); ++i) {
+    vec3 p, q;
+    segmentAt(path, i, p, q);
+    if (!clearBetween(surface, reverse, dims, p, q, way.pass1, way.pass2)) return false;
   }
-  return clearBetween(surface, reverse, dims, from, to, way.pass1, way.pass2);
+  return true;
 }
 
 /// The surfel of a facet that is nearest to a point.
@@ -63,19 +60,35 @@ SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out flo
   return surfelOf(surface, facet, nearest);
 }
 
-/// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side; or NO_FACET.
+/// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side, and nearer than `nearest`;
+/// or NO_FACET. They are asked the nearest first: looking for that is little beside `continues`.
 uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SurfelPoint p,
                    inout float nearest) {
-  uint found = NO_FACET, entry = entryOf(reverse, dims, voxel);
-  for (uint k = 0u; entry != NO_FACET && k < facetsOf(entry); ++k) {
-    uint facet = firstFacet(entry) + k;
-    float distance2;
-    SurfelPoint s = nearestSurfel(surface, facet, p.position, distance2);
-    if (distance2 >= nearest || !continues(surface, reverse, dims, p, s)) continue;
-    nearest = distance2;
-    found = facet;
+  uint entry = entryOf(reverse, dims, voxel);
+  if (entry == NO_FACET) return NO_FACET;
+  float asked = -1.0;  // the distance of the last that was asked
+  uint last = 0u;      // and which it was, from 1
+  for (uint tries = 0u; tries < facetsOf(entry); ++tries) {
+    float best = nearest;
+    uint next = NO_FACET;
+    SurfelPoint to;
+    for (uint k = 0u; k < facetsOf(entry); ++k) {
+      float distance2;
+      SurfelPoint s = nearestSurfel(surface, firstFacet(entry) + k, p.position, distance2);
+      if (distance2 >= best || distance2 < asked || (distance2 == asked && k < last) || !mayContinue(p, s)) continue;
+      best = distance2;
+      next = k;
+      to = s;
+    }
+    if (next == NO_FACET) return NO_FACET;
+    if (continues(surface, reverse, dims, p, to)) {
+      nearest = best;
+      return firstFacet(entry) + next;
+    }
+    asked = best;
+    last = next + 1u;
   }
-  return found;
+  return NO_FACET;
 }
 
 /// Of a voxel with more pieces than are looked at to tell sides apart, the facet that is near and faces the point's way;

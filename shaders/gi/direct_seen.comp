@@ -1,10 +1,9 @@
 // "RE Forward": what shadow maps let through where a wall is thinner than their texels. Where the facet of a pixel has no
-// direct light and the pixel has, rays past the triangles decide (docs/method.md 7). gi/indirect_links.comp has marked
-// these pixels by the sign of Targets::indirect's w.
+// direct light and the pixel has, rays past the triangles decide (docs/method.md 7). gi/indirect_links.comp has listed
+// these pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
-#include "forward/tile_pixel.glsl"
 #include "shared/indirect.h"
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
@@ -13,12 +12,12 @@
 #include "shared/constants.h"
 #include "shared/passes.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = PICKED_GROUP) in;
 layout(constant_id = CONSTANT_TARGETS) const uint TARGETS = TARGETS_ALL;
 layout(push_constant, scalar) uniform PushBlock {
   DirectSeenPush push;
 };
-layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D indirectTarget;
 layout(set = 0, binding = 1, rgba32f) uniform image2D directTarget;
 layout(set = 0, binding = 2, rgba32f) uniform image2D highlightTarget;
 layout(set = 0, binding = 3) uniform sampler2D depthTarget;
@@ -43,14 +42,10 @@ bool seesLight(ivec2 pixel, uint triangle) {
 }
 
 void main() {
-  ivec2 pixel = tilePixel();
-  if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
-  vec4 indirect = imageLoad(indirectTarget, pixel);
-  if (indirect.w >= 0.0) return;
-  imageStore(indirectTarget, pixel, vec4(indirect.rgb, -indirect.w));
-  vec4 direct = imageLoad(directTarget, pixel);
-  if (direct.rgb == vec3(0.0) || seesLight(pixel, seenTriangle(-indirect.w))) return;
-  imageStore(directTarget, pixel, vec4(vec3(0.0), direct.w));
+  ivec2 pixel;
+  if (!pickedPixel(push.doubted, gl_GlobalInvocationID.x, pixel)) return;
+  if (seesLight(pixel, seenTriangle(imageLoad(indirectTarget, pixel).w))) return;
+  imageStore(directTarget, pixel, vec4(vec3(0.0), imageLoad(directTarget, pixel).w));
   // Highlights share a target with emission: where there is that, they stay.
   if ((TARGETS & TARGET_HIGHLIGHT) != 0u && imageLoad(highlightTarget, pixel).w == 0.0)
     imageStore(highlightTarget, pixel, vec4(0.0));

@@ -1,6 +1,7 @@
 // "RE Forward", last step: indirect light of each visible point from the facet that it lies on and those that continue
 // its surface (docs/method.md 7), less what the bumps of a normal map keep from it. The forward pass has left position,
-// triangle and that share in the targets (forward/shade.glsl).
+// triangle and that share in the targets (forward/shade.glsl). Run twice: pixels whose facet is not found at once are
+// listed and left to a kernel that searches for it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
@@ -10,16 +11,18 @@
 #include "shared/indirect.h"
 #include "shared/passes.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = PICKED_GROUP / SOUGHT_PARTS) in;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;  ///< F M too: there is a target for it
 /// In the place of what the lookup needs; w: seenAs(), 0 where nothing is drawn.
 layout(constant_id = CONSTANT_KEEPS_POSITION) const bool KEEPS_POSITION = false;
+layout(constant_id = CONSTANT_SEEKS) const bool SEEKS = true;  ///< of the pixels of `sought`
 layout(push_constant, scalar) uniform PushBlock {
   IndirectPush push;
 };
 layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
 layout(set = 0, binding = 1, rgba32f) uniform image2D lookupTarget;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
+layout(set = 0, binding = 3, rgba32f) uniform readonly image2D directTarget;
 
 /// How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
 float spread(SurfaceTaps taps) {
@@ -37,20 +40,38 @@ float spread(SurfaceTaps taps) {
 void main() {
   Grid grid = push.grid.at[0];
   SurfaceArrays surface = push.surface.at[0];
-  ivec2 pixel = tilePixel();
-  if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
+  ivec2 pixel;
+  if (SEEKS) {
+    uint place = (gl_WorkGroupID.x * SOUGHT_PARTS + gl_WorkGroupID.y) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    if (!pickedPixel(push.sought, place, pixel)) return;
+  } else {
+    pixel = tilePixel();
+    if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
+  }
   vec4 position = imageLoad(indirectTarget, pixel);
   vec4 lookup = imageLoad(lookupTarget, pixel);
   float seen = lookup.w;
   bool drawn = position.w != 0.0;
-  if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, drawn ? seen : 0.0));
-  if (!drawn) return;
+  if (!drawn) {
+    if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, 0.0));
+    return;
+  }
   uint triangle = seenTriangle(seen);
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
   bool back = dot(triangleFacing(surface, triangle), viewer) < 0.0;
-  uint facet = facetAt(surface, push.reverse, grid.dims, p, triangle | (back ? SURFEL_BACK : 0u));
+  uint side = triangle | (back ? SURFEL_BACK : 0u), facet;
+  if (SEEKS) {
+    facet = soughtFacet(surface, push.reverse, grid.dims, p, side);
+  } else {
+    facet = facetAt(surface, push.reverse, grid.dims, p, side);
+    if (facet == NO_FACET) {
+      pick(push.sought, pixel);
+      return;
+    }
+  }
+  if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, seen));
   vec3 h = vec3(0.0);
   vec4 e = vec4(0.0, 0.0, 0.0, 1.0);
   if (facet != NO_FACET) {
@@ -59,7 +80,9 @@ void main() {
     if (EMITTED) e = vec4(lookup.x * tapped(taps, push.shadedEmitted), spread(taps));
   }
   if (EMITTED) imageStore(emittedTarget, pixel, e);
-  // For rays of reflections; negative where gi/direct_seen.comp looks at the pixel's direct light.
-  bool dark = uint64_t(push.direct) != 0ul && facet != NO_FACET && push.direct.at[facet].xyz == vec3(0.0);
-  imageStore(indirectTarget, pixel, vec4(h, dark ? -seen : seen));
+  imageStore(indirectTarget, pixel, vec4(h, seen));
+  // Direct light of a pixel whose facet has none.
+  if (uint64_t(push.direct) != 0ul && facet != NO_FACET && push.direct.at[facet].xyz == vec3(0.0) &&
+      imageLoad(directTarget, pixel).rgb != vec3(0.0))
+    pick(push.doubted, pixel);
 }

@@ -142,15 +142,23 @@ struct SideWay {
   uint pass1, pass2;  ///< triangles that it may pass through
 };
 
+/// Whether two points may lie on one side, by what they say alone: their normals are alike, and neither stands above the
+/// other's plane while that one lies below its own.
+bool mayContinue(SurfelPoint a, SurfelPoint b) {
+  vec3 chord = b.position - a.position;
+  float above = dot(a.facing, chord), below = -dot(b.facing, chord);
+  return dot(a.facing, b.facing) >= SAME_SIDE_COSINE &&
+         (max(above, below) <= SAME_SIDE_LEVEL || min(above, below) >= -SAME_SIDE_LEVEL);
+}
+
 /// In a box. Points are no nearer than CUT_WIDTH to what passes through their triangle.
 SideWay wayBetween(Vec4Array corners, vec3 low, vec3 high, SurfelPoint a, SurfelPoint b) {
   SideWay way = SideWay(false, 0.0, a.triangle, b.triangle);
+  if (!mayContinue(a, b)) return way;
   float alike = dot(a.facing, b.facing);
-  if (alike < SAME_SIDE_COSINE) return way;
   vec3 chord = b.position - a.position;
   float above = dot(a.facing, chord), below = -dot(b.facing, chord);
   float most = max(above, below), least = min(above, below);
-  if (most > SAME_SIDE_LEVEL && least < -SAME_SIDE_LEVEL) return way;
   if (least < 0.0) way.bulge = 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
   way.open = true;
   if (least > -0.5 * CUT_WIDTH) return way;
@@ -171,6 +179,31 @@ struct SidePoint {
   float lift;
 };
 
+/// The segments of a way: straight from above one point to above the other or, where it is raised, up from both and
+/// across.
+struct SidePath {
+  vec3 begin, end;
+  vec3 beginHigh, endHigh;
+  bool raised;
+};
+
+SidePath pathOf(SideWay way, SidePoint from, SidePoint to) {
+  SidePath path;
+  path.begin = from.at.position + from.at.facing * from.lift;
+  path.end = to.at.position + to.at.facing * to.lift;
+  path.raised = way.bulge > ABOVE_SURFACE;
+  path.beginHigh = path.begin + from.at.facing * way.bulge;
+  path.endHigh = path.end + to.at.facing * way.bulge;
+  return path;
+}
+
+uint segmentsOf(SidePath path) { return path.raised ? 3u : 1u; }
+
+void segmentAt(SidePath path, uint i, out vec3 a, out vec3 b) {
+  a = i == 0u ? path.begin : (i == 1u ? path.end : path.beginHigh);
+  b = i == 0u ? (path.raised ? path.beginHigh : path.end) : path.endHigh;
+}
+
 /// Points of triangles in one voxel.
 bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
   SurfelPoint a = from.at, b = to.at;
@@ -178,16 +211,13 @@ bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
   if (!way.open) return false;
   vec3 chord = b.position - a.position;
   if (dot(chord, chord) < 1e-10) return true;
-  vec3 begin = a.position + a.facing * from.lift, end = b.position + b.facing * to.lift;
-  if (way.bulge > ABOVE_SURFACE) {
-    vec3 beginHigh = begin + a.facing * way.bulge, endHigh = end + b.facing * way.bulge;
-    if (!clearInVoxel(voxel, begin, beginHigh, way.pass1, way.pass2) ||
-        !clearInVoxel(voxel, end, endHigh, way.pass1, way.pass2))
-      return false;
-    begin = beginHigh;
-    end = endHigh;
+  SidePath path = pathOf(way, from, to);
+  for (uint i = 0u; i < segmentsOf(path); ++i) {
+    vec3 p, q;
+    segmentAt(path, i, p, q);
+    if (!clearInVoxel(voxel, p, q, way.pass1, way.pass2)) return false;
   }
-  return clearInVoxel(voxel, begin, end, way.pass1, way.pass2);
+  return true;
 }
 
 #endif

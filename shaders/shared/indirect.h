@@ -5,6 +5,7 @@
 #include "shared/facets.h"
 #include "shared/gi_params.h"
 #include "shared/grid.h"
+#include "shared/picked.h"
 #include "shared/scene_gpu.h"
 #include "shared/sky.h"
 #include "shared/surface.h"
@@ -20,6 +21,8 @@ struct IndirectPush {
   Vec4Array shaded;         ///< H per facet
   Vec4Array shadedEmitted;  ///< F M per facet
   Vec4Array direct;         ///< D per facet; 0: no light shines, or none is asked for
+  UintArray sought;         ///< Targets::sought
+  UintArray doubted;        ///< Targets::doubted, where there is `direct`
   SampleParams sampling;
   uvec2 size;
 };
@@ -31,18 +34,16 @@ struct DirectSeenPush {
   FacetArrays facets;  ///< by value
   SurfaceRecord surface;
   ByteArray chebyshev;
-  vec3 origin;  ///< of the grid, local
+  UintArray doubted;  ///< Targets::doubted
+  vec3 origin;        ///< of the grid, local
   float edge;
   uvec3 dims;
-  uvec2 size;
 };
 
-/// Targets::glossy: three words of dispatch arguments, the number of pixels, then each pixel that traces, x | y << 16,
-/// in no particular order.
-IRAD_CONST uint GLOSSY_COUNT = 3u;
-IRAD_CONST uint GLOSSY_FIRST = 4u;
-IRAD_CONST uint GLOSSY_GROUP = 128u;  ///< pixels per workgroup
-IRAD_CONST uint GLOSSY_PARTS = 4u;    ///< workgroups that share them in thesis/specular.comp
+/// Workgroups that share a group of Targets::sought, each as large as those of a whole picture, whose kernel it is, too;
+/// and of Targets::glossy in thesis/specular.comp.
+IRAD_CONST uint SOUGHT_PARTS = 2u;
+IRAD_CONST uint GLOSSY_PARTS = 4u;
 
 /// "RE Specular".
 struct SpecularPush {
@@ -51,7 +52,7 @@ struct SpecularPush {
   SurfaceRecord surface;  ///< of rule `triangles`
   Vec4Array radiosity;
   ByteArray chebyshev;
-  UintArray glossy;
+  UintArray glossy;       ///< Targets::glossy
   EmitterRecord emitters;  ///< 0: there are none
   SkyRecord sky;           ///< 0: there is none
   uvec3 dims;              ///< these three: of the Grid

@@ -48,9 +48,9 @@ void main() {
   barrier();
   if (listed == 0u) return;
   if (gl_LocalInvocationIndex == 0u) {
-    first = atomicAdd(push.glossy.at[GLOSSY_COUNT], listed);
-    atomicMax(push.glossy.at[0], (first + listed + GLOSSY_GROUP - 1u) / GLOSSY_GROUP);
+    first = atomicAdd(push.glossy.at[PICKED_COUNT], listed);
+    atomicMax(push.glossy.at[0], (first + listed + PICKED_GROUP - 1u) / PICKED_GROUP);
   }
   barrier();
-  if (traces) push.glossy.at[GLOSSY_FIRST + first + place] = uint(pixel.x) | (uint(pixel.y) << 16);
+  if (traces) push.glossy.at[PICKED_FIRST + first + place] = packPixel(pixel);
 }

@@ -6,7 +6,7 @@
 #include "specular/surface.glsl"
 #include "shared/constants.h"
 
-layout(local_size_x = GLOSSY_GROUP) in;
+layout(local_size_x = PICKED_GROUP) in;
 layout(constant_id = CONSTANT_FILTER_STEP) const int STEP = 1;  ///< pixels between taps; 0: no filter
 layout(constant_id = CONSTANT_FILTER_RESOLVE) const bool RESOLVE = true;
 layout(constant_id = CONSTANT_LEAST_ROUGHNESS) const float LEAST_ROUGHNESS = 0.0;  ///< smoother surfaces are left alone
@@ -20,7 +20,7 @@ layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D to;
 void main() {
   GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
   ivec2 pixel;
-  if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
+  if (!pickedPixel(push.glossy, gl_GlobalInvocationID.x, pixel)) return;
   vec4 centre = imageLoad(from, pixel);
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);

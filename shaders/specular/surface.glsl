@@ -12,15 +12,6 @@ float tracedShare(float roughness) {
   return clamp((push.params.maxRoughness - roughness) / max(push.params.fade, 1e-4), 0.0, 1.0);
 }
 
-/// The pixel of this invocation of a dispatch over Targets::glossy; false past its end.
-bool glossyPixel(uint invocation, out ivec2 pixel) {
-  pixel = ivec2(0);
-  if (invocation >= push.glossy.at[GLOSSY_COUNT]) return false;
-  uint packed_ = push.glossy.at[GLOSSY_FIRST + invocation];
-  pixel = ivec2(packed_ & 0xFFFFu, packed_ >> 16);
-  return true;
-}
-
 /// No rays: no lobe, too rough, or too little light here to matter (docs/method.md 8). The targets hold roughness in
 /// half precision, which some devices truncate: a material at max_roughness would come back below it.
 bool tracesNothing(vec4 f0, float roughness, vec3 irradiance) {

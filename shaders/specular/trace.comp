@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "specular/trace.glsl"
 
-layout(local_size_x = GLOSSY_GROUP) in;
+layout(local_size_x = PICKED_GROUP) in;
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -17,7 +17,7 @@ void main() {
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.dims, push.jfaMax);
   SurfaceArrays surface = tracedSurface();
   ivec2 pixel;
-  if (!glossyPixel(gl_GlobalInvocationID.x, pixel)) return;
+  if (!pickedPixel(push.glossy, gl_GlobalInvocationID.x, pixel)) return;
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);
   float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);

@@ -6,7 +6,7 @@
 #include "thesis/specular_pixel.glsl"
 
 // A workgroup is as slow as its longest ray, so workgroups are small.
-const uint PIXELS = GLOSSY_GROUP / GLOSSY_PARTS;
+const uint PIXELS = PICKED_GROUP / GLOSSY_PARTS;
 layout(local_size_x = 2u * PIXELS) in;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D specularTarget;
 shared vec3 second[PIXELS];
@@ -17,7 +17,8 @@ void main() {
   ivec2 pixel;
   Reflection r;
   r.traces = false;
-  if (glossyPixel((gl_WorkGroupID.x * GLOSSY_PARTS + gl_WorkGroupID.y) * PIXELS + i, pixel)) r = reflectionAt(pixel);
+  uint place = (gl_WorkGroupID.x * GLOSSY_PARTS + gl_WorkGroupID.y) * PIXELS + i;
+  if (pickedPixel(push.glossy, place, pixel)) r = reflectionAt(pixel);
   vec3 met = vec3(0.0);
   for (uint k = 0u; k < push.params.rays; k += 2u) {
     vec3 ray = vec3(0.0);
