@@ -8,6 +8,8 @@
 
 namespace irad {
 
+struct Settings;
+
 /// Fills the keys of `voxels`, by the graphics pipeline or by kernels, which produce the same fragments. `ranges`: all
 /// of the scene's.
 void rasterizeVoxels(Frame& frame, const Voxels& voxels, std::vector<TriangleRange> ranges, const Settings& settings);
