@@ -7,15 +7,25 @@
 
 namespace irad {
 
+std::vector<uint32_t> ofTriangles(const Scene& scene, const std::function<uint32_t(const Draw&)>& valueOf) {
+  std::vector<uint32_t> values(scene.triangleCount(), 0);
+  for (const Draw& draw : scene.draws)
+    std::fill_n(values.begin() + draw.firstIndex / 3, draw.indexCount / 3, valueOf(draw));
+  return values;
+}
+
+std::vector<uint32_t> flagsOfTriangles(const SceneOnDevice& scene) {
+  return ofTriangles(scene.scene, [&](const Draw& draw) { return scene.materialValues.at(draw.material).flags; });
+}
+
 Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles, uint32_t textures) {
   Order order;
   order.groups.push_back({0, false});
-  std::vector<uint32_t> groupOf(scene.scene.triangleCount(), 0);
-  for (const Draw& draw : scene.scene.draws) {
-    if ((scene.materialValues.at(draw.material).flags & textures) == 0) continue;
-    std::fill_n(groupOf.begin() + draw.firstIndex / 3, draw.indexCount / 3, static_cast<uint32_t>(order.groups.size()));
+  const std::vector<uint32_t> groupOf = ofTriangles(scene.scene, [&](const Draw& draw) -> uint32_t {
+    if ((scene.materialValues.at(draw.material).flags & textures) == 0) return 0;
     order.groups.push_back({draw.material, true});
-  }
+    return order.groups.size() - 1;
+  });
   for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~SURFEL_BACK]].count;
   std::vector<uint32_t> next;
   uint32_t first = 0;

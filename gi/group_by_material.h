@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "renderer/frame/frame.h"
@@ -11,6 +12,11 @@
 #include "shaders/shared/scene_gpu.h"
 
 namespace irad {
+
+/// A value of each triangle: that of its draw. They are asked in their order.
+std::vector<uint32_t> ofTriangles(const Scene& scene, const std::function<uint32_t(const Draw&)>& valueOf);
+/// MATERIAL_*.
+std::vector<uint32_t> flagsOfTriangles(const SceneOnDevice& scene);
 
 /// What one dispatch takes.
 struct MaterialGroup {

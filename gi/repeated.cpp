@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "gi/group_by_material.h"
 #include "renderer/gpu_scene.h"
 
 namespace irad {
@@ -34,19 +35,11 @@ uint64_t hashOf(const Place& place) {
   return hash;
 }
 
-/// MATERIAL_* of every triangle.
-std::vector<uint32_t> flagsOf(const SceneOnDevice& scene) {
-  std::vector<uint32_t> flags(scene.scene.triangleCount(), 0);
-  for (const Draw& draw : scene.scene.draws)
-    std::fill_n(flags.begin() + draw.firstIndex / 3, draw.indexCount / 3, scene.materialValues.at(draw.material).flags);
-  return flags;
-}
-
 }  // namespace
 
 std::vector<uint32_t> repeatedTriangles(const SceneOnDevice& scene) {
   const uint32_t count = scene.scene.triangleCount();
-  const std::vector<uint32_t> flags = flagsOf(scene);
+  const std::vector<uint32_t> flags = flagsOfTriangles(scene);
   std::vector<uint32_t> repeated;
   // Open addressing. Upper bits of hashes, lest corners are read of places that only share a slot.
   struct Slot {

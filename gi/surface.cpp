@@ -179,18 +179,13 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
 /// What alpha masks leave of the pieces, in `surface`.
 void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid, const Pieces& pieces,
                const Surface& surface) {
-  std::vector<bool> hasMask(scene.scene.triangleCount());
-  bool any = false;
-  for (const Draw& draw : scene.scene.draws) {
-    if ((scene.materialValues.at(draw.material).flags & MATERIAL_ALPHA_MASK) == 0) continue;
-    std::fill_n(hasMask.begin() + draw.firstIndex / 3, draw.indexCount / 3, true);
-    any = true;
-  }
-  if (!any) return;
+  const auto hasMask = [](uint32_t flags) { return (flags & MATERIAL_ALPHA_MASK) != 0; };
+  const std::vector<uint32_t> flags = flagsOfTriangles(scene);
+  if (std::none_of(flags.begin(), flags.end(), hasMask)) return;
   std::vector<uint32_t> masked, triangles;  // pieces, and theirs
   const std::vector<uint32_t> all = downloadAs<uint32_t>(context, surface.pieces);
   for (uint32_t i = 0; i < all.size(); ++i)
-    if (const uint32_t triangle = all[i] & ~PIECE_SMALL; hasMask[triangle]) {
+    if (const uint32_t triangle = all[i] & ~PIECE_SMALL; hasMask(flags[triangle])) {
       masked.push_back(i);
       triangles.push_back(triangle);
     }

@@ -35,8 +35,7 @@ bool seesLight(ivec2 pixel, uint triangle) {
   for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
     GpuLight light = scene.lights.at[i];
     if (lightIrradiance(light, local, from.facing) == vec3(0.0)) continue;
-    float reach = lightHas(light, LIGHT_DISTANT) ? 1e30 : length(light.position - local) / push.edge;
-    if (reaches(world, surface, from, lightDirection(light, local), reach)) return true;
+    if (lightReaches(world, surface, from, light, local, push.edge)) return true;
   }
   return false;
 }

@@ -5,17 +5,10 @@
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/light.glsl"
-#include "gi/trace.glsl"
+#include "gi/seen_point.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { GatherSurfelsPush p; };
-
-/// Whether nothing stands between a surfel and a light.
-bool seesLight(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position) {
-  vec3 direction = lightDirection(light, position);
-  float reach = lightHas(light, LIGHT_DISTANT) ? 1e30f : length(light.position - position) / p.edge;
-  return firstTriangle(world, surface, from.position, direction, from.triangle, reach).triangle == NO_TRIANGLE;
-}
 
 void main() {
   uint facet = irad_index();
@@ -30,7 +23,7 @@ void main() {
     for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
       GpuLight light = scene.lights.at[i];
       vec3 irradiance = lightIrradiance(light, position, from.facing);
-      if (irradiance != vec3(0.0f) && seesLight(world, surface, from, light, position)) sum += irradiance;
+      if (irradiance != vec3(0.0f) && lightReaches(world, surface, from, light, position, p.edge)) sum += irradiance;
     }
   }
   p.direct.at[facet] = vec4(sum / float(FACET_SURFELS), 0.0f);

@@ -21,4 +21,12 @@ bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 dir
   return firstTriangle(world, surface, from.position, direction, from.triangle, before).triangle == NO_TRIANGLE;
 }
 
+#ifdef IRAD_FORWARD_LIGHT_GLSL
+/// Whether a light reaches a lifted point, `position` in local space; `edge`: of a voxel.
+bool lightReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge) {
+  float reach = lightHas(light, LIGHT_DISTANT) ? 1e30 : length(light.position - position) / edge;
+  return reaches(world, surface, from, lightDirection(light, position), reach);
+}
+#endif
+
 #endif
