@@ -39,6 +39,7 @@ Command renderCommand();
 Command benchCommand();
 Command checkCommand();
 Command exportCommand();
+Command memoryCommand();
 Command planCommand();
 Command settingsCommand();
 Command viewCommand();  ///< in builds with IRAD_UI

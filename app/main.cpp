@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
                         renderCommand(),
                         benchCommand(),
                         checkCommand(),
+                        memoryCommand(),
                         planCommand(),
                         exportCommand(),
                         settingsCommand(),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "gi/facets.h"
 #include "gi/field.h"
@@ -17,8 +18,6 @@
 
 namespace irad {
 namespace {
-
-constexpr const char* kEntries = "matrix entries";
 
 bool isSegment(const FormFactors& matrix, const std::string& name) {
   return std::any_of(matrix.segments.begin(), matrix.segments.end(), [&](const Buffer& b) { return b.name == name; });
@@ -41,22 +40,28 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.voxel, 4 * s);
   buffer(facets.shape, 4 * s);
   buffer(facets.albedo, 8 * s);
-  if (facets.hasEmission) buffer(facets.emission, 12 * s);
+  buffer(facets.emission, facets.hasEmission ? 12 * s : 0);
   buffer(facets.reverse, 4 * V);
   buffer(facets.triangle, 4 * s);
   buffer(facets.area, 4 * s);
   buffer(facets.surface.surfels, sizeof(Surfel) * FACET_SURFELS * s);
   buffer(facets.surface.links, FACET_LINKS * s);
   buffer(facets.surface.firstPiece, 4 * (s + 1));
+  // Nothing but these arrays knows how many triangles, pieces and cuts there are: what was asked for.
+  for (const Buffer* b : {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes, &facets.surface.sides,
+                          &facets.surface.cuts})
+    buffer(*b, b->bytes);
+  buffer(facets.surface.record, sizeof(SurfaceArrays));
   buffer(facets.record, sizeof(FacetArrays));
+  out.emplace_back("Grid", sizeof(Grid));  // the pipeline's
   // Fields: one byte per voxel each; JFA seeds one word.
   buffer(field.chebyshev, (V + 3) / 4 * 4);
   image(field.jumpFlood.distance, V);
   image(field.jumpFlood.seeds, 4 * V);
-  // csr: 4 B per distinct column.
-  out.emplace_back(
-      kEntries, matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries : paddedBytes(matrix.rows, matrix.rays));
-  buffer(matrix.rowStart, 4 * uint64_t{matrix.rows});
+  // csr: 4 B per distinct column. Padded rows have no starts.
+  out.emplace_back(kMatrixEntries, matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries
+                                                                      : paddedBytes(matrix.rows, matrix.rays));
+  buffer(matrix.rowStart, matrix.format == MatrixFormat::csr ? 4 * uint64_t{matrix.rows} : 0);
   buffer(matrix.rowInfo, 8 * uint64_t{matrix.rows});
   buffer(matrix.rowSky, 4 * uint64_t{matrix.rows});
   buffer(matrix.record, FormFactors::kSegmentTable + 8 * std::max<uint64_t>(1, matrix.segments.size()));
@@ -74,11 +79,13 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(lighting.residual, sizeof(SolveResidual) * SOLVE_RESIDUALS);
   buffer(lighting.blurChange, sizeof(uint32_t));
   image(lighting.volume.image, 8 * V);
+  buffer(lighting.volume.clamped, sizeof(uint32_t));
   return out;
 }
 
 std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const FacetList& facets,
-                                          const Field& field, const FormFactors& matrix, const Lighting& lighting) {
+                                          const Field& field, const FormFactors& matrix, const Lighting& lighting,
+                                          uint64_t rays) {
   const auto predictions = predictMemory(facets, field, matrix, lighting);
   const auto known = [&](const std::string& name) -> std::optional<uint64_t> {
     for (const auto& [resource, bytes] : predictions)
@@ -105,14 +112,14 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
     else
       rows.push_back({row.name, row.subsystem.text, row.format, row.bytes, predicted(row)});
   }
-  rows.insert(rows.begin(), {kEntries, Subsystem::Matrix.text, fmt::format("{} segments", matrix.segments.size()),
-                             entries, known(kEntries)});
+  rows.insert(rows.begin(), {kMatrixEntries, Subsystem::Matrix.text, fmt::format("{} segments", matrix.segments.size()),
+                             entries, known(kMatrixEntries)});
 
+  const ThesisTable thesis = thesisTable(rows, facets, field, lighting, rays);
   for (const auto& [subsystem, bytes] : subtotals)
     rows.push_back({"subtotal", subsystem.text, "", bytes, std::nullopt, Kind::Subtotal});
   rows.push_back({"total", "all", "", total, std::nullopt, Kind::Sum});
-  const std::vector<MemoryReportRow> thesis = thesisMemoryRows(measured, facets, matrix);
-  rows.insert(rows.end(), thesis.begin(), thesis.end());
+  std::ranges::copy(thesisMemoryRows(thesis), std::back_inserter(rows));
   return rows;
 }
 

@@ -21,15 +21,19 @@ struct MemoryReportRow {
   enum class Kind { Resource, Subtotal, Sum } kind = Kind::Resource;
 };
 
+/// The matrix's segments, as one resource.
+inline constexpr const char* kMatrixEntries = "matrix entries";
+
 /// Bytes that the formulas give for the stages' resources, by resource name; memoryReport() predicts other images from
 /// their extent and format. Units: s facets, V voxels (padding included), R rays, E matrix entries.
 std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& facets, const Field& field,
                                                             const FormFactors& matrix, const Lighting& lighting);
 
 /// Resources (the matrix's segments as one row), subtotals per subsystem, the total, and T eq. 29-31 beside what the GI
-/// subsystems take.
+/// subsystems take, for R = `rays` (the setting: without light there is no matrix).
 std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const FacetList& facets,
-                                          const Field& field, const FormFactors& matrix, const Lighting& lighting);
+                                          const Field& field, const FormFactors& matrix, const Lighting& lighting,
+                                          uint64_t rays);
 
 /// name,subsystem,format,measured_bytes,predicted_bytes
 std::string memoryCsv(const std::vector<MemoryReportRow>& rows);

@@ -116,9 +116,9 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
 TEST(Cli, HelpVersionAndDevicesAreStatus0) {
   const RunResult help = runIrad({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"render", "bench", "export", "settings", "views", "Exit status"})
+  for (const char* command : {"render", "bench", "export", "memory", "settings", "views", "Exit status"})
     EXPECT_TRUE(contains(help.out, command)) << command;
-  for (const char* command : {"render", "bench", "export", "settings", "views"})
+  for (const char* command : {"render", "bench", "export", "memory", "settings", "views"})
     EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
   const RunResult version = runIrad({"--version"});
   EXPECT_EQ(version.status, 0);

@@ -200,7 +200,7 @@ TEST_F(Export, MeasuredMemoryMeetsItsFormulas) {
   FormFactors matrix;
   const Lighting light = lighting();
   const std::vector<MemoryReportRow> rows =
-      memoryReport(context().device.memory().rows(), facets, field, matrix, light);
+      memoryReport(context().device.memory().rows(), facets, field, matrix, light, /*rays=*/384);
   const auto find = [&](const std::string& name) {
     for (const MemoryReportRow& row : rows)
       if (row.name == name) return row;

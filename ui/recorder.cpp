@@ -40,8 +40,9 @@ void writeFrames(Session& session, const std::filesystem::path& folder) {
 void writeMemory(Session& session, const std::filesystem::path& folder) {
   const Pipeline& p = *session.pipeline;
   OutputFolder out(folder / "memory");
-  writeFile(out.temporary() / "memory.csv", memoryCsv(memoryReport(session.context.device.memory().rows(), p.facets(),
-                                                                   p.field(), p.matrix(), p.lighting())));
+  writeFile(out.temporary() / "memory.csv",
+            memoryCsv(memoryReport(session.context.device.memory().rows(), p.facets(), p.field(), p.matrix(),
+                                   p.lighting(), p.settings().matrix.gpu.rays)));
   session.note(fmt::format("Saved {}", (out.commit() / "memory.csv").string()));
 }
 
