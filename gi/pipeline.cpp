@@ -48,7 +48,8 @@ struct Pipeline::Impl {
         onDevice(c, scene) {
     materials = onDevice.materialValues;
     content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
-    lookAtSky(onDevice.lightValues);
+    lookAtSky(scene.lights);
+    useSun();
     decide();
   }
 
@@ -75,8 +76,9 @@ struct Pipeline::Impl {
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
 
-  Sky sky;                  ///< that the settings ask for
-  SkyOnDevice skyOnDevice;  ///< that the light is made with; none where the plan has it off
+  Sky sky;                        ///< that the settings ask for
+  std::optional<SkySun> sunUsed;  ///< that is among the device's lights
+  SkyOnDevice skyOnDevice;        ///< that the light is made with; none where the plan has it off
 
   // ---- What the plan says ----
 
@@ -117,20 +119,50 @@ struct Pipeline::Impl {
     for (const GpuLight& light : lights)
       planned.traits.lights.push_back(measureLight(light, scene, settings.voxel.resolution));
     content.lights = lightContent(lights);
-    lookAtSky(lights);
     decide();
   }
 
-  SkyInputs skyInputs(std::span<const GpuLight> lights) const {
+  SkyInputs skyInputs(std::span<const Light> lights) const {
     SkyInputs in{.image = scene.sky.get(), .sun = {}};
-    for (const GpuLight& light : lights)
-      if (lightHas(light.type, LIGHT_DISTANT) && !in.sun) in.sun = -light.direction;
+    for (const Light& light : lights)
+      if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && !in.sun) in.sun = -light.direction;
     return in;
   }
-  void lookAtSky(std::span<const GpuLight> lights) {
+  void lookAtSky(std::span<const Light> lights) {
     sky = makeSky(settings.sky, skyInputs(lights), &sky);
     planned.traits.sky = sky.largest();
     content.sky = scene.sky ? Digest().add(std::as_bytes(std::span(scene.sky->sha256))).value() : 0;
+  }
+  /// Settings or sky have changed.
+  void lookAgain() {
+    lookAtSky(scene.lights);
+    useSun();
+    lookAtLights(onDevice.lightValues);
+  }
+  /// The sun of the sky, where the sky may shine.
+  std::optional<SkySun> skySun() const {
+    const bool may = settings.effects.sky != EffectMode::off && settings.matrix.gpu.hitRule == HitRule::triangles;
+    return may ? sky.sun : std::nullopt;
+  }
+  /// These lights, and behind them the sun of the sky.
+  std::vector<GpuLight> withSun(std::vector<Light> lights) const {
+    if (const std::optional<SkySun> sun = skySun()) {
+      const float most = std::max({sun->irradiance.x, sun->irradiance.y, sun->irradiance.z});
+      lights.push_back({.name = "sun of the sky",
+                        .type = LightType::Sun,
+                        .direction = -sun->towards,
+                        .color = sun->irradiance / most,
+                        .intensity = most});
+    }
+    return gpuLights(lights, scene.origin);
+  }
+  /// Where that has changed it becomes one of the device's lights; its shadow map is drawn with the next prepare().
+  void useSun() {
+    if (skySun() == sunUsed) return;
+    sunUsed = skySun();
+    std::vector<GpuLight> values = withSun(scene.lights);
+    if (shadows && shadowsMade == shadowKey(values)) keepShadows(values, onDevice.lightValues);
+    onDevice.setLights(context, std::move(values), shadowNeeds().shines);
   }
 
   void learn(const Products& p) { planned.traits.build = buildTraits(p); }
@@ -350,14 +382,14 @@ const SceneTraits& Pipeline::traits() const {
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
   p.settings = settings;
-  p.lookAtLights(p.onDevice.lightValues);
+  p.lookAgain();
   return p.due();
 }
 
 Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
   SceneTraits traits = p.planned.traits;
-  traits.sky = makeSky(settings.sky, p.skyInputs(p.onDevice.lightValues), &p.sky).largest();
+  traits.sky = makeSky(settings.sky, p.skyInputs(p.scene.lights), &p.sky).largest();
   const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
@@ -366,11 +398,13 @@ void Pipeline::setLights(std::vector<Light> lights) {
   Impl& p = *impl_;
   for (const Light& light : lights)
     if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
-  std::vector<GpuLight> values = gpuLights(lights, p.scene.origin);
+  std::vector<GpuLight> values = p.withSun(lights);
   const auto start = std::chrono::steady_clock::now();
   const Planned planned = p.planned;
   const SceneContent content = p.content;
+  const Sky sky = p.sky;
   try {
+    p.lookAtSky(lights);
     p.lookAtLights(values);
     const uint64_t key = p.shadowKey(values);
     std::optional<ShadowMaps> maps;
@@ -384,6 +418,7 @@ void Pipeline::setLights(std::vector<Light> lights) {
   } catch (...) {
     p.planned = planned;
     p.content = content;
+    p.sky = sky;
     p.shadowsWanted = p.shadowKey(p.onDevice.lightValues);
     throw;
   }
@@ -396,7 +431,7 @@ bool Pipeline::adopt(Scene& scene) {
   if (surfaceContent(scene) != p.content.surfaces) return false;
   setLights(scene.lights);
   p.scene = std::move(scene);  // where p.onDevice looks for it
-  p.lookAtLights(p.onDevice.lightValues);
+  p.lookAgain();
   return true;
 }
 
@@ -408,7 +443,7 @@ void Pipeline::lightsChanged() {
 void Pipeline::setSky(std::shared_ptr<const SkyImage> image) {
   Impl& p = *impl_;
   p.scene.sky = std::move(image);
-  p.lookAtLights(p.onDevice.lightValues);
+  p.lookAgain();
 }
 const Sky& Pipeline::sky() const {
   return impl_->sky;

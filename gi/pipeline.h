@@ -78,7 +78,7 @@ class Pipeline {
 
   /// Takes a picture for sky.source = image, or none (null), in place of the scene's.
   void setSky(std::shared_ptr<const SkyImage> image);
-  /// The sky that the settings ask for.
+  /// The sky that the settings ask for. Its sun is the last of device().lightValues.
   const Sky& sky() const;
 
   /// H and B become 0: the next prepare() solves from the dark.

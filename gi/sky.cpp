@@ -60,7 +60,13 @@ Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
     case SkySource::image:
       if (inputs.image == nullptr) return {};
       sky.texels = inputs.image->texels;
-      break;
+      sky.whole = inputs.image->whole;
+      if (const std::optional<SkySun>& sun = inputs.image->sun; sun && s.intensity > 0) {
+        const float angle = glm::radians(s.rotation), c = std::cos(angle), n = std::sin(angle);
+        const glm::vec3& d = sun->towards;
+        sky.sun = SkySun{{c * d.x + n * d.z, d.y, c * d.z - n * d.x}, s.intensity * sun->irradiance};
+      }
+      return sky;
     case SkySource::preetham:
       sky.model = glm::vec4(towardsSun(s, inputs), s.turbidity);
       sky.texels = before != nullptr && before->model == sky.model
@@ -68,6 +74,7 @@ Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
                        : std::make_shared<const SkyTexels>(preethamSky(s.turbidity, glm::vec3(sky.model)));
       break;
   }
+  sky.whole = sky.texels;
   return sky;
 }
 
@@ -97,9 +104,15 @@ void place(Context& context, const Sky& sky, SkyOnDevice& onDevice) {
   }
   if (sky.texels != onDevice.sky.texels || !onDevice.texels)
     onDevice.texels = makeBuffer<glm::vec3>(context, "sky", Subsystem::Scene, sky.texels->texels);
+  if (sky.whole == sky.texels)
+    onDevice.whole = Buffer();
+  else if (sky.whole != onDevice.sky.whole || !onDevice.whole)
+    onDevice.whole = makeBuffer<glm::vec3>(context, "sky with its sun", Subsystem::Scene, sky.whole->texels);
   onDevice.bins = makeBuffer<glm::vec4>(context, "sky by bins", Subsystem::Scene, skyBins(sky));
   RecordMaker maker(context, "sky record", Subsystem::Scene, sizeof(SkyPicture));
-  onDevice.record = maker.make(SkyPicture{maker.of(onDevice.texels), sky.texels->size, sky.turn, sky.scale});
+  const uint64_t texels = maker.of(onDevice.texels);
+  onDevice.record = maker.make(
+      SkyPicture{texels, onDevice.whole ? maker.of(onDevice.whole) : texels, sky.texels->size, sky.turn, sky.scale});
   onDevice.sky = sky;
 }
 

@@ -22,12 +22,14 @@ struct SkySettings;
 
 /// What the settings make of it: `scale` times the texels, turned. Without texels it is black.
 struct Sky {
-  std::shared_ptr<const SkyTexels> texels;
-  float turn = 0;  ///< about +Y, as a share of a full turn
+  std::shared_ptr<const SkyTexels> texels;  ///< without a sun that is a light
+  std::shared_ptr<const SkyTexels> whole;   ///< with it, as one sees it
+  float turn = 0;                           ///< about +Y, as a share of a full turn
   glm::vec3 scale{0};
-  glm::vec4 model{0};  ///< what texels were computed from: towards the sun, turbidity
-  glm::vec3 radiance(const glm::vec3& direction) const;
-  float largest() const;  ///< radiance, of any channel
+  std::optional<SkySun> sun;                             ///< which shines as a light (gi/pipeline.h); turned and scaled
+  glm::vec4 model{0};                                    ///< what texels were computed from: towards the sun, turbidity
+  glm::vec3 radiance(const glm::vec3& direction) const;  ///< without the sun
+  float largest() const;                                 ///< radiance, of any channel
   bool operator==(const Sky&) const = default;
 };
 /// Where a sky takes what is not in its settings from.
@@ -43,9 +45,9 @@ std::vector<glm::vec4> skyBins(const Sky& sky, uint32_t edge = SKY_EDGE);
 
 /// A sky as shaders read it; black ones have no buffers.
 struct SkyOnDevice {
-  Sky sky;  ///< that it was made from
-  Buffer texels, bins;
-  Buffer record;  ///< one SkyPicture
+  Sky sky;                     ///< that it was made from
+  Buffer texels, whole, bins;  ///< whole: none without a sun
+  Buffer record;               ///< one SkyPicture
   explicit operator bool() const { return static_cast<bool>(record); }
 };
 /// Brings it up to date; what has not changed is kept.

@@ -102,8 +102,8 @@ TEST_F(WindowFaultsTest, ADroppedPictureOfTheSphereIsTheSky) {
   start({});
   const ScreenPart before = part();
   // What is none is said, and nothing is lost.
-  ASSERT_TRUE(drop({sourceFolder() / "docs/pictures/eight.png"}));
-  EXPECT_TRUE(says("eight.png")) << window_->log();
+  ASSERT_TRUE(drop({sourceFolder() / "docs/images/box-lit.png"}));
+  EXPECT_TRUE(says("box-lit.png")) << window_->log();
   ASSERT_TRUE(drop({assets() / "evening.pfm"}));
   EXPECT_TRUE(says("evening.pfm is the sky")) << window_->log();
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(before) > 0.02; }));

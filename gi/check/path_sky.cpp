@@ -10,8 +10,8 @@ using glm::dvec2, glm::dvec3;
 using std::numbers::pi;
 
 SkyLight::SkyLight(Sky sky) : sky_(std::move(sky)) {
-  if (!sky_.texels) return;
-  const glm::ivec2 size(sky_.texels->size);
+  if (!sky_.whole) return;
+  const glm::ivec2 size(sky_.whole->size);
   double sum = 0;
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x) {
@@ -27,20 +27,20 @@ SkyLight::SkyLight(Sky sky) : sky_(std::move(sky)) {
 }
 
 dvec3 SkyLight::texel(int x, int y) const {
-  const glm::ivec2 size(sky_.texels->size);
+  const glm::ivec2 size(sky_.whole->size);
   const size_t column = static_cast<size_t>((x % size.x + size.x) % size.x),
                row = static_cast<size_t>(std::clamp(y, 0, size.y - 1));
-  return dvec3(sky_.texels->texels[row * sky_.texels->size.x + column]) * dvec3(sky_.scale);
+  return dvec3(sky_.whole->texels[row * sky_.whole->size.x + column]) * dvec3(sky_.scale);
 }
 
 double SkyLight::solidAngle(uint32_t row) const {
-  const glm::uvec2 size = sky_.texels->size;
+  const glm::uvec2 size = sky_.whole->size;
   return 2 * pi / size.x * (std::cos(pi * row / size.y) - std::cos(pi * (row + 1.0) / size.y));
 }
 
 dvec2 SkyLight::place(const dvec3& d) const {
   const double turns = std::atan2(d.x, -d.z) / (2 * pi) + 0.5 + double{sky_.turn};
-  return dvec2(turns - std::floor(turns), std::acos(std::clamp(d.y, -1.0, 1.0)) / pi) * dvec2(sky_.texels->size);
+  return dvec2(turns - std::floor(turns), std::acos(std::clamp(d.y, -1.0, 1.0)) / pi) * dvec2(sky_.whole->size);
 }
 
 dvec3 SkyLight::radiance(const dvec3& direction) const {
@@ -53,7 +53,7 @@ dvec3 SkyLight::radiance(const dvec3& direction) const {
 SkyLight::Drawn SkyLight::draw(Random& random) const {
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, random.next());
   const auto index = static_cast<size_t>(found - cumulative_.begin());
-  const glm::uvec2 size = sky_.texels->size;
+  const glm::uvec2 size = sky_.whole->size;
   const auto column = static_cast<double>(index % size.x), row = static_cast<double>(index / size.x);
   const double top = std::cos(pi * row / size.y), bottom = std::cos(pi * (row + 1) / size.y);
   const double y = glm::mix(top, bottom, random.next()), across = std::sqrt(std::max(0.0, 1 - y * y));
@@ -63,7 +63,7 @@ SkyLight::Drawn SkyLight::draw(Random& random) const {
 }
 
 double SkyLight::density(const dvec3& direction) const {
-  const glm::uvec2 size = sky_.texels->size;
+  const glm::uvec2 size = sky_.whole->size;
   const glm::uvec2 at = glm::min(glm::uvec2(place(direction)), size - 1u);
   return share(size_t{at.y} * size.x + at.x) / solidAngle(at.y);
 }

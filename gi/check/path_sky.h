@@ -13,7 +13,7 @@ class SkyLight {
  public:
   explicit SkyLight(Sky sky);
   bool shines() const { return !cumulative_.empty(); }
-  /// Interpolated between the texels' middles.
+  /// Interpolated between the texels' middles, the sun included.
   glm::dvec3 radiance(const glm::dvec3& direction) const;
   /// A direction in proportion to what its texel and those around shine, and the density there, per steradian. Only
   /// where it shines.

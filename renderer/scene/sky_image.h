@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,23 @@ struct SkyTexels {
   std::vector<glm::vec3> texels{glm::vec3(1)};
 };
 
-struct SkyImage {
-  std::filesystem::path path;  ///< absolute
-  std::string sha256;          ///< of the file
-  std::shared_ptr<const SkyTexels> texels;
+/// A sun that was taken out of a picture.
+struct SkySun {
+  glm::vec3 towards{0};     ///< unit, in the unturned picture
+  glm::vec3 irradiance{0};  ///< of a surface that faces it
+  bool operator==(const SkySun&) const = default;
 };
+
+struct SkyImage {
+  std::filesystem::path path;               ///< absolute
+  std::string sha256;                       ///< of the file
+  std::shared_ptr<const SkyTexels> whole;   ///< as it was given
+  std::shared_ptr<const SkyTexels> texels;  ///< without the sun, if it has one
+  std::optional<SkySun> sun;
+};
+/// A sun is texels far above the mean, close together, with a share of all light: few rays would meet it, and those
+/// would be white dots. Where they were, the result has what is around.
+SkyImage withoutSun(std::shared_ptr<const SkyTexels> whole);
 
 /// Skies are held at most so wide; wider ones are averaged.
 inline constexpr uint32_t kMostSkyWidth = 4096;

@@ -41,7 +41,8 @@ IRAD_FN bool isSky(uint met) { return met >= TRACE_SKY && met < TRACE_SKY + SKY_
 /// Radiance over the sphere, equirectangular, top row first. Unturned the middle of the picture is -Z, the way that a
 /// camera looks, and its right half is on the side of +X.
 struct SkyPicture {
-  Vec3Array texels;
+  Vec3Array texels;  ///< without a sun that shines as a light
+  Vec3Array whole;   ///< with it, as one sees it
   uvec2 size;
   float turn;  ///< about +Y, as a share of a full turn
   vec3 scale;

@@ -31,7 +31,7 @@ layout(push_constant, scalar) uniform PushBlock { ViewPush push; };
 /// What is behind the scene at a pixel.
 vec3 skyBehind(GpuCamera camera, ivec2 pixel) {
   vec3 axis = viewAxis(camera);
-  return skyRadiance(push.sky.at[0], -towardsViewer(camera, pixelPosition(camera, pixel, 1.0, axis), axis));
+  return skySeen(push.sky.at[0], -towardsViewer(camera, pixelPosition(camera, pixel, 1.0, axis), axis));
 }
 
 void main() {
