@@ -279,13 +279,13 @@ TEST(NewerFiles, SettingsAndManifestsAreStatus3AndSayWhatIsUnknown) {
   };
   for (
       const char* newer :
-      {R"({"format": 2, "voxel.resolution": 32, "matrix.wavelengths": 7, "fog.density": 3})",
-       R"({"format": 2, "scene": 5, "settings": {"voxel.resolution": 32, "matrix.wavelengths": 7, "fog.density": 3}})"}) {
+      {R"({"format": 2, "voxel.resolution": 32, "matrix.wavelengths": 7, "wind.speed": 3})",
+       R"({"format": 2, "scene": 5, "settings": {"voxel.resolution": 32, "matrix.wavelengths": 7, "wind.speed": 3}})"}) {
     const RunResult result = run(newer);
     EXPECT_EQ(result.status, 3) << result.err;
     EXPECT_TRUE(contains(result.err, "f.json: is of format 2")) << result.err;
     EXPECT_TRUE(
-        contains(result.err, "reads up to format 1; settings it does not know: matrix.wavelengths, fog.density"))
+        contains(result.err, "reads up to format 1; settings it does not know: matrix.wavelengths, wind.speed"))
         << result.err;
   }
   const RunResult known = run(R"({"format": 3, "voxel.resolution": 32})");
