@@ -26,12 +26,12 @@ struct Targets {
   Image highlight;  ///< RGBA32F: outgoing radiance: direct lights' specular lobe + emission (w: emission luminance)
   Image indirect;   ///< RGBA32F: indirect irradiance H, W/m^2; w: with facets of the true surface the triangle seen
                     ///< (seenAs()). Before a pass looks it up, the position
-  Image emitted;    ///< RGBA32F: the part of H that comes straight from emissive surfaces, where a view asks; w: how far
-                    ///< a pixel is to go by what it finds itself ("RE Emitters"), 0 to 1: not at all where the facets
-                    ///< around agree, wholly where there is none
-  Image seen;       ///< RGBA16F: how much of the emitters' light arrives, by channel, where pixels look for it; w = 0:
-                    ///< unknown. No picture is composed from it
-  Image specular;   ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
+  Image emitted;   ///< RGBA32F: the part of H that comes straight from emissive surfaces, where a view asks; w: how far
+                   ///< a pixel is to go by what it finds itself ("RE Emitters"), 0 to 1: not at all where the facets
+                   ///< around agree, wholly where there is none
+  Image seen;      ///< RGBA16F: how much of the emitters' light arrives, by channel, where pixels look for it; w = 0:
+                   ///< unknown. No picture is composed from it
+  Image specular;  ///< RGBA32F: reflected radiance of indirect specular light (BRDF included)
   // Where kernels rasterize:
   Buffer visible;  ///< uint64 per pixel, row by row: ~bits of the depth << 32 | triangle of what is seen, all bits set
                    ///< where nothing is

@@ -284,8 +284,7 @@ TEST(NewerFiles, SettingsAndManifestsAreStatus3AndSayWhatIsUnknown) {
     const RunResult result = run(newer);
     EXPECT_EQ(result.status, 3) << result.err;
     EXPECT_TRUE(contains(result.err, "f.json: is of format 2")) << result.err;
-    EXPECT_TRUE(
-        contains(result.err, "reads up to format 1; settings it does not know: matrix.wavelengths, wind.speed"))
+    EXPECT_TRUE(contains(result.err, "reads up to format 1; settings it does not know: matrix.wavelengths, wind.speed"))
         << result.err;
   }
   const RunResult known = run(R"({"format": 3, "voxel.resolution": 32})");
