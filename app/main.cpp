@@ -2,11 +2,18 @@
 
 int main(int argc, char** argv) {
   using namespace irad::app;
-  return runProgram(argc, argv, {
+  return runProgram(argc, argv,
+                    {
 #if IRAD_UI
-    viewCommand(),
+                        viewCommand(),
 #endif
-        renderCommand(), benchCommand(), checkCommand(), memoryCommand(), planCommand(), exportCommand(),
-        settingsCommand(), viewsCommand(),
-  });
+                        renderCommand(),
+                        benchCommand(),
+                        checkCommand(),
+                        memoryCommand(),
+                        planCommand(),
+                        exportCommand(),
+                        settingsCommand(),
+                        viewsCommand(),
+                    });
 }

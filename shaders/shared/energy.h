@@ -42,7 +42,7 @@ struct EnergyPush {
   FacetRecord facets;
   Vec4Array direct, indirect, radiosity;  ///< D, H, B
   FloatArray area, rowSum;
-  Vec4Array sky;     ///< irradiance, where there is one
+  Vec4Array sky;  ///< irradiance, where there is one
   EnergyArray sums;  ///< one per invocation
   uint invocations;
   uint pad;

@@ -40,8 +40,8 @@ struct DirectSeenPush {
   uvec3 dims;
 };
 
-/// Workgroups that share a group of Targets::sought, each as large as those of a whole picture, whose kernel it is,
-/// too; and of Targets::glossy in thesis/specular.comp.
+/// Workgroups that share a group of Targets::sought, each as large as those of a whole picture, whose kernel it is, too;
+/// and of Targets::glossy in thesis/specular.comp.
 IRAD_CONST uint SOUGHT_PARTS = 2u;
 IRAD_CONST uint GLOSSY_PARTS = 4u;
 
@@ -52,7 +52,7 @@ struct SpecularPush {
   SurfaceRecord surface;  ///< of rule `triangles`
   Vec4Array radiosity;
   ByteArray chebyshev;
-  UintArray glossy;        ///< Targets::glossy
+  UintArray glossy;       ///< Targets::glossy
   EmitterRecord emitters;  ///< 0: there are none
   SkyRecord sky;           ///< 0: there is none
   uvec3 dims;              ///< these three: of the Grid

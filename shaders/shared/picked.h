@@ -10,9 +10,7 @@ IRAD_CONST uint PICKED_FIRST = 4u;
 IRAD_CONST uint PICKED_GROUP = 128u;  ///< pixels per workgroup
 
 #ifndef __cplusplus
-uint packPixel(ivec2 pixel) {
-  return uint(pixel.x) | (uint(pixel.y) << 16);
-}
+uint packPixel(ivec2 pixel) { return uint(pixel.x) | (uint(pixel.y) << 16); }
 
 /// Puts a pixel on a list: for few. (specular/classify.comp, which lists many, adds a workgroup's at once.)
 void pick(UintArray list, ivec2 pixel) {

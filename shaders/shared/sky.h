@@ -1,5 +1,5 @@
-// Light from a sky (docs/method.md 6): bins of directions, by which rays that escape are kept, and the picture of the
-// whole sphere that the bins' light, reflections and backgrounds are read from. Directions are the world's.
+// Light from a sky (docs/method.md 6): bins of directions, by which rays that escape are kept, and the picture of the whole
+// sphere that the bins' light, reflections and backgrounds are read from. Directions are the world's.
 #ifndef IRAD_SHARED_SKY_H
 #define IRAD_SHARED_SKY_H
 #include "shared/matrix.h"
@@ -35,12 +35,8 @@ IRAD_FN vec3 skyBinPoint(uint bin, vec2 within, uint edge) {
 }
 
 /// What a ray that leaves the grid has met, and whether it is that.
-IRAD_FN uint metSky(vec3 direction) {
-  return TRACE_SKY + skyBin(direction, SKY_EDGE);
-}
-IRAD_FN bool isSky(uint met) {
-  return met >= TRACE_SKY && met < TRACE_SKY + SKY_BINS;
-}
+IRAD_FN uint metSky(vec3 direction) { return TRACE_SKY + skyBin(direction, SKY_EDGE); }
+IRAD_FN bool isSky(uint met) { return met >= TRACE_SKY && met < TRACE_SKY + SKY_BINS; }
 
 /// Radiance over the sphere, equirectangular, top row first. Unturned the middle of the picture is -Z, the way that a
 /// camera looks, and its right half is on the side of +X.
@@ -72,7 +68,8 @@ IRAD_FN SkyTaps skyTaps(vec3 d, uvec2 size, float turn) {
   uint bottom = min(top + 1u, size.y - 1u);
   SkyTaps taps;
   taps.texel = uvec4(left, right, left, right) + size.x * uvec4(top, top, bottom, bottom);
-  taps.weight = vec4((1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy, fx * fy);
+  taps.weight =
+      vec4((1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy, fx * fy);
   return taps;
 }
 

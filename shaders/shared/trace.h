@@ -18,7 +18,7 @@ IRAD_CONST uint TRACE_BLOCKED = 0xFFFFFFFEu;     ///< the back of a single-sided
 IRAD_CONST uint TRACE_INVALID = 0xFFFFFFFDu;     ///< not known which facet it met: does not count
 IRAD_CONST uint TRACE_NOT_CAST = 0xFFFFFFFCu;    ///< a small facet has fewer rays (facetRays)
 IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
-IRAD_CONST uint TRACE_SKY = 0x80000000u;  ///< where it is asked for, from here on: left the grid, by bins (sky.h)
+IRAD_CONST uint TRACE_SKY = 0x80000000u;         ///< where it is asked for, from here on: left the grid, by bins (sky.h)
 
 /// One byte per voxel: exact Chebyshev distance to the nearest solid voxel (Field::chebyshev).
 #ifdef __cplusplus

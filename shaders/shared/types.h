@@ -1,6 +1,5 @@
 // One definition, two compilers: what a header in shaders/shared/ needs to be read by GLSL and by C++.
-// Structs use scalar layout (VK 1.2 scalarBlockLayout): members are aligned to their component size, as in C++ with
-// GLM.
+// Structs use scalar layout (VK 1.2 scalarBlockLayout): members are aligned to their component size, as in C++ with GLM.
 #ifndef IRAD_SHARED_TYPES_H
 #define IRAD_SHARED_TYPES_H
 
@@ -13,8 +12,7 @@ namespace irad {
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4;
 // GLSL's functions by GLSL's names: an unqualified abs(float) would be the C library's abs(int).
-using glm::abs, glm::acos, glm::atan, glm::clamp, glm::cos, glm::floor, glm::log, glm::max, glm::min, glm::pow,
-    glm::sign, glm::sin, glm::sqrt;
+using glm::abs, glm::acos, glm::atan, glm::clamp, glm::cos, glm::floor, glm::log, glm::max, glm::min, glm::pow, glm::sign, glm::sin, glm::sqrt;
 using uint = uint32_t;
 }  // namespace irad
 
@@ -47,14 +45,13 @@ using uint = uint32_t;
 #define IRAD_INOUT(type) inout type
 #define IRAD_EQUALITY(type)
 /// `name` is a pointer: name p; p.at[i] reads or writes element i. Addresses are multiples of `align`.
-#define IRAD_ARRAY(name, type, align)                                            \
-  layout(buffer_reference, scalar, buffer_reference_align = align) buffer name { \
-    type at[];                                                                   \
-  };
+#define IRAD_ARRAY(name, type, align) \
+  layout(buffer_reference, scalar, buffer_reference_align = align) buffer name { type at[]; };
 
-/// The index of this invocation in a 1D dispatch folded to 2D (renderer/frame/frame.h, Pass::dispatch). A macro,
-/// because gl_GlobalInvocationID exists in compute shaders only.
-#define irad_index() (gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x))
+/// The index of this invocation in a 1D dispatch folded to 2D (renderer/frame/frame.h, Pass::dispatch). A macro, because
+/// gl_GlobalInvocationID exists in compute shaders only.
+#define irad_index() \
+  (gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x))
 /// Likewise of this workgroup (Pass::dispatchWorkgroups).
 #define irad_workgroup() (gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x)
 

@@ -57,11 +57,11 @@ struct VoxelViewPush {
   UintArray bytes;      ///< a distance field, 4 voxels per uint
   UintArray seeds;      ///< packVoxel of a solid voxel, or NO_SEED
   UintArray exact;      ///< exact distance (view/exact_distance.comp)
-  IRAD_AS(Axis) axis;   ///< of a slice
-  float slice;          ///< 0..1
-  float isovalue;       ///< voxels
-  float byteScale;      ///< voxels that one step of `bytes` stands for
-  uint row;             ///< packRow
+  IRAD_AS(Axis) axis;  ///< of a slice
+  float slice;      ///< 0..1
+  float isovalue;   ///< voxels
+  float byteScale;  ///< voxels that one step of `bytes` stands for
+  uint row;         ///< packRow
 };
 IRAD_FN uint packRow(uint rays, uint padded, IRAD_AS(NormalEncoding) normalEncoding) {
   return rays | (padded << 16) | (uint(normalEncoding) << 17);
@@ -83,15 +83,15 @@ IRAD_CONST uint NO_DISTANCE = 0xFFFFFFFFu;  ///< nothing is solid
 /// The values of a view with a range, and the range that it is drawn with. Values of signed views count by magnitude.
 /// Floats >= 0 as bits: the same whatever the order.
 struct ViewRange {
-  uint least, most;              ///< of the finite values; least > most: there are none
-  uint drawn;                    ///< how many those are
+  uint least, most;  ///< of the finite values; least > most: there are none
+  uint drawn;        ///< how many those are
   uint nan, infinite, negative;  ///< pixels that are marked instead
-  float low, high;               ///< shown with the map's ends
+  float low, high;   ///< shown with the map's ends
 };
 IRAD_ARRAY(ViewRangeArray, ViewRange, 4)
 
-/// Percentiles come from a histogram over the upper 16 bits below the sign: bins 2^-8 of their values wide, whatever
-/// the values' scale.
+/// Percentiles come from a histogram over the upper 16 bits below the sign: bins 2^-8 of their values wide, whatever the
+/// values' scale.
 IRAD_CONST uint RANGE_BINS = 65536u;
 IRAD_CONST uint RANGE_BIN_SHIFT = 15u;
 
@@ -102,8 +102,8 @@ struct RangePush {
   uvec2 size;  ///< pixels
   uint kind;
   IRAD_AS(RangeMode) mode;  ///< RANGE_AUTO, RANGE_PERCENTILE or RANGE_MANUAL
-  float low, high;          ///< RANGE_MANUAL
-  float percentile;         ///< the upper one, 50..100
+  float low, high;   ///< RANGE_MANUAL
+  float percentile;  ///< the upper one, 50..100
 };
 
 /// view/finish.comp: from the linear to the display picture, where that needs the range or the scene around.
@@ -114,7 +114,7 @@ struct FinishPush {
   IRAD_AS(ColorMap) colorMap;
   float exposure;
   IRAD_AS(ToneCurve) toneCurve;
-  uvec3 dims;         ///< of the grid that sites are of
+  uvec3 dims;  ///< of the grid that sites are of
   uint surroundings;  ///< 1: where nothing is drawn the lit scene shows, dimmed
 };
 
@@ -153,8 +153,8 @@ struct DifferencePush {
 struct ReferencePush {
   uvec2 size, referenceSize;
 };
-/// Signed relative error of a pixel, L and R the luminances of picture and reference: (L - R) / sqrt(R^2 + epsilon).
-/// Its mean square is relMSE.
+/// Signed relative error of a pixel, L and R the luminances of picture and reference: (L - R) / sqrt(R^2 + epsilon). Its
+/// mean square is relMSE.
 IRAD_CONST float VIEW_ERROR_EPSILON = 0.01f;
 
 IRAD_END
