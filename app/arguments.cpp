@@ -131,13 +131,14 @@ void SceneArguments::declare(Options& options) {
   options.flag("--no-sidecar", noSidecar, "Leave lights and cameras of SCENE.irad.json aside");
 }
 
-/// A file, or the name of a built-in one.
-static fs::path findSky(const std::string& wanted) {
-  std::error_code ignored;
-  if (!fs::exists(wanted, ignored) && fs::path(wanted).filename() == wanted && !fs::path(wanted).has_extension())
+/// A file that is there, or a built-in one by its name.
+static std::optional<fs::path> findFile(const std::string& wanted, const std::string& extension) {
+  std::error_code ignored;  // a name that is no path at all does not exist either
+  if (fs::exists(wanted, ignored)) return wanted;
+  if (fs::path(wanted).filename() == wanted && !fs::path(wanted).has_extension())
     for (const fs::path& folder : builtInFolders())
-      if (const fs::path path = folder / (wanted + ".pfm"); fs::exists(path, ignored)) return path;
-  return wanted;
+      if (const fs::path path = folder / (wanted + extension); fs::exists(path, ignored)) return path;
+  return std::nullopt;
 }
 
 void SceneArguments::check() const {
@@ -151,7 +152,8 @@ LoadOptions SceneArguments::load(const Config& config, const Settings& settings)
   out.sidecar = !noSidecar && !config.manifest;
   out.lights = config.lights;
   if (lights) out.lights = lightsFromJson(*lights, "--lights");
-  if (sky || config.sky) out.sky = std::make_shared<SkyImage>(readSky(sky ? findSky(*sky) : *config.sky));
+  if (sky || config.sky)
+    out.sky = std::make_shared<SkyImage>(readSky(sky ? findFile(*sky, ".pfm").value_or(*sky) : *config.sky));
   return out;
 }
 
@@ -208,7 +210,7 @@ std::vector<fs::path> builtInFolders() {
   return folders;
 }
 
-std::vector<std::string> builtInScenes() {
+static std::vector<std::string> listScenes() {
   std::vector<std::string> names;
   for (const fs::path& folder : builtInFolders()) {
     std::error_code error;
@@ -217,6 +219,11 @@ std::vector<std::string> builtInScenes() {
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+const std::vector<std::string>& builtInScenes() {
+  static const std::vector<std::string> names = listScenes();  // the help of each command asks
   return names;
 }
 
@@ -236,11 +243,7 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
     (void)findCheckCase(wanted->substr(wanted->find(':') + 1));
     return *wanted;
   }
-  std::error_code ignored;  // a name that is no path at all does not exist either
-  if (fs::exists(*wanted, ignored)) return *wanted;
-  if (fs::path(*wanted).filename() == *wanted && !fs::path(*wanted).has_extension())
-    for (const fs::path& folder : builtInFolders())
-      if (const fs::path path = folder / (*wanted + ".glb"); fs::exists(path, ignored)) return path;
+  if (const std::optional<fs::path> path = findFile(*wanted, ".glb")) return *path;
   throw InputError(fmt::format("{}: no such file; built-in scenes{}", *wanted,
                                builtInScenes().empty() ? ": none found" : suggestion(*wanted, builtInScenes())));
 }

@@ -73,7 +73,7 @@ void useSky(Settings& settings, const LoadOptions& options);
 /// `otherwise`, else a usage error.
 std::filesystem::path findScene(const std::optional<std::string>& argument, const Config& config,
                                 const std::optional<std::string>& otherwise);
-std::vector<std::string> builtInScenes();  ///< every .glb of builtInFolders(), by its stem
+const std::vector<std::string>& builtInScenes();  ///< every .glb of builtInFolders(), by its stem
 /// What to say of a scene argument: "A .gltf or .glb file, or a built-in scene (box, …)".
 std::string sceneHelp();
 /// Where they may lie: beside the executable (an unpacked binary), then in the source tree.

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "app/progress.h"
 #include "app/version.h"
 #include "gi/manifest.h"
 #include "renderer/base/error.h"
@@ -111,6 +112,13 @@ Config readConfigFile(const fs::path& path) {
   if (json.contains("cameras")) config.cameras = readArray(path, json, "cameras", camerasFromJson);
   if (json.contains("lights")) config.lights = readArray(path, json, "lights", lightsFromJson);
   return config;
+}
+
+void warnIfOther(ProgressReport& progress, const Config& config, const fs::path& path, const std::string& sha256,
+                 const std::optional<std::string>& named) {
+  if (named && *named != sha256)
+    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
+                              config.path.string(), sha256, *named));
 }
 
 }  // namespace irad::app

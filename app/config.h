@@ -11,6 +11,8 @@
 
 namespace irad::app {
 
+class ProgressReport;
+
 constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
 constexpr uint32_t kMaxFrames = 1'000'000;
 
@@ -34,5 +36,8 @@ struct Config {
 };
 /// InputError when the file cannot be read, is not what it should be, or is of a newer format.
 Config readConfigFile(const std::filesystem::path& path);
+/// Warns where a file is not the one that the config `named` by its SHA-256.
+void warnIfOther(ProgressReport& progress, const Config& config, const std::filesystem::path& path,
+                 const std::string& sha256, const std::optional<std::string>& named);
 
 }  // namespace irad::app

@@ -29,12 +29,8 @@ Scene DeviceSession::load(const std::filesystem::path& path, const SceneArgument
   Scene scene = openScene(path, options);
   if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
   for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
-  if (config.sceneSha256 && *config.sceneSha256 != scene.sha256)
-    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
-                              config.path.string(), scene.sha256, *config.sceneSha256));
-  if (scene.sky && !arguments.sky && config.skySha256 && *config.skySha256 != scene.sky->sha256)
-    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}",
-                              scene.sky->path.string(), config.path.string(), scene.sky->sha256, *config.skySha256));
+  warnIfOther(progress, config, path, scene.sha256, config.sceneSha256);
+  if (scene.sky && !arguments.sky) warnIfOther(progress, config, scene.sky->path, scene.sky->sha256, config.skySha256);
   if (!config.shaders.empty())
     progress.note(
         fmt::format("warning: {} was made with shaders compiled in the window, which this run does not have: {}",

@@ -87,9 +87,7 @@ void run(const MemoryArguments& arguments) {
   Pipeline pipeline(*session.context, session.load(scenePath, arguments.sceneOptions), session.settings);
   session.prepare(pipeline);
   const uint64_t rays = session.settings.matrix.gpu.rays;
-  const std::vector<MemoryReportRow> report =
-      memoryReport(session.device->memory().rows(), pipeline.facets(), pipeline.field(), pipeline.matrix(),
-                   pipeline.lighting(), rays);
+  const std::vector<MemoryReportRow> report = memoryReport(session.device->memory().rows(), pipeline);
   const ThesisTable table = thesisTable(report, pipeline.facets(), pipeline.field(), pipeline.lighting(), rays);
   session.progress.finish();
 

@@ -164,9 +164,7 @@ void run(const RenderArguments& arguments) {
   writeCsv(timings, session.timings.rows());
   writeFile(out / "timings.csv", timings.str());
   written.push_back(out / "timings.csv");
-  writeFile(out / "memory.csv",
-            memoryCsv(memoryReport(session.device->memory().rows(), pipeline.facets(), pipeline.field(),
-                                   pipeline.matrix(), pipeline.lighting(), session.settings.matrix.gpu.rays)));
+  writeFile(out / "memory.csv", memoryCsv(memoryReport(session.device->memory().rows(), pipeline)));
   written.push_back(out / "memory.csv");
 
   manifest.details.emplace_back("effects", planJson(pipeline.plan()));  // of these pictures

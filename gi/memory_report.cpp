@@ -9,6 +9,8 @@
 #include "gi/field.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
+#include "gi/pipeline.h"
+#include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/thesis/memory.h"
 #include "gi/thesis/padded_rows.h"
@@ -121,6 +123,10 @@ std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured
   rows.push_back({"total", "all", "", total, std::nullopt, Kind::Sum});
   std::ranges::copy(thesisMemoryRows(thesis), std::back_inserter(rows));
   return rows;
+}
+
+std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const Pipeline& p) {
+  return memoryReport(measured, p.facets(), p.field(), p.matrix(), p.lighting(), p.settings().matrix.gpu.rays);
 }
 
 std::string memoryCsv(const std::vector<MemoryReportRow>& rows) {

@@ -14,6 +14,7 @@ struct Field;
 struct FormFactors;
 struct Lighting;
 struct MemoryRow;
+class Pipeline;
 
 struct MemoryReportRow {
   std::string name, subsystem, format;
@@ -34,6 +35,8 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
 std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const FacetList& facets,
                                           const Field& field, const FormFactors& matrix, const Lighting& lighting,
                                           uint64_t rays);
+/// The same of what a pipeline has built.
+std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const Pipeline& pipeline);
 
 /// name,subsystem,format,measured_bytes,predicted_bytes
 std::string memoryCsv(const std::vector<MemoryReportRow>& rows);

@@ -70,15 +70,13 @@ SkyTexels preethamSky(float turbidity, const glm::vec3& towardsSun) {
   SkyTexels sky;
   sky.size = kSize;
   sky.texels.assign(size_t{kSize.x} * kSize.y, glm::vec3(0));
-  for (uint32_t row = 0; row < kSize.y / 2; ++row)
-    for (uint32_t column = 0; column < kSize.x; ++column) {
-      const double theta = pi * (row + 0.5) / kSize.y, azimuth = 2 * pi * ((column + 0.5) / kSize.x - 0.5);
-      const glm::dvec3 d(std::sin(theta) * std::sin(azimuth), std::cos(theta), -std::sin(theta) * std::cos(azimuth));
-      const double gamma = std::acos(std::clamp(glm::dot(d, sun), -1.0, 1.0));
-      const glm::dvec3 color =
-          linear(x * kX.at(t, d.y, gamma), y * kY.at(t, d.y, gamma), luminance * kLuminance.at(t, d.y, gamma));
-      sky.texels[size_t{row} * kSize.x + column] = glm::vec3(glm::max(color, 0.0));
-    }
+  for (size_t i = 0; i < sky.texels.size() / 2; ++i) {  // above the horizon
+    const glm::dvec3 d = sky.direction(i);
+    const double gamma = std::acos(std::clamp(glm::dot(d, sun), -1.0, 1.0));
+    const glm::dvec3 color =
+        linear(x * kX.at(t, d.y, gamma), y * kY.at(t, d.y, gamma), luminance * kLuminance.at(t, d.y, gamma));
+    sky.texels[i] = glm::vec3(glm::max(color, 0.0));
+  }
   return sky;
 }
 

@@ -23,8 +23,10 @@ glm::vec3 towardsSun(const SkySettings& s, const SkyInputs& inputs) {
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
 }
 
-float largestOf(const glm::vec3& v) {
-  return std::max({v.x, v.y, v.z});
+glm::vec3 mostOf(const SkyTexels& sky) {
+  glm::vec3 most(0);
+  for (const glm::vec3& t : sky.texels) most = glm::max(most, t);
+  return most;
 }
 
 }  // namespace
@@ -38,10 +40,8 @@ glm::vec3 Sky::radiance(const glm::vec3& direction) const {
 }
 
 float Sky::largest() const {
-  float most = 0;
-  if (texels)
-    for (const glm::vec3& t : texels->texels) most = std::max(most, largestOf(t * scale));
-  return most;
+  const glm::vec3 l = most * scale;
+  return std::max({l.x, l.y, l.z});
 }
 
 Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
@@ -66,7 +66,7 @@ Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
         const glm::vec3& d = sun->towards;
         sky.sun = SkySun{{c * d.x + n * d.z, d.y, c * d.z - n * d.x}, s.intensity * sun->irradiance};
       }
-      return sky;
+      break;
     case SkySource::preetham:
       sky.model = glm::vec4(towardsSun(s, inputs), s.turbidity);
       sky.texels = before != nullptr && before->model == sky.model
@@ -74,7 +74,8 @@ Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
                        : std::make_shared<const SkyTexels>(preethamSky(s.turbidity, glm::vec3(sky.model)));
       break;
   }
-  sky.whole = sky.texels;
+  if (!sky.whole) sky.whole = sky.texels;
+  sky.most = before != nullptr && before->texels == sky.texels ? before->most : mostOf(*sky.texels);
   return sky;
 }
 

@@ -26,6 +26,7 @@ struct Sky {
   std::shared_ptr<const SkyTexels> whole;   ///< with it, as one sees it
   float turn = 0;                           ///< about +Y, as a share of a full turn
   glm::vec3 scale{0};
+  glm::vec3 most{0};                                     ///< of the texels, by channel
   std::optional<SkySun> sun;                             ///< which shines as a light (gi/pipeline.h); turned and scaled
   glm::vec4 model{0};                                    ///< what texels were computed from: towards the sun, turbidity
   glm::vec3 radiance(const glm::vec3& direction) const;  ///< without the sun

@@ -40,9 +40,7 @@ void writeFrames(Session& session, const std::filesystem::path& folder) {
 void writeMemory(Session& session, const std::filesystem::path& folder) {
   const Pipeline& p = *session.pipeline;
   OutputFolder out(folder / "memory");
-  writeFile(out.temporary() / "memory.csv",
-            memoryCsv(memoryReport(session.context.device.memory().rows(), p.facets(), p.field(), p.matrix(),
-                                   p.lighting(), p.settings().matrix.gpu.rays)));
+  writeFile(out.temporary() / "memory.csv", memoryCsv(memoryReport(session.context.device.memory().rows(), p)));
   session.note(fmt::format("Saved {}", (out.commit() / "memory.csv").string()));
 }
 

@@ -48,11 +48,6 @@ struct Sphere {
     const double row = static_cast<double>(texel / sky.size.x), rows = sky.size.y;
     return 2 * pi / sky.size.x * (std::cos(pi * row / rows) - std::cos(pi * (row + 1) / rows));
   }
-  glm::dvec3 direction(size_t texel) const {
-    const double theta = pi * (static_cast<double>(texel / sky.size.x) + 0.5) / sky.size.y,
-                 azimuth = 2 * pi * ((static_cast<double>(texel % sky.size.x) + 0.5) / sky.size.x - 0.5);
-    return {std::sin(theta) * std::sin(azimuth), std::cos(theta), -std::sin(theta) * std::cos(azimuth)};
-  }
   /// Those around, across the seam too; fewer at the poles.
   std::vector<size_t> around(size_t texel) const {
     std::vector<size_t> out;
@@ -66,6 +61,12 @@ struct Sphere {
 };
 
 }  // namespace
+
+glm::dvec3 SkyTexels::direction(size_t texel) const {
+  const double theta = pi * (static_cast<double>(texel / size.x) + 0.5) / size.y,
+               azimuth = 2 * pi * ((static_cast<double>(texel % size.x) + 0.5) / size.x - 0.5);
+  return {std::sin(theta) * std::sin(azimuth), std::cos(theta), -std::sin(theta) * std::cos(azimuth)};
+}
 
 SkyImage withoutSun(std::shared_ptr<const SkyTexels> whole) {
   SkyImage image{.path = {}, .sha256 = {}, .whole = whole, .texels = whole, .sun = {}};
@@ -95,7 +96,7 @@ SkyImage withoutSun(std::shared_ptr<const SkyTexels> whole) {
   for (const size_t i : sun) {
     const glm::dvec3 more = glm::max(glm::dvec3(texels[i]) - around, 0.0) * sphere.solidAngle(i);
     irradiance += more;
-    towards += sphere.direction(i) * luminanceOf(glm::vec3(more));
+    towards += whole->direction(i) * luminanceOf(glm::vec3(more));
   }
   if (!(luminanceOf(glm::vec3(irradiance)) > kLeastShare * all)) return image;
   auto rest = std::make_shared<SkyTexels>(*whole);

@@ -16,6 +16,8 @@ struct LinearPicture;
 struct SkyTexels {
   glm::uvec2 size{1};
   std::vector<glm::vec3> texels{glm::vec3(1)};
+  /// Towards a texel's middle, unit.
+  glm::dvec3 direction(size_t texel) const;
 };
 
 /// A sun that was taken out of a picture.

@@ -65,9 +65,7 @@ class MemoryPanel : public Panel {
   void update(const Session& session) {
     const Pipeline& p = *session.pipeline;
     groups_.clear();
-    const std::vector<MemoryReportRow> report =
-        memoryReport(session.context.device.memory().rows(), p.facets(), p.field(), p.matrix(), p.lighting(),
-                     p.settings().matrix.gpu.rays);
+    const std::vector<MemoryReportRow> report = memoryReport(session.context.device.memory().rows(), p);
     for (const MemoryReportRow& row : report)
       if (row.kind == MemoryReportRow::Kind::Subtotal)
         groups_.push_back({row.subsystem, row.measured, uint64_t{0}, {}});
