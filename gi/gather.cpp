@@ -32,7 +32,7 @@ void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& fa
   push.dims = facets.grid.dims;
   pass.shader("gi/gather_surfels.comp").constant(CONSTANT_TRACE_METHOD, exactTraversal(field));
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
-  pass.push(push).dispatch(facets.count);
+  pass.push(push).dispatch(uint64_t{facets.count} * FACET_SURFELS);
 }
 
 /// Through the shadow maps.

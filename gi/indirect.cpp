@@ -17,7 +17,7 @@ constexpr const char* kForwardStage = "RE Forward";
 /// In compute, where no lane is spent outside a triangle.
 void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, bool lights,
                   Targets& targets) {
-  pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought, SOUGHT_PARTS);
+  pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought);
   if (lights) pickNone(frame, kForwardStage, "pixels whose light is doubted", targets.size, targets.doubted);
   for (const bool seeks : {false, true}) {
     Pass pass = frame.pass(kForwardStage);

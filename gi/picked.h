@@ -5,8 +5,7 @@
 
 namespace irad {
 
-/// Makes `list` where it is not there yet, with room for a whole picture, and leaves it empty. `parts`: workgroups in
-/// y.
-void pickNone(Frame& frame, const char* stage, const char* name, glm::uvec2 picture, Buffer& list, uint32_t parts = 1);
+/// Makes `list` where it is not there yet, with room for a whole picture, and leaves it empty.
+void pickNone(Frame& frame, const char* stage, const char* name, glm::uvec2 picture, Buffer& list);
 
 }  // namespace irad

@@ -46,11 +46,11 @@ float leastReflected(float threshold, float largestH) {
 
 }  // namespace
 
-void listGlossy(SpecularPicture& picture, bool filtered, uint32_t parts) {
+void listGlossy(SpecularPicture& picture, bool filtered) {
   Frame& frame = picture.frame;
   Targets& targets = picture.targets;
   const Device& device = frame.context().device;
-  pickNone(frame, kSpecularStage, "glossy pixels", targets.size, targets.glossy, parts);
+  pickNone(frame, kSpecularStage, "glossy pixels", targets.size, targets.glossy);
   Pass pass = frame.pass(kSpecularStage);
   SpecularPush push = picture.push;
   push.camera = pass.in(picture.camera);
@@ -112,7 +112,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
   common.leastReflected = leastReflected(settings.specular.gpu.threshold, inputs.lighting->litH);
   if (settings.specular.mode == SpecularMode::fragment) return traceByPixel(picture);
 
-  listGlossy(picture, /*filtered=*/true, /*parts=*/1);
+  listGlossy(picture, /*filtered=*/true);
 
   Pass trace = frame.pass(kSpecularStage);
   trace.shader(fieldIsImage(picture) ? "specular/trace_jfa.comp" : "specular/trace.comp");

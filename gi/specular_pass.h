@@ -20,9 +20,9 @@ struct SpecularPicture {
   SpecularPush push;  ///< what all passes have in common
   uint32_t method;    ///< TRACE_*
 };
-/// Lists the pixels that trace in targets.glossy, each PICKED_GROUP of them for `parts` workgroups; the others have
-/// their reflection with this step. `filtered`: which ones these are stands in targets.linear, for the filter.
-void listGlossy(SpecularPicture& picture, bool filtered, uint32_t parts);
+/// Lists the pixels that trace in targets.glossy; the others have their reflection with this step. `filtered`: which
+/// ones these are stands in targets.linear, for the filter.
+void listGlossy(SpecularPicture& picture, bool filtered);
 /// What shaders with specular/trace.glsl need, their first images among it. After their others comes sampleField().
 Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitters = nullptr);
 /// The field as an image, where it is one: shaders "NAME_jfa".

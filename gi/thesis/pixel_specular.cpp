@@ -18,7 +18,7 @@ void traceByPixel(SpecularPicture& picture) {
     sampleField(picture, pass).color(targets.specular, ClearColor{}).draw(3);
     return;
   }
-  listGlossy(picture, /*filtered=*/false, GLOSSY_PARTS);
+  listGlossy(picture, /*filtered=*/false);
   Pass pass = picture.frame.pass(kSpecularStage);
   pass.shader(jfa ? "thesis/specular_jfa.comp" : "thesis/specular.comp");
   addRays(picture, pass).write(targets.specular);

@@ -10,21 +10,33 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { GatherSurfelsPush p; };
 
-void main() {
-  uint facet = irad_index();
-  if (facet >= p.facets.count) return;
+shared vec3 ofSurfel[gl_WorkGroupSize.x];
+
+/// Irradiance of the lights that a surfel sees.
+vec3 gathered(uint facet, uint surfel) {
   SurfaceArrays surface = p.surface.at[0];
   TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, 0.0f);
   GpuScene scene = p.scene.at[0];
+  SurfelPoint from = liftedSurfel(surface, facet, surfel);
+  vec3 position = p.origin + p.edge * from.position;
   vec3 sum = vec3(0.0f);
-  for (uint k = 0u; k < FACET_SURFELS; ++k) {
-    SurfelPoint from = liftedSurfel(surface, facet, k);
-    vec3 position = p.origin + p.edge * from.position;
-    for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
-      GpuLight light = scene.lights.at[i];
-      vec3 irradiance = lightIrradiance(light, position, from.facing);
-      if (irradiance != vec3(0.0f) && lightReaches(world, surface, from, light, position, p.edge)) sum += irradiance;
-    }
+  for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
+    GpuLight light = scene.lights.at[i];
+    vec3 irradiance = lightIrradiance(light, position, from.facing);
+    if (irradiance != vec3(0.0f) && lightReaches(world, surface, from, light, position, p.edge)) sum += irradiance;
   }
+  return sum;
+}
+
+// An invocation for each surfel: Mesa's CPU driver ends loops after 65,535 rounds of an invocation, which the rays of a
+// whole facet may take together.
+void main() {
+  uint facet = irad_index() / FACET_SURFELS, surfel = irad_index() % FACET_SURFELS;
+  uint at = gl_LocalInvocationIndex;
+  ofSurfel[at] = facet < p.facets.count ? gathered(facet, surfel) : vec3(0.0f);
+  barrier();
+  if (surfel != 0u || facet >= p.facets.count) return;
+  vec3 sum = vec3(0.0f);
+  for (uint k = 0u; k < FACET_SURFELS; ++k) sum += ofSurfel[at + k];
   p.direct.at[facet] = vec4(sum / float(FACET_SURFELS), 0.0f);
 }

@@ -11,7 +11,7 @@
 #include "shared/indirect.h"
 #include "shared/passes.h"
 
-layout(local_size_x = PICKED_GROUP / SOUGHT_PARTS) in;
+layout(local_size_x = PICKED_GROUP) in;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;  ///< F M too: there is a target for it
 /// In the place of what the lookup needs; w: seenAs(), 0 where nothing is drawn.
 layout(constant_id = CONSTANT_KEEPS_POSITION) const bool KEEPS_POSITION = false;
@@ -42,8 +42,7 @@ void main() {
   SurfaceArrays surface = push.surface.at[0];
   ivec2 pixel;
   if (SEEKS) {
-    uint place = (gl_WorkGroupID.x * SOUGHT_PARTS + gl_WorkGroupID.y) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-    if (!pickedPixel(push.sought, place, pixel)) return;
+    if (!pickedPixel(push.sought, gl_GlobalInvocationID.x, pixel)) return;
   } else {
     pixel = tilePixel();
     if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;

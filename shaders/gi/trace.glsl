@@ -46,11 +46,15 @@ struct TraceWalk {
   float t;
 };
 
+/// A zero component would give 0 x inf below; 1e-9 moves the ray by 1e-6 voxels across the largest grid.
+vec3 safeDirection(vec3 direction) {
+  return mix(direction, vec3(1e-9f), lessThan(abs(direction), vec3(1e-9f)));
+}
+
 TraceWalk traceStart(vec3 origin, vec3 direction) {
   TraceWalk w;
   w.origin = origin;
-  // A zero component would give 0 x inf below; 1e-9 moves the ray by 1e-6 voxels across the largest grid.
-  w.direction = mix(direction, vec3(1e-9f), lessThan(abs(direction), vec3(1e-9f)));
+  w.direction = safeDirection(direction);
   w.inverse = 1.0f / w.direction;
   w.forward = step(vec3(0.0f), w.direction);
   w.cell = floor(origin);

@@ -38,24 +38,31 @@ const uint NO_TRIANGLE = 0xFFFFFFFFu;
 
 /// A ray on its way: the cell that it is in, and of the pieces there the next one to ask.
 struct TriangleWalk {
-  TraceWalk at;
+  vec3 origin, direction, inverse;
   ShearedRay ray;
   uint own;  ///< the triangle that it leaves
+  vec3 cell;
+  float t, leave;  ///< where it enters the cell and where, if there are pieces, it leaves it
   uint piece, endPiece, entry;
-  float leave;    ///< where it leaves the cell
   float nearest;  ///< at which the hit counts as met: its t, or later (backDelay)
   TriangleHit hit;
 };
 
-TriangleWalk startTriangles(vec3 origin, vec3 direction, uint own, float reach) {
+/// From inside the grid. Half a voxel before the grid's faces a ray has left all there is: the outermost cells are empty.
+TriangleWalk startTriangles(uvec3 dims, vec3 origin, vec3 direction, uint own, float reach) {
   TriangleWalk w;
-  w.at = traceStart(origin, direction);
-  w.ray = shearedRay(origin, w.at.direction);
+  w.origin = origin;
+  w.direction = safeDirection(direction);
+  w.inverse = 1.0f / w.direction;
+  w.ray = shearedRay(origin, w.direction);
   w.own = own;
+  w.cell = floor(origin);
+  w.t = w.leave = 0.0f;
   w.piece = w.endPiece = 0u;
   w.entry = NO_FACET;
-  w.leave = 0.0f;
-  w.nearest = reach;
+  vec3 last = mix(vec3(0.5f), vec3(dims) - 0.5f, greaterThan(w.direction, vec3(0.0f)));
+  vec3 bounds = (last - origin) * w.inverse;
+  w.nearest = min(reach, min(bounds.x, min(bounds.y, bounds.z)));
   w.hit = TriangleHit(NO_TRIANGLE, 0u, 0u, false, reach, 0u);
   return w;
 }
@@ -64,55 +71,96 @@ TriangleWalk startTriangles(vec3 origin, vec3 direction, uint own, float reach) 
 bool leavesMask(SurfaceArrays surface, TriangleWalk w, uint triangle, float t) {
   if (!hasHoles(surface.corners, triangle)) return true;
   vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
-  return t >= w.at.t && t <= w.leave &&
-         isThere(surface, w.piece, normal, w.at.origin + w.at.direction * t - w.at.cell);
+  return t >= w.t && t <= w.leave && isThere(surface, w.piece, normal, w.origin + w.direction * t - w.cell);
 }
 
 /// Where a meeting that is as near as the hit counts as met. What shows a side costs no further read.
 float countsAt(TraceWorld world, SurfaceArrays surface, TriangleWalk w, uint triangle, float t, bool front) {
   if (front || showsBack(surface.corners, triangle)) return t;
-  return t + backDelay(world.dims, dot(facingOf(triangleAt(surface.corners, triangle), false), w.at.direction));
+  return t + backDelay(world.dims, dot(facingOf(triangleAt(surface.corners, triangle), false), w.direction));
 }
 
-/// Asks the next piece, or goes on to the next cell that may hold one; false: the ray has met what it meets. Steps of
-/// equal length, so that rays side by side wait little for each other.
+/// Whether the ray passes through the box of the next piece before its hit. The box's steps are put into the mantissas
+/// of numbers from 1 to 2: GPUs convert integers at a quarter of their rate.
+bool meetsBox(SurfaceArrays surface, TriangleWalk w) {
+  uint box = surface.boxes.at[w.piece];
+  const uint STEP = 0x7C0000u, ONE = 0x3F800000u;
+  vec3 low = uintBitsToFloat((uvec3(box << 18, box << 13, box << 8) & STEP) | ONE);
+  vec3 high = uintBitsToFloat((uvec3(box << 3, box >> 2, box >> 7) & STEP) | ONE);
+  vec3 base = (w.cell - 1.0f - w.origin) * w.inverse;
+  vec3 a = low * w.inverse + base, b = high * w.inverse + (base + w.inverse * (1.0f / BOX_STEPS));
+  vec3 enter = min(a, b), leave = max(a, b);
+  return max(enter.x, max(enter.y, enter.z)) <= min(w.nearest, min(leave.x, min(leave.y, leave.z)));
+}
+
+/// Asks the next piece.
+void askPiece(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
+  uint triangle = triangleOf(surface.pieces, w.piece);
+  float t;
+  bool front;
+  if (triangle == w.own || !meetsTriangle(w.ray, triangleAt(surface.corners, triangle), t, front) || t <= 0.0f ||
+      t > w.nearest || !leavesMask(surface, w, triangle, t))
+    return;
+  float at = countsAt(world, surface, w, triangle, t, front);
+  if (at > w.nearest || (at == w.nearest && triangle > w.hit.triangle)) return;
+  w.nearest = at;
+  w.hit = TriangleHit(triangle, w.piece, w.entry, front, t, w.hit.steps);
+}
+
+/// Where the ray leaves the cube of cells within `around` of its own, by axis.
+vec3 exitsOf(TriangleWalk w, float around) {
+  return (w.cell + step(vec3(0.0f), w.direction) - w.origin) * w.inverse + around * abs(w.inverse);
+}
+
+float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
+
+/// Steps out of that cube: by whole cells along the axis on which it is left, which is known; along the others to where
+/// the ray is then.
+void leaveCube(inout TriangleWalk w, vec3 exits, float around) {
+  float exit = least(exits);
+  vec3 along = clamp(floor(w.origin + exit * w.direction) - w.cell, vec3(-around), vec3(around));
+  vec3 out_ = sign(w.direction) * (around + 1.0f);
+  bool x = exits.x == exit, y = !x && exits.y == exit, z = !x && !y;
+  w.cell += vec3(x ? out_.x : along.x, y ? out_.y : along.y, z ? out_.z : along.z);
+  w.t = exit;
+  ++w.hit.steps;
+}
+
+/// Rays meet about three times as many cells as pieces whose box they meet, so that a turn takes one piece but several
+/// cells, and rays side by side wait little for each other.
+const int CELLS_A_TURN = 2;
+
+/// Asks the next piece, and goes on to the next cells that may hold one; false: the ray has met what it meets.
 bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
   if (w.piece < w.endPiece) {
-    uint triangle = triangleOf(surface.pieces, w.piece);
-    float t;
-    bool front;
-    if (triangle != w.own && meetsTriangle(w.ray, triangleAt(surface.corners, triangle), t, front) && t > 0.0f &&
-        t <= w.nearest && leavesMask(surface, w, triangle, t)) {
-      float at = countsAt(world, surface, w, triangle, t, front);
-      if (at < w.nearest || (at == w.nearest && triangle <= w.hit.triangle)) {
-        w.nearest = at;
-        w.hit = TriangleHit(triangle, w.piece, w.entry, front, t, w.hit.steps);
-      }
-    }
+    if (meetsBox(surface, w)) askPiece(world, surface, w);
     if (++w.piece < w.endPiece) return true;
-    if (w.nearest <= w.leave) return false;
-    traceAdvance(w.at, 1.0f);
-    ++w.hit.steps;
+    if (!(w.leave < w.nearest)) return false;
+    leaveCube(w, exitsOf(w, 0.0f), 0.0f);
   }
-  // What was met beyond a cell's end waits until no cell before it is left.
-  if (!traceInside(w.at, world.dims) || w.nearest <= w.at.t) return false;
-  float clearance = traceClearance(world, w.at.cell);
-  if (clearance > 0.0f) {
-    traceAdvance(w.at, clearance);
-    ++w.hit.steps;
-    return true;
+  for (int i = 0; i < CELLS_A_TURN; ++i) {
+    // What was met beyond a cell's end waits until no cell before it is left.
+    if (!(w.t < w.nearest)) return false;
+    float clearance = traceClearance(world, w.cell), around = max(clearance - 1.0f, 0.0f);
+    vec3 exits = exitsOf(w, around);
+    if (clearance > 0.0f) {
+      leaveCube(w, exits, around);
+      continue;
+    }
+    w.entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
+    w.piece = surface.firstPiece.at[firstFacet(w.entry)];
+    w.endPiece = surface.firstPiece.at[firstFacet(w.entry) + facetsOf(w.entry)];
+    w.leave = least(exits);
+    // Every solid cell has pieces. Lanes of a picture's edge that Mesa's CPU driver runs without drawing them read 0
+    // for everything, and would stay here until it ends the loops of all lanes beside them.
+    return w.piece < w.endPiece;
   }
-  w.entry = world.facets.reverse.at[traceIndex(w.at.cell, world.dims)];
-  w.piece = surface.firstPiece.at[firstFacet(w.entry)];
-  w.endPiece = surface.firstPiece.at[firstFacet(w.entry) + facetsOf(w.entry)];
-  vec3 bounds = traceBounds(w.at, 1.0f);
-  w.leave = min(bounds.x, min(bounds.y, bounds.z));
   return true;
 }
 
 /// The first triangle nearer than `reach` along a ray, but `own`, from which the ray starts.
 TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
-  TriangleWalk w = startTriangles(origin, direction, own, reach);
+  TriangleWalk w = startTriangles(world.dims, origin, direction, own, reach);
   while (stepTriangles(world, surface, w)) {}
   return w.hit;
 }

@@ -40,11 +40,6 @@ struct DirectSeenPush {
   uvec3 dims;
 };
 
-/// Workgroups that share a group of Targets::sought, each as large as those of a whole picture, whose kernel it is, too;
-/// and of Targets::glossy in thesis/specular.comp.
-IRAD_CONST uint SOUGHT_PARTS = 2u;
-IRAD_CONST uint GLOSSY_PARTS = 4u;
-
 /// "RE Specular".
 struct SpecularPush {
   CameraArray camera;

@@ -7,7 +7,7 @@ IRAD_BEGIN
 
 IRAD_CONST uint PICKED_COUNT = 3u;
 IRAD_CONST uint PICKED_FIRST = 4u;
-IRAD_CONST uint PICKED_GROUP = 128u;  ///< pixels per workgroup
+IRAD_CONST uint PICKED_GROUP = 64u;  ///< pixels per workgroup
 
 #ifndef __cplusplus
 uint packPixel(ivec2 pixel) { return uint(pixel.x) | (uint(pixel.y) << 16); }

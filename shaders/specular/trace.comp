@@ -1,10 +1,10 @@
-// "RE Specular": one invocation per listed pixel. Writes the mean reflected radiance (without the lobe's reflectance)
-// and the view depth.
+// "RE Specular": LOBE_LANES invocations per listed pixel. Writes the mean reflected radiance (without the lobe's
+// reflectance) and the view depth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/trace.glsl"
 
-layout(local_size_x = PICKED_GROUP) in;
+layout(local_size_x = PICKED_GROUP * LOBE_LANES) in;
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -12,15 +12,14 @@ layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D tracedTarget;
 
-void main() {
-  GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
+shared vec4 lobes[PICKED_GROUP * LOBE_LANES];
+
+/// What a lane finds (traceLobe) for a pixel at view depth `z`.
+vec4 reflectedAt(GpuCamera camera, ivec2 pixel, float z, uint lane) {
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.dims, push.jfaMax);
   SurfaceArrays surface = tracedSurface();
-  ivec2 pixel;
-  if (!pickedPixel(push.glossy, gl_GlobalInvocationID.x, pixel)) return;
   vec4 normal = imageLoad(normalTarget, pixel);
   vec3 axis = viewAxis(camera);
-  float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);
   vec3 local = pixelPosition(camera, pixel, z, axis);
   Surface s;
   s.position = (local - push.origin) * push.inverseEdge;
@@ -35,5 +34,19 @@ void main() {
   uvec2 first = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
   uvec4 shift =
       uvec4(first, pixel.x * 2447445414u + pixel.y * 3242174889u, pixel.x * 1847517997u + pixel.y * 2447445414u);
-  imageStore(tracedTarget, pixel, vec4(traceLobe(world, surface, s, shift), z));
+  return traceLobe(world, surface, s, shift, lane);
+}
+
+void main() {
+  GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
+  uint at = gl_LocalInvocationIndex, lane = at % LOBE_LANES;
+  ivec2 pixel;
+  bool listed = pickedPixel(push.glossy, gl_GlobalInvocationID.x / LOBE_LANES, pixel);
+  float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);
+  lobes[at] = listed ? reflectedAt(camera, pixel, z, lane) : vec4(0.0);
+  barrier();
+  if (!listed || lane != 0u) return;
+  vec4 lobe = lobes[at];
+  for (uint i = 1u; i < LOBE_LANES; ++i) lobe += lobes[at + i];
+  imageStore(tracedTarget, pixel, vec4(lobe.w > 0.0 ? lobe.xyz / (lobe.w * IRAD_PI) : vec3(0.0), z));
 }

@@ -66,11 +66,16 @@ vec3 beyond(TraceHit hit, vec3 direction) {
   return IRAD_PI * skyRadiance(push.sky.at[0], direction);
 }
 
-/// Mean reflected radiance before the lobe's reflectance. Rays follow visible normals of GGX (Heitz 2018), each
+/// Invocations that share a pixel's rays: as many run side by side, and few wait for long ones. (Mesa's CPU driver ends
+/// loops after 65,535 rounds of an invocation, which is a bound on what its rays may meet together.)
+const uint LOBE_LANES = 4u;
+
+/// Reflected radiance before the lobe's reflectance, times pi and the sum of the weights (w), of one lane's rays; the
+/// pixel's mean is the quotient of the lanes' sums. Rays follow visible normals of GGX (Heitz 2018), each
 /// weighted with F G2 / G1 and the sum divided by the weights; with emitters a quarter as many more go to points of
 /// these, and what either kind finds there is weighted by the balance heuristic (Veach and Guibas 1995): a small bright
 /// face in the lobe's tail is otherwise met by few rays, each of which is a white dot. `shift` decorrelates pixels.
-vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) {
+vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, uint lane) {
   float alpha = s.roughness * s.roughness;
   bool mirror = alpha < 1e-3;
   uint rays = mirror ? 1u : push.params.rays;
@@ -86,7 +91,7 @@ vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) 
   float density = float(rays) / (4.0 * v.z * (1.0 + ggxLambda(v.z, max(alpha, 1e-3))));
   vec3 sum = vec3(0.0);
   float weights = 0.0;
-  for (uint k = 0u; k < rays + aimed; ++k) {
+  for (uint k = lane; k < rays + aimed; k += LOBE_LANES) {
     vec3 direction, l;
     // Of a ray to an emitter:
     float reach = 0.0;
@@ -139,5 +144,5 @@ vec3 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift) 
     }
     sum += weight * radiosityAt(world, surface, hit.facet, at);
   }
-  return weights > 0.0 ? sum / (weights * IRAD_PI) : vec3(0.0);
+  return vec4(sum, weights);
 }

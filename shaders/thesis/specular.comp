@@ -5,20 +5,17 @@
 #define TRACE_AHEAD 16
 #include "thesis/specular_pixel.glsl"
 
-// A workgroup is as slow as its longest ray, so workgroups are small.
-const uint PIXELS = PICKED_GROUP / GLOSSY_PARTS;
-layout(local_size_x = 2u * PIXELS) in;
+layout(local_size_x = 2u * PICKED_GROUP) in;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D specularTarget;
-shared vec3 second[PIXELS];
+shared vec3 second[PICKED_GROUP];
 
 void main() {
-  uint i = gl_LocalInvocationIndex % PIXELS;
-  uint turn = gl_LocalInvocationIndex / PIXELS;
+  uint i = gl_LocalInvocationIndex % PICKED_GROUP;
+  uint turn = gl_LocalInvocationIndex / PICKED_GROUP;
   ivec2 pixel;
   Reflection r;
   r.traces = false;
-  uint place = (gl_WorkGroupID.x * GLOSSY_PARTS + gl_WorkGroupID.y) * PIXELS + i;
-  if (pickedPixel(push.glossy, place, pixel)) r = reflectionAt(pixel);
+  if (pickedPixel(push.glossy, gl_WorkGroupID.x * PICKED_GROUP + i, pixel)) r = reflectionAt(pixel);
   vec3 met = vec3(0.0);
   for (uint k = 0u; k < push.params.rays; k += 2u) {
     vec3 ray = vec3(0.0);
