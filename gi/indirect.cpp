@@ -14,10 +14,17 @@ namespace {
 
 constexpr const char* kForwardStage = "RE Forward";
 
+/// Invocations that share the search for a pixel's facet. A CPU has no more of them than cores: what some would look at
+/// in vain is work for all.
+uint32_t soughtLanes(const Device& device) {
+  return device.isCpu ? 1 : 32;
+}
+
 /// In compute, where no lane is spent outside a triangle.
 void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, bool lights,
                   Targets& targets) {
-  pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought);
+  const uint32_t lanes = soughtLanes(frame.context().device);
+  pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought, lanes);
   if (lights) pickNone(frame, kForwardStage, "pixels whose light is doubted", targets.size, targets.doubted);
   for (const bool seeks : {false, true}) {
     Pass pass = frame.pass(kForwardStage);
@@ -40,6 +47,7 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
         .constant(CONSTANT_EMITTED, emitted)
         .constant(CONSTANT_KEEPS_POSITION, from.keepPosition)
         .constant(CONSTANT_SEEKS, seeks)
+        .constant(CONSTANT_SOUGHT_LANES, lanes)
         .write(targets.indirect)
         .write(targets.linear)
         .write(emitted ? targets.emitted : targets.indirect)

@@ -1,11 +1,26 @@
 // Each facet's area, and its surfels: points of its pieces that stand for equal shares of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "gi/facet_points.glsl"
 #include "gi/piece_place.glsl"
 #include "shared/grid.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FacetSurfelsPush push; };
+
+/// Points that are looked at in a round of a loop, of which Mesa's CPU driver allows an invocation 65,535: a voxel full of
+/// foliage has more points than that.
+const uint AT_ONCE = 16u;
+
+/// Of AT_ONCE points from `i` on those that are the facet's, a bit for each.
+uint ownPoints(FacetPoints points, uint i) {
+  uint own = 0u;
+  [[unroll]] for (uint j = 0u; j < AT_ONCE; ++j) {
+    uint class_ = push.classes.at[min(i + j, points.end - 1u)] & ~CLASS_LEADER;
+    own |= i + j < points.end && class_ == points.own ? 1u << j : 0u;
+  }
+  return own;
+}
 
 void main() {
   uint facet = irad_index();
@@ -16,22 +31,29 @@ void main() {
   vec3 cell = vec3(voxel);
   FacetPoints points = pointsOf(surface, push.firstPoint, facet, push.reverse.at[voxelIndex(voxel, push.dims)]);
   float area = 0.0;
-  for (uint i = points.first; i < points.end; ++i)
-    if ((push.classes.at[i] & ~CLASS_LEADER) == points.own) area += push.pointArea.at[i];
+  for (uint i = points.first; i < points.end; i += AT_ONCE)
+    for (uint own = ownPoints(points, i); own != 0u; own &= own - 1u) area += push.pointArea.at[i + findLSB(own)];
   push.area.at[facet] = area;
 
   uint shift = hashUint(packedVoxel ^ 0x2545F491u);
   uint k = 0u;
   float upTo = 0.0;
-  for (uint i = points.first; i < points.end; ++i) {
-    if ((push.classes.at[i] & ~CLASS_LEADER) != points.own) continue;
+  uint next = points.first, own = 0u;
+  while (k < FACET_SURFELS && (own != 0u || next < points.end)) {
+    if (own == 0u) {
+      own = ownPoints(points, next);
+      next += AT_ONCE;
+    }
+    if (own == 0u) continue;
+    uint i = next - AT_ONCE + findLSB(own);
+    own &= own - 1u;
     PiecePoint p = push.points.at[i];
     float before = upTo, share = push.pointArea.at[i];
     upTo += share;
     // The last one takes what rounding leaves.
     float at = (float(k) + 0.5) / float(FACET_SURFELS) * area;
     bool last = upTo >= area * 0.999999;
-    if (k == FACET_SURFELS || (at >= upTo && !last)) continue;
+    if (at >= upTo && !last) continue;
     uint piece = p.side & ~SURFEL_BACK;
     uint triangle = triangleOf(surface.pieces, piece);
     Triangle t = triangleAt(surface.corners, triangle);

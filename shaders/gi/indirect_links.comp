@@ -6,7 +6,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
 #include "forward/tile_pixel.glsl"
-#include "gi/surface_lookup.glsl"
 #include "shared/constants.h"
 #include "shared/indirect.h"
 #include "shared/passes.h"
@@ -23,6 +22,8 @@ layout(set = 0, binding = 0, rgba32f) uniform image2D indirectTarget;
 layout(set = 0, binding = 1, rgba32f) uniform image2D lookupTarget;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D directTarget;
+
+#include "gi/sought_facet.glsl"
 
 /// How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
 float spread(SurfaceTaps taps) {
@@ -41,8 +42,9 @@ void main() {
   Grid grid = push.grid.at[0];
   SurfaceArrays surface = push.surface.at[0];
   ivec2 pixel;
+  bool listed = true;
   if (SEEKS) {
-    if (!pickedPixel(push.sought, gl_GlobalInvocationID.x, pixel)) return;
+    listed = pickedPixel(push.sought, soughtPlace(), pixel);
   } else {
     pixel = tilePixel();
     if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
@@ -51,7 +53,7 @@ void main() {
   vec4 lookup = imageLoad(lookupTarget, pixel);
   float seen = lookup.w;
   bool drawn = position.w != 0.0;
-  if (!drawn) {
+  if (!SEEKS && !drawn) {
     if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, 0.0));
     return;
   }
@@ -62,7 +64,8 @@ void main() {
   bool back = dot(triangleFacing(surface, triangle), viewer) < 0.0;
   uint side = triangle | (back ? SURFEL_BACK : 0u), facet;
   if (SEEKS) {
-    facet = soughtFacet(surface, push.reverse, grid.dims, p, side);
+    facet = soughtFacet(surface, push.reverse, grid.dims, p, side, listed);
+    if (!listed || soughtLane() != 0u) return;
   } else {
     facet = facetAt(surface, push.reverse, grid.dims, p, side);
     if (facet == NO_FACET) {

@@ -29,27 +29,6 @@ uint facetAt(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint 
   return entry == NO_FACET ? NO_FACET : facetInVoxel(surface, entry, p, side);
 }
 
-/// The facet of any such point: where rounding has put it into another voxel, in the next one; where no surfel of the
-/// side is seen from p, the nearest surfel around that is. A kernel of its own: devices whose lanes all walk through a
-/// branch that one of them takes, and through its loops once where none does, pay for it at every pixel.
-uint soughtFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side) {
-  side = firstInPlace(surface.corners, side & ~SURFEL_BACK) | (side & SURFEL_BACK);
-  vec3 facing = triangleFacing(surface, side);
-  const float ROUNDING = 1e-2;
-  ivec3 cell = ivec3(floor(p));
-  vec3 inside = p - vec3(cell);
-  ivec3 beside = ivec3(greaterThan(inside, vec3(1.0 - ROUNDING))) - ivec3(lessThan(inside, vec3(ROUNDING)));
-  for (int i = 0; i < 8; ++i) {
-    ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-    if (any(notEqual(corner * abs(beside), corner))) continue;
-    uint entry = entryOf(reverse, dims, cell + corner * beside);
-    if (entry == NO_FACET) continue;
-    uint facet = facetInVoxel(surface, entry, p, side);
-    if (facet != NO_FACET) return facet;
-  }
-  return facetBeside(surface, reverse, dims, SurfelPoint(p, facing, side & ~SURFEL_BACK));
-}
-
 SurfaceTaps surfaceTaps(SurfaceArrays surface, UintArray reverse, UintArray facetVoxel, uvec3 dims, uint facet, vec3 p,
                         uint filter_) {
   SurfaceTaps taps;

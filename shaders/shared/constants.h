@@ -33,6 +33,7 @@ IRAD_CONST uint CONSTANT_VIEW_FROM = 51u;       ///< FROM_*: what it is drawn fr
 IRAD_CONST uint CONSTANT_TARGETS = 42u;         ///< those that are there
 IRAD_CONST uint CONSTANT_KEEPS_POSITION = 43u;  ///< gi/indirect_links.comp
 IRAD_CONST uint CONSTANT_SEEKS = 52u;           ///< gi/indirect_links.comp
+IRAD_CONST uint CONSTANT_SOUGHT_LANES = 53u;    ///< gi/sought_facet.glsl
 IRAD_CONST uint CONSTANT_LIST_PIXELS = 44u;     ///< forward/list_pixels.comp: write the lists, not count
 IRAD_CONST uint CONSTANT_DISTANCE_METRIC = 45u;
 IRAD_CONST uint CONSTANT_FILTERED = 46u;     ///< specular/classify.comp
