@@ -103,6 +103,9 @@ struct Pipeline::Impl {
   uint64_t shadowKey(std::span<const GpuLight> lights) const {
     Digest digest;
     digest.add(content.surfaces).add(planned.on(Effect::alphaTest)).add(settings.light.shadowResolution);
+    const ShadowNeeds needs = shadowNeeds();
+    digest.add(needs.filter).add(needs.bleedReduction).add(needs.points);
+    if (needs.filter == ShadowFilter::vsm) digest.add(needs.taps);
     for (const GpuLight& light : lights) digest.add(planned.shines(light, scene, settings)).add(shadowContent(light));
     return digest.value();
   }
@@ -347,7 +350,11 @@ struct Pipeline::Impl {
   ShadowNeeds shadowNeeds() const {
     return {.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); },
             .alphaTest = planned.on(Effect::alphaTest),
-            .kernels = rasterizesByKernels(context.device, settings)};
+            .kernels = rasterizesByKernels(context.device, settings),
+            .filter = settings.light.shadowFilter,
+            .taps = settings.camera.gpu.pcf,
+            .bleedReduction = settings.light.bleedReduction,
+            .points = settings.light.points};
   }
 };
 

@@ -94,6 +94,9 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
     light.innerCos = static_cast<float>(std::cos(in.spot.innerConeAngle));
     light.outerCos = static_cast<float>(std::cos(in.spot.outerConeAngle));
   }
+  const char* size = kind->has(LIGHT_DISTANT) ? "angle" : "radius";
+  if (in.extras.Has(size))
+    (kind->has(LIGHT_DISTANT) ? light.angle : light.radius) = static_cast<float>(in.extras.Get(size).GetNumberAsDouble());
   scene.lights.push_back(light);
 }
 
