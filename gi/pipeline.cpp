@@ -18,6 +18,7 @@
 #include "gi/plan.h"
 #include "gi/products.h"
 #include "gi/scatter.h"
+#include "gi/shadow_needs.h"
 #include "gi/sky.h"
 #include "gi/solve.h"
 #include "gi/specular.h"
@@ -348,13 +349,11 @@ struct Pipeline::Impl {
   // ---- Pictures ----
 
   ShadowNeeds shadowNeeds() const {
-    return {.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); },
-            .alphaTest = planned.on(Effect::alphaTest),
-            .kernels = rasterizesByKernels(context.device, settings),
-            .filter = settings.light.shadowFilter,
-            .taps = settings.camera.gpu.pcf,
-            .bleedReduction = settings.light.bleedReduction,
-            .points = settings.light.points};
+    ShadowNeeds needs = irad::shadowNeeds(settings);
+    needs.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); };
+    needs.alphaTest = planned.on(Effect::alphaTest);
+    needs.kernels = rasterizesByKernels(context.device, settings);
+    return needs;
   }
 };
 

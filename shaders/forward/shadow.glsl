@@ -129,7 +129,7 @@ float mapGap(GpuLight light, vec3 p, out float widest) {
   return axial * stored / light.shadowNear - 1.0;
 }
 
-const float WIDEST_GAP = 15.0;  ///< what is nearer to a lamp than a sixteenth of the way is not sought
+const float WIDEST_GAP = 7.0;  ///< penumbrae of what is nearer to a lamp than an eighth of the way are no wider
 
 /// A light with a size: percentage-closer soft shadows (Fernando 2005). What lies between the point and the light's disc
 /// gives the penumbra's width, and that is what is averaged over. Both steps leave out what the light's disc does not
@@ -155,15 +155,18 @@ float penumbraVisibility(GpuLight light, vec3 p, vec3 n, float lift, float texel
     for (uint k = 0u; k < light.points; ++k) {
       vec2 u = hammersley(k, light.points, shift);
       // The search is densest in the middle, since the width is not known; the average is over a disc.
-      float r = (step == 0u ? u.x * u.x : sqrt(u.x)) * width;
+      float r = (step == 0u ? u.x * sqrt(u.x) : sqrt(u.x)) * width;
       float phi = 2.0 * IRAD_PI * u.y;
       vec3 aside = toWorld(vec3(r * cos(phi), r * sin(phi), 0.0), towards);
       float along = -dot(n, aside) / cosine;  // on the point's plane
       float ignored;
       float gap = mapGap(light, start + aside + towards * along, ignored);
       if (gap <= 0.0) continue;
-      gap = distant ? gap + along : (1.0 + gap) * away / (away - along) - 1.0;  // above the point itself
-      if (r > light.size * gap + least) continue;
+      // Above the point itself. From a lamp's place the plane's point at `along` is seen further aside than r.
+      float further = distant ? 1.0 : away / (away - along);
+      if (further < 0.0) continue;  // beyond the lamp
+      gap = distant ? gap + along : (1.0 + gap) * further - 1.0;
+      if (r * further > light.size * gap + least) continue;
       ++blocked;
       sum += gap;
     }
@@ -237,7 +240,9 @@ float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float bi
     vec3 a = abs(localPosition - light.position);
     float major = max(a.x, max(a.y, a.z));
     float along = a.x == major ? normal.x : (a.y == major ? normal.y : normal.z);
-    precise float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * light.shadowTexel * major;
+    // A penumbra may reach over to a face that the surface is slanted in.
+    float sine = hasSize(light) ? 1.0 : sqrt(max(0.0, 1.0 - along * along));
+    precise float lift = biasTexels * max(sine, 0.2) * light.shadowTexel * major;
     if (readsMapItself(light))
       return mapVisibility(light, localPosition, normal, lift, light.shadowTexel * major, pcf);
     return cubeVisibility(light, localPosition, normal, lift, pcf);
