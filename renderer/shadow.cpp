@@ -307,7 +307,11 @@ void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn)
 
 LightKinds kindsOf(std::span<const GpuLight> shining) {
   LightKinds kinds;
-  for (const GpuLight& light : shining) kinds[LightType{light.type}] = true;
+  for (const GpuLight& light : shining) {
+    kinds[LightType{light.type}] = true;
+    kinds.sizes |= light.size > 0;
+    kinds.filters |= light.shadowFilter != ShadowFilter::pcf;
+  }
   return kinds;
 }
 
@@ -324,10 +328,8 @@ void specialize(Pass& pass, uint32_t first, const LightKinds& kinds, std::span<c
   }
   pass.effect(first + LIGHT_FLAT_MAPS, flat)
       .effect(first + LIGHT_CUBE_MAPS, cube)
-      .effect(first + LIGHT_SIZES, std::ranges::any_of(shining, [](const GpuLight& l) { return l.size > 0; }))
-      .effect(first + LIGHT_FILTERS, std::ranges::any_of(shining, [](const GpuLight& l) {
-                return l.shadowFilter != ShadowFilter::pcf;
-              }));
+      .effect(first + LIGHT_SIZES, kinds.sizes)
+      .effect(first + LIGHT_FILTERS, kinds.filters);
 }
 
 }  // namespace irad

@@ -44,12 +44,15 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
 /// changed.
 void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn);
 
-/// Kinds of light that shine, by LightType.
+/// Kinds of light that shine, by LightType, and what some light of them asks for.
 struct LightKinds {
   std::array<bool, LIGHT_KINDS> shines{};
+  bool sizes = false;    ///< penumbrae
+  bool filters = false;  ///< another filter than ShadowFilter::pcf
   static constexpr LightKinds all() {
     LightKinds kinds;
     kinds.shines.fill(true);
+    kinds.sizes = kinds.filters = true;
     return kinds;
   }
   bool& operator[](LightType type) { return shines.at(static_cast<size_t>(type)); }

@@ -196,7 +196,7 @@ struct Edge {
 
 struct Profile {
   std::vector<double> sum = std::vector<double>(kBins), count = std::vector<double>(kBins);
-  static constexpr int kBins = 64;
+  static constexpr int kBins = static_cast<int>(kPixels);
   static double middle(int bin) { return (2.0 * bin + 1 - kBins) / kBins * double{Edge::kSeen}; }
   void add(double x, double share) {
     const double at = std::floor((x / double{Edge::kSeen} + 1) / 2 * kBins);
@@ -295,7 +295,7 @@ TEST_F(ShadowFilters, ThePathTracerSeesTheSamePenumbra) {
     Edge edge(type, size);
     for (Material& m : edge.scene.materials) m.baseColor = glm::vec4(0.5f, 0.5f, 0.5f, 1);
     const TracedPicture traced = makePathTracer(edge.scene)->render(edge.scene.cameras[0], {kPixels, kPixels},
-                                                                    {.samples = 16, .centred = true});
+                                                                    {.samples = 64, .centred = true});
     Profile p;
     for (uint32_t i = 0; i < kPixels * kPixels; ++i) {
       const double k = double{Edge::kSeen} / kPixels, x = (2.0 * (i % kPixels) + 1 - kPixels) * k,
