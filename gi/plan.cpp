@@ -112,7 +112,8 @@ class Planner {
     size_t all = 0, shining = 0, lighting = 0, sized = 0;
     double share = 0;
     uint64_t maps = 0;
-    const uint64_t flat = shadowTexelBytes(s_.light.shadowFilter) * s_.light.shadowResolution * s_.light.shadowResolution;
+    const uint64_t flat =
+        shadowTexelBytes(s_.light.shadowFilter) * s_.light.shadowResolution * s_.light.shadowResolution;
     for (const LightTraits& l : t_.lights) {
       if (l.type != kind.type) continue;
       ++all;

@@ -48,7 +48,8 @@ uint64_t shadowContent(const GpuLight& light) {
 
 uint64_t lightContent(std::span<const GpuLight> lights) {
   Digest digest;
-  for (const GpuLight& light : lights) digest.add(shadowContent(light)).add(light.intensity).add(light.innerCos).add(light.size);
+  for (const GpuLight& light : lights)
+    digest.add(shadowContent(light)).add(light.intensity).add(light.innerCos).add(light.size);
   return digest.value();
 }
 

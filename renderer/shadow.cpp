@@ -289,8 +289,7 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
 }
 
 Pass& sampleShadows(Pass& pass, const ShadowMaps& maps) {
-  return pass.sampleDepth(maps.flat, maps.sampler, /*cube*/ false)
-      .sampleDepth(maps.cubes, maps.sampler, /*cube*/ true);
+  return pass.sampleDepth(maps.flat, maps.sampler, /*cube*/ false).sampleDepth(maps.cubes, maps.sampler, /*cube*/ true);
 }
 
 void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn) {

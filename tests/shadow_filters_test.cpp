@@ -116,7 +116,8 @@ TEST_F(ShadowFilters, NoAcne) {
 }
 
 /// Under the sun's plates at 2 and .5 above the floor, of which the lower alone covers some of it, Chebyshev's bound is
-/// largest where a fifth of a texel's surroundings are the upper one: variance 2.25 x .2 x .8 against (.5 + 1.5 x .2)^2.
+/// largest where a fifth of a texel's surroundings are the upper one: variance 2.25 x .2 x .8 against (.5 + 1.5 x
+/// .2)^2.
 TEST_F(ShadowFilters, BleedReductionDarkensWhatLiesUnderTwo) {
   SceneBuilder b;
   b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
@@ -245,16 +246,18 @@ Profile facets(Context& context, const Edge& edge, Settings settings) {
     if (host.normal[i].y < 0.9 || at.y > 0.1 || std::abs(at.z) > double{Edge::kSeen}) continue;
     const Light& light = edge.scene.lights[0];
     const glm::dvec3 way = light.position - at;
-    const double whole = light.type == LightType::Sun
-                             ? double{light.intensity}
-                             : double{light.intensity} * way.y / std::pow(glm::length(way), 3);
+    const double whole = light.type == LightType::Sun ? double{light.intensity}
+                                                      : double{light.intensity} * way.y / std::pow(glm::length(way), 3);
     p.add(at.x, double{direct[i].x} / whole);
   }
   return p;
 }
 
-const std::vector<std::pair<LightType, double>> kSized{
-    {LightType::Sun, 5}, {LightType::Sun, 20}, {LightType::Point, 0.1}, {LightType::Point, 0.3}, {LightType::Spot, 0.2}};
+const std::vector<std::pair<LightType, double>> kSized{{LightType::Sun, 5},
+                                                       {LightType::Sun, 20},
+                                                       {LightType::Point, 0.1},
+                                                       {LightType::Point, 0.3},
+                                                       {LightType::Spot, 0.2}};
 
 /// With few points the search may miss what covers little of the light: at 32 of them penumbrae come out up to a
 /// fifteenth too narrow.
@@ -294,8 +297,8 @@ TEST_F(ShadowFilters, ThePathTracerSeesTheSamePenumbra) {
   for (const auto& [type, size] : kSized) {
     Edge edge(type, size);
     for (Material& m : edge.scene.materials) m.baseColor = glm::vec4(0.5f, 0.5f, 0.5f, 1);
-    const TracedPicture traced = makePathTracer(edge.scene)->render(edge.scene.cameras[0], {kPixels, kPixels},
-                                                                    {.samples = 64, .centred = true});
+    const TracedPicture traced =
+        makePathTracer(edge.scene)->render(edge.scene.cameras[0], {kPixels, kPixels}, {.samples = 64, .centred = true});
     Profile p;
     for (uint32_t i = 0; i < kPixels * kPixels; ++i) {
       const double k = double{Edge::kSeen} / kPixels, x = (2.0 * (i % kPixels) + 1 - kPixels) * k,

@@ -253,7 +253,7 @@ class EmbreeTracer : public PathTracer {
         if (point.albedo == glm::dvec3(0)) return;
         origin = point.position + point.face * surfaces.offset(met.triangle);
         const glm::dvec3 reflected = throughput * point.albedo / std::numbers::pi;
-        for (size_t l = 0; l < surfaces.lights(); ++l) 
+        for (size_t l = 0; l < surfaces.lights(); ++l)
           fromLight(l, point, met.triangle, origin, reflected, random, depth > 0);
         if (surfaces.emits()) fromEmitter(point, met.triangle, origin, reflected, random);
         if (sky.shines()) fromSky(point, met.triangle, origin, reflected, random);

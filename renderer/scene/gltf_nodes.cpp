@@ -96,7 +96,8 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   }
   const char* size = kind->has(LIGHT_DISTANT) ? "angle" : "radius";
   if (in.extras.Has(size))
-    (kind->has(LIGHT_DISTANT) ? light.angle : light.radius) = static_cast<float>(in.extras.Get(size).GetNumberAsDouble());
+    (kind->has(LIGHT_DISTANT) ? light.angle : light.radius) =
+        static_cast<float>(in.extras.Get(size).GetNumberAsDouble());
   scene.lights.push_back(light);
 }
 

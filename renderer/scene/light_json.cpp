@@ -57,10 +57,9 @@ float coneCosine(const JsonObject& json, const char* member, double otherwise) {
 }
 
 Light fromJson(const OrderedJson& parsed, const std::string& label) {
-  const JsonObject json(
-      parsed, label,
-      {"name", "type", "position", "direction", "color", "intensity", "range", "innerConeAngle", "outerConeAngle",
-       "angle", "radius"});
+  const JsonObject json(parsed, label,
+                        {"name", "type", "position", "direction", "color", "intensity", "range", "innerConeAngle",
+                         "outerConeAngle", "angle", "radius"});
   Light light;
   const LightKind& kind = kindOf(json);
   light.type = kind.type;
