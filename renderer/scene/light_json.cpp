@@ -25,8 +25,9 @@ OrderedJson toJson(const Light& light) {
   json["color"] = vector(light.color);
   json["intensity"] = jsonNumber(light.intensity);
   if (light.range > 0) json["range"] = jsonNumber(light.range);
-  if (light.angle > 0) json["angle"] = jsonNumber(light.angle);
-  if (light.radius > 0) json["radius"] = jsonNumber(light.radius);
+  const bool distant = kind.has(LIGHT_DISTANT);
+  if (const float size = distant ? light.angle : light.radius; size > 0)
+    json[distant ? "angle" : "radius"] = jsonNumber(size);
   if (kind.has(LIGHT_CONE)) {
     // In double precision the way there and back ends at the same float.
     json["innerConeAngle"] = std::acos(static_cast<double>(light.innerCos));
