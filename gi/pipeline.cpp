@@ -18,6 +18,7 @@
 #include "gi/plan.h"
 #include "gi/products.h"
 #include "gi/scatter.h"
+#include "gi/shadow_needs.h"
 #include "gi/sky.h"
 #include "gi/solve.h"
 #include "gi/specular.h"
@@ -103,6 +104,9 @@ struct Pipeline::Impl {
   uint64_t shadowKey(std::span<const GpuLight> lights) const {
     Digest digest;
     digest.add(content.surfaces).add(planned.on(Effect::alphaTest)).add(settings.light.shadowResolution);
+    const ShadowNeeds needs = shadowNeeds();
+    digest.add(needs.filter).add(needs.bleedReduction).add(needs.points);
+    if (needs.filter == ShadowFilter::vsm) digest.add(needs.taps);
     for (const GpuLight& light : lights) digest.add(planned.shines(light, scene, settings)).add(shadowContent(light));
     return digest.value();
   }
@@ -345,9 +349,11 @@ struct Pipeline::Impl {
   // ---- Pictures ----
 
   ShadowNeeds shadowNeeds() const {
-    return {.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); },
-            .alphaTest = planned.on(Effect::alphaTest),
-            .kernels = rasterizesByKernels(context.device, settings)};
+    ShadowNeeds needs = irad::shadowNeeds(settings);
+    needs.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); };
+    needs.alphaTest = planned.on(Effect::alphaTest);
+    needs.kernels = rasterizesByKernels(context.device, settings);
+    return needs;
   }
 };
 

@@ -9,6 +9,7 @@
 #include "gi/emitter_rule.h"
 #include "gi/stage_keys.h"
 #include "renderer/forward.h"
+#include "renderer/shadow.h"
 #include "shaders/shared/pixel_emitters.h"
 
 namespace irad {
@@ -108,20 +109,23 @@ class Planner {
 
   void light(const LightKind& kind) {
     const Effect effect = effectOf(kind.type);
-    size_t all = 0, shining = 0, lighting = 0;
+    size_t all = 0, shining = 0, lighting = 0, sized = 0;
     double share = 0;
     uint64_t maps = 0;
-    const uint64_t flat = 4ull * s_.light.shadowResolution * s_.light.shadowResolution;
+    const uint64_t flat =
+        shadowTexelBytes(s_.light.shadowFilter) * s_.light.shadowResolution * s_.light.shadowResolution;
     for (const LightTraits& l : t_.lights) {
       if (l.type != kind.type) continue;
       ++all;
       shining += l.shines;
       lighting += l.share() > 1;
+      sized += l.share() > 1 && l.size;
       share = std::max(share, l.share());
       maps += l.cube ? flat / 4 * 6 : flat;
     }
     std::string reason = counted(all, kind.one, kind.many);
     if (all > 0) reason += fmt::format(": {} with an intensity, of these {} in reach of the scene", shining, lighting);
+    if (sized > 0) reason += fmt::format("; penumbrae of {}, by {} points", sized, s_.light.points);
     const bool calledFor = held(effect, share, reason);
     decide(effect, calledFor, std::move(reason), maps);
     lit(effect, calledFor);

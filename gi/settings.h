@@ -16,6 +16,7 @@
 #include "shaders/shared/light_kinds.h"
 #include "shaders/shared/matrix.h"
 #include "shaders/shared/normals.h"
+#include "shaders/shared/scene_gpu.h"
 #include "shaders/shared/view.h"
 
 namespace irad {
@@ -95,6 +96,9 @@ struct SpecularSettings {
 };
 struct LightSettings {
   uint32_t shadowResolution = 2048;  ///< texels per side; point lights use half per cube face
+  ShadowFilter shadowFilter = ShadowFilter::pcf;
+  float bleedReduction = 0.3f;  ///< of ShadowFilter::vsm
+  uint32_t points = 32;         ///< of a light with a size, that are looked at from a pixel or a facet
   bool operator==(const LightSettings&) const = default;
 };
 /// Light from where no surface is (gi/sky.h).

@@ -135,6 +135,16 @@ constexpr Setting kTable[] = {
     SETTING(specular.gpu.filter_, "specular.filter", "Edge-aware filter over traced reflections.", Shade),
     SETTING(light.shadowResolution, "light.shadow_resolution", {64, 8192, "texels"},
             "Shadow-map size; point lights use half per cube face.", Gather),
+    SETTING(light.shadowFilter, "light.shadow_filter",
+            "How shadow maps of lights without a size are read. hard: one comparison; pcf: camera.pcf x camera.pcf of "
+            "them; vsm: by the mean and variance of distance over as many texels, in four times the memory.",
+            Gather),
+    SETTING(light.bleedReduction, "light.bleed_reduction", {0, 0.95},
+            "Shadow filter vsm: shares of light up to this count as shadow, so that less light bleeds in where shadows "
+            "lie over each other.",
+            Gather),
+    SETTING(light.points, "light.points", {1, 1024, "points"},
+            "Points of a light with a size (its angle or radius) that a pixel or facet looks at.", Gather),
     SETTING(sky.source, "sky.source",
             "Light from where no surface is. constant: of one radiance; image: a picture of the whole sphere (--sky); "
             "preetham: a clear sky, by Preetham, Shirley and Smits. With matrix.hit_rule=triangles.",

@@ -10,7 +10,7 @@ void add(Digest& digest, const TextureUse& use) {
   digest.add(use.image).add(use.uvSet).add(use.transform);
   const SamplerDesc& s = use.sampler;
   digest.add(s.u).add(s.v).add(s.linearMag).add(s.linearMin).add(s.mips).add(s.linearMips);
-  digest.add(s.compare).add(s.anisotropic);
+  digest.add(s.anisotropic);
 }
 
 void add(Digest& digest, const Material& m) {
@@ -48,7 +48,8 @@ uint64_t shadowContent(const GpuLight& light) {
 
 uint64_t lightContent(std::span<const GpuLight> lights) {
   Digest digest;
-  for (const GpuLight& light : lights) digest.add(shadowContent(light)).add(light.intensity).add(light.innerCos);
+  for (const GpuLight& light : lights)
+    digest.add(shadowContent(light)).add(light.intensity).add(light.innerCos).add(light.size);
   return digest.value();
 }
 

@@ -68,6 +68,7 @@ LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t res
   t.type = static_cast<LightType>(light.type);
   t.shines = light.intensity != glm::vec3(0);  // what is no number, or negative, is left to the numerical watch
   t.cube = lightUsesCube(light.type, light.outerCos);
+  t.size = light.size > 0;
   const double voxel = largest(scene.boundsMax - scene.boundsMin) / resolution, gap = gapTo(light, scene);
   if (gap > 0) t.gap = static_cast<float>(gap / voxel);
   return t;

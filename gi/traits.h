@@ -29,6 +29,7 @@ struct LightTraits {
   bool cube = false;    ///< six shadow maps instead of one (lightUsesCube)
   /// Voxels between what its range and cone leave and the scene's bounds; conservative.
   float gap = 0;
+  bool size = false;  ///< soft shadows
   /// Of what lights the scene, which is above 1: a facet's points may lie a voxel outside of the bounds in each axis,
   /// so that two are allowed for, and four (0.5) where a light that is on stays on.
   double share() const { return shines ? 2 / double{gap} : 0; }

@@ -1,6 +1,8 @@
 #include "renderer/gpu_scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
 #include <iterator>
 
 #include "renderer/base/error.h"
@@ -75,8 +77,10 @@ GpuLight toGpu(const Light& light, const glm::dvec3& origin) {
   gpu.range = light.range;
   gpu.intensity = light.color * light.intensity;
   gpu.shadowLayer = -1;
+  gpu.shadowFilter = ShadowFilter::pcf;
   gpu.innerCos = light.innerCos;
   gpu.outerCos = light.outerCos;
+  gpu.size = lightKind(light.type).has(LIGHT_DISTANT) ? std::tan(0.5f * glm::radians(light.angle)) : light.radius;
   gpu.shadowMatrix = glm::mat4(1.0f);
   return gpu;
 }

@@ -134,7 +134,6 @@ enum class Wrap { Repeat, Mirror, Clamp };
 struct SamplerDesc {
   Wrap u = Wrap::Repeat, v = Wrap::Repeat;
   bool linearMag = true, linearMin = true, mips = true, linearMips = true;
-  bool compare = false;      ///< depth comparison (less or equal), for shadow maps
   bool anisotropic = false;  ///< where the device can; all filters linear
   bool operator==(const SamplerDesc&) const = default;
 };

@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* kStage = "RE Shadow";
 
-/// Depth maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
-constexpr uint64_t kMostTexels = uint64_t{1} << 28;  // 1 GiB of D32
+/// Maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
+constexpr uint64_t kMostBytes = uint64_t{1} << 30;
 
 /// One picture of the scene from a light: its layer and its projection.
 struct Face {
@@ -114,8 +114,8 @@ void fitCone(const Scene& scene, GpuLight& light, uint32_t resolution) {
   light.shadowMatrix = perspective(basisAbout(light.direction), light.position, tangent, light.shadowNear);
 }
 
-Image depthArray(const Device& device, const char* name, VkFormat format, uint32_t size, uint32_t layers, bool cube,
-                 VkImageUsageFlags usage) {
+Image mapArray(const Device& device, const char* name, VkFormat format, uint32_t size, uint32_t layers, bool cube,
+               VkImageUsageFlags usage) {
   ImageDesc desc;
   desc.name = name;
   desc.subsystem = Subsystem::Shadow;
@@ -140,8 +140,7 @@ void drawByHardware(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& 
                .alphaTest = alphaTest});
 }
 
-/// Flat maps are stored by a kernel, layer by layer. Cubes, which their sampler compares and which no kernel may
-/// therefore write, are copied, all at once.
+/// Flat maps are stored by a kernel, layer by layer. Cubes are copied, all at once.
 void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& maps, const std::vector<Face>& faces,
                    const Buffer& projections, bool alphaTest) {
   const Device& device = frame.context().device;
@@ -178,7 +177,43 @@ void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& m
   if (maps.cubes) frame.pass(kStage).copy(cubes, maps.cubes);
 }
 
+/// In place of depths, these and the filtered moments (ShadowFilter::vsm).
+void addMoments(Frame& frame, ShadowMaps& maps, const std::vector<GpuLight>& lights, uint32_t taps) {
+  const Device& device = frame.context().device;
+  ShadowMaps depths = std::move(maps);
+  maps = {};
+  maps.sampler = depths.sampler;
+  const auto make = [&](const Image& depth, Image& moments, const char* name, bool cube) {
+    if (!depth) return;
+    const uint32_t size = depth.desc.width;
+    moments = mapArray(device, name, VK_FORMAT_R32G32B32A32_SFLOAT, size, depth.desc.layers, cube,
+                       VK_IMAGE_USAGE_STORAGE_BIT);
+    for (const GpuLight& light : lights) {
+      if (light.shadowLayer < 0 || lightUsesCube(light.type, light.outerCos) != cube) continue;
+      for (int face = 0; face < (cube ? 6 : 1); ++face)
+        frame.pass(kStage)
+            .shader(cube ? "raster/shadow_moments_cube.comp" : "raster/shadow_moments.comp")
+            .sampleDepth(depth, depths.sampler, cube)
+            .write(moments)
+            .push(ShadowMomentsPush{.layer = light.shadowLayer,
+                                    .face = face,
+                                    .taps = taps | 1u,
+                                    // Depth in perspective is near / distance, else 1 - distance.
+                                    .nearShare = lightKind(LightType{light.type}).has(LIGHT_DISTANT)
+                                                     ? 0.0f
+                                                     : light.shadowNear / light.shadowFar})
+            .dispatch(glm::uvec2(size, size));
+    }
+  };
+  make(depths.flat, maps.flat, "shadow moments", /*cube*/ false);
+  make(depths.cubes, maps.cubes, "shadow moments of cubes", /*cube*/ true);
+}
+
 }  // namespace
+
+uint64_t shadowTexelBytes(ShadowFilter filter) {
+  return filter == ShadowFilter::vsm ? 16 : 4;
+}
 
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs) {
@@ -186,29 +221,31 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   uint32_t flats = 0, cubes = 0;
   for (GpuLight& light : lights) {
     light.shadowLayer = -1;
+    light.shadowFilter = needs.filter;
+    light.bleedReduction = needs.bleedReduction;
+    light.points = std::max(needs.points, 1u);
     if (!needs.shines(light)) continue;
     light.shadowLayer = static_cast<int>(lightUsesCube(light.type, light.outerCos) ? cubes++ : flats++);
   }
 
   // Choose the largest size that the device and a bounded share of memory allow.
   uint32_t size = std::clamp(resolution, 16u, context.device.limits.maxImageDimension2D);
-  while (size > 64 && uint64_t{size} * size * flats + uint64_t{size / 2} * (size / 2) * 6 * cubes > kMostTexels)
-    size /= 2;
+  const auto bytes = [&](uint64_t side) {
+    return (side * side * flats + (side / 2) * (side / 2) * 6 * cubes) * shadowTexelBytes(needs.filter);
+  };
+  while (size > 64 && bytes(size) > kMostBytes) size /= 2;
   const uint32_t cubeSize = size / 2;
 
   ShadowMaps maps;
   if (flats > 0)
-    maps.flat = depthArray(context.device, "shadow maps", needs.kernels ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_D32_SFLOAT,
-                           size, flats, /*cube*/ false, needs.kernels ? VK_IMAGE_USAGE_STORAGE_BIT : 0);
+    maps.flat = mapArray(context.device, "shadow maps", needs.kernels ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_D32_SFLOAT,
+                         size, flats, /*cube*/ false, needs.kernels ? VK_IMAGE_USAGE_STORAGE_BIT : 0);
   if (cubes > 0)
-    maps.cubes = depthArray(context.device, "shadow cubes", VK_FORMAT_D32_SFLOAT, cubeSize, 6 * cubes, /*cube*/ true,
-                            needs.kernels ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
+    maps.cubes = mapArray(context.device, "shadow cubes", VK_FORMAT_D32_SFLOAT, cubeSize, 6 * cubes, /*cube*/ true,
+                          needs.kernels ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
   SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
   nearest.linearMips = false;
-  maps.flatSampler = sampler(context.device, nearest);
-  SamplerDesc compare = nearest;
-  compare.compare = true;
-  maps.cubeSampler = sampler(context.device, compare);
+  maps.sampler = sampler(context.device, nearest);
   if (flats + cubes == 0) return maps;
 
   // Fit each light's projections to the scene.
@@ -239,6 +276,7 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
       makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
   Frame frame = context.begin();
   (needs.kernels ? drawByKernels : drawByHardware)(frame, scene, maps, faces, projections, needs.alphaTest);
+  if (needs.filter == ShadowFilter::vsm) addMoments(frame, maps, lights, needs.taps);
   frame.submitAndWait();
   return maps;
 }
@@ -251,24 +289,28 @@ ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resoluti
 }
 
 Pass& sampleShadows(Pass& pass, const ShadowMaps& maps) {
-  return pass.sampleDepth(maps.flat, maps.flatSampler, /*cube*/ false)
-      .sampleDepth(maps.cubes, maps.cubeSampler, /*cube*/ true);
+  return pass.sampleDepth(maps.flat, maps.sampler, /*cube*/ false).sampleDepth(maps.cubes, maps.sampler, /*cube*/ true);
 }
 
 void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn) {
   IRAD_CHECK_OP(lights.size(), ==, drawn.size());
   for (size_t i = 0; i < lights.size(); ++i) {
     const glm::vec3 intensity = lights[i].intensity;
-    const float innerCos = lights[i].innerCos;
+    const float innerCos = lights[i].innerCos, size = lights[i].size;
     lights[i] = drawn[i];
     lights[i].intensity = intensity;
     lights[i].innerCos = innerCos;
+    lights[i].size = size;
   }
 }
 
 LightKinds kindsOf(std::span<const GpuLight> shining) {
   LightKinds kinds;
-  for (const GpuLight& light : shining) kinds[LightType{light.type}] = true;
+  for (const GpuLight& light : shining) {
+    kinds[LightType{light.type}] = true;
+    kinds.sizes |= light.size > 0;
+    kinds.filters |= light.shadowFilter != ShadowFilter::pcf;
+  }
   return kinds;
 }
 
@@ -283,7 +325,10 @@ void specialize(Pass& pass, uint32_t first, const LightKinds& kinds, std::span<c
     flat |= shines && kind.map != LIGHT_MAP_CUBE;
     cube |= shines && (kind.map == LIGHT_MAP_CUBE || (kind.map == LIGHT_MAP_CONE && wideCone));
   }
-  pass.effect(first + LIGHT_FLAT_MAPS, flat).effect(first + LIGHT_CUBE_MAPS, cube);
+  pass.effect(first + LIGHT_FLAT_MAPS, flat)
+      .effect(first + LIGHT_CUBE_MAPS, cube)
+      .effect(first + LIGHT_SIZES, kinds.sizes)
+      .effect(first + LIGHT_FILTERS, kinds.filters);
 }
 
 }  // namespace irad

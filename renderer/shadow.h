@@ -7,14 +7,16 @@
 
 #include "renderer/frame/frame.h"
 #include "renderer/gpu_scene.h"
+#include "shaders/shared/scene_gpu.h"
 
 namespace irad {
 
 struct ShadowMaps {
-  Image flat;   ///< D32 or R32F, reversed (1 near, 0 far), layers: sun and spot lights; empty where none shines
-  Image cubes;  ///< D32, cube array: point lights and wide spots; empty where none shines
-  VkSampler flatSampler = VK_NULL_HANDLE;  ///< nearest
-  VkSampler cubeSampler = VK_NULL_HANDLE;  ///< compare, linear
+  // D32 or R32F, reversed (1 near, 0 far). With ShadowFilter::vsm RGBA32F: that in red, and in green and blue the
+  // filtered moments (raster/shadow_moments.comp).
+  Image flat;                          ///< layers: sun and spot lights; empty where none shines
+  Image cubes;                         ///< cube array: point lights and wide spots; empty where none shines
+  VkSampler sampler = VK_NULL_HANDLE;  ///< nearest
 };
 /// The next two bindings of the pass: shadowFlat and shadowCubes of shaders/forward/shadow.glsl.
 Pass& sampleShadows(Pass& pass, const ShadowMaps& maps);
@@ -23,7 +25,13 @@ struct ShadowNeeds {
   LightFilter shines = hasIntensity;  ///< lights that get a map
   bool alphaTest = true;              ///< DepthPass::alphaTest
   bool kernels = false;               ///< who rasterizes (renderer/raster.h)
+  ShadowFilter filter = ShadowFilter::pcf;
+  uint32_t taps = 3;            ///< vsm: moments are means over so many texels per axis, odd
+  float bleedReduction = 0.3f;  ///< GpuLight::bleedReduction
+  uint32_t points = 32;         ///< GpuLight::points
 };
+/// Bytes that a texel of a map takes.
+uint64_t shadowTexelBytes(ShadowFilter filter);
 /// Draws the map of every light that shines ("RE Shadow") and fills in its layer and matrix; the others' layer is -1.
 /// `resolution`: texels per side of a flat map, twice those of a cube's; less where there are too many. DeviceError
 /// when the device has not the layers or the memory.
@@ -32,15 +40,19 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
 /// The same for the scene's own lights, which are uploaded again. When it throws, they and their maps stay as they
 /// were.
 ShadowMaps drawShadows(Context& context, SceneOnDevice& scene, uint32_t resolution, const ShadowNeeds& needs = {});
-/// Fills in what drawShadows has filled in for the same lights, of which only colours and intensities have changed.
+/// Fills in what drawShadows has filled in for the same lights, of which only colours, intensities and sizes have
+/// changed.
 void keepShadows(std::vector<GpuLight>& lights, std::span<const GpuLight> drawn);
 
-/// Kinds of light that shine, by LightType.
+/// Kinds of light that shine, by LightType, and what some light of them asks for.
 struct LightKinds {
   std::array<bool, LIGHT_KINDS> shines{};
+  bool sizes = false;    ///< penumbrae
+  bool filters = false;  ///< another filter than ShadowFilter::pcf
   static constexpr LightKinds all() {
     LightKinds kinds;
     kinds.shines.fill(true);
+    kinds.sizes = kinds.filters = true;
     return kinds;
   }
   bool& operator[](LightType type) { return shines.at(static_cast<size_t>(type)); }

@@ -149,6 +149,7 @@ TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
 TEST_F(NoMemory, InNewShadowsAndNewRaysCanBeTakenBack) {
   Settings settings[] = {small(12), small(12)};
   settings[1].light.shadowResolution = 128;
+  settings[1].light.shadowFilter = ShadowFilter::vsm;
   settings[1].matrix.gpu.rays = 24;
   Pipeline pipeline(context(), box(), settings[0]);
   pipeline.prepare();

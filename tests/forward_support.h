@@ -7,6 +7,7 @@
 
 #include "gi/indirect.h"
 #include "gi/settings.h"
+#include "gi/shadow_needs.h"
 #include "gi/specular.h"
 #include "gi/views/draw.h"
 #include "tests/support.h"
@@ -117,7 +118,7 @@ struct Stage {
   Settings settings;
   Stage(Context& c, Scene s, const Settings& given = {})
       : context(c), scene(std::move(s)), device(c, scene), settings(given) {
-    shadows = drawShadows(context, device, settings.light.shadowResolution);
+    shadows = drawShadows(context, device, settings.light.shadowResolution, shadowNeeds(settings));
   }
   Picture draw(View view, glm::uvec2 size, size_t cameraIndex = 0, const ViewInputs& inputs = {},
                const IndirectInputs& indirect = {}, const ForwardEffects& effects = {}) {

@@ -194,7 +194,20 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
     says({dim}, "off, 16777216 B: 1 *: 0 with an intensity, of these 0 *");
     says({far}, "off, 16777216 B: 1 *: 1 with an intensity, of these 0 in reach of the scene");
     says({far, lights}, "on: 2 *: 2 with an intensity, of these 1 *");
+    LightTraits soft = lights, softButFar = far;
+    soft.size = softButFar.size = true;
+    says({soft, softButFar, lights}, "on: 3 *: 3 with an intensity, of these 2 *; penumbrae of 1, by 32 points");
   }
+}
+
+TEST(Plan, MomentsTakeFourTimesTheMemoryOfDepths) {
+  T t = lit();
+  t.lights = {light(LightType::Sun, /*shines=*/false)};
+  S s = usual();
+  s.light.shadowFilter = ShadowFilter::hard;
+  expectRow(plan(t, s).row(E::sun), "off, 16777216 B: *");
+  s.light.shadowFilter = ShadowFilter::vsm;
+  expectRow(plan(t, s).row(E::sun), "off, 67108864 B: *");
 }
 
 TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {

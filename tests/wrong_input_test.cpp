@@ -8,6 +8,7 @@
 #include "renderer/base/json_extent.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/image_header.h"
+#include "renderer/scene/light_json.h"
 #include "tests/scene_files.h"
 
 namespace irad::test::wrong_input_suite {
@@ -147,6 +148,39 @@ TEST(Gltf, LightsCamerasAndLensesBeyondFp32AreRefused) {
   expectRefused(far.write(folder.path), "light or camera lies at");
   wide.json["cameras"][0]["orthographic"]["xmag"] = 1e29;
   expectRefused(wide.write(folder.path), "cameras[0].xmag");
+}
+
+TEST(Gltf, SizesOfLightsAreNumbersInTheirRange) {
+  TemporaryFolder folder;
+  GltfFile file = triangleFile();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  auto& lights = file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}, {"extras", {{"angle", 0.53}, {"radius", 3}}}},
+      {{"type", "point"}, {"extras", {{"angle", 3}, {"radius", 0.25}}}},
+      {{"type", "point"}, {"extras", "of any kind"}}};
+  for (int i = 0; i < 3; ++i) file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  file.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  const Scene scene = loadScene(file.write(folder.path));
+  ASSERT_EQ(scene.lights.size(), 3u);
+  EXPECT_EQ(scene.lights[0].angle, 0.53f);
+  EXPECT_EQ(scene.lights[0].radius, 0);
+  EXPECT_EQ(scene.lights[1].angle, 0);
+  EXPECT_EQ(scene.lights[1].radius, 0.25f);
+  EXPECT_EQ(scene.lights[2].radius, 0);
+  const std::vector<Light> again = lightsFromJson(lightsToJson(scene.lights));
+  ASSERT_EQ(again.size(), 3u);
+  EXPECT_EQ(again[0].angle, 0.53f);
+  EXPECT_EQ(again[1].radius, 0.25f);
+  writeSceneCache(scene, folder.path / "scene.irscene");
+  EXPECT_EQ(loadScene(folder.path / "scene.irscene").lights, scene.lights);
+
+  lights[1]["extras"]["radius"] = -1;
+  expectRefused(file.write(folder.path), "lights[1].extras.radius: -1 is not a number from 0 to");
+  lights[1]["extras"]["radius"] = "wide";
+  expectRefused(file.write(folder.path), "lights[1].extras.radius: \"wide\" is not a number");
+  lights[1]["extras"]["radius"] = 1;
+  lights[0]["extras"]["angle"] = 120;
+  expectRefused(file.write(folder.path), "lights[0].extras.angle: 120 is not a number from 0 to 90");
 }
 
 TEST(SceneCache, UnsoundScenesAreRefused) {

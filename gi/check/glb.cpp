@@ -60,6 +60,8 @@ Json toJson(const Light& light) {
   if (light.range > 0) out["range"] = light.range;
   if (kind.has(LIGHT_CONE))
     out["spot"] = {{"innerConeAngle", std::acos(light.innerCos)}, {"outerConeAngle", std::acos(light.outerCos)}};
+  if (light.angle > 0) out["extras"]["angle"] = light.angle;
+  if (light.radius > 0) out["extras"]["radius"] = light.radius;
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace irad::truth {
 namespace {
@@ -185,13 +186,22 @@ EmitterPoint Surfaces::drawEmitter(Random& random) const {
   return e;
 }
 
-std::optional<Arriving> Surfaces::arriving(size_t light, const glm::dvec3& position) const {
+std::optional<Arriving> Surfaces::arriving(size_t light, const glm::dvec3& position, Random& random) const {
   const Light& l = scene_.lights[light];
   Arriving a;
   a.irradiance = double{l.intensity} * glm::dvec3(l.color);
+  // A point of the disc of this radius about the light's middle, across the way to it.
+  const auto aside = [&](double radius, const glm::dvec3& way) {
+    const double r = radius * std::sqrt(random.next()), phi = 2 * std::numbers::pi * random.next();
+    const glm::dvec3 axis = std::abs(way.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(way, axis));
+    return r * (std::cos(phi) * u + std::sin(phi) * glm::cross(way, u));
+  };
   if (l.type == LightType::Sun) {
     a.towards = -glm::normalize(glm::dvec3(l.direction));
     a.distance = std::numeric_limits<double>::infinity();
+    if (l.angle > 0)
+      a.towards = glm::normalize(a.towards + aside(std::tan(l.angle * std::numbers::pi / 360), a.towards));
     return a;
   }
   const glm::dvec3 way = l.position - scene_.origin - position;
@@ -210,6 +220,11 @@ std::optional<Arriving> Surfaces::arriving(size_t light, const glm::dvec3& posit
     a.irradiance *= ramp * ramp;
   }
   if (!(std::max({a.irradiance.x, a.irradiance.y, a.irradiance.z}) > 0)) return std::nullopt;
+  if (l.radius > 0) {
+    const glm::dvec3 to = way + aside(l.radius, a.towards);
+    a.distance = glm::length(to);
+    a.towards = to / a.distance;
+  }
   return a;
 }
 

@@ -56,7 +56,7 @@ struct EmitterPoint {
   double density = 0;      ///< per m^2
 };
 
-/// Light from a sun, point or spot at a place.
+/// Light from a sun, point or spot at a place, or from one point of it.
 struct Arriving {
   glm::dvec3 towards{0};     ///< unit
   double distance = 0;       ///< m; infinite for a sun
@@ -92,8 +92,9 @@ class Surfaces {
 
   size_t lights() const { return scene_.lights.size(); }
   /// KHR_lights_punctual: I / d^2 with the range's window 1 - (d / range)^4 and the square of the cone's ramp; a sun's
-  /// illuminance as it is. Nothing where none arrives.
-  std::optional<Arriving> arriving(size_t light, const glm::dvec3& position) const;
+  /// illuminance as it is. Nothing where none arrives. All of it comes from one point of a light with a size, uniform
+  /// on the disc that is seen of it.
+  std::optional<Arriving> arriving(size_t light, const glm::dvec3& position, Random& random) const;
 
  private:
   const Material& material(uint32_t triangle) const { return scene_.materials[triangles_[triangle].material]; }

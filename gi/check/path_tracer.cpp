@@ -253,7 +253,8 @@ class EmbreeTracer : public PathTracer {
         if (point.albedo == glm::dvec3(0)) return;
         origin = point.position + point.face * surfaces.offset(met.triangle);
         const glm::dvec3 reflected = throughput * point.albedo / std::numbers::pi;
-        for (size_t l = 0; l < surfaces.lights(); ++l) fromLight(l, point, met.triangle, origin, reflected, depth > 0);
+        for (size_t l = 0; l < surfaces.lights(); ++l)
+          fromLight(l, point, met.triangle, origin, reflected, random, depth > 0);
         if (surfaces.emits()) fromEmitter(point, met.triangle, origin, reflected, random);
         if (sky.shines()) fromSky(point, met.triangle, origin, reflected, random);
 
@@ -290,8 +291,8 @@ class EmbreeTracer : public PathTracer {
     }
 
     void fromLight(size_t light, const SurfacePoint& point, uint32_t from, const glm::dvec3& origin,
-                   const glm::dvec3& reflected, bool bounced) {
-      const auto arriving = surfaces.arriving(light, point.position);
+                   const glm::dvec3& reflected, Random& random, bool bounced) {
+      const auto arriving = surfaces.arriving(light, point.position, random);
       if (!arriving) return;
       const double cosine = glm::dot(point.normal, arriving->towards);
       if (cosine <= 0 || glm::dot(point.face, arriving->towards) <= 0) return;

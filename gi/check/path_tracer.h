@@ -54,7 +54,8 @@ class PathTracer {
  public:
   virtual ~PathTracer() = default;
   /// Unbiased: paths end by Russian roulette alone. Samples have independent random numbers, sums are in double
-  /// precision and in a fixed order. Light: suns, points and spots in full at every vertex of a path; emissive
+  /// precision and in a fixed order. Light: suns, points and spots in full at every vertex of a path, by one point of
+  /// those with a size; emissive
   /// triangles by one point in proportion to their power and by the bounce, joined by the balance heuristic (Veach and
   /// Guibas 1995); the sky likewise, by one direction.
   virtual TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const = 0;

@@ -15,6 +15,7 @@ Scene scaled(Scene scene, float s) {
   for (Light& light : scene.lights) {
     light.position *= s;
     light.range *= s;
+    light.radius *= s;
     if (!lightKind(light.type).has(LIGHT_DISTANT)) light.intensity *= s * s;
   }
   for (Camera& camera : scene.cameras) {

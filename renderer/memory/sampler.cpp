@@ -27,7 +27,7 @@ VkSampler sampler(const Device& device, const SamplerDesc& desc) {
   for (const auto& [known, sampler] : device.impl_->samplers)
     if (known == desc) return sampler;
   // Anisotropic filtering replaces the filters asked for, so it is used only where all of them are linear.
-  const bool anisotropic = desc.anisotropic && device.anisotropy && desc.linearMag && desc.linearMin && !desc.compare;
+  const bool anisotropic = desc.anisotropic && device.anisotropy && desc.linearMag && desc.linearMin;
   const VkSamplerCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
       .magFilter = filter(desc.linearMag),
@@ -39,8 +39,6 @@ VkSampler sampler(const Device& device, const SamplerDesc& desc) {
           desc.u == Wrap::Clamp && desc.v == Wrap::Clamp ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : address(desc.u),
       .anisotropyEnable = anisotropic ? VK_TRUE : VK_FALSE,
       .maxAnisotropy = anisotropic ? std::min(8.0f, device.limits.maxSamplerAnisotropy) : 1.0f,
-      .compareEnable = desc.compare ? VK_TRUE : VK_FALSE,
-      .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL,
       .maxLod = desc.mips ? VK_LOD_CLAMP_NONE : 0.0f};
   VkSampler sampler = VK_NULL_HANDLE;
   vkCheck(vkCreateSampler(device.handle, &info, nullptr, &sampler), "creating a sampler");

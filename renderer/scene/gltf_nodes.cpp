@@ -1,6 +1,7 @@
 // The node tree: world transforms in double precision, mesh instances, lights and cameras.
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
 
 #include "renderer/scene/gltf_document.h"
 
@@ -94,6 +95,11 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
     light.innerCos = static_cast<float>(std::cos(in.spot.innerConeAngle));
     light.outerCos = static_cast<float>(std::cos(in.spot.outerConeAngle));
   }
+  // Which tinygltf leaves out.
+  const Json& source = doc.root->at("extensions").at("KHR_lights_punctual").at("lights").at(index);
+  const bool distant = kind->has(LIGHT_DISTANT);
+  if (source.contains("extras") && source.at("extras").is_object())
+    (distant ? light.angle : light.radius) = source.at("extras").value(distant ? "angle" : "radius", 0.0f);
   scene.lights.push_back(light);
 }
 

@@ -340,6 +340,13 @@ void checkLightsAndCameras(const Document& doc) {
       const LightKind* kind = findGltfLightKind(type);
       if (kind == nullptr)
         doc.fail(where + ".type", fmt::format("\"{}\" is not {}", type.substr(0, 40), knownLightTypes()));
+      // Extras may be anything; a size is a number.
+      const Json extras = lights[i].value("extras", Json::object());
+      for (const auto& [member, most] : {std::pair("angle", kMaxLightAngle), std::pair("radius", kMaxCoordinate)})
+        if (const auto size = extras.is_object() ? extras.find(member) : extras.end(); size != extras.end())
+          if (!size->is_number() || !(*size >= 0.0 && *size <= most))
+            doc.fail(fmt::format("{}.extras.{}", where, member),
+                     fmt::format("{} is not a number from 0 to {}", size->dump().substr(0, 40), most));
       if (!kind->has(LIGHT_CONE)) continue;
       if (!lights[i].contains("spot")) doc.fail(where, fmt::format("a {} without \"spot\"", kind->one));
       const Json& spot = lights[i].at("spot");

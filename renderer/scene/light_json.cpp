@@ -25,6 +25,9 @@ OrderedJson toJson(const Light& light) {
   json["color"] = vector(light.color);
   json["intensity"] = jsonNumber(light.intensity);
   if (light.range > 0) json["range"] = jsonNumber(light.range);
+  const bool distant = kind.has(LIGHT_DISTANT);
+  if (const float size = distant ? light.angle : light.radius; size > 0)
+    json[distant ? "angle" : "radius"] = jsonNumber(size);
   if (kind.has(LIGHT_CONE)) {
     // In double precision the way there and back ends at the same float.
     json["innerConeAngle"] = std::acos(static_cast<double>(light.innerCos));
@@ -55,9 +58,9 @@ float coneCosine(const JsonObject& json, const char* member, double otherwise) {
 }
 
 Light fromJson(const OrderedJson& parsed, const std::string& label) {
-  const JsonObject json(
-      parsed, label,
-      {"name", "type", "position", "direction", "color", "intensity", "range", "innerConeAngle", "outerConeAngle"});
+  const JsonObject json(parsed, label,
+                        {"name", "type", "position", "direction", "color", "intensity", "range", "innerConeAngle",
+                         "outerConeAngle", "angle", "radius"});
   Light light;
   const LightKind& kind = kindOf(json);
   light.type = kind.type;
@@ -72,6 +75,8 @@ Light fromJson(const OrderedJson& parsed, const std::string& label) {
   if (json.has("color")) light.color = glm::vec3(json.vector<3>("color"));
   if (json.has("intensity")) light.intensity = static_cast<float>(json.number("intensity"));
   if (belongs("range", kind.has(LIGHT_RANGE))) light.range = json.positive("range");
+  if (belongs("angle", kind.has(LIGHT_DISTANT))) light.angle = static_cast<float>(json.number("angle"));
+  if (belongs("radius", !kind.has(LIGHT_DISTANT))) light.radius = static_cast<float>(json.number("radius"));
   belongs("innerConeAngle", cone), belongs("outerConeAngle", cone);
   if (cone) {
     constexpr double pi = 3.14159265358979323846;

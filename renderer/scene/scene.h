@@ -25,6 +25,7 @@ namespace irad {
 struct SkyImage;
 
 constexpr double kMaxLightOrEmission = 1e12;  ///< of intensities, colours and emitted radiance
+constexpr double kMaxLightAngle = 90.0;       ///< of a distant light, degrees
 
 /// A decoded image, RGBA, 8 bits per channel, top row first. `srgb` is decided by use (base colour, emissive: yes).
 struct SceneImage {
@@ -65,6 +66,8 @@ struct Light {
   float intensity = 1.0f;                         ///< distant ones: lux; the others: candela
   float range = 0.0f;                             ///< 0: unlimited
   float innerCos = 1.0f, outerCos = 0.70710678f;  ///< of a cone: cosines of the half-angles
+  float angle = 0.0f;                             ///< distant ones: as they are seen, across, degrees; 0: a point
+  float radius = 0.0f;                            ///< the others: of the lamp's sphere, m; 0: a point
   bool operator==(const Light&) const = default;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the cache is written as it lies in memory");
 constexpr char kMagic[8] = {'I', 'R', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 
 class Writer {
  public:
@@ -138,7 +138,7 @@ void transferScene(Io& io, Ops ops, S& s) {
   io.list(s.lights, [&](auto& l) {
     io(l.name), ops.choice(l.type, LIGHT_KINDS), io(l.position), io(l.direction), io(l.color), io(l.intensity),
         io(l.range);
-    io(l.innerCos), io(l.outerCos);
+    io(l.innerCos), io(l.outerCos), io(l.angle), io(l.radius);
   });
   io.list(s.cameras, [&](auto& c) {
     io(c.name), io(c.position), io(c.orientation), ops.choice(c.orthographic, 2), io(c.yfov), io(c.ymag), io(c.aspect);

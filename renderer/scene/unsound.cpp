@@ -117,6 +117,10 @@ std::string unsound(const Light& light) {
     return is(fmt::format("its range {} is neither 0 nor a distance", light.range));
   if (!(light.innerCos >= light.outerCos && light.outerCos >= -1.0f && light.innerCos <= 1.0f))
     return is(fmt::format("its cone's cosines are {} inside and {} outside", light.innerCos, light.outerCos));
+  if (!(light.angle >= 0.0f && light.angle <= kMaxLightAngle))
+    return is(fmt::format("its angle {} is not from 0 to {:g} degrees", light.angle, kMaxLightAngle));
+  if (!(light.radius >= 0.0f && light.radius <= kMaxCoordinate))
+    return is(fmt::format("its radius {} is not from 0 to {:g} m", light.radius, kMaxCoordinate));
   return "";
 }
 

@@ -4,6 +4,7 @@
 #ifndef IRAD_FORWARD_LIGHT_GLSL
 #define IRAD_FORWARD_LIGHT_GLSL
 #include "forward/precise.glsl"
+#include "shared/sampling.h"
 #include "shared/scene_gpu.h"
 
 #ifndef IRAD_LIGHT_CONSTANTS
@@ -13,6 +14,7 @@
   layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_##constant) const bool SHINES_##constant = true;
 IRAD_LIGHT_KINDS(IRAD_LIGHT_SHINES)
 #undef IRAD_LIGHT_SHINES
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_SIZES) const bool SIZES = true;
 
 /// How many kinds shine.
 uint shiningKinds() {
@@ -32,6 +34,24 @@ bool lightHas(GpuLight light, uint wanted) {
 /// Unit vector from `position` towards the light.
 vec3 lightDirection(GpuLight light, vec3 position) {
   return lightHas(light, LIGHT_DISTANT) ? -light.direction : preciseNormalize(light.position - position);
+}
+
+bool hasSize(GpuLight light) { return SIZES && light.size > 0.0; }
+
+/// Point k of n of a light with a size: of the disc that is seen of it, whose shadows a surface gets one by one.
+/// `reach`: how far away it is, m, or 1e30.
+vec3 lightPoint(GpuLight light, vec3 position, uint k, uint n, uvec2 shift, out float reach) {
+  vec3 middle = lightDirection(light, position);
+  vec2 u = hammersley(k, n, shift);
+  float r = light.size * sqrt(u.x), phi = 2.0 * IRAD_PI * u.y;
+  vec3 aside = toWorld(vec3(r * cos(phi), r * sin(phi), 0.0), middle);
+  if (lightHas(light, LIGHT_DISTANT)) {
+    reach = 1e30;
+    return normalize(middle + aside);
+  }
+  vec3 way = light.position - position + aside;
+  reach = length(way);
+  return way / reach;
 }
 
 /// Light that reaches `position` on a surface facing it, W/m^2: lux for a distant one, I / d^2 times KHR_lights_punctual's range

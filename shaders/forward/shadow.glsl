@@ -16,16 +16,17 @@
 #endif
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_FLAT_MAPS) const bool FLAT_MAPS = true;
 layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_CUBE_MAPS) const bool CUBE_MAPS = true;
+layout(constant_id = IRAD_LIGHT_CONSTANTS + LIGHT_FILTERS) const bool FILTERS = true;
 layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_FLAT_BINDING) uniform sampler2DArray shadowFlat;
-layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArrayShadow shadowCubes;
+layout(set = IRAD_SHADOW_SET, binding = IRAD_SHADOW_CUBE_BINDING) uniform samplerCubeArray shadowCubes;
 
 bool hasCubeMap(GpuLight light) {
   return CUBE_MAPS && (!FLAT_MAPS || lightUsesCube(light.type, light.outerCos));
 }
 
 /// Depths are reversed (1 near, 0 far; near / distance in perspective), so that fp32 is precise everywhere: `reference <=
-/// stored` is blocked. The cubes' sampler compares; the flat maps are compared here, because kernels write them as colour
-/// (renderer/raster.h).
+/// stored` is blocked. Maps are compared here: kernels write them as colour (renderer/raster.h), and with SHADOW_VSM there is
+/// more in them than depth.
 
 /// The flat maps. Every tap compares with the depth that the receiver's own plane has at the tap (the plane's depth is
 /// affine in the map for both projections), so that the normal offset need only cover one bilinear footprint.
@@ -96,13 +97,140 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
       vec3 met = abs(tap) * ratio;
       precise float depth = light.shadowNear / max(met.x, max(met.y, met.z));
       float share = (x == 0u ? 1.0 - f.x : x == pcf ? f.x : 1.0) * (y == 0u ? 1.0 - f.y : y == pcf ? f.y : 1.0);
-      lit += share - share * texture(shadowCubes, vec4(tap, float(light.shadowLayer)), clamp(depth, 1e-30, 1.0));
+      float stored = textureLod(shadowCubes, vec4(tap, float(light.shadowLayer)), 0.0).r;
+      lit += share - share * float(clamp(depth, 1e-30, 1.0) <= stored);
     }
   return min(lit / float(pcf * pcf), 1.0);  // rounding may take the share above 1
 }
 
-/// Share of the light that reaches a point of a surface, 0..1: pcf x pcf bilinear comparisons one texel apart. The point
-/// is lifted off the surface along its normal by `biasTexels` texels times the sine between the normal and the map's axis,
+/// What a light's map holds on the way to `p`, and by how much that is nearer to the light, the gap: metres along a distant
+/// light; of the others the distance between the two as a share of that from the light to the nearer. A light's size
+/// times it is what the light's disc comes to at p, seen through a hole there. <= 0: nothing is nearer.
+float mapGap(GpuLight light, vec3 p, out float widest) {
+  float axial, stored;
+  widest = 0.0;
+  if (hasCubeMap(light)) {
+    vec3 d = p - light.position, a = abs(d);
+    axial = max(a.x, max(a.y, a.z));
+    if (!(axial > 0.0)) return 0.0;
+    stored = textureLod(shadowCubes, vec4(d, float(light.shadowLayer)), 0.0).r;
+  } else {
+    vec4 clip = project(light.shadowMatrix, p);
+    axial = clip.w;
+    if (!(axial > 0.0)) return 0.0;
+    vec3 ndc = clip.xyz / clip.w;
+    stored = textureLod(shadowFlat, vec3(ndc.xy * vec2(0.5, -0.5) + 0.5, float(light.shadowLayer)), 0.0).r;
+    if (lightHas(light, LIGHT_DISTANT)) {
+      widest = (1.0 - ndc.z) * light.shadowFar;
+      return (stored - ndc.z) * light.shadowFar;
+    }
+  }
+  widest = axial / light.shadowNear - 1.0;
+  return axial * stored / light.shadowNear - 1.0;
+}
+
+const float WIDEST_GAP = 7.0;  ///< penumbrae of what is nearer to a lamp than an eighth of the way are no wider
+
+/// A light with a size: percentage-closer soft shadows (Fernando 2005). What lies between the point and the light's disc
+/// gives the penumbra's width, and that is what is averaged over. Both steps leave out what the light's disc does not
+/// reach behind: the map shows it beside the point, but it is not in the light's way.
+float penumbraVisibility(GpuLight light, vec3 p, vec3 n, float lift, float texel, uint pcf) {
+  precise vec3 start = p + n * lift;
+  vec3 towards = lightDirection(light, start);
+  bool distant = lightHas(light, LIGHT_DISTANT);
+  float away = distant ? 1.0 : length(light.position - start);
+  float cosine = max(dot(n, towards), 0.05);  // grazing light: a steeper plane than 1 : 20 is not followed
+  float least = 0.5 * float(pcf) * texel;     // as wide as the filter of a light without a size
+  float widest;
+  mapGap(light, start, widest);
+  widest = light.size * (distant ? widest : min(widest, WIDEST_GAP));
+  uvec3 bits = floatBitsToUint(start);
+  uint hash = hashUint(bits.x ^ hashUint(bits.y ^ hashUint(bits.z)));
+  uvec2 shift = uvec2(hash, hashUint(hash));
+
+  float width = widest, sum = 0.0;
+  uint blocked = 0u;
+  for (uint step = 0u; step < 2u; ++step) {
+    blocked = 0u;
+    for (uint k = 0u; k < light.points; ++k) {
+      vec2 u = hammersley(k, light.points, shift);
+      // The search is densest in the middle, since the width is not known; the average is over a disc.
+      float r = (step == 0u ? u.x * sqrt(u.x) : sqrt(u.x)) * width;
+      float phi = 2.0 * IRAD_PI * u.y;
+      vec3 aside = toWorld(vec3(r * cos(phi), r * sin(phi), 0.0), towards);
+      float along = -dot(n, aside) / cosine;  // on the point's plane
+      float ignored;
+      float gap = mapGap(light, start + aside + towards * along, ignored);
+      if (gap <= 0.0) continue;
+      // Above the point itself. From a lamp's place the plane's point at `along` is seen further aside than r.
+      float further = distant ? 1.0 : away / (away - along);
+      if (further < 0.0) continue;  // beyond the lamp
+      gap = distant ? gap + along : (1.0 + gap) * further - 1.0;
+      if (r * further > light.size * gap + least) continue;
+      ++blocked;
+      sum += gap;
+    }
+    if (blocked == 0u) return 1.0;
+    if (step == 0u) width = clamp(light.size * sum / float(blocked), least, max(widest, least));
+  }
+  return 1.0 - float(blocked) / float(light.points);
+}
+
+/// Chebyshev's inequality bounds the share of a map's texels that are not nearer than the point, from their mean
+/// distance and its variance; what is below light.bleedReduction is dark, and the rest stretched (Lauritzen 2007, "Summed-Area
+/// Variance Shadow Maps", GPU Gems 3, 8.4.3): where one blocker stands before another, the bound is too large.
+float varianceVisibility(GpuLight light, vec3 p) {
+  vec4 first, second;  // moments of the four texels around
+  vec2 f;
+  float distance;
+  if (hasCubeMap(light)) {
+    vec3 d = p - light.position, a = abs(d);
+    float major = max(a.x, max(a.y, a.z));
+    if (!(major > 0.0)) return 1.0;
+    distance = major / light.shadowFar;
+    vec3 u = major == a.x ? vec3(0, 1, 0) : vec3(1, 0, 0);
+    vec3 v = major == a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    vec2 at = (vec2(dot(u, d), dot(v, d)) / major * 0.5 + 0.5) * float(textureSize(shadowCubes, 0).x) - 0.5;
+    f = at - floor(at);
+    for (uint k = 0u; k < 4u; ++k) {
+      vec2 off = (vec2(float(k & 1u), float(k >> 1)) - f) * light.shadowTexel * major;
+      vec4 texel = textureLod(shadowCubes, vec4(d + u * off.x + v * off.y, float(light.shadowLayer)), 0.0);
+      first[k] = texel.g;
+      second[k] = texel.b;
+    }
+  } else {
+    vec4 clip = project(light.shadowMatrix, p);
+    if (!(clip.w > 0.0)) return 1.0;
+    vec3 ndc = clip.xyz / clip.w;
+    distance = lightHas(light, LIGHT_DISTANT) ? 1.0 - ndc.z : clip.w / light.shadowFar;
+    float size = float(textureSize(shadowFlat, 0).x);
+    vec2 at = (ndc.xy * vec2(0.5, -0.5) + 0.5) * size - 0.5;
+    f = at - floor(at);
+    vec3 middle = vec3((floor(at) + 1.0) / size, float(light.shadowLayer));
+    first = textureGather(shadowFlat, middle, 1).wzxy;
+    second = textureGather(shadowFlat, middle, 2).wzxy;
+  }
+  vec4 share = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  float mean = dot(share, first);
+  float behind = min(distance, 1.0) - mean;
+  if (behind <= 0.0) return 1.0;
+  float variance = max(dot(share, second) - mean * mean, 2e-7);  // the roundings of a difference between numbers up to 1
+  float bound = variance / (variance + behind * behind);
+  return clamp((bound - light.bleedReduction) / (1.0 - light.bleedReduction), 0.0, 1.0);
+}
+
+/// By the light's size and its map's filter; `p` is not yet lifted.
+float mapVisibility(GpuLight light, vec3 p, vec3 n, float lift, float texel, uint pcf) {
+  if (hasSize(light)) return penumbraVisibility(light, p, n, lift, texel, pcf);
+  precise vec3 lifted = p + n * lift;
+  if (light.shadowFilter == SHADOW_VSM) return varianceVisibility(light, lifted);
+  float ignored;
+  return mapGap(light, lifted, ignored) > 0.0 ? 0.0 : 1.0;
+}
+bool readsMapItself(GpuLight light) { return hasSize(light) || (FILTERS && light.shadowFilter != SHADOW_PCF); }
+
+/// Share of the light that reaches a point of a surface, 0..1: by SHADOW_PCF pcf x pcf bilinear comparisons one texel apart,
+/// else as mapVisibility() has it. The point is lifted off the surface along its normal by `biasTexels` texels times the sine between the normal and the map's axis,
 /// which is what the surface's slope inside one texel needs; nothing here has a length of its own, so the scene's scale
 /// does not matter.
 float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float biasTexels, uint pcf) {
@@ -112,7 +240,11 @@ float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float bi
     vec3 a = abs(localPosition - light.position);
     float major = max(a.x, max(a.y, a.z));
     float along = a.x == major ? normal.x : (a.y == major ? normal.y : normal.z);
-    precise float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * light.shadowTexel * major;
+    // A penumbra may reach over to a face that the surface is slanted in.
+    float sine = hasSize(light) ? 1.0 : sqrt(max(0.0, 1.0 - along * along));
+    precise float lift = biasTexels * max(sine, 0.2) * light.shadowTexel * major;
+    if (readsMapItself(light))
+      return mapVisibility(light, localPosition, normal, lift, light.shadowTexel * major, pcf);
     return cubeVisibility(light, localPosition, normal, lift, pcf);
   }
   float cosine = preciseDot(normal, lightDirection(light, localPosition));
@@ -120,6 +252,7 @@ float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float bi
   precise float texel = light.shadowTexel;
   if (lightHas(light, LIGHT_CONE)) texel *= preciseDot(localPosition - light.position, light.direction);
   precise float lift = biasTexels * max(sqrt(max(0.0, 1.0 - along * along)), 0.2) * texel;
+  if (readsMapItself(light)) return mapVisibility(light, localPosition, normal, lift, texel, pcf);
   return flatVisibility(light, localPosition, normal, max(cosine, 0.0), lift, texel, pcf);
 }
 

@@ -35,7 +35,8 @@ bool seesLight(ivec2 pixel, uint triangle) {
   for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
     GpuLight light = scene.lights.at[i];
     if (lightIrradiance(light, local, from.facing) == vec3(0.0)) continue;
-    if (lightReaches(world, surface, from, light, local, push.edge)) return true;
+    uvec2 shift = uvec2(hashUint(uint(pixel.x)), hashUint(~uint(pixel.y)));
+    if (lightShare(world, surface, from, light, local, push.edge, 0u, 1u, light.points, shift) > 0.0) return true;
   }
   return false;
 }

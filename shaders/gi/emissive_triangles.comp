@@ -1,5 +1,5 @@
 // The emissive triangles in voxel units (shared/pixel_emitters.h), one invocation each. Texture and alpha mask are
-// averaged over the triangle at the level of detail of a voxel.
+// averaged over the triangle, the mask at the level of detail of a voxel and the texture at that of a sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
   EmissiveTrianglesPush push;
 };
 
-const uint SAMPLES = 256u;
+const uint SAMPLES = 1024u;
 
 /// A point of the triangle, uniform over its area for u uniform over the square.
 vec3 pointOf(VoxelTriangle t, vec2 u) {
@@ -33,6 +33,7 @@ void main() {
   for (uint k = 0u; k < samples && shines; ++k) {
     vec3 point = pointOf(t, hammersley(k, samples, uvec2(0u)));
     MaterialPoint p = materialPoint(push.scene, t, triangle, point);
+    p.area = 0.25 * float(SAMPLES);  // filtered over four times what a point stands for
     if (!masked(push.scene, t, triangle, flags, point)) sum += emittedRadianceAt(push.scene, p);
   }
   vec3 exitance = exitanceOf(sum / float(samples));

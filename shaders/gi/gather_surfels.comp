@@ -1,7 +1,9 @@
 // "GI Gather" where facets are pieces of the true surface (docs/method.md 6): direct irradiance D of every facet, averaged
-// over its surfels, each of which sees the lights past the triangles themselves. What is behind them has exactly none.
+// over its surfels, each of which sees the lights past the triangles themselves. What is behind them has exactly none. A
+// light's points (GpuLight::points) are shared out among the surfels, each of which looks at some of every radius.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/sampling.h"
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/light.glsl"
@@ -17,13 +19,17 @@ vec3 gathered(uint facet, uint surfel) {
   SurfaceArrays surface = p.surface.at[0];
   TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, 0.0f);
   GpuScene scene = p.scene.at[0];
+  uvec2 shift = uvec2(hashUint(facet), hashUint(~facet));
   SurfelPoint from = liftedSurfel(surface, facet, surfel);
   vec3 position = p.origin + p.edge * from.position;
   vec3 sum = vec3(0.0f);
   for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
     GpuLight light = scene.lights.at[i];
     vec3 irradiance = lightIrradiance(light, position, from.facing);
-    if (irradiance != vec3(0.0f) && lightReaches(world, surface, from, light, position, p.edge)) sum += irradiance;
+    if (irradiance == vec3(0.0f)) continue;
+    uint points = (light.points + FACET_SURFELS - 1u) / FACET_SURFELS * FACET_SURFELS;
+    float share = lightShare(world, surface, from, light, position, p.edge, surfel, FACET_SURFELS, points, shift);
+    if (share > 0.0f) sum += irradiance * share;
   }
   return sum;
 }

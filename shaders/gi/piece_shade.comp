@@ -1,6 +1,6 @@
 // Albedo = base colour x (1 - metallic) clamped to [0, .98] and emitted exitance of each piece, at its middle
-// (docs/method.md 1-2). The albedo is what the surface gives back of an even sky: the bumps of a normal map take their
-// share of it (docs/method.md 9). One dispatch per textured material, whose set 1 is bound, and one for all pieces that
+// (docs/method.md 1-2); of an emission texture the mean over the piece, so that all of its light is there. The albedo is
+// what the surface gives back of an even sky: the bumps of a normal map take their share of it (docs/method.md 9). One dispatch per textured material, whose set 1 is bound, and one for all pieces that
 // sample no texture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,6 +10,17 @@
 #include "gi/piece_bumps.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
+
+/// The mean over the polygon that clipPolygon has left.
+vec3 meanEmission(VoxelTriangle t, uint triangle, uint piece, vec3 cell, uint from, uint n, float area) {
+  vec3 sum = vec3(0.0);
+  for (uint k = 0u; k < CUT_POINTS; ++k) {
+    vec3 at = polygonPoint(from, n, area, cutPlace(piece, k, 0u));
+    MaterialPoint p = materialPoint(push.scene, t, triangle, at + cell);
+    sum += emittedRadianceAt(push.scene, p);
+  }
+  return sum / float(CUT_POINTS);
+}
 
 void main() {
   uint index = irad_index();
@@ -30,9 +41,12 @@ void main() {
   float kept = 1.0;
   bool clamped;
   vec3 albedo = albedoAt(push.scene, p, clamped);
+  bool shines = push.hasEmission != 0u && samples(push.scene, p, MATERIAL_EMISSIVE_TEXTURE);
+  vec3 emission = vec3(0.0);
+  if (push.hasEmission != 0u) emission = emittedRadianceAt(push.scene, p);
   if (SAMPLES_TEXTURES != 0u && hasHoles(surface.corners, triangle)) {
     // The mean of what the mask leaves.
-    vec3 sum = vec3(0.0);
+    vec3 sum = vec3(0.0), emissionSum = vec3(0.0);
     float left = 0.0, keptSum = 0.0;
     uint mask = (surface.sides.at[piece] & ~PIECE_CUT) + 1u;
     for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
@@ -43,15 +57,18 @@ void main() {
       sum += albedoAt(push.scene, q, clampedHere);
       clamped = clamped || clampedHere;
       if (bumps) keptSum += keptByBumps(push.scene, q);
+      if (shines) emissionSum += emittedRadianceAt(push.scene, q);
       left += 1.0;
     }
     if (left > 0.0) albedo = sum / left;
     if (left > 0.0 && bumps) kept = keptSum / left;
-  } else if (bumps && n != 0u) {
-    kept = keptByBumps(push.scene, t, triangle, piece, cell, from, n, area);
+    if (left > 0.0 && shines) emission = emissionSum / left;
+  } else if (n != 0u) {
+    if (bumps) kept = keptByBumps(push.scene, t, triangle, piece, cell, from, n, area);
+    if (shines) emission = meanEmission(t, triangle, piece, cell, from, n, area);
   }
   if (bumps) albedo *= kept;
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[piece] = albedo;
-  if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emittedRadianceAt(push.scene, p));
+  if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emission);
 }

@@ -27,6 +27,21 @@ bool lightReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, Gpu
   float reach = lightHas(light, LIGHT_DISTANT) ? 1e30 : length(light.position - position) / edge;
   return reaches(world, surface, from, lightDirection(light, position), reach);
 }
+
+/// The share of points first, first + step ... of n of a light with a size that reach a lifted point, of all that it has;
+/// what lies below the surface's horizon does not. A light without a size has one point.
+float lightShare(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge,
+                 uint first, uint step, uint n, uvec2 shift) {
+  if (!hasSize(light)) return lightReaches(world, surface, from, light, position, edge) ? 1.0 : 0.0;
+  uint seen = 0u, all = 0u;
+  for (uint k = first; k < n; k += step, ++all) {
+    float reach;
+    vec3 direction = lightPoint(light, position, k, n, shift, reach);
+    if (dot(direction, from.facing) > 0.0 && reaches(world, surface, from, direction, reach < 1e30 ? reach / edge : reach))
+      ++seen;
+  }
+  return float(seen) / float(all);
+}
 #endif
 
 #endif

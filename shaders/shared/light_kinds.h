@@ -39,7 +39,9 @@ IRAD_LIGHT_KINDS(IRAD_LIGHT_CONSTANT)
 // false has no code.
 IRAD_CONST uint LIGHT_FLAT_MAPS = LIGHT_KINDS;
 IRAD_CONST uint LIGHT_CUBE_MAPS = LIGHT_KINDS + 1u;
-IRAD_CONST uint LIGHT_CONSTANTS = LIGHT_KINDS + 2u;  ///< how many there are
+IRAD_CONST uint LIGHT_SIZES = LIGHT_KINDS + 2u;      ///< a light has a size
+IRAD_CONST uint LIGHT_FILTERS = LIGHT_KINDS + 3u;    ///< a light's map has another filter than SHADOW_PCF
+IRAD_CONST uint LIGHT_CONSTANTS = LIGHT_KINDS + 4u;  ///< how many there are
 
 /// Whether a kind has any of `wanted`; false of a number that is no kind's.
 IRAD_FN bool lightHas(uint kind, uint wanted) {

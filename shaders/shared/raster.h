@@ -73,5 +73,12 @@ struct StoreShadowPush {
   uint padding;
 };
 
+/// raster/shadow_moments.comp: a layer, or a face of a cube.
+struct ShadowMomentsPush {
+  int layer, face;
+  uint taps;        ///< texels per axis that a mean is over, odd
+  float nearShare;  ///< near / far of a map in perspective; 0: a parallel one
+};
+
 IRAD_END
 #endif

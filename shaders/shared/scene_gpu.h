@@ -2,6 +2,7 @@
 // Scene::origin), fp32.
 #ifndef IRAD_SHARED_SCENE_GPU_H
 #define IRAD_SHARED_SCENE_GPU_H
+#include "shared/enumeration.h"
 #include "shared/light_kinds.h"
 #include "shared/types.h"
 IRAD_BEGIN
@@ -36,6 +37,16 @@ struct GpuMaterial {
   vec3 uvRow[10];       ///< two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
 };
 
+// How the shadow map of a light without a size is read (docs/method.md 6). hard: one comparison. vsm: variance shadow
+// maps (Donnelly and Lauritzen 2006; T 11.5).
+// clang-format off
+#define IRAD_SHADOW_FILTERS(X, E) \
+  X(E, hard, "hard", SHADOW_HARD, 0) \
+  X(E, pcf,  "pcf",  SHADOW_PCF,  1) \
+  X(E, vsm,  "vsm",  SHADOW_VSM,  2)
+IRAD_SHARED_ENUM(ShadowFilter, IRAD_SHADOW_FILTERS)
+// clang-format on
+
 struct GpuLight {
   vec3 position;   ///< local
   uint type;       ///< LIGHT_SUN and so on
@@ -44,8 +55,12 @@ struct GpuLight {
   vec3 intensity;  ///< colour x intensity: lux (sun) or candela
   int shadowLayer; ///< layer in the 2D array, or cube index where lightUsesCube; -1: casts no shadow
   float innerCos, outerCos;
+  float size;  ///< 0: none. Of a distant light the tangent of half its angle, of others their radius, m
   float shadowNear, shadowFar;  ///< point and spot: planes of the shadow projection
   float shadowTexel;  ///< world size of one shadow texel (sun), or its tangent at unit distance (spot, point)
+  IRAD_AS(ShadowFilter) shadowFilter;
+  float bleedReduction;  ///< SHADOW_VSM: bounds up to this share count as dark, [0, 1)
+  uint points;           ///< of a light with a size, that are looked at
   mat4 shadowMatrix;  ///< local position -> clip space of the layer (sun, spot)
 };
 

@@ -3,24 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/view.h"
+#include "forward/cube_direction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2DArray flatMaps;
 layout(set = 0, binding = 1) uniform samplerCubeArray cubeMaps;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D linearTarget;
 layout(push_constant, scalar) uniform PushBlock { ShadowViewPush push; };
-
-/// The direction that a face's texel stands for; `at` is -1..1, y down (Vulkan's cube faces).
-vec3 cubeDirection(uint face, vec2 at) {
-  switch (face) {
-    case 0u: return vec3(1.0, -at.y, -at.x);
-    case 1u: return vec3(-1.0, -at.y, at.x);
-    case 2u: return vec3(at.x, 1.0, at.y);
-    case 3u: return vec3(at.x, -1.0, -at.y);
-    case 4u: return vec3(at.x, -at.y, 1.0);
-  }
-  return vec3(-at.x, -at.y, -1.0);
-}
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;

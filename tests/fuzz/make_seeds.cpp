@@ -114,7 +114,9 @@ GltfFile lightsAndCameras() {
   file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
       {{"type", "directional"}, {"intensity", 3}, {"color", {1, 1, 0.5}}},
       {{"type", "point"}, {"intensity", 50}, {"range", 9}},
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}};
+      {{"type", "spot"},
+       {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}},
+       {"extras", {{"radius", 0.25}}}}};
   file.json["cameras"] = {
       {{"type", "perspective"},
        {"perspective", {{"yfov", 0.75}, {"znear", 0.125}, {"zfar", 64}, {"aspectRatio", 1.5}}}},
@@ -281,7 +283,7 @@ void writeTexts(const fs::path& folder) {
   write(folder / "camera_json/orthographic.json", box.dump());
   const std::vector<Light> lights{
       {.name = "sky", .direction = {0, -0.6f, 0.8f}, .color = {1, 0.5f, 0}, .intensity = 3},
-      {.name = "bulb", .type = LightType::Point, .position = {1e6, 2, 3.25}, .range = 4},
+      {.name = "bulb", .type = LightType::Point, .position = {1e6, 2, 3.25}, .range = 4, .radius = 0.1f},
       {.name = "stage", .type = LightType::Spot, .position = {1, 2, 3}, .innerCos = 0.9f, .outerCos = 0.7f}};
   const json manifest = {{"program", {{"name", "irad"}}},
                          {"format", 1},

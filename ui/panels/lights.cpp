@@ -141,6 +141,16 @@ class LightsPanel : public Panel {
                        static_cast<float>(kMaxCoordinate), light.range > 0 ? "%.4g" : "unlimited",
                        ImGuiSliderFlags_AlwaysClamp);
     }
+    if (distant) {
+      fieldLabel("angle", "How large it is seen, across: the wider, the softer its shadows. Our sun has .53\u00B0");
+      ImGui::DragFloat("##angle", &light.angle, 0.02f, 0, static_cast<float>(kMaxLightAngle),
+                       light.angle > 0 ? "%.3g\u00B0" : "a point", ImGuiSliderFlags_AlwaysClamp);
+    } else {
+      fieldLabel("radius", "Of the lamp, scene units: the larger, the softer its shadows");
+      ImGui::DragFloat("##radius", &light.radius, std::max(light.radius * 0.01f, 0.001f), 0,
+                       static_cast<float>(kMaxCoordinate), light.radius > 0 ? "%.4g" : "a point",
+                       ImGuiSliderFlags_AlwaysClamp);
+    }
     if (kind.has(LIGHT_CONE)) drawCone(light);
 
     fieldLabel("position", distant ? "Of its handle in the picture: the light comes from everywhere"
