@@ -83,8 +83,7 @@ class FrameTracer {
         traceMapped(context_, kernel_, mean.host.get(), params, first, rows, mean.hits, sky(), kBruteForceStage);
       Frame frame = context_.begin();
       if (first == 0) frame.pass(kBruteForceStage).fill(light_.residual, 0);
-      if (!context_.device.isCpu)
-        traceRows(frame, kernel_, params, first, rows, mean.hits, sky(), kBruteForceStage);
+      if (!context_.device.isCpu) traceRows(frame, kernel_, params, first, rows, mean.hits, sky(), kBruteForceStage);
       record(frame, first, params.rays);
       if (context_.device.isCpu)
         frame.submitAndWait();  // before the host writes the next hits

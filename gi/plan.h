@@ -24,7 +24,7 @@ struct ForwardEffects;
   X(spot, "spot", "Spot lights", "effects.spot", &EffectSettings::spot)                          \
   X(sky, "sky", "Sky", "effects.sky", &EffectSettings::sky)                                      \
   X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)             \
-  X(bruteForce, "brute-force", "Brute force", "solver.method", nullptr)                          \
+  X(bruteForce, "brute-force", "Brute force", "", nullptr)                                       \
   X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)             \
   X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                   \
   X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                  \
