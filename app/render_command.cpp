@@ -108,10 +108,11 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
     print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
           static_cast<double>(matrix.rays) * 1e-3 / buildMs);
   if (solve.frames > 0)
-    print("brute force {} frames of {} rays per facet, {:.1f} ms each, standard error {:.3g} W/m^2 of mean H {:.4g}, "
-          "largest {:.4g} W/m^2{}\n",
-          solve.frames, pipeline.obeyed().matrix.gpu.rays, totalOf(session.timings, "GI BruteForce") / solve.frames,
-          solve.standardError, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+    print(
+        "brute force {} frames of {} rays per facet, {:.1f} ms each, standard error {:.3g} W/m^2 of mean H {:.4g}, "
+        "largest {:.4g} W/m^2{}\n",
+        solve.frames, pipeline.obeyed().matrix.gpu.rays, totalOf(session.timings, "GI BruteForce") / solve.frames,
+        solve.standardError, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");
   else
     print("solve       {} sweeps, bound {:.3g} W/m^2 of mean H {:.4g}, largest {:.4g} W/m^2{}\n", solve.sweeps,
           solve.bound, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");

@@ -330,8 +330,8 @@ struct Pipeline::Impl {
       solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
       return;
     }
-    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed,
-               maxSweeps != 0 ? 1 : obeyed.solver.frames, /*restarts=*/first <= Redo::Gather,
+    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, maxSweeps != 0 ? 1 : obeyed.solver.frames,
+               /*restarts=*/first <= Redo::Gather,
                [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
   }
 

@@ -92,8 +92,8 @@ class Pipeline {
   /// memory (its views are empty then); a relight that fails leaves the light as far as it came. `maxSweeps` 0:
   /// settings.solver.maxSweeps; by brute force settings.solver.frames, and with any other number one frame.
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
-  /// True when nothing is dirty and the solver is done: its bound is below the tolerance, brute force has its frames, or
-  /// the watch stopped it.
+  /// True when nothing is dirty and the solver is done: its bound is below the tolerance, brute force has its frames,
+  /// or the watch stopped it.
   bool asleep() const;
   /// True when nothing is due: what the pipeline holds was made with its settings. The solver may have sweeps left.
   bool current() const;

@@ -244,8 +244,8 @@ class Planner {
     const bool byMatrix = !plan_.noIndirectLight() && s_.matrix.gpu.traversal == Traversal::sdf;
     const bool skips = plan_.on(Effect::specular) && s_.specular.gpu.traversal == Traversal::sdf;
     std::string reason = fmt::format("rays of {} {} by it, specular rays {}",
-                                     plan_.on(Effect::bruteForce) ? "brute force" : "the matrix", byMatrix ? "skip" : "do not skip",
-                                     skips && smoothness_ > 1 ? "do" : "do not");
+                                     plan_.on(Effect::bruteForce) ? "brute force" : "the matrix",
+                                     byMatrix ? "skip" : "do not skip", skips && smoothness_ > 1 ? "do" : "do not");
     const bool calledFor = byMatrix || (skips && held(Effect::field, smoothness_, reason));
     decide(Effect::field, calledFor, std::move(reason),
            s_.field.method == FieldMethod::chebyshev ? b_.voxels : 5 * b_.voxels);

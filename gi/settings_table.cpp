@@ -92,10 +92,11 @@ constexpr Setting kTable[] = {
             "Under-relaxation: a sweep goes this share of the way to its result; the solution stays the same.", Solve),
     SETTING(solver.gpu.flush, "solver.flush", {0, 1e-3, "W/m^2", /*logarithmic=*/true},
             "Smaller values become exact zero.", Solve),
-    SETTING(solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
-            "The solver stops when its error bound on H (brute force: the mean standard error) is below this share of the "
-            "mean H, by the facets' areas.",
-            Solve),
+    SETTING(
+        solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
+        "The solver stops when its error bound on H (brute force: the mean standard error) is below this share of the "
+        "mean H, by the facets' areas.",
+        Solve),
     SETTING(solver.sweepsPerFrame, "solver.sweeps_per_frame", {1, 1000, "sweeps"},
             "Jacobi sweeps per frame of the window.", Solve),
     SETTING(solver.maxSweeps, "solver.max_sweeps", {1, 100000, "sweeps"}, "Most sweeps of a headless solve.", Solve),
@@ -209,7 +210,8 @@ constexpr Setting kTable[] = {
         "beside the matrix, off leaves the sky out.",
         Matrix),
     SETTING(effects.matrix, "effects.matrix",
-            "Indirect light: matrix and solver, or brute force; auto: where there is light, and something that reflects it.",
+            "Indirect light: matrix and solver, or brute force; auto: where there is light, and something that "
+            "reflects it.",
             Matrix),
     SETTING(effects.specular, "effects.specular",
             "Reflections; auto: where there is light, and a material that is not Lambertian.", Shade),

@@ -38,8 +38,8 @@ void judgeGains(SolveReport& report, const SolveResidual& r) {
   report.kappaSlack = least > 0 ? (1 + std::bit_cast<float>(r.maxFall)) / least : kUnknown;
 }
 
-/// What the error of H is to be below: the tolerance; but no less than what a sweep cannot tell from rounding, a unit in
-/// the last place of the largest H, between two of which it may go to and fro.
+/// What the error of H is to be below: the tolerance; but no less than what a sweep cannot tell from rounding, a unit
+/// in the last place of the largest H, between two of which it may go to and fro.
 float target(const SolveReport& report, float omega, float tolerance) {
   return std::max(tolerance * report.meanH, report.kappa / omega * report.largestH * 0x1p-23f);
 }

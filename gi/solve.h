@@ -18,8 +18,8 @@ struct SolverParams;
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
                   const Settings& settings, uint32_t maxSweeps);
 
-/// Makes the guard of a solve that begins, or that goes on: the window calls for a few sweeps at a time. Where light may
-/// grow without bound it keeps what is there.
+/// Makes the guard of a solve that begins, or that goes on: the window calls for a few sweeps at a time. Where light
+/// may grow without bound it keeps what is there.
 void beginSolve(Context& context, const FacetList& facets, Lighting& light, const SolverParams& params);
 /// The light from before that, where it was kept.
 void restoreLight(Context& context, const FacetList& facets, Lighting& light);

@@ -67,7 +67,8 @@ std::optional<ViewShape> resolveShape(View view, ViewShape wanted) {
 
 std::string whatIsMissing(const ViewInfo& info, const Settings& settings) {
   const bool framewise = settings.solver.method == SolverMethod::bruteForce;
-  if (framewise && info.isFrom(FROM_MATRIX | FROM_MATRIX_ROW)) return "solver.method = brute_force: there is no matrix.";
+  if (framewise && info.isFrom(FROM_MATRIX | FROM_MATRIX_ROW))
+    return "solver.method = brute_force: there is no matrix.";
   if (!framewise && info.isFrom(FROM_STANDARD_ERROR))
     return "solver.method = matrix: only frames of brute_force have a standard error.";
   return {};

@@ -95,13 +95,12 @@ class SolverPanel : public Panel {
             ? std::pair{theme::error, "Stopped: the light would grow without bound (lambda, albedo). The last is kept."}
         : session.asleep() ? std::pair{theme::good, asleepBecause(report)}
         : session.halted   ? std::pair{theme::warning, "Halted: the rebuild failed or was cancelled."}
-        : session.paused   ? std::pair{theme::warning, report.frames > 0
-                                                         ? "Paused before the last frame."
-                                                         : "Paused before the error bound has come below target."}
-        : report.damped    ? std::pair{theme::warning, "Awake, damped: the residual was growing."}
-        : report.frames > 0
-            ? std::pair{theme::accent, "Awake: frames are added to the mean."}
-            : std::pair{theme::accent, "Awake: the error bound is still above target."};
+        : session.paused
+            ? std::pair{theme::warning, report.frames > 0 ? "Paused before the last frame."
+                                                          : "Paused before the error bound has come below target."}
+        : report.damped     ? std::pair{theme::warning, "Awake, damped: the residual was growing."}
+        : report.frames > 0 ? std::pair{theme::accent, "Awake: frames are added to the mean."}
+                            : std::pair{theme::accent, "Awake: the error bound is still above target."};
     ImGui::PushTextWrapPos(0);
     ImGui::TextColored(color, "%s", state);
     ImGui::PopTextWrapPos();
