@@ -126,6 +126,7 @@ class SolverPanel : public Panel {
     bounds_.clear(), x_.clear(), residual_.clear(), bound_.clear();
     for (const SolveSample& s : session.solves) {
       sweeps += s.sweeps;
+      if (session.built->solve.frames > 0 && s.bound == 0) continue;  // a single frame has no standard error
       bounds_.push_back({sweeps, s.bound});
       x_.push_back(static_cast<float>(sweeps));
       residual_.push_back(s.residual);
