@@ -21,8 +21,8 @@ uint32_t invocations(const FacetList& facets) {
   return std::min((facets.count + SOLVE_SUMS_FACETS - 1) / SOLVE_SUMS_FACETS, SOLVE_SUMS_INVOCATIONS);
 }
 
-/// Arrays of the invocations' shares of sums, added up.
-std::array<glm::dvec4, SOLVE_SUMS> total(std::span<const uint8_t> bytes, uint32_t invocations) {
+/// What the invocations hold of each sum, added up.
+std::array<glm::dvec4, SOLVE_SUMS> sharesOf(std::span<const uint8_t> bytes, uint32_t invocations) {
   std::array<glm::dvec4, SOLVE_SUMS> sums{};
   for (size_t i = 0; i < bytes.size() / sizeof(glm::vec4); ++i) {
     glm::vec4 part;
@@ -109,7 +109,7 @@ void recordMean(Frame& frame, const char* stage, const FacetList& facets, const 
   push.invocations = count;
   pass.shader("gi/solve_sums.comp").constant(CONSTANT_SOLVE_VECTORS, 0).push(push).dispatch(count);
   frame.readback(sums, 0, sizeof(glm::vec4) * uint64_t{count},
-                 [&mean, count](std::span<const uint8_t> bytes) { mean = meanOf(total(bytes, count)[0]); });
+                 [&mean, count](std::span<const uint8_t> bytes) { mean = meanOf(sharesOf(bytes, count)[0]); });
 }
 
 void Acceleration::keep(bool gains) {
@@ -142,7 +142,7 @@ void Acceleration::recordSums(Frame& frame, const char* stage, bool mixing, Swee
   const uint32_t arrays = mixing ? 1 + swept_ * (swept_ + 1) / 2 : 1;
   frame.readback(light_.sums, 0, sizeof(glm::vec4) * arrays * uint64_t{count},
                  [&sums, count](std::span<const uint8_t> bytes) {
-                   const std::array<glm::dvec4, SOLVE_SUMS> all = total(bytes, count);
+                   const std::array<glm::dvec4, SOLVE_SUMS> all = sharesOf(bytes, count);
                    sums.meanH = meanOf(all[0]);
                    std::copy_n(all.begin() + 1, sums.products.size(), sums.products.begin());
                  });
