@@ -210,7 +210,8 @@ struct Pipeline::Impl {
       }
       fitField(now);
       if (!relights()) return;
-      if (settings.effects.relight == EffectMode::on) first = std::min(first, Redo::Gather);
+      // A mean over frames would begin anew each time; it goes on by itself.
+      if (settings.effects.relight == EffectMode::on && !framewise()) first = std::min(first, Redo::Gather);
       if (first > Redo::Scatter && now.light->report.settled()) return;
       if (first > Redo::Scatter) first = Redo::Solve;
       made.forget(first);

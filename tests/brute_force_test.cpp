@@ -203,6 +203,12 @@ TEST_F(BruteForce, TheSameBitsInOneGoAndFrameByFrame) {
   window.prepare();
   EXPECT_EQ(window.lighting().report.sweeps, 4u);
   EXPECT_TRUE(bits(window) == bits(*longer));
+  // Relighting in every frame takes none from the mean.
+  Settings always = framewise(8, 16, 12);
+  always.effects.relight = EffectMode::on;
+  window.set(always);
+  window.prepare({}, 1);
+  EXPECT_EQ(window.lighting().report.frames, 11u);
   // Fewer begin anew.
   window.set(settings);
   window.prepare();
