@@ -109,6 +109,9 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
                  const std::vector<std::string>& formats, const std::optional<glm::uvec3>& inspected,
                  const fs::path& scenePath) {
   DeviceSession session(arguments.settings, arguments.device);
+  if (session.settings.solver.method == SolverMethod::bruteForce && (arguments.matrix || arguments.inspect))
+    throw UsageError(fmt::format("{}: solver.method = brute_force has no matrix; take solver.method=matrix",
+                                 arguments.matrix ? "--matrix" : "--inspect"));
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);

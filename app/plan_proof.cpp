@@ -174,6 +174,10 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
   for (const EffectRow& row : plan.rows) {
     if (row.state == EffectState::on) continue;
     ProofRow& proven = proof.emplace_back(ProofRow{.scene = scene, .name = row.info().name, .effect = row});
+    if (row.effect == Effect::bruteForce) {  // whose light is another method's
+      proven.reason = row.reason;
+      continue;
+    }
     // These start from the light as it is; everything else is compared after a solve from the dark.
     const bool asLit = row.effect == Effect::redraw || row.effect == Effect::relight;
     const Pixels before = asLit ? bench.picturesAsLit(views) : planned;

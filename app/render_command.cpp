@@ -81,6 +81,14 @@ double meanSetup(const Timings& timings, std::string_view stage) {
   return ms;
 }
 
+/// Milliseconds of a stage in all calls.
+double totalOf(const Timings& timings, std::string_view stage) {
+  double ms = 0;
+  for (const Timings::Row& row : timings.rows())
+    if (row.stage == stage) ms += row.stats.mean * static_cast<double>(row.stats.samples);
+  return ms;
+}
+
 void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   const FacetList& facets = pipeline.facets();
   const MatrixStats& matrix = pipeline.matrix().stats;
@@ -89,14 +97,25 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   print("grid        {} x {} x {} voxels, edge {:.6g}\n", dims.x, dims.y, dims.z, facets.grid.edge);
   print("facets      {} in {} solid voxels{}\n", facets.count, facets.solidVoxels,
         facets.clampedAlbedo ? fmt::format(", albedo of {} clamped to [0, .98]", facets.clampedAlbedo) : "");
-  print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
-        inMebibytes(matrix.bytesUsed), inMebibytes(matrix.bytesAllocated), matrix.largestRow);
+  if (pipeline.obeyed().solver.method == SolverMethod::bruteForce) {
+    print("matrix      none, with solver.method=brute_force\n");
+  } else {
+    print("matrix      {} entries, {:.1f} MiB used of {:.1f} MiB, largest row {}\n", matrix.entries,
+          inMebibytes(matrix.bytesUsed), inMebibytes(matrix.bytesAllocated), matrix.largestRow);
+  }
   const double buildMs = meanSetup(session.timings, "GI BuildMatrix");
   if (buildMs > 0)
     print("rays        {:.2f} M in {:.1f} ms: {:.2f} Mrays/s\n", static_cast<double>(matrix.rays) * 1e-6, buildMs,
           static_cast<double>(matrix.rays) * 1e-3 / buildMs);
-  print("solve       {} sweeps, bound {:.3g} W/m^2 of mean H {:.4g}, largest {:.4g} W/m^2{}\n", solve.sweeps,
-        solve.bound, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+  if (solve.frames > 0)
+    print(
+        "brute force {} frames of {} rays per facet, {:.1f} ms each, standard error {:.3g} W/m^2 of mean H {:.4g}, "
+        "largest {:.4g} W/m^2{}\n",
+        solve.frames, pipeline.obeyed().matrix.gpu.rays, totalOf(session.timings, "GI BruteForce") / solve.frames,
+        solve.standardError, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");
+  else
+    print("solve       {} sweeps, bound {:.3g} W/m^2 of mean H {:.4g}, largest {:.4g} W/m^2{}\n", solve.sweeps,
+          solve.bound, solve.meanH, solve.largestH, solve.converged ? "" : " (tolerance not reached)");
   if (solve.energy) print("energy      {}\n", describe(*solve.energy, facets.grid.edge));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);  // ru_maxrss: KiB
@@ -131,6 +150,10 @@ void run(const RenderArguments& arguments) {
   const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
   if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
   session.prepare(pipeline);
+  if (std::ranges::find(wanted, "all") == wanted.end())
+    for (const ViewInfo& view : chosen)
+      if (const std::string missing = whatIsMissing(view, pipeline.obeyed()); !missing.empty())
+        session.progress.note(fmt::format("warning: the view {} is empty. {}", view.name, missing));
   if (inspected) {
     const Inspector inspector(*session.context, pipeline);
     inspector.requireFacets(*inspected);

@@ -21,6 +21,21 @@ uint32_t invocations(const FacetList& facets) {
   return std::min((facets.count + SOLVE_SUMS_FACETS - 1) / SOLVE_SUMS_FACETS, SOLVE_SUMS_INVOCATIONS);
 }
 
+/// What the invocations hold of each sum, added up.
+std::array<glm::dvec4, SOLVE_SUMS> sharesOf(std::span<const uint8_t> bytes, uint32_t invocations) {
+  std::array<glm::dvec4, SOLVE_SUMS> sums{};
+  for (size_t i = 0; i < bytes.size() / sizeof(glm::vec4); ++i) {
+    glm::vec4 part;
+    std::memcpy(&part, &bytes[i * sizeof(part)], sizeof(part));
+    sums[i / invocations] += glm::dvec4(part);
+  }
+  return sums;
+}
+
+double meanOf(const glm::dvec4& sum) {
+  return sum.w > 0 ? std::max({sum.x, sum.y, sum.z}) / sum.w : 0;
+}
+
 /// Solves G x = b by Cholesky's factors, in place. False: G is not positive definite.
 bool solvePositive(std::array<std::array<double, SOLVE_VECTORS>, SOLVE_VECTORS>& g,
                    std::array<double, SOLVE_VECTORS>& x, uint32_t n) {
@@ -82,6 +97,21 @@ void makeHistory(Context& context, const FacetList& facets, Lighting& light, boo
         accelerated ? Buffer(context.device, names[i], Subsystem::Solver, 16ull * facets.count) : Buffer();
 }
 
+void recordMean(Frame& frame, const char* stage, const FacetList& facets, const Buffer& values, const Buffer& sums,
+                double& mean) {
+  const uint32_t count = invocations(facets);
+  Pass pass = frame.pass(stage);
+  SolveSumsPush push{};
+  push.indirect = pass.in(values);
+  push.area = pass.in(facets.area);
+  push.sums = pass.out(sums);
+  push.count = facets.count;
+  push.invocations = count;
+  pass.shader("gi/solve_sums.comp").constant(CONSTANT_SOLVE_VECTORS, 0).push(push).dispatch(count);
+  frame.readback(sums, 0, sizeof(glm::vec4) * uint64_t{count},
+                 [&mean, count](std::span<const uint8_t> bytes) { mean = meanOf(sharesOf(bytes, count)[0]); });
+}
+
 void Acceleration::keep(bool gains) {
   if (!on_) return;
   if (swept_ < light_.history.size()) std::swap(light_.radiosityNext, light_.history[swept_]);
@@ -112,15 +142,9 @@ void Acceleration::recordSums(Frame& frame, const char* stage, bool mixing, Swee
   const uint32_t arrays = mixing ? 1 + swept_ * (swept_ + 1) / 2 : 1;
   frame.readback(light_.sums, 0, sizeof(glm::vec4) * arrays * uint64_t{count},
                  [&sums, count](std::span<const uint8_t> bytes) {
-                   std::array<glm::dvec4, SOLVE_SUMS> total{};
-                   for (size_t i = 0; i < bytes.size() / sizeof(glm::vec4); ++i) {
-                     glm::vec4 part;
-                     std::memcpy(&part, &bytes[i * sizeof(part)], sizeof(part));
-                     total[i / count] += glm::dvec4(part);
-                   }
-                   const glm::dvec4& mean = total[0];
-                   sums.meanH = mean.w > 0 ? std::max({mean.x, mean.y, mean.z}) / mean.w : 0;
-                   std::copy_n(total.begin() + 1, sums.products.size(), sums.products.begin());
+                   const std::array<glm::dvec4, SOLVE_SUMS> all = sharesOf(bytes, count);
+                   sums.meanH = meanOf(all[0]);
+                   std::copy_n(all.begin() + 1, sums.products.size(), sums.products.begin());
                  });
 }
 

@@ -32,6 +32,11 @@ struct SweepSums {
   ResidualProducts products{};
 };
 
+/// Records the mean of |values| over the facets' areas, of the colour channel where it is largest, with `sums` as
+/// scratch; `mean` is written when it is there. The same bits in every run.
+void recordMean(Frame& frame, const char* stage, const FacetList& facets, const Buffer& values, const Buffer& sums,
+                double& mean);
+
 /// The sweeps since the light was last mixed.
 class Acceleration {
  public:

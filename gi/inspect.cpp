@@ -190,6 +190,7 @@ InspectedFacet Inspector::facet(uint32_t i) const {
        : met == TRACE_INVALID ? r.rays.invalid
                               : r.rays.hits);
 
+  if (!pipeline_.matrix() && pipeline_.lighting()) return r;  // no sweeps: by brute force
   // One more sweep of the kind that made B: H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
   const glm::dvec3 h = r.row.contribution + r.correction + r.sky;
   const glm::dvec3 undamped = gain * (r.emission + r.albedo * (r.direct + h));
@@ -293,7 +294,7 @@ SolveHistory replaySolve(Context& context, const Pipeline& pipeline, const std::
   const FacetList& list = pipeline.facets();
   const Settings& settings = pipeline.obeyed();
   SolveHistory history;
-  history.converged = !pipeline.lighting();
+  history.converged = !pipeline.matrix() || !pipeline.lighting();  // nothing to sweep with
   if (history.converged) return history;
   Lighting light = makeLighting(context, list, settings);
   Frame copy = context.beginUntimed();

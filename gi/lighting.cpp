@@ -22,11 +22,18 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
   light.radiosity = Buffer(device, "radiosity B (a)", Subsystem::Solver, bytes);
   light.radiosityNext = Buffer(device, "radiosity B (b)", Subsystem::Solver, bytes);
   light.residual = Buffer(device, "solver residual", Subsystem::Solver, sizeof(SolveResidual) * SOLVE_RESIDUALS);
-  light.rowSum = Buffer(device, "row sums of F", Subsystem::Solver, 4ull * facets.count);
-  makeHistory(context, facets, light, settings.solver.acceleration != SolverAcceleration::off);
+  const bool framewise = settings.solver.method == SolverMethod::bruteForce;
+  FrameMean& mean = light.frameMean;
+  if (framewise) {
+    mean.next = Buffer(device, "radiosity B of the next frame", Subsystem::Solver, bytes);
+    mean.standardError = Buffer(device, "standard error of H", Subsystem::Solver, bytes);
+  } else {
+    light.rowSum = Buffer(device, "row sums of F", Subsystem::Solver, 4ull * facets.count);
+  }
+  makeHistory(context, facets, light, !framewise && settings.solver.acceleration != SolverAcceleration::off);
   Frame frame = context.begin();
   for (const Buffer* b : {&light.direct, &light.emitted, &light.indirect, &light.radiosity, &light.radiosityNext,
-                          &light.residual, &light.rowSum})
+                          &light.residual, &light.rowSum, &mean.next, &mean.standardError})
     if (*b) frame.pass("GI Solve Clear").fill(*b, 0);
   frame.submit();
   if (settings.matrix.gpu.hitRule == HitRule::thesis) light.volume = makeVolume(context, facets.grid);

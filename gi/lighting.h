@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
+#include "gi/brute_force.h"
 #include "gi/solve_report.h"
 #include "gi/thesis/volume.h"
 #include "renderer/resources.h"
@@ -12,6 +14,7 @@
 namespace irad {
 
 class Context;
+class HostTrace;
 struct FacetList;
 struct Settings;
 
@@ -37,6 +40,15 @@ struct DivergenceGuard {
   /// After a sweep: its largest row gain and residual.
   void judge(float gain, float residual);
 };
+/// What solver.method = brute_force keeps from frame to frame (gi/brute_force.h). With a matrix it has no buffers.
+struct FrameMean {
+  FrameWeights weights;
+  Buffer next;           ///< beside Lighting::radiosityNext: B that the rays of one frame bring, and those of the next
+  Buffer standardError;  ///< of H
+  Buffer hits;           ///< scratch, while frames are traced
+  std::shared_ptr<const HostTrace> host;  ///< CPU devices: what traces them
+  double meanH = 0;                       ///< after the last frame, W/m^2
+};
 /// Per-facet light, fp32 vec4 (xyz; w is used in B alone): W/m^2.
 struct Lighting {
   Buffer direct;  ///< D
@@ -57,8 +69,9 @@ struct Lighting {
   Buffer blurChange;      ///< largest |blurred - H|, float bits; where scatter() watches it
   Buffer residual;        ///< solver's reductions, see shared/solve.h: a record per sweep of a batch
   Buffer sums;            ///< gi/solve_sums.comp's
-  Buffer rowSum;          ///< sum_j F_ij, one float each
+  Buffer rowSum;          ///< sum_j F_ij, one float each; none without a matrix
   RadianceVolume volume;  ///< only with the thesis's hit rule
+  FrameMean frameMean;
   SolveReport report;
   DivergenceGuard guard;
   /// What shading samples, H and F M, blurred or not.
@@ -70,7 +83,7 @@ struct Lighting {
   /// than specular.threshold of it are not traced.
   float litH = 0;
 };
-/// All zero. Blurred copies exist where scatter() blurs, which makes and frees them.
+/// All zero, with what solver.method needs. Blurred copies exist where scatter() blurs, which makes and frees them.
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
 
 }  // namespace irad

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
+#include <memory>
 
 #include "gi/facets.h"
+#include "gi/hits_on_host.h"
 #include "gi/host_trace.h"
 #include "gi/matrix_build.h"
 #include "gi/merge_rows.h"
@@ -89,42 +90,6 @@ void mergeAndPackOnHost(CsrBuild& build, const Chunk& chunk, const Buffer& hits)
   if (!sky.empty()) upload(build.context, build.matrix.rowSky, std::as_bytes(std::span(sky)), 4ull * chunk.firstRow);
 }
 
-/// What the rays of each chunk meet, in mapped memory: of the driver's kernel, or of the host itself where it can.
-class HitsOnHost {
- public:
-  HitsOnHost(Context& context, const RayKernel& kernel, const MatrixParams& params, bool sky)
-      : context_(context), kernel_(kernel), params_(params), sky_(sky) {
-    if (params.hitRule == HitRule::triangles && canTraceOnHost())
-      timed([&] { host_ = makeHostTrace(context, kernel.facets); });
-  }
-  void trace(const Chunk& chunk, const Buffer& hits) {
-    if (host_) {
-      const std::span<uint32_t> mapped(static_cast<uint32_t*>(hits.mapped), uint64_t{chunk.rows} * chunk.rays);
-      timed([&] { host_->rows(params_, chunk.firstRow, chunk.rows, mapped, /*threads=*/0, sky_); });
-      return;
-    }
-    Frame frame = context_.begin();
-    traceRows(frame, kernel_, params_, chunk.firstRow, chunk.rows, hits, sky_);
-    // The device's writes are made visible to the host.
-    frame.pass(kMatrixStage)
-        .declare(hits, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT})
-        .record([](VkCommandBuffer) {});
-    frame.submitAndWait();
-  }
-
- private:
-  void timed(const std::function<void()>& work) {
-    const double began = context_.timings.now();
-    work();
-    context_.timings.add(kMatrixStage, context_.timings.now() - began);
-  }
-  Context& context_;
-  const RayKernel& kernel_;
-  const MatrixParams& params_;
-  const bool sky_;
-  std::unique_ptr<HostTrace> host_;
-};
-
 /// csr: each chunk of rows is traced once into a scratch array, and turned into a segment of the exact size. `sky`:
 /// rays that escape are kept by bins.
 void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params, bool sky,
@@ -152,16 +117,16 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
   const RayKernel kernel = rayKernel(facets, field, params);
   CsrBuild build{context, matrix, rows, arrays.segmentShift};
-  std::optional<HitsOnHost> onHost;
-  if (device.isCpu) onHost.emplace(context, kernel, params, sky);
+  const std::unique_ptr<HostTrace> host =
+      device.isCpu ? hostTraceIfAny(context, facets, params, kMatrixStage) : nullptr;
   for (uint32_t first = 0; first < rows; first += segmentRows) {
     const Chunk chunk{first, std::min(segmentRows, rows - first), rays, arrays.columnBits};
-    if (onHost) {
-      onHost->trace(chunk, hits);
+    if (device.isCpu) {
+      traceMapped(context, kernel, host.get(), params, first, chunk.rows, hits, sky, kMatrixStage);
       mergeAndPackOnHost(build, chunk, hits);
     } else {
       Frame frame = context.begin();
-      traceRows(frame, kernel, params, first, chunk.rows, hits, sky);
+      traceRows(frame, kernel, params, first, chunk.rows, hits, sky, kMatrixStage);
       mergeAndPackOnDevice(build, std::move(frame), chunk, hits, counts, total, sums);
     }
     reportRows(progress, uint64_t{first} + chunk.rows, rows);

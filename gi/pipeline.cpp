@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "gi/brute_force.h"
 #include "gi/emitters.h"
 #include "gi/facets.h"
 #include "gi/field.h"
@@ -180,10 +181,14 @@ struct Pipeline::Impl {
     state.settled = r.settled();
     state.bound = r.bound;
     state.tolerance = r.allowed;
+    state.frames = r.frames;
+    state.standardError = r.standardError;
     return state;
   }
 
-  bool lit() const { return planned.on(Effect::matrix); }
+  bool lit() const { return planned.plan().indirectLight(); }
+  /// H by the rays of frames, without a matrix.
+  bool framewise() const { return planned.on(Effect::bruteForce); }
   bool relights() const { return settings.effects.relight != EffectMode::off; }
 
   // ---- What is due ----
@@ -209,7 +214,8 @@ struct Pipeline::Impl {
       }
       fitField(now);
       if (!relights()) return;
-      if (settings.effects.relight == EffectMode::on) first = std::min(first, Redo::Gather);
+      // A mean over frames would begin anew each time; it goes on by itself.
+      if (settings.effects.relight == EffectMode::on && !framewise()) first = std::min(first, Redo::Gather);
       if (first > Redo::Scatter && now.light->report.settled()) return;
       if (first > Redo::Scatter) first = Redo::Solve;
       made.forget(first);
@@ -253,9 +259,10 @@ struct Pipeline::Impl {
       made.forget(Redo::Matrix);
       now.matrix.reset();
     }
-    p.matrix = lit() ? buildMatrix(context, *p.facets, field ? *field : *p.field, obeyed,
-                                   [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); })
-                     : FormFactors{};
+    p.matrix = planned.on(Effect::matrix)
+                   ? buildMatrix(context, *p.facets, field ? *field : *p.field, obeyed,
+                                 [&](float fraction) { return !progress || progress("GI BuildMatrix", fraction); })
+                   : FormFactors{};
     if (field) p.field = std::move(field);
     learn(p);
     context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
@@ -295,28 +302,42 @@ struct Pipeline::Impl {
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (first <= Redo::Gather || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
-    if (!p.light || !*p.light) {
+    // The other method's light lacks what this one keeps, and has what this one does not need.
+    const bool other = p.light && static_cast<bool>(p.light->frameMean.next) != framewise();
+    if (!p.light || !*p.light || other) {
       planned.traits.light.noise.reset();
       decide();
       p.light = makeLighting(context, *p.facets, planned.settings());
       first = Redo::Emission;
     }
-    if (first <= Redo::Emission)
+    if (first <= Redo::Emission && !framewise())
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
     if (first <= Redo::Gather) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
-      gatherSky(frame, *p.matrix, skyOnDevice, *p.light);
+      if (!framewise()) gatherSky(frame, *p.matrix, skyOnDevice, *p.light);
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
-      solve(context, *p.facets, *p.matrix, *p.light, planned.settings(), maxSweeps);
+      solveFor(p, first, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
     scatterInto(p);
     learn(p);
     if (flipsBlur(p.light->report)) scatterInto(p);
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
+  }
+
+  /// `maxSweeps` 0: as many as it takes; else one frame of brute force, which costs as much as a matrix.
+  void solveFor(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
+    const Settings& obeyed = planned.settings();
+    if (!framewise()) {
+      solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
+      return;
+    }
+    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, maxSweeps != 0 ? 1 : obeyed.solver.frames,
+               /*restarts=*/first <= Redo::Gather,
+               [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
   }
 
   void scatterInto(Products& p) {
@@ -468,7 +489,6 @@ void Pipeline::invalidate(Redo from) {
 
 void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
-  const uint32_t sweeps = maxSweeps != 0 ? maxSweeps : p.settings.solver.maxSweeps;
   if (p.shadowsDue()) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
     const auto start = std::chrono::steady_clock::now();
@@ -476,7 +496,7 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
     p.shadowsMade = p.shadowsWanted;
     p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
   }
-  p.prepare(sweeps, progress);
+  p.prepare(maxSweeps, progress);
 }
 
 bool Pipeline::asleep() const {
@@ -494,6 +514,8 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
   Impl& p = *impl_;
   IRAD_CHECK(current(), "what the settings call for has not been prepared");
   if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
+  // The mean over the frames begins in the dark in any case.
+  if (p.framewise() && p.now.light->report.settled()) return draw();
   struct Before {
     Impl& p;
     std::optional<Lighting> light = std::exchange(p.now.light, std::nullopt);
@@ -505,7 +527,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
       p.solvedFrame = solvedFrame;
     }
   } before{p};
-  p.relight(p.now, Redo::Gather, p.settings.solver.maxSweeps, {});
+  p.relight(p.now, Redo::Gather, /*maxSweeps=*/0, progress);
   draw();
 }
 

@@ -90,9 +90,10 @@ class Pipeline {
   /// Runs what is dirty up to the scatter: blocking. When it throws or is cancelled pictures are drawn from the old
   /// state, and the next prepare() does the rest. Of the old state a rebuild of the facets gives up the matrix, for its
   /// memory (its views are empty then); a relight that fails leaves the light as far as it came. `maxSweeps` 0:
-  /// settings.solver.maxSweeps.
+  /// settings.solver.maxSweeps; by brute force settings.solver.frames, and with any other number one frame.
   void prepare(const Progress& progress = {}, uint32_t maxSweeps = 0);
-  /// True when nothing is dirty and the solver is done: its bound is below the tolerance, or the watch stopped it.
+  /// True when nothing is dirty and the solver is done: its bound is below the tolerance, brute force has its frames,
+  /// or the watch stopped it.
   bool asleep() const;
   /// True when nothing is due: what the pipeline holds was made with its settings. The solver may have sweeps left.
   bool current() const;
@@ -114,7 +115,8 @@ class Pipeline {
 
   /// Whatever was read from the products before these grew is stale.
   Revision revision() const;
-  // In a scene that does not call for them field, matrix and light are empty: false, without a buffer.
+  // In a scene that does not call for them field, matrix and light are empty: false, without a buffer. So is the matrix
+  // with solver.method = brute_force.
   const FacetList& facets() const;
   const Field& field() const;
   const FormFactors& matrix() const;  ///< after a prepare() that succeeded

@@ -178,8 +178,16 @@ class Planner {
     // csr keeps 4 B per distinct column, of which there are at most as many as rays.
     const uint64_t rays = s_.matrix.gpu.rays,
                    rowBytes = s_.matrix.format == MatrixFormat::csr ? 4 * rays + 12 : 8 * rays + 8;
-    constexpr uint64_t kLight = 7 * 16 + 4;  // D, F M, H, B twice, as shading samples them; row sums
-    decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight));
+    constexpr uint64_t kLight = 6 * 16,  // D, F M, H, B twice, as shading samples them
+        kSolve = 16 + 4, kFrames = 2 * 16;
+    if (s_.solver.method == SolverMethod::bruteForce) {
+      without(Effect::matrix, "solver.method = brute_force: rays of each frame in its place", b_.facets * rowBytes);
+      decide(Effect::bruteForce, shines_ && reads, fmt::format("{}; {} rays per facet and frame", reason, rays),
+             b_.facets * (kLight + kFrames));
+      return;
+    }
+    without(Effect::bruteForce, "solver.method = matrix", b_.facets * kFrames);
+    decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight + kSolve));
     // Lights that are there may be turned up again: what was built for them is kept.
     EffectRow& r = row(Effect::matrix);
     const bool mayShine = !t_.lights.empty() || !plan_.off(Effect::sky);
@@ -191,6 +199,8 @@ class Planner {
 
   void emitterSampling() {
     const uint64_t bytes = b_.facets * 16;
+    if (plan_.on(Effect::bruteForce) && emits_)
+      return without(Effect::emitterSampling, "solver.method = brute_force: its rays meet the emitters", bytes);
     if (!emits_ || !plan_.on(Effect::matrix) || !byTriangles())
       return without(Effect::emitterSampling,
                      !emits_                     ? "nothing emits"
@@ -225,7 +235,7 @@ class Planner {
       triangles += m.triangles;
       even = even && m.evenEmission;
     }
-    if (triangles == 0 || plan_.off(Effect::matrix)) return;
+    if (triangles == 0 || plan_.noIndirectLight()) return;
     plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles() && (even || !automatic);
     row(Effect::emission).reason +=
         fmt::format("; {} look for {} triangles{}: {} at most{}, with matrix.hit_rule=triangles alone",
@@ -235,17 +245,18 @@ class Planner {
   }
 
   void field() {
-    const bool byMatrix = !plan_.off(Effect::matrix) && s_.matrix.gpu.traversal == Traversal::sdf;
+    const bool byMatrix = !plan_.noIndirectLight() && s_.matrix.gpu.traversal == Traversal::sdf;
     const bool skips = plan_.on(Effect::specular) && s_.specular.gpu.traversal == Traversal::sdf;
-    std::string reason = fmt::format("rays of the matrix {} by it, specular rays {}", byMatrix ? "skip" : "do not skip",
-                                     skips && smoothness_ > 1 ? "do" : "do not");
+    std::string reason = fmt::format("rays of {} {} by it, specular rays {}",
+                                     plan_.on(Effect::bruteForce) ? "brute force" : "the matrix",
+                                     byMatrix ? "skip" : "do not skip", skips && smoothness_ > 1 ? "do" : "do not");
     const bool calledFor = byMatrix || (skips && held(Effect::field, smoothness_, reason));
     decide(Effect::field, calledFor, std::move(reason),
            s_.field.method == FieldMethod::chebyshev ? b_.voxels : 5 * b_.voxels);
   }
 
   void relight() {
-    if (plan_.off(Effect::matrix)) return without(Effect::relight, "no indirect light");
+    if (plan_.noIndirectLight()) return without(Effect::relight, "no indirect light");
     row(Effect::relight).epsilon = s_.solver.tolerance;
     row(Effect::relight).of = "the mean H";
     const LightState& l = t_.light;
@@ -253,6 +264,9 @@ class Planner {
     // Light at rest is kept, unless relighting is switched off.
     sleeps(Effect::relight, due || !l.settled || s_.effects.relight == EffectMode::off,
            due ? fmt::format("{} is due", nameOf(std::max(l.due, Redo::Gather)))
+           : plan_.on(Effect::bruteForce)
+               ? fmt::format("{} of {} frames, standard error {:.2g} {} {:.2g} W/m^2", l.frames, s_.solver.frames,
+                             l.standardError, l.standardError <= l.tolerance ? "<=" : ">", l.tolerance)
                : fmt::format("error bound {:.2g} {} {:.2g} W/m^2", l.bound, l.bound <= l.tolerance ? "<=" : ">",
                              l.tolerance));
   }
@@ -277,7 +291,7 @@ class Planner {
   }
 
   void blur() {
-    if (plan_.off(Effect::matrix)) return without(Effect::blur, "no indirect light");
+    if (plan_.noIndirectLight()) return without(Effect::blur, "no indirect light");
     if (const SampleFilter filter = s_.sample.gpu.filter_; filter != SampleFilter::blur)
       return without(Effect::blur, fmt::format("sample.filter = {}", nameOf(filter)));
     const float epsilon = row(Effect::blur).epsilon = s_.effects.blurNoise;
@@ -334,6 +348,7 @@ uint64_t EffectPlan::bytesNotAllocated() const {
 
 EffectMode forcedMode(const Settings& settings, Effect effect) {
   if (effect == Effect::emitterSampling) return settings.matrix.emitterSampling;
+  if (effect == Effect::bruteForce) return settings.effects.matrix;  // indirect light, by either method
   const auto mode = effectInfo(effect).mode;
   return mode ? settings.effects.*mode : EffectMode::automatic;
 }
@@ -348,6 +363,7 @@ Settings obeyed(const Settings& settings, const EffectPlan& plan) {
   for (const EffectRow& row : plan.rows)
     if (const auto mode = row.info().mode)
       s.effects.*mode = row.state == EffectState::off ? EffectMode::off : EffectMode::on;
+  if (plan.on(Effect::bruteForce)) s.effects.matrix = EffectMode::on;
   if (plan.off(Effect::sky)) s.sky = {};
   if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
   if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;

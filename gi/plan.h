@@ -24,6 +24,7 @@ struct ForwardEffects;
   X(spot, "spot", "Spot lights", "effects.spot", &EffectSettings::spot)                          \
   X(sky, "sky", "Sky", "effects.sky", &EffectSettings::sky)                                      \
   X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)             \
+  X(bruteForce, "brute-force", "Brute force", "", nullptr)                                       \
   X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)             \
   X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                   \
   X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                  \
@@ -78,6 +79,10 @@ struct EffectPlan {
   const EffectRow& row(Effect effect) const { return rows[static_cast<size_t>(effect)]; }
   bool on(Effect effect) const { return row(effect).state == EffectState::on; }
   bool off(Effect effect) const { return row(effect).state == EffectState::off; }
+  /// H is computed, by either method.
+  bool indirectLight() const { return on(Effect::matrix) || on(Effect::bruteForce); }
+  /// Neither computed nor kept.
+  bool noIndirectLight() const { return off(Effect::matrix) && off(Effect::bruteForce); }
   uint64_t bytesNotAllocated() const;
 };
 

@@ -39,8 +39,8 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
 }
 
 void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params, uint32_t firstRow, uint32_t rows,
-               const Buffer& hits, bool sky) {
-  Pass pass = frame.pass("GI BuildMatrix");
+               const Buffer& hits, bool sky, const char* stage) {
+  Pass pass = frame.pass(stage);
   TraceRaysPush push{};
   push.facets = kernel.facets.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
   push.chebyshev = kernel.chebyshev(pass);

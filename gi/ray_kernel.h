@@ -34,6 +34,6 @@ uint32_t exactTraversal(const Field& field);
 /// What every ray of some rows met, `rays` words per row: a facet or TRACE_*. The first kernel of the csr build; also
 /// read by tests and studies. `sky`: of those that escape the bin (rule `triangles`).
 void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params, uint32_t firstRow, uint32_t rows,
-               const Buffer& hits, bool sky = false);
+               const Buffer& hits, bool sky = false, const char* stage = "GI BuildMatrix");
 
 }  // namespace irad

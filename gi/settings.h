@@ -26,6 +26,7 @@ namespace irad {
 #define IRAD_FIELD_METHODS(X) X(chebyshev, "chebyshev") X(jfa, "jfa")
 #define IRAD_SPECULAR_MODES(X) X(off, "off") X(fragment, "fragment") X(compute, "compute")
 #define IRAD_EMITTER_LOOKUPS(X) X(automatic, "auto") X(facets, "facets") X(pixels, "pixels")
+#define IRAD_SOLVER_METHODS(X) X(matrix, "matrix") X(bruteForce, "brute_force")
 #define IRAD_SOLVER_KERNELS(X) X(automatic, "auto") X(tree, "tree") X(subgroup, "subgroup") X(row, "row")
 #define IRAD_SOLVER_ACCELERATIONS(X) X(off, "off") X(anderson, "anderson")
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
@@ -41,6 +42,8 @@ IRAD_ENUM(FieldMethod, IRAD_FIELD_METHODS)
 IRAD_ENUM(SpecularMode, IRAD_SPECULAR_MODES)
 /// Who gives a pixel the light that comes straight from emissive faces: the facets around it, or their triangles.
 IRAD_ENUM(EmitterLookup, IRAD_EMITTER_LOOKUPS)
+/// Where F in H = F B comes from: a matrix that is built once, or rays that are traced anew in every frame.
+IRAD_ENUM(SolverMethod, IRAD_SOLVER_METHODS)
 IRAD_ENUM(SolverKernel, IRAD_SOLVER_KERNELS)
 /// What becomes of the sweeps' results (docs/method.md 1): the next sweep's input, or a mix of them.
 IRAD_ENUM(SolverAcceleration, IRAD_SOLVER_ACCELERATIONS)
@@ -71,10 +74,12 @@ struct MatrixSettings {
   bool operator==(const MatrixSettings&) const = default;
 };
 struct SolverSettings {
+  SolverMethod method = SolverMethod::matrix;
   SolverParams gpu{1.0f, 1.0f, 1e-12f};
   float tolerance = 2e-3f;      ///< stop when the error bound is below this share of the mean H
   uint32_t sweepsPerFrame = 4;  ///< interactive; headless runs until the tolerance or maxSweeps
   uint32_t maxSweeps = 1000;
+  uint32_t frames = 256;  ///< of brute force, at most
   SolverKernel kernel = SolverKernel::automatic;
   SolverAcceleration acceleration = SolverAcceleration::anderson;
   bool operator==(const SolverSettings&) const = default;

@@ -79,15 +79,24 @@ constexpr Setting kTable[] = {
     SETTING(matrix.emitterSamples, "matrix.emitter_samples", {1, 256, "rays"}, "Rays per facet to the emitters.",
             Emission),
     SETTING(matrix.gpu.seed, "matrix.seed", {0, 4294967295.0}, "Seed of the ray directions (--seed).", Matrix),
+    SETTING(solver.method, "solver.method",
+            "matrix: form factors are traced once and kept; brute_force: none are kept, matrix.rays rays per facet are "
+            "traced anew in every frame and H is the mean of what they bring, with its standard error as a view "
+            "(standard-error).",
+            Matrix),
+    SETTING(solver.frames, "solver.frames", {1, 100000, "frames"},
+            "Most frames of brute force; it ends before where the standard error is below solver.tolerance.", Solve),
     SETTING(solver.gpu.lambda, "solver.lambda", {0, 2},
             "Artistic gain: B = lambda (M + rho (D + H)); 1 leaves the physics alone.", Solve),
     SETTING(solver.gpu.omega, "solver.omega", {0.05, 1},
             "Under-relaxation: a sweep goes this share of the way to its result; the solution stays the same.", Solve),
     SETTING(solver.gpu.flush, "solver.flush", {0, 1e-3, "W/m^2", /*logarithmic=*/true},
             "Smaller values become exact zero.", Solve),
-    SETTING(solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
-            "The solver stops when its error bound on H is below this share of the mean H, by the facets' areas.",
-            Solve),
+    SETTING(
+        solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
+        "The solver stops when its error bound on H (brute force: the mean standard error) is below this share of the "
+        "mean H, by the facets' areas.",
+        Solve),
     SETTING(solver.sweepsPerFrame, "solver.sweeps_per_frame", {1, 1000, "sweeps"},
             "Jacobi sweeps per frame of the window.", Solve),
     SETTING(solver.maxSweeps, "solver.max_sweeps", {1, 100000, "sweeps"}, "Most sweeps of a headless solve.", Solve),
@@ -211,7 +220,9 @@ constexpr Setting kTable[] = {
         "beside the matrix, off leaves the sky out.",
         Matrix),
     SETTING(effects.matrix, "effects.matrix",
-            "Indirect light: matrix and solver; auto: where there is light, and something that reflects it.", Matrix),
+            "Indirect light: matrix and solver, or brute force; auto: where there is light, and something that "
+            "reflects it.",
+            Matrix),
     SETTING(effects.specular, "effects.specular",
             "Reflections; auto: where there is light, and a material that is not Lambertian.", Shade),
     SETTING(effects.field, "effects.field", "Distance field kept beside the voxels; auto: where rays read it.", Shade),

@@ -38,8 +38,8 @@ void judgeGains(SolveReport& report, const SolveResidual& r) {
   report.kappaSlack = least > 0 ? (1 + std::bit_cast<float>(r.maxFall)) / least : kUnknown;
 }
 
-/// What the error of H is to be below: the tolerance; but no less than what a sweep cannot tell from rounding, a unit in
-/// the last place of the largest H, between two of which it may go to and fro.
+/// What the error of H is to be below: the tolerance; but no less than what a sweep cannot tell from rounding, a unit
+/// in the last place of the largest H, between two of which it may go to and fro.
 float target(const SolveReport& report, float omega, float tolerance) {
   return std::max(tolerance * report.meanH, report.kappa / omega * report.largestH * 0x1p-23f);
 }
@@ -72,8 +72,9 @@ uint32_t sweepsToGo(const SolveReport& report, float omega, float tolerance) {
   return static_cast<uint32_t>(std::clamp(sweeps, 1.0, 1e6));
 }
 
-/// Makes the guard of a solve that begins, or that goes on: the window calls for a few sweeps at a time.
-void begin(Context& context, const FacetList& facets, Lighting& light, const SolverParams& params) {
+}  // namespace
+
+void beginSolve(Context& context, const FacetList& facets, Lighting& light, const SolverParams& params) {
   DivergenceGuard& guard = light.guard;
   if (!light.report.settled() && guard.lambda == params.lambda && guard.asked == params.omega) return;
   const bool goesOn = !light.report.settled() && guard.radiosity;
@@ -103,8 +104,7 @@ void begin(Context& context, const FacetList& facets, Lighting& light, const Sol
   guard = std::move(fresh);
 }
 
-/// The light from before the solve.
-void restore(Context& context, const FacetList& facets, Lighting& light) {
+void restoreLight(Context& context, const FacetList& facets, Lighting& light) {
   if (!light.guard.radiosity) return;
   const uint64_t bytes = 16ull * facets.count;
   Frame frame = context.begin();
@@ -113,8 +113,6 @@ void restore(Context& context, const FacetList& facets, Lighting& light) {
   frame.submit();
   light.gain = light.guard.gain;
 }
-
-}  // namespace
 
 void DivergenceGuard::judge(float gain, float residual) {
   const float before = step;
@@ -138,7 +136,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   }
   const SolverParams& params = settings.solver.gpu;
   Sweep sweep(context, facets, matrix, settings.solver);
-  begin(context, facets, light, params);
+  beginSolve(context, facets, light, params);
   DivergenceGuard& guard = light.guard;
   const float litBefore = light.litH;
   const bool accelerated = settings.solver.acceleration != SolverAcceleration::off;
@@ -228,7 +226,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     }
   }
   if (report.diverging) {
-    restore(context, facets, light);
+    restoreLight(context, facets, light);
     light.litH = litBefore;
   }
   if (report.settled()) guard.radiosity = Buffer(), guard.indirect = Buffer();

@@ -26,10 +26,10 @@ struct EnergyBalance {
   double imbalance() const;
 };
 struct SolveReport {
-  uint32_t sweeps = 0;
-  float residual = 0;  ///< max |dB| of the last sweep, W/m^2
-  float bound = 0;     ///< (kappa/omega - 1) max|dB|: error bound on B (docs/method.md 1), W/m^2
-  float allowed = 0;   ///< bound at which the solver sleeps, W/m^2
+  uint32_t sweeps = 0;  ///< of the last call; brute force: frames
+  float residual = 0;   ///< max |dB| of the last sweep; brute force: change of the mean H; W/m^2
+  float bound = 0;      ///< (kappa/omega - 1) max|dB|: error bound on B (docs/method.md 1), W/m^2
+  float allowed = 0;    ///< bound at which the solver sleeps, W/m^2
   float largestH = 0;
   float meanH = 0;                                       ///< by the facets' areas, of the brightest channel
   float kappa = std::numeric_limits<float>::infinity();  ///< the largest value of the gains' answer is at most this
@@ -40,6 +40,10 @@ struct SolveReport {
   uint32_t negative = 0;            ///< components of M + rho D, H or B, and row sums, below zero
   bool dark = false;                ///< nothing shone in the last sweep
   bool converged = false;
+  uint32_t frames = 0;  ///< brute force alone: frames in the mean
+  float standardError =
+      0;  ///< brute force alone: of H, the mean over the facets' areas, of the brightest channel; W/m^2
+  bool atMostFrames = false;  ///< brute force has its solver.frames
   bool diverging =
       false;            ///< growing under any relaxation (solver.lambda too large): stopped, the light before is back
   bool damped = false;  ///< the guard took omega below solver.omega
@@ -50,7 +54,7 @@ struct SolveReport {
   std::optional<float> blurChange;  ///< by scatter(), where it watches the blur: the most that it changes H by, W/m^2
   uint32_t clampedVoxels = 0;       ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
   /// Further sweeps would not improve anything.
-  bool settled() const { return converged || diverging || nonFinite > 0; }
+  bool settled() const { return converged || atMostFrames || diverging || nonFinite > 0; }
 };
 
 }  // namespace irad

@@ -52,7 +52,9 @@ struct LightState {
   Redo due = Redo::Voxels;  ///< first stage that has to run again
   bool settled = false;     ///< the solver has nothing left to do
   float bound = 0;          ///< error bound on B, W/m^2
-  float tolerance = 0;      ///< bound at which the solver sleeps, W/m^2
+  float tolerance = 0;      ///< bound (brute force: standard error) at which the solver sleeps, W/m^2
+  uint32_t frames = 0;      ///< brute force: in the mean so far
+  float standardError = 0;  ///< brute force: mean of H's, W/m^2
   /// Largest change that the blur makes to H, as a share of the largest H; none before there was light.
   std::optional<float> noise;
 };

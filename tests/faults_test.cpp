@@ -21,6 +21,13 @@ Settings small(uint32_t resolution, const char* preset = "balanced") {
   return s;
 }
 
+Settings framewise(uint32_t resolution) {
+  Settings s = small(resolution);
+  s.solver.method = SolverMethod::bruteForce;
+  s.solver.frames = 2;
+  return s;
+}
+
 const Scene& box() {
   static const Scene scene = loadScene(assets() / "box.glb");
   return scene;
@@ -112,6 +119,7 @@ class NoMemory : public GpuTest {
 TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
   std::set<std::string> subsystems = everyResource(small(12));
   subsystems.merge(everyResource(small(12, "thesis")));
+  subsystems.merge(everyResource(framewise(12)));
   if (kStep == 1) {
     EXPECT_EQ(subsystems, (std::set<std::string>{"facets", "field", "matrix", "scene", "shadow", "solver", "specular",
                                                  "staging", "targets", "volumes", "voxels"}));
@@ -143,6 +151,26 @@ TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
   }
   EXPECT_GT(n, 30u);
   EXPECT_TRUE(draw(context(), pipeline) == pictures[1 - shown]);
+}
+
+TEST_F(NoMemory, InAnotherMethodCanBeTakenBack) {
+  Pipeline pipeline(context(), box(), small(12));
+  pipeline.prepare();
+  const Pixels before = draw(context(), pipeline);
+  uint64_t n = 1;
+  for (;; n += kStep) {
+    pipeline.set(framewise(12));
+    const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
+    if (message.empty()) break;
+    expectNamed(message);
+    draw(context(), pipeline);
+    pipeline.set(small(12));
+    pipeline.darken();
+    pipeline.prepare();
+    ASSERT_TRUE(draw(context(), pipeline) == before) << "after resource " << n << ": " << message;
+  }
+  EXPECT_GT(n, 4u);
+  EXPECT_TRUE(draw(context(), pipeline) == fresh(context(), framewise(12)));
 }
 
 /// Under a list that stays: what shadow maps, a new matrix and a relight allocate.

@@ -56,6 +56,8 @@ constexpr auto noMode = EDIT(glossy(t, s), s.specular.mode = SpecularMode::off);
 constexpr auto few = EDIT(t.build->emitters = 49, t.build->sampled = false);  // emitters, not tried yet or in vain
 constexpr auto thesis = EDIT(applyPreset(s, "thesis"), dark(t, s));           // forces on what its stages always do
 constexpr auto sky = EDIT(s.sky.source = SkySource::constant, t.sky = 2);
+constexpr auto framewise = EDIT(s.solver.method = SolverMethod::bruteForce, t.build->matrix = t.build->sampled = false,
+                                t.light.frames = 9, t.light.standardError = 1e-4f);
 constexpr auto byPixels = EDIT(s.sample.emitters = EmitterLookup::pixels);
 
 /// What an edit makes of an effect: its row in words, * for any.
@@ -101,6 +103,15 @@ const Case kCases[]{
     {E::matrix, EDIT(turnedDown(t, s), t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
     {E::matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
     {E::matrix, thesis, "on: *"},
+    {E::matrix, framewise, "off, 262000 B: solver.method = brute_force: rays of each frame in its place"},
+    {E::bruteForce, none, "off, 16000 B: solver.method = matrix"},
+    {E::bruteForce, framewise, "on: light, and albedos of up to 0.5; 128 rays per facet and frame"},
+    {E::bruteForce, EDIT(framewise(t, s), unlit(t, s)), "off, 64000 B: no light at all: *"},
+    {E::bruteForce, EDIT(framewise(t, s), s.effects.matrix = EffectMode::off), "off, 64000 B: forced off: light, *"},
+    {E::emitterSampling, framewise, "off, 8000 B: solver.method = brute_force: its rays meet the emitters"},
+    {E::field, framewise, "on: rays of brute force skip by it, specular rays do not"},
+    {E::relight, framewise, "asleep, *: 9 of 256 frames, standard error 0.0001 <= 0.0002 W/m^2"},
+    {E::relight, EDIT(framewise(t, s), unlit(t, s)), "off: no indirect light"},
     {E::sky, none, "off, 10000 B: sky.source = none"},
     {E::sky, sky, "on: sky.source = constant, 2 W/(m^2 sr) at most"},
     {E::sky, EDIT(sky(t, s), s.matrix.gpu.hitRule = HitRule::thesis), "off, 10000 B: *; not with matrix.hit_rule *"},
@@ -163,7 +174,7 @@ TEST(Plan, EachRowFollowsWhatCallsForIt) {
     const EffectPlan p = plan(t, s);
     expectRow(p.row(c.effect), c.row);
     std::vector<std::string> noLight;  // the reasons of all kinds
-    if (p.row(E::matrix).reason.find("no light at all") != std::string::npos)
+    if ((p.row(E::matrix).reason + p.row(E::bruteForce).reason).find("no light at all") != std::string::npos)
       for (const E e : {E::sun, E::point, E::spot, E::emission, E::sky}) noLight.push_back(p.row(e).reason);
     EXPECT_EQ(p.noLight, noLight) << c.row;
     // The settings that stages get are decided, and what no effect decides stays as it is.

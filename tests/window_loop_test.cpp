@@ -165,6 +165,27 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
   EXPECT_EQ(asked.allocations, 0u) << "device memory for a camera";
 }
 
+TEST_F(WindowLoop, FramesOfBruteForceEndInRestAndBeginAnewFromTheDark) {
+  options_.settings.solver.method = SolverMethod::bruteForce;
+  options_.settings.solver.frames = 5;
+  double from = 0, to = 0;
+  run([&] {  // once it rests
+    from = timings_.now();
+    click("Solver/H = 0");
+    screen_->xdotool("mousemove 360 510");
+    EXPECT_TRUE(until([&] { return rests(); }));
+    to = timings_.now();
+  });
+  size_t samples = 0;
+  for (const FrameSample& frame : timings_.frames())
+    if (frame.began >= from && frame.began <= to)
+      samples += std::ranges::any_of(frame.stages, [](const auto& s) { return s.first == "GI BruteForce"; });
+  EXPECT_GE(samples, 5u) << "more than one in a frame of the window";
+  const std::set<std::string> stages = stagesBetween(0, to);
+  EXPECT_TRUE(stages.contains("GI BruteForce"));
+  EXPECT_FALSE(stages.contains("GI BuildMatrix") || stages.contains("GI Solve"));
+}
+
 TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
   double from = 0, to = 0;
   ScreenPart first, moved;

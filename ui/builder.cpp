@@ -222,7 +222,8 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .solve = report,
                      .findings = pipeline.findings(),
                      .noLight = pipeline.plan().noLight};
-  side.solves.push_back({report.sweeps, report.residual, report.bound});
+  const float error = report.frames > 0 ? report.standardError : report.bound;
+  side.solves.push_back({report.sweeps, report.residual, error});
   if (side.solves.size() > 400) side.solves.pop_front();
   side.sweepsSinceWake += report.sweeps;
   session_.viewDirty = true;

@@ -25,6 +25,8 @@ State stateOf(const Session& session) {
   if (session.built && session.built->faulty()) return {theme::error, "numerical watch"};
   if (session.paused) return {theme::warning, "paused"};
   if (session.asleep()) return {theme::good, "asleep"};
+  if (session.built && session.built->solve.frames > 0)
+    return {theme::accent, fmt::format("brute force: {} frames", withThousands(session.built->solve.frames))};
   return {theme::accent, fmt::format("solving: {} sweeps", withThousands(session.sweepsSinceWake))};
 }
 

@@ -58,7 +58,7 @@ struct Built {
 /// One call of the solver, for the plots.
 struct SolveSample {
   uint32_t sweeps;
-  float residual, bound;
+  float residual, bound;  ///< bound: by brute force the standard error
 };
 
 /// One set of settings, and what the pipeline made of them.

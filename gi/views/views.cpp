@@ -65,6 +65,15 @@ std::optional<ViewShape> resolveShape(View view, ViewShape wanted) {
   return wanted;
 }
 
+std::string whatIsMissing(const ViewInfo& info, const Settings& settings) {
+  const bool framewise = settings.solver.method == SolverMethod::bruteForce;
+  if (framewise && info.isFrom(FROM_MATRIX | FROM_MATRIX_ROW))
+    return "solver.method = brute_force: there is no matrix.";
+  if (!framewise && info.isFrom(FROM_STANDARD_ERROR))
+    return "solver.method = matrix: only frames of brute_force have a standard error.";
+  return {};
+}
+
 Quantity shownQuantity(const ViewInfo& info, const Settings& settings) {
   if (resolveShape(info.view, settings.view.shape) != ViewShape::projection) return {info.label, info.unit};
   if (viewIsDistance(info.from)) return {std::string(info.label) + ": sum of 1 / distance", ""};

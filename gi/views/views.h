@@ -48,6 +48,9 @@ std::vector<ViewInfo> findViews(const std::vector<std::string>& names);
 /// volumes.
 std::optional<ViewShape> resolveShape(View view, ViewShape wanted);
 
+/// Why there is nothing to draw a view from with these settings, in a sentence; empty: there is.
+std::string whatIsMissing(const ViewInfo& info, const Settings& settings);
+
 /// What the colours of a view with a range stand for, in the shape that it is shown in: "Chebyshev field" in "voxels".
 struct Quantity {
   std::string name, unit;

@@ -21,10 +21,11 @@ const Buffer* facetValues(const ViewInfo& info, const ViewInputs& inputs) {
   if (info.isFrom(FROM_ORACLE)) return inputs.reference;
   const Lighting* light = inputs.lighting;
   if (light == nullptr) return nullptr;
-  return info.isFrom(FROM_D)   ? &light->direct
-         : info.isFrom(FROM_H) ? &light->indirect
-         : info.isFrom(FROM_B) ? &light->radiosity
-                               : nullptr;
+  return info.isFrom(FROM_D)                                                  ? &light->direct
+         : info.isFrom(FROM_H)                                                ? &light->indirect
+         : info.isFrom(FROM_B)                                                ? &light->radiosity
+         : info.isFrom(FROM_STANDARD_ERROR) && light->frameMean.standardError ? &light->frameMean.standardError
+                                                                              : nullptr;
 }
 
 /// The method of the field that a view reads as it is stored; none: it reads none.

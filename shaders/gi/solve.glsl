@@ -3,7 +3,6 @@
 // With SOLVE_GAINS it also iterates the gains' answer.
 #ifndef IRAD_SOLVE_GLSL
 #define IRAD_SOLVE_GLSL
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/constants.h"
 #include "shared/solve.h"
 
@@ -31,6 +30,7 @@ void putOutput(uint row, vec4 value) {
 }
 
 #include "gi/matrix_row.glsl"
+#include "gi/solve_watch.glsl"
 
 /// A row's sums, as far as they are wanted: xyz; with WATCHES `row`; with GAINS w.
 struct Sum {
@@ -45,17 +45,6 @@ void addEntry(inout Sum sum, Row r, uint columnBits, uint i) {
   sum.light += inputAt(e.column) * e.weight;
   if (WATCHES) sum.row += e.weight;
 }
-
-/// What a row hands to the reductions.
-struct Watch {
-  float delta, h, gain, source, rise, fall, reach;
-  uint nonFinite, nan, negative;
-};
-const Watch NOTHING = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u, 0u);
-
-uint trues(bvec3 b) { return uint(b.x) + uint(b.y) + uint(b.z); }
-
-float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 /// The gains' answer without its 1: v' = a (F v + F 1), a = lambda x the largest albedo of the three channels.
 float nextReach(float before, float a, Sum sum, inout Watch w) {
@@ -106,15 +95,11 @@ Watch finishRow(uint row, Sum sum, float weight) {
   p.indirect.at[row] = vec4(h, 0.0f);
   if (WATCHES) {
     p.rowSum.at[row] = sum.row;
-    w.nan = trues(isnan(now));
-    w.nonFinite = w.nan + trues(isinf(now));
-    w.negative = trues(lessThan(min(min(source, h), now), vec3(0.0f))) + uint(sum.row < 0.0f);
-    // A maximum with NaN may be either operand, so what is not finite is counted and left out.
+    watchLight(w, source, h, now);
+    w.negative += uint(sum.row < 0.0f);
     if (w.nonFinite == 0u) {
       w.delta = largest(abs(now - old));
-      w.h = largest(abs(h));
       w.gain = p.lambda * largest(rho) * sum.row;
-      w.source = largest(abs(source));
     }
   }
   return w;
@@ -122,30 +107,7 @@ Watch finishRow(uint row, Sum sum, float weight) {
 
 /// All invocations of the subgroup that are still here call this once.
 void report(Watch w) {
-  if (!WATCHES) return;
-  float delta = subgroupMax(w.delta);
-  float h = subgroupMax(w.h);
-  float gain = subgroupMax(w.gain);
-  float source = subgroupMax(w.source);
-  float rise = GAINS ? subgroupMax(w.rise) : 0.0f;
-  float fall = GAINS ? subgroupMax(w.fall) : 0.0f;
-  float reach = GAINS ? subgroupMax(w.reach) : 0.0f;
-  uint nonFinite = subgroupAdd(w.nonFinite);
-  uint nan = subgroupAdd(w.nan);
-  uint negative = subgroupAdd(w.negative);
-  if (!subgroupElect()) return;
-  // Most rows change nothing: look before locking.
-  ResidualArray r = p.residual;
-  if (floatBitsToUint(delta) > r.at[0].maxDelta) atomicMax(r.at[0].maxDelta, floatBitsToUint(delta));
-  if (floatBitsToUint(h) > r.at[0].maxH) atomicMax(r.at[0].maxH, floatBitsToUint(h));
-  if (floatBitsToUint(gain) > r.at[0].maxGain) atomicMax(r.at[0].maxGain, floatBitsToUint(gain));
-  if (floatBitsToUint(source) > r.at[0].maxSource) atomicMax(r.at[0].maxSource, floatBitsToUint(source));
-  if (floatBitsToUint(rise) > r.at[0].maxRise) atomicMax(r.at[0].maxRise, floatBitsToUint(rise));
-  if (floatBitsToUint(fall) > r.at[0].maxFall) atomicMax(r.at[0].maxFall, floatBitsToUint(fall));
-  if (floatBitsToUint(reach) > r.at[0].maxReach) atomicMax(r.at[0].maxReach, floatBitsToUint(reach));
-  if (nonFinite > 0u) atomicAdd(r.at[0].nonFinite, nonFinite);
-  if (nan > 0u) atomicAdd(r.at[0].nan, nan);
-  if (negative > 0u) atomicAdd(r.at[0].negative, negative);
+  if (WATCHES) reduceWatch(w, p.residual, GAINS);
 }
 
 #endif

@@ -43,8 +43,13 @@ class InspectorPanel : public Panel {
     drawTop(in);
     drawPlace(in, *facet);
     drawNormal(*facet);
-    drawLight(in, *facet);
-    drawMatrix(in, *facet);
+    drawLight(*facet);
+    const bool hasMatrix = session.pipeline->obeyed().solver.method == SolverMethod::matrix;
+    drawHistory(in, hasMatrix);
+    if (hasMatrix)
+      drawMatrix(in, *facet);
+    else
+      ImGui::TextColored(theme::dim, "solver.method = brute_force: no row, no column");
     drawRay(in, *facet);
   }
 
@@ -104,7 +109,7 @@ class InspectorPanel : public Panel {
                     facet.mesh->triangle, facet.mesh->back ? ", its back" : ""));
   }
 
-  static void drawLight(Inspection& in, const InspectedFacet& facet) {
+  static void drawLight(const InspectedFacet& facet) {
     valueRow("M", three(facet.emission));
     helpTooltip("Emitted exitance, W/m\u00B2");
     valueRow("D", three(facet.direct));
@@ -123,11 +128,10 @@ class InspectorPanel : public Panel {
       valueRow("emitters", three(facet.correction));
       helpTooltip("What samples of the emitters add to H in place of the row's rays, W/m\u00B2");
     }
-    drawHistory(in);
   }
 
-  /// H over the sweeps: as it came since the pick, or replayed from the dark.
-  static void drawHistory(Inspection& in) {
+  /// H over the sweeps (brute force: frames): as it came since the pick, or replayed from the dark.
+  static void drawHistory(Inspection& in, bool hasMatrix) {
     std::vector<float> values;
     if (in.replay)
       for (const auto& sweep : in.replay->irradiance) values.push_back(luminance(sweep.at(0)));
@@ -141,7 +145,9 @@ class InspectorPanel : public Panel {
                        largest > 0 ? 1.4f * largest : 1, {ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4});
       helpTooltip(fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)));
     }
+    ImGui::BeginDisabled(!hasMatrix);
     if (ImGui::Button("Solve from the dark", {-1, 0})) in.wantReplay = true;
+    ImGui::EndDisabled();
     helpTooltip("Keeps H of this facet after every sweep of a solve of its own; the picture's light stays");
   }
 

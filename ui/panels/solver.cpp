@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "gi/convergence.h"
 #include "ui/imgui.h"
@@ -29,6 +30,12 @@ class SolverPanel : public Panel {
     drawButtons(session);
     const SolveReport& report = session.built->solve;
     collect(session);
+    if (report.frames > 0) {
+      drawFrames(session);
+      drawWatch(*session.built);
+      settingRow(session.edited, session.defaults, "solver.frames");
+      return;
+    }
     valueRow("sweeps", sweepsText(session));
     helpTooltip("Since the solver last woke; what is left is extrapolated from the bound's slope over the last calls");
     valueRow("residual", shortNumber(report.residual) + " W/m\u00B2");
@@ -50,9 +57,35 @@ class SolverPanel : public Panel {
   }
 
  private:
+  /// Brute force.
+  void drawFrames(const Session& session) const {
+    const SolveReport& report = session.built->solve;
+    valueRow("frames", fmt::format("{} of {}", withThousands(report.frames),
+                                   withThousands(session.pipeline->settings().solver.frames)));
+    helpTooltip("In the mean; a change of the scene or its light begins it anew");
+    valueRow("standard error", shortNumber(report.standardError) + " W/m\u00B2");
+    helpTooltip(
+        "Of H, from the spread of the frames: the mean over the facets' areas, of the brightest colour channel. The "
+        "view standard-error shows each facet's");
+    valueRow("ends below", shortNumber(report.allowed) + " W/m\u00B2");
+    helpTooltip("solver.tolerance of the mean H");
+    valueRow("H mean, largest", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
+    helpTooltip("The mean is by the facets' areas, of the brightest colour channel");
+    valueRow("row gain \u03C1", shortNumber(report.largestGain));
+    helpTooltip("The largest share of its light that a facet's rays of the last frame pass on");
+    const PlotLine lines[] = {{"standard error", ImGui::GetColorU32(theme::accent), bound_}};
+    drawPlot(lines, "frames", "standard error: from two frames on", "- - ends, W/m\u00B2");
+  }
+
   std::vector<BoundSample> bounds_;
   std::vector<float> x_, residual_, bound_;  ///< of the curves
   double target_ = 0;
+
+  static const char* asleepBecause(const SolveReport& report) {
+    if (report.frames == 0) return "Asleep: nothing has changed, and the error bound is below target.";
+    return report.converged ? "Asleep: nothing has changed, and the standard error is below target."
+                            : "Asleep: nothing has changed, and there are as many frames as solver.frames allows.";
+  }
 
   static void drawState(const Session& session) {
     const SolveReport& report = session.built->solve;
@@ -60,11 +93,14 @@ class SolverPanel : public Panel {
         session.built->faulty() ? std::pair{theme::error, "Stopped by the numerical watch, see below."}
         : report.diverging
             ? std::pair{theme::error, "Stopped: the light would grow without bound (lambda, albedo). The last is kept."}
-        : session.asleep() ? std::pair{theme::good, "Asleep: nothing has changed, and the error bound is below target."}
+        : session.asleep() ? std::pair{theme::good, asleepBecause(report)}
         : session.halted   ? std::pair{theme::warning, "Halted: the rebuild failed or was cancelled."}
-        : session.paused   ? std::pair{theme::warning, "Paused before the error bound has come below target."}
-        : report.damped    ? std::pair{theme::warning, "Awake, damped: the residual was growing."}
-                           : std::pair{theme::accent, "Awake: the error bound is still above target."};
+        : session.paused
+            ? std::pair{theme::warning, report.frames > 0 ? "Paused before the last frame."
+                                                          : "Paused before the error bound has come below target."}
+        : report.damped     ? std::pair{theme::warning, "Awake, damped: the residual was growing."}
+        : report.frames > 0 ? std::pair{theme::accent, "Awake: frames are added to the mean."}
+                            : std::pair{theme::accent, "Awake: the error bound is still above target."};
     ImGui::PushTextWrapPos(0);
     ImGui::TextColored(color, "%s", state);
     ImGui::PopTextWrapPos();
@@ -77,7 +113,7 @@ class SolverPanel : public Panel {
     helpTooltip("Space");
     ImGui::SameLine();
     if (ImGui::Button("Step", third)) session.paused = session.step = true;
-    helpTooltip("One sweep, then pause");
+    helpTooltip("One sweep or frame, then pause");
     ImGui::SameLine();
     if (ImGui::Button("H = 0", third)) session.darken = true;
     helpTooltip("Start again from the dark");
@@ -90,6 +126,7 @@ class SolverPanel : public Panel {
     bounds_.clear(), x_.clear(), residual_.clear(), bound_.clear();
     for (const SolveSample& s : session.solves) {
       sweeps += s.sweeps;
+      if (session.built->solve.frames > 0 && s.bound == 0) continue;  // a single frame has no standard error
       bounds_.push_back({sweeps, s.bound});
       x_.push_back(static_cast<float>(sweeps));
       residual_.push_back(s.residual);
@@ -106,27 +143,31 @@ class SolverPanel : public Panel {
   }
 
   void drawCurves() const {
-    const float height = std::floor(8 * ImGui::GetFontSize());
-    if (x_.size() < 2) {
-      ImGui::TextColored(theme::dim, "residual and bound: from two calls on");
-      return;
-    }
     const PlotLine lines[] = {{"error bound", ImGui::GetColorU32(theme::accent), bound_},
                               {"residual", ImGui::GetColorU32(theme::good), residual_}};
+    drawPlot(lines, "sweeps", "residual and bound: from two calls on", "- - sleeps, W/m\u00B2");
+  }
+
+  /// Over what the calls did; `few`: in place of curves of one call, `mark`: what the dashed line is.
+  void drawPlot(std::span<const PlotLine> lines, const char* steps, const char* few, const char* mark) const {
+    if (x_.size() < 2) {
+      ImGui::TextColored(theme::dim, "%s", few);
+      return;
+    }
     PlotAxes axes;
     axes.logarithmic = true;
     axes.x = x_;
-    axes.xText = [](float v) { return fmt::format("{:.0f} sweeps", v); };
+    axes.xText = [steps](float v) { return fmt::format("{:.0f} {}", v, steps); };
     axes.yText = [](float v) { return shortNumber(v); };
     if (target_ > 0) axes.mark = static_cast<float>(target_);
-    plot({ImGui::GetContentRegionAvail().x, height}, lines, axes);
+    plot({ImGui::GetContentRegionAvail().x, std::floor(8 * ImGui::GetFontSize())}, lines, axes);
     for (const PlotLine& line : lines) {
       ImGui::PushStyleColor(ImGuiCol_Text, line.color);
       ImGui::TextUnformatted(line.name.c_str());
       ImGui::PopStyleColor();
       ImGui::SameLine();
     }
-    ImGui::TextColored(theme::dim, "- - sleeps, W/m\u00B2");
+    ImGui::TextColored(theme::dim, "%s", mark);
   }
 
   /// All channels together, W; the scene's units are taken for metres.

@@ -147,6 +147,8 @@ class ViewPanel : public Panel {
           fmt::format("(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of lit and reference, from the reference's "
                       "camera; its mean square is relMSE.",
                       VIEW_ERROR_EPSILON));
+    else if (const std::string missing = whatIsMissing(info, pipeline.obeyed()); !missing.empty())
+      note(missing);
     else if (info.isFrom(FROM_MATRIX_ROW))
       note(fmt::format("F from facet {} to each facet: click the picture to take another's row.",
                        session.edited.view.facet));
