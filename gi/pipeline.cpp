@@ -25,6 +25,7 @@
 #include "gi/subsystems.h"
 #include "gi/voxelize.h"
 #include "gi/watch.h"
+#include "gi/writeback.h"
 #include "renderer/base/error.h"
 
 namespace irad {
@@ -206,7 +207,7 @@ struct Pipeline::Impl {
       fitField(now);
       if (!relights()) return;
       if (settings.effects.relight == EffectMode::on) first = std::min(first, Redo::Gather);
-      if (first > Redo::Scatter && now.light->report.settled()) return;
+      if (first > Redo::Scatter && now.light->report.settled() && !reflectionsDue()) return;
       if (first > Redo::Scatter) first = Redo::Solve;
       made.forget(first);
       relight(now, first, maxSweeps, progress);
@@ -306,6 +307,7 @@ struct Pipeline::Impl {
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
+      useReflections(*p.light, p.facets->count);
       solve(context, *p.facets, *p.matrix, *p.light, planned.settings(), maxSweeps);
       solvedFrame = frameIndex;
     }
@@ -313,6 +315,20 @@ struct Pipeline::Impl {
     learn(p);
     if (flipsBlur(p.light->report)) scatterInto(p);
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
+  }
+
+  /// Whether the picture that was drawn last has changed what is written back by more than H is known to.
+  bool reflectionsDue() {
+    if (!now.light || !now.light->writeback.report || !relights()) return false;
+    const std::shared_ptr<WritebackReport> report = now.light->writeback.report;
+    if (report->taken) return false;
+    if (report->pending) context.finish();  // the frame, unless it is still being recorded
+    return !report->pending && report->change > settings.solver.tolerance * now.light->report.meanH;
+  }
+  /// Light is solved with what the last picture has written back.
+  void useReflections(Lighting& light, uint32_t facets) {
+    fitWriteback(context, facets, planned.settings(), light.writeback);
+    if (light.writeback.report && !light.writeback.report->taken) takeDrawn(light.writeback);
   }
 
   void scatterInto(Products& p) {
@@ -475,7 +491,24 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
 
 bool Pipeline::asleep() const {
   if (impl_->settings.effects.relight == EffectMode::on) return false;
-  return current() && (impl_->now.light->report.settled() || !impl_->relights());
+  return current() && (!impl_->relights() || (impl_->now.light->report.settled() && !impl_->reflectionsDue()));
+}
+
+WritebackRounds Pipeline::settleReflections(const Camera& camera, Targets& targets, const Progress& progress) {
+  Impl& p = *impl_;
+  WritebackRounds done;
+  if (!p.now.light || !p.now.light->writeback.used) return done;
+  while (!done.settled && done.rounds < WritebackRounds::kMost) {
+    if (progress && !progress("GI Writeback", static_cast<float>(done.rounds) / WritebackRounds::kMost))
+      throw WorkError("cancelled");
+    ++done.rounds;
+    Frame frame = p.context.begin(p.frameIndex);
+    render(frame, camera, VIEW_LIT, targets);
+    frame.submitAndWait();
+    done.settled = !p.reflectionsDue();
+    if (!done.settled) prepare();
+  }
+  return done;
 }
 
 bool Pipeline::current() const {
@@ -532,6 +565,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.range = range;
   lightByEmitters(frame, inputs, p.planned.settings(), targets);
   traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);
+  writeBack(frame, inputs, p.camera, p.planned.settings(), p.skyOnDevice ? p.sky.largest() : 0.0f, targets);
   drawView(frame, view, inputs, p.camera, p.planned.settings(), targets);
 }
 
