@@ -171,7 +171,8 @@ struct Pipeline::Impl {
   /// The light's state, which changes from frame to frame.
   LightState lightState() const {
     LightState state = planned.traits.light;
-    state.due = std::min(due(), shadowsDue() ? Redo::Gather : Redo::Nothing);
+    state.due = std::min({due(), shadowsDue() ? Redo::Gather : Redo::Nothing,
+                          reflectionsDue() ? Redo::Solve : Redo::Nothing});
     if (!now.light) return state;
     const SolveReport& r = now.light->report;
     state.settled = r.settled();
@@ -318,7 +319,7 @@ struct Pipeline::Impl {
   }
 
   /// Whether the picture that was drawn last has changed what is written back by more than H is known to.
-  bool reflectionsDue() {
+  bool reflectionsDue() const {
     if (!now.light || !now.light->writeback.report || !relights()) return false;
     const std::shared_ptr<WritebackReport> report = now.light->writeback.report;
     if (report->taken) return false;

@@ -98,7 +98,7 @@ struct SpecularSettings {
 };
 struct WritebackSettings {
   WritebackMode mode = WritebackMode::off;
-  WritebackParams gpu{0.5f, 2.0f, 0.9f};
+  WritebackParams gpu{0.5f, 1.0f, 0.9f};
   bool operator==(const WritebackSettings&) const = default;
 };
 struct LightSettings {

@@ -24,7 +24,8 @@ const Buffer* facetValues(const ViewInfo& info, const ViewInputs& inputs) {
   return info.isFrom(FROM_D)   ? &light->direct
          : info.isFrom(FROM_H) ? &light->indirect
          : info.isFrom(FROM_B) ? &light->radiosity
-                               : nullptr;
+         : info.isFrom(FROM_WRITTEN) && light->writeback.drawn ? &light->writeback.drawn
+                                                               : nullptr;
 }
 
 /// The method of the field that a view reads as it is stored; none: it reads none.

@@ -33,7 +33,11 @@ bool isFrom(uint sources) { return (FROM & sources) != 0u; }
 
 /// What the view shows for one facet of a voxel that holds `count`.
 vec3 facetValue(FacetArrays facets, uint facet, uint count) {
-  if (isFrom(FROM_FACET_VALUES)) return uvec2(push.values) != uvec2(0u) ? push.values.at[facet].xyz : vec3(0.0);
+  if (isFrom(FROM_FACET_VALUES)) {
+    if (uvec2(push.values) == uvec2(0u)) return vec3(0.0);
+    vec4 value = push.values.at[facet];
+    return VIEW == VIEW_WRITEBACK_WRITERS ? value.www : value.xyz;
+  }
   switch (VIEW) {
     case VIEW_VOXEL_ALBEDO: return unpackAlbedo(facets.albedo.at[facet]);
     case VIEW_VOXEL_NORMAL: return facetNormal(facets, facet);
