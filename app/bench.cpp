@@ -74,6 +74,11 @@ void Bench::relight() {
   collect(WorkKind::Relight);
 }
 
+void Bench::settle() {
+  pipeline_.settleReflections(camera_, targets_);
+  context_.timings.reset();
+}
+
 void Bench::cameraFrame() {
   draw();
   collect(WorkKind::Camera);
@@ -94,7 +99,7 @@ TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
   const Scene& scene = pipeline_.scene();
   const double extent = glm::length(glm::dvec3(scene.boundsMax - scene.boundsMin));
   pipeline_.prepare();
-  pipeline_.settleReflections(camera_, targets_);
+  settle();
   draw();
   context_.finish();
   context_.timings.reset();

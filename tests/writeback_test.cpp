@@ -217,7 +217,7 @@ TEST_F(Reflections, MaskStoresWhatItsFragmentsShow) {
         stores += writers[f];
         one += writers[f] == 1;
         none += pixels[f] > 0 && writers[f] == 0;
-        if (writers[f] == 0) EXPECT_EQ(glm::vec3(drawn[f]), glm::vec3(0)) << f;
+        EXPECT_TRUE(writers[f] > 0 || glm::vec3(drawn[f]) == glm::vec3(0)) << f;
       }
       EXPECT_EQ(w.report->stores, stores);
       EXPECT_EQ(w.report->writers[0], none);
@@ -283,7 +283,7 @@ TEST_F(Reflections, LightTheFloorBesideAMirrorAsTheClosedFormSays) {
       const bool isFloor = unpackAlbedo(albedo[i]).x > 0.4f, isMirror = !isFloor && unpackVoxel(voxel[i]).x <= 1;
       if (isFloor) sum += double{area[i]} * h[i].x, all += area[i];
       if (isMirror) source += double{area[i]} * w[i].x, mirrorArea += area[i];
-      if (!isMirror) EXPECT_EQ(w[i].x, 0) << i;
+      EXPECT_TRUE(isMirror || w[i].x == 0) << i;
     }
     if (written != nullptr) *written = source / mirrorArea;
     return sum / all;
@@ -316,7 +316,7 @@ TEST_F(Reflections, NeverLightMoreThanTwentyTimesTheSource) {
       const auto pipeline = prepared(b.finish(room.name), writing(mode, s));
       EXPECT_GT(perFacet(*pipeline, pipeline->lighting().writeback.used).size(), 0u);
       const WritebackRounds rounds = settle(*pipeline);
-      if (mode == WritebackMode::compute) EXPECT_TRUE(rounds.settled);
+      EXPECT_TRUE(rounds.settled || mode == WritebackMode::mask);
       const Pixels radiosity = perFacet(*pipeline, pipeline->lighting().radiosity),
                    written = perFacet(*pipeline, pipeline->lighting().writeback.used);
       const std::vector<glm::uvec2> albedo = downloadAs<glm::uvec2>(context(), pipeline->facets().albedo);
@@ -344,6 +344,7 @@ TEST_F(Reflections, OffCostNothingAndLeaveNothing) {
     setting(assignment)(*pipeline);
     pipeline->prepare();
   };
+  timings().reset();  // of earlier tests
   const Pixels before = state();
   expect(facts(*pipeline), "-GI Writeback, -has writeback, -has facets of pixels, writeback off");
   const uint64_t bytes = app::heldBytes(context());
@@ -388,7 +389,7 @@ TEST_F(Reflections, PlanProvesWhatItLeavesOut) {
 
 TEST_F(Reflections, ViewsShowMaskWritersAndW) {
   const auto pipeline = prepared(glossyRoom(), writing(WritebackMode::mask));
-  Targets targets(context(), kPicture);
+  Targets targets(context(), {256, 192});  // several pixels between two seams
   picture(*pipeline, targets, VIEW_WRITEBACK_MASK);
   const Pixels mask = image(targets.linear);
   const auto red = std::ranges::count_if(mask, [](const glm::vec4& p) { return glm::vec3(p) == glm::vec3(1, 0, 0); });
