@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -499,7 +500,9 @@ WritebackRounds Pipeline::settleReflections(const Camera& camera, Targets& targe
   Impl& p = *impl_;
   WritebackRounds done;
   if (!p.now.light || !p.now.light->writeback.used) return done;
-  while (!done.settled && done.rounds < WritebackRounds::kMost) {
+  float least = std::numeric_limits<float>::infinity();  // change of a round
+  uint32_t since = 0;                                    // rounds since it was halved
+  while (!done.settled && done.rounds < WritebackRounds::kMost && since < WritebackRounds::kPatience) {
     if (progress && !progress("GI Writeback", static_cast<float>(done.rounds) / WritebackRounds::kMost))
       throw WorkError("cancelled");
     ++done.rounds;
@@ -507,7 +510,11 @@ WritebackRounds Pipeline::settleReflections(const Camera& camera, Targets& targe
     render(frame, camera, VIEW_LIT, targets);
     frame.submitAndWait();
     done.settled = !p.reflectionsDue();
-    if (!done.settled) prepare();
+    if (done.settled) break;
+    const float change = p.now.light->writeback.report->change;
+    since = change <= 0.5f * least ? 0 : since + 1;
+    if (since == 0) least = change;
+    prepare();
   }
   return done;
 }

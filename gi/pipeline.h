@@ -46,8 +46,9 @@ struct Revision {
 /// What it took until pictures and light agreed on the reflections that are written back.
 struct WritebackRounds {
   static constexpr uint32_t kMost = 200;
-  uint32_t rounds = 0;   ///< pictures; 0: nothing is written back
-  bool settled = false;  ///< the last one changed W by no more than H is known to
+  static constexpr uint32_t kPatience = 20;  ///< rounds in which the changes of W are to halve at least
+  uint32_t rounds = 0;                       ///< pictures; 0: nothing is written back
+  bool settled = false;                      ///< the last one changed W by no more than H is known to
 };
 
 /// The indirect irradiance H, W/m^2, at a local point of a surface with this normal, where it is known (check scenes).
@@ -114,7 +115,7 @@ class Pipeline {
   void render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range = nullptr);
 
   /// Where reflections are written back: draws the camera's picture and relights, in turn, until what the picture
-  /// writes back changes no more (docs/method.md 8), or kMost times. Blocking. Must be current().
+  /// writes back changes no more (docs/method.md 8), or does not settle, or kMost times. Blocking. Must be current().
   WritebackRounds settleReflections(const Camera& camera, Targets& targets, const Progress& progress = {});
 
   /// The picture that the views of group "Reference" show and compare with: radiance, top row first.

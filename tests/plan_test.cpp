@@ -215,7 +215,7 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
 TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
   T t = lit();
   S unforced = usual();
-  glossy(t, unforced);
+  glossy(t, unforced), writes(t, unforced);  // which nothing forces on
   std::set<std::string> names;
   for (const EffectRow& row : plan(t, unforced).rows) {
     const EffectInfo& info = row.info();
@@ -225,6 +225,7 @@ TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
     for (const EffectState state : {EffectState::on, EffectState::off}) {
       if (!info.mode) continue;
       S s = usual();
+      writes(t, s);
       applySetting(s, fmt::format("{}={}", info.setting, nameOf(state)));
       const EffectRow forced = plan(t, s).row(row.effect);
       EXPECT_EQ(forced.state, state) << info.setting;
