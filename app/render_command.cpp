@@ -161,9 +161,8 @@ void run(const RenderArguments& arguments) {
   std::vector<std::string> badPictures, writtenBack;
   for (size_t c = 0; c < cameras.size(); ++c) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
-    const WritebackRounds rounds = pipeline.settleReflections(cameras[c], targets, [&](const char* stage, float done) {
-      return session.progress(stage, done);
-    });
+    const WritebackRounds rounds = pipeline.settleReflections(
+        cameras[c], targets, [&](const char* stage, float done) { return session.progress(stage, done); });
     if (rounds.rounds > 0) writtenBack.push_back(prefix + describe(rounds, pipeline));
     for (const ViewInfo& view : chosen) {
       session.progress(view.name, 0);

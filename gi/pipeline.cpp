@@ -172,8 +172,8 @@ struct Pipeline::Impl {
   /// The light's state, which changes from frame to frame.
   LightState lightState() const {
     LightState state = planned.traits.light;
-    state.due = std::min({due(), shadowsDue() ? Redo::Gather : Redo::Nothing,
-                          reflectionsDue() ? Redo::Solve : Redo::Nothing});
+    state.due =
+        std::min({due(), shadowsDue() ? Redo::Gather : Redo::Nothing, reflectionsDue() ? Redo::Solve : Redo::Nothing});
     if (!now.light) return state;
     const SolveReport& r = now.light->report;
     state.settled = r.settled();

@@ -20,8 +20,8 @@ struct ViewInputs;
 
 /// What a picture has written back.
 struct WritebackReport {
-  bool pending = true;  ///< the picture's frame has not finished: the rest is not known yet
-  bool taken = false;   ///< W is, or will be, a source: takeDrawn()
+  bool pending = true;                             ///< the picture's frame has not finished: the rest is not known yet
+  bool taken = false;                              ///< W is, or will be, a source: takeDrawn()
   std::array<uint32_t, WRITEBACK_BINS> writers{};  ///< visible facets with 0, 1, ... 7 writers, and with more
   uint32_t stores = 0;                             ///< pixels that wrote
   float change = 0;                                ///< largest difference to the W that light was solved with, W/m^2

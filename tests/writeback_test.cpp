@@ -63,7 +63,8 @@ class Reflections : public EffectsTest {
     for (size_t i = 0; i < h.size(); ++i) sum += double{area[i]} * h[i].x, all += area[i];
     return sum / all;
   }
-  /// A still life of materials with occlusion that leaves the loop alone: rho + s < .95 everywhere but at grazing angles.
+  /// A still life of materials with occlusion that leaves the loop alone: rho + s < .95 everywhere but at grazing
+  /// angles.
   static Scene glossyRoom() {
     Scene scene = stillLife().finish("glossy room");
     for (Material& m : scene.materials) m.baseColor *= glm::vec4(glm::vec3(0.6f), 1), m.roughness = 0.25f;
@@ -274,7 +275,8 @@ TEST_F(Reflections, LightTheFloorBesideAMirrorAsTheClosedFormSays) {
     const WritebackRounds rounds = settle(*pipeline);
     EXPECT_EQ(rounds.settled, mode != WritebackMode::off);
     const Pixels h = perFacet(*pipeline, pipeline->lighting().indirect);
-    const Pixels w = mode == WritebackMode::off ? Pixels(h.size()) : perFacet(*pipeline, pipeline->lighting().writeback.used);
+    const Pixels w =
+        mode == WritebackMode::off ? Pixels(h.size()) : perFacet(*pipeline, pipeline->lighting().writeback.used);
     const std::vector<float> area = downloadAs<float>(context(), pipeline->facets().area);
     const std::vector<glm::uvec2> albedo = downloadAs<glm::uvec2>(context(), pipeline->facets().albedo);
     const std::vector<uint32_t> voxel = downloadAs<uint32_t>(context(), pipeline->facets().voxel);
@@ -302,7 +304,8 @@ TEST_F(Reflections, NeverLightMoreThanTwentyTimesTheSource) {
     const char* name;
     float albedo, metallic, roughness;
   };
-  for (const Room& room : {Room{"mirrors", 1, 1, 0}, Room{"rough metal", 1, 1, 0.5f}, Room{"white varnish", 0.93f, 0, 0}})
+  for (const Room& room :
+       {Room{"mirrors", 1, 1, 0}, Room{"rough metal", 1, 1, 0.5f}, Room{"white varnish", 0.93f, 0, 0}})
     for (const WritebackMode mode : {WritebackMode::mask, WritebackMode::compute}) {
       SCOPED_TRACE(fmt::format("{} {}", room.name, nameOf(mode)));
       SceneBuilder b;

@@ -4,8 +4,8 @@
 namespace irad {
 
 struct WritebackPicture;
-/// Every pixel that the mask selects stores the reflection that it shows at its facet's texel of Writeback::stored: from
-/// the fragment shader, or from kernels where these rasterize.
+/// Every pixel that the mask selects stores the reflection that it shows at its facet's texel of Writeback::stored:
+/// from the fragment shader, or from kernels where these rasterize.
 void storeSelected(const WritebackPicture& picture);
 
 }  // namespace irad

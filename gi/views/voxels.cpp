@@ -21,9 +21,9 @@ const Buffer* facetValues(const ViewInfo& info, const ViewInputs& inputs) {
   if (info.isFrom(FROM_ORACLE)) return inputs.reference;
   const Lighting* light = inputs.lighting;
   if (light == nullptr) return nullptr;
-  return info.isFrom(FROM_D)   ? &light->direct
-         : info.isFrom(FROM_H) ? &light->indirect
-         : info.isFrom(FROM_B) ? &light->radiosity
+  return info.isFrom(FROM_D)                                   ? &light->direct
+         : info.isFrom(FROM_H)                                 ? &light->indirect
+         : info.isFrom(FROM_B)                                 ? &light->radiosity
          : info.isFrom(FROM_WRITTEN) && light->writeback.drawn ? &light->writeback.drawn
                                                                : nullptr;
 }

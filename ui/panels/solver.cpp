@@ -92,13 +92,14 @@ class SolverPanel : public Panel {
   static void drawReflections(const Session& session) {
     const auto& report = session.pipeline->lighting().writeback.report;
     if (!report || report->pending) return;
-    valueRow("written back", fmt::format("{} of {} facets", withThousands(report->written()),
-                                         withThousands(report->visible())));
+    valueRow("written back",
+             fmt::format("{} of {} facets", withThousands(report->written()), withThousands(report->visible())));
     helpTooltip("Of the facets that pixels see those to which any has written the reflection that it shows");
-    valueRow("writers 0, 1, more", fmt::format("{}, {}, {}", withThousands(report->writers[0]),
-                                               withThousands(report->writers[1]),
-                                               withThousands(report->written() - report->writers[1])));
-    helpTooltip("Visible facets by how many pixels have written to them; with writeback.mode=compute the mean of all is one");
+    valueRow("writers 0, 1, more",
+             fmt::format("{}, {}, {}", withThousands(report->writers[0]), withThousands(report->writers[1]),
+                         withThousands(report->written() - report->writers[1])));
+    helpTooltip(
+        "Visible facets by how many pixels have written to them; with writeback.mode=compute the mean of all is one");
     std::array<float, WRITEBACK_BINS> bars{};
     std::ranges::copy(report->writers, bars.begin());
     ImGui::PlotHistogram("##writers", bars.data(), static_cast<int>(bars.size()), 0, nullptr, 0, FLT_MAX,
