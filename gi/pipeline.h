@@ -106,7 +106,8 @@ class Pipeline {
   bool current() const;
   /// Calls `draw` while the light is the one that a headless run solves: from the dark, in one go, to the tolerance.
   /// (The window's own depends on what was shown before, within the tolerance: it starts warm, and stops at another
-  /// sweep.) Afterwards the light from before is back. Must be current(). Blocking.
+  /// sweep.) Nothing is written back yet: where it is to be, `draw` begins with settleReflections(). Afterwards the light
+  /// from before is back. Must be current(). Blocking.
   void solvedAfresh(const Progress& progress, const std::function<void()>& draw);
   /// What the numerical watch has to say about the light as it is.
   std::vector<Finding> findings() const;
