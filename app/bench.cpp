@@ -74,6 +74,11 @@ void Bench::relight() {
   collect(WorkKind::Relight);
 }
 
+void Bench::settle() {
+  pipeline_.settleReflections(camera_, targets_);
+  context_.timings.reset();
+}
+
 void Bench::cameraFrame() {
   draw();
   collect(WorkKind::Camera);
@@ -94,6 +99,7 @@ TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
   const Scene& scene = pipeline_.scene();
   const double extent = glm::length(glm::dvec3(scene.boundsMax - scene.boundsMin));
   pipeline_.prepare();
+  settle();
   draw();
   context_.finish();
   context_.timings.reset();
@@ -130,7 +136,10 @@ TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
 
 std::vector<glm::vec4> Bench::pictures(std::span<const View> views) {
   std::vector<glm::vec4> pixels;
-  pipeline_.solvedAfresh({}, [&] { pixels = picturesAsLit(views); });
+  pipeline_.solvedAfresh({}, [&] {
+    pipeline_.settleReflections(camera_, targets_);
+    pixels = picturesAsLit(views);
+  });
   context_.timings.reset();
   return pixels;
 }

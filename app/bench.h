@@ -30,6 +30,7 @@ class Bench {
   void rebuild();      ///< voxels to matrix anew (Setup), and the relight that follows (Cold)
   void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
   void cameraFrame();  ///< one picture, nothing else dirty
+  void settle();       ///< light and pictures agree on what is written back; without a sample
   void forget();       ///< drops the samples so far
   /// Prepares, compiles pipelines and touches pages, all of it without a sample.
   void warmUp(const Progress& progress, uint64_t pictures = 1);

@@ -179,6 +179,7 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
       continue;
     }
     // These start from the light as it is; everything else is compared after a solve from the dark.
+    bench.settle();
     const bool asLit = row.effect == Effect::redraw || row.effect == Effect::relight;
     const Pixels before = asLit ? bench.picturesAsLit(views) : planned;
     if (const std::string setting = row.info().setting; !setting.empty()) {

@@ -89,6 +89,19 @@ double totalOf(const Timings& timings, std::string_view stage) {
   return ms;
 }
 
+/// What a camera's pictures write back, once light and pictures agree.
+std::string describe(const WritebackRounds& rounds, const Pipeline& pipeline) {
+  const WritebackReport& w = *pipeline.lighting().writeback.report;
+  std::string writers;
+  for (uint32_t n = 0; n < WRITEBACK_BINS; ++n)
+    if (w.writers[n] > 0)
+      writers += fmt::format("{}{} by {}{}", writers.empty() ? "" : ", ", w.writers[n], n,
+                             n + 1 == WRITEBACK_BINS ? " or more" : "");
+  return fmt::format("{} of {} visible facets written ({}), largest {:.4g} W/m^2, {} rounds{}", w.written(),
+                     w.visible(), writers, w.largest, rounds.rounds,
+                     rounds.settled ? "" : fmt::format(": the last still changed it by {:.3g}", w.change));
+}
+
 void summarize(const DeviceSession& session, const Pipeline& pipeline) {
   const FacetList& facets = pipeline.facets();
   const MatrixStats& matrix = pipeline.matrix().stats;
@@ -168,9 +181,12 @@ void run(const RenderArguments& arguments) {
   Manifest manifest = session.manifest("render", pipeline);
   std::vector<fs::path> written;
   std::set<std::string> used;
-  std::vector<std::string> badPictures;
+  std::vector<std::string> badPictures, writtenBack;
   for (size_t c = 0; c < cameras.size(); ++c) {
     const std::string prefix = cameras.size() > 1 ? fileName(cameras[c], c, used) + "." : "";
+    const WritebackRounds rounds = pipeline.settleReflections(
+        cameras[c], targets, [&](const char* stage, float done) { return session.progress(stage, done); });
+    if (rounds.rounds > 0) writtenBack.push_back(prefix + describe(rounds, pipeline));
     for (const ViewInfo& view : chosen) {
       session.progress(view.name, 0);
       const PictureFiles files = renderPicture(session, pipeline, cameras[c], view, frames, arguments.legend, targets,
@@ -203,6 +219,7 @@ void run(const RenderArguments& arguments) {
 
   session.progress.finish();
   summarize(session, pipeline);
+  for (const std::string& line : writtenBack) print("writeback   {}\n", line);
   for (const fs::path& path : written) print("wrote       {}\n", path.string());
   session.checkNumbers(pipeline, badPictures);
   session.checkValidation();

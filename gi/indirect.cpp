@@ -4,6 +4,7 @@
 #include "gi/field.h"
 #include "gi/picked.h"
 #include "gi/ray_kernel.h"
+#include "gi/subsystems.h"
 #include "gi/views/passes.h"
 #include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
@@ -41,6 +42,7 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
       push.direct = pass.in(*from.direct);
       push.doubted = pass.out(targets.doubted);
     }
+    if (targets.facet) push.facet = pass.out(targets.facet);
     push.sampling = from.sample;
     push.size = targets.size;
     pass.shader("gi/indirect_links.comp")
@@ -102,6 +104,10 @@ void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shado
   const bool lights = fromFacets && indirect.direct != nullptr && !scene.shining.empty();
   if (!fromFacets) targets.sought = Buffer();
   if (!lights) targets.doubted = Buffer();
+  if (const bool keeps = fromFacets && indirect.keepFacet; keeps != static_cast<bool>(targets.facet))
+    targets.facet = keeps ? Buffer(frame.context().device, "facets of pixels", Subsystem::Targets,
+                                   4ull * targets.size.x * targets.size.y)
+                          : Buffer();
   if (!fromFacets) return;
   lookUpFacets(frame, indirect, camera, emitted, lights, targets);
   if (lights) checkDirect(frame, scene, indirect, camera, targets);

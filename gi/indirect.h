@@ -18,6 +18,7 @@ struct IndirectInputs {
   const Buffer* direct = nullptr;         ///< vec4 per facet: D
   const Buffer* shaded = nullptr;         ///< vec4 per facet: H
   const Buffer* shadedEmitted = nullptr;  ///< vec4 per facet: F M; null: not wanted, no Targets::emitted
+  bool keepFacet = false;                 ///< of the pixel, in Targets::facet
   bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
   const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup, where there is no surface
   SampleParams sample{};

@@ -62,6 +62,7 @@ void Inspector::refresh() {
   radiosity_ = perFacet(context_, list, light.radiosity);
   correction_ = perFacet(context_, list, light.correction);
   sky_ = perFacet(context_, list, light.sky);
+  reflected_ = perFacet(context_, list, light.writeback.used);
 }
 
 bool Inspector::contains(const glm::ivec3& voxel) const {
@@ -180,6 +181,7 @@ InspectedFacet Inspector::facet(uint32_t i) const {
   const double gain = pipeline_.lighting().gain.radiosity;
   r.correction = gain * glm::dvec3(correction_[i]);
   r.sky = sky_[i];
+  r.reflected = reflected_[i];
   r.met = traceOnDevice(i);
   addLinks(i, r);
 
@@ -191,9 +193,9 @@ InspectedFacet Inspector::facet(uint32_t i) const {
                               : r.rays.hits);
 
   if (!pipeline_.matrix() && pipeline_.lighting()) return r;  // no sweeps: by brute force
-  // One more sweep of the kind that made B: H <- F B, B <- (1 - omega) B + omega lambda (M + rho (D + H)).
+  // One more sweep of the kind that made B: H <- F B, B <- (1 - omega) B + omega lambda (M + W + rho (D + H)).
   const glm::dvec3 h = r.row.contribution + r.correction + r.sky;
-  const glm::dvec3 undamped = gain * (r.emission + r.albedo * (r.direct + h));
+  const glm::dvec3 undamped = gain * (r.emission + r.reflected + r.albedo * (r.direct + h));
   const glm::dvec3 change = double{pipeline_.settings().solver.gpu.omega} * glm::abs(undamped - r.radiosity);
   r.residual = std::max({change.x, change.y, change.z});
   return r;
@@ -302,6 +304,10 @@ SolveHistory replaySolve(Context& context, const Pipeline& pipeline, const std::
   if (const Buffer& sky = pipeline.lighting().sky) {
     light.sky = Buffer(context.device, sky.name, Subsystem::Solver, sky.bytes);
     copy.pass("Copy").copy(sky, light.sky, sky.bytes);
+  }
+  if (const Buffer& reflected = pipeline.lighting().writeback.used) {
+    light.writeback.used = Buffer(context.device, reflected.name, Subsystem::Solver, reflected.bytes);
+    copy.pass("Copy").copy(reflected, light.writeback.used, reflected.bytes);
   }
   copy.submit();
   const Emitters emitters = listEmitters(context, list);

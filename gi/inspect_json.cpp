@@ -65,6 +65,7 @@ Json facetJson(const InspectedFacet& f, NormalEncoding encoding) {
   json["radiosity"] = array(f.radiosity);
   json["emitter_correction"] = array(f.correction);
   json["sky"] = array(f.sky);
+  json["reflected"] = array(f.reflected);
   json["residual"] = f.residual;
   const double n = f.rays.rays;
   json["rays"] = {{"count", f.rays.rays},

@@ -9,6 +9,7 @@
 #include "gi/brute_force.h"
 #include "gi/solve_report.h"
 #include "gi/thesis/volume.h"
+#include "gi/writeback.h"
 #include "renderer/resources.h"
 
 namespace irad {
@@ -60,6 +61,7 @@ struct Lighting {
   /// (gather_emitters.cpp).
   float sampledShare = 0;
   Buffer sky;                       ///< the part of H that comes straight from the sky; none without one
+  Writeback writeback;              ///< W: reflections as a source; nothing where they are not written back
   Buffer indirect;                  ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer; w: v, the gains' answer (docs/method.md 1)
   std::array<Buffer, 3> history;    ///< B of earlier sweeps, where they are accelerated

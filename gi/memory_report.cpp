@@ -79,6 +79,13 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
              std::min<uint64_t>((s + SOLVE_SUMS_FACETS - 1) / SOLVE_SUMS_FACETS, SOLVE_SUMS_INVOCATIONS));
   buffer(lighting.correction, 16 * s);
   buffer(lighting.sky, 16 * s);
+  const Writeback& written = lighting.writeback;
+  buffer(written.used, 16 * s);
+  buffer(written.drawn, 16 * s);
+  buffer(written.pixels, 4 * s);
+  buffer(written.writers, 4 * s);
+  buffer(written.sums, 24 * s);
+  buffer(written.counts, sizeof(WritebackCounts));
   buffer(lighting.rowSum, 4 * s);
   buffer(lighting.residual, sizeof(SolveResidual) * SOLVE_RESIDUALS);
   buffer(lighting.blurChange, sizeof(uint32_t));

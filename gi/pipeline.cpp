@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -27,6 +28,7 @@
 #include "gi/subsystems.h"
 #include "gi/voxelize.h"
 #include "gi/watch.h"
+#include "gi/writeback.h"
 #include "renderer/base/error.h"
 
 namespace irad {
@@ -175,7 +177,8 @@ struct Pipeline::Impl {
   /// The light's state, which changes from frame to frame.
   LightState lightState() const {
     LightState state = planned.traits.light;
-    state.due = std::min(due(), shadowsDue() ? Redo::Gather : Redo::Nothing);
+    state.due =
+        std::min({due(), shadowsDue() ? Redo::Gather : Redo::Nothing, reflectionsDue() ? Redo::Solve : Redo::Nothing});
     if (!now.light) return state;
     const SolveReport& r = now.light->report;
     state.settled = r.settled();
@@ -216,7 +219,7 @@ struct Pipeline::Impl {
       if (!relights()) return;
       // A mean over frames would begin anew each time; it goes on by itself.
       if (settings.effects.relight == EffectMode::on && !framewise()) first = std::min(first, Redo::Gather);
-      if (first > Redo::Scatter && now.light->report.settled()) return;
+      if (first > Redo::Scatter && now.light->report.settled() && !reflectionsDue()) return;
       if (first > Redo::Scatter) first = Redo::Solve;
       made.forget(first);
       relight(now, first, maxSweeps, progress);
@@ -319,6 +322,7 @@ struct Pipeline::Impl {
       frame.submitAndWait();
     }
     if (first <= Redo::Solve) {
+      useReflections(*p.light, p.facets->count);
       solveFor(p, first, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
@@ -338,6 +342,20 @@ struct Pipeline::Impl {
     bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, maxSweeps != 0 ? 1 : obeyed.solver.frames,
                /*restarts=*/first <= Redo::Gather,
                [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
+  }
+
+  /// Whether the picture that was drawn last has changed what is written back by more than H is known to.
+  bool reflectionsDue() const {
+    if (!now.light || !now.light->writeback.report || !relights()) return false;
+    const std::shared_ptr<WritebackReport> report = now.light->writeback.report;
+    if (report->taken) return false;
+    if (report->pending) context.finish();  // the frame, unless it is still being recorded
+    return !report->pending && report->change > settings.solver.tolerance * now.light->report.meanH;
+  }
+  /// Light is solved with what the last picture has written back.
+  void useReflections(Lighting& light, uint32_t facets) {
+    fitWriteback(context, facets, planned.settings(), light.writeback);
+    if (light.writeback.report && !light.writeback.report->taken) takeDrawn(light.writeback);
   }
 
   void scatterInto(Products& p) {
@@ -501,7 +519,30 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
 
 bool Pipeline::asleep() const {
   if (impl_->settings.effects.relight == EffectMode::on) return false;
-  return current() && (impl_->now.light->report.settled() || !impl_->relights());
+  return current() && (!impl_->relights() || (impl_->now.light->report.settled() && !impl_->reflectionsDue()));
+}
+
+WritebackRounds Pipeline::settleReflections(const Camera& camera, Targets& targets, const Progress& progress) {
+  Impl& p = *impl_;
+  WritebackRounds done;
+  if (!p.now.light || !p.now.light->writeback.used) return done;
+  float least = std::numeric_limits<float>::infinity();  // change of a round
+  uint32_t since = 0;                                    // rounds since it was halved
+  while (!done.settled && done.rounds < WritebackRounds::kMost && since < WritebackRounds::kPatience) {
+    if (progress && !progress("GI Writeback", static_cast<float>(done.rounds) / WritebackRounds::kMost))
+      throw WorkError("cancelled");
+    ++done.rounds;
+    Frame frame = p.context.begin(p.frameIndex);
+    render(frame, camera, VIEW_LIT, targets);
+    frame.submitAndWait();
+    done.settled = !p.reflectionsDue();
+    if (done.settled) break;
+    const float change = p.now.light->writeback.report->change;
+    since = change <= 0.5f * least ? 0 : since + 1;
+    if (since == 0) least = change;
+    prepare();
+  }
+  return done;
 }
 
 bool Pipeline::current() const {
@@ -560,6 +601,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.range = range;
   lightByEmitters(frame, inputs, p.planned.settings(), targets);
   traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);
+  writeBack(frame, inputs, p.camera, p.planned.settings(), p.skyOnDevice ? p.sky.largest() : 0.0f, targets);
   drawView(frame, view, inputs, p.camera, p.planned.settings(), targets);
 }
 

@@ -43,6 +43,14 @@ struct Revision {
   bool operator==(const Revision&) const = default;
 };
 
+/// What it took until pictures and light agreed on the reflections that are written back.
+struct WritebackRounds {
+  static constexpr uint32_t kMost = 200;
+  static constexpr uint32_t kPatience = 20;  ///< rounds in which the changes of W are to halve at least
+  uint32_t rounds = 0;                       ///< pictures; 0: nothing is written back
+  bool settled = false;                      ///< the last one changed W by no more than H is known to
+};
+
 /// The indirect irradiance H, W/m^2, at a local point of a surface with this normal, where it is known (check scenes).
 using ExpectedIrradiance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
 
@@ -99,13 +107,18 @@ class Pipeline {
   bool current() const;
   /// Calls `draw` while the light is the one that a headless run solves: from the dark, in one go, to the tolerance.
   /// (The window's own depends on what was shown before, within the tolerance: it starts warm, and stops at another
-  /// sweep.) Afterwards the light from before is back. Must be current(). Blocking.
+  /// sweep.) Nothing is written back yet: where it is to be, `draw` begins with settleReflections(). Afterwards the
+  /// light from before is back. Must be current(). Blocking.
   void solvedAfresh(const Progress& progress, const std::function<void()>& draw);
   /// What the numerical watch has to say about the light as it is.
   std::vector<Finding> findings() const;
 
   /// One picture of `view` into targets.linear and targets.display; `range`: ViewInputs::range.
   void render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range = nullptr);
+
+  /// Where reflections are written back: draws the camera's picture and relights, in turn, until what the picture
+  /// writes back changes no more (docs/method.md 8), or does not settle, or kMost times. Blocking. Must be current().
+  WritebackRounds settleReflections(const Camera& camera, Targets& targets, const Progress& progress = {});
 
   /// The picture that the views of group "Reference" show and compare with: radiance, top row first.
   void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels);

@@ -37,6 +37,7 @@ class Planner {
     if (shines_) plan_.noLight.clear();
     specular();
     matrix();
+    writeback();
     emitterSampling();
     pixelEmitters();
     field();
@@ -195,6 +196,22 @@ class Planner {
     r.state = EffectState::asleep;
     r.reason += "; kept for the lights that there are";
     r.bytesNotAllocated = 0;
+  }
+
+  void writeback() {
+    const WritebackMode mode = s_.writeback.mode;
+    // W as it is used and as it was drawn; the counts; the sums, or the image that the mask's fragments store to.
+    const uint64_t bytes = b_.facets * (mode == WritebackMode::compute ? 60 : 56) + (byTriangles() ? 4 * t_.pixels : 0);
+    if (mode == WritebackMode::off) return without(Effect::writeback, "writeback.mode = off", bytes);
+    if (!plan_.on(Effect::specular) || !plan_.on(Effect::matrix))
+      return without(Effect::writeback,
+                     fmt::format("writeback.mode = {}, but no {}", nameOf(mode),
+                                 plan_.on(Effect::specular) ? "matrix and solve" : "reflections"),
+                     bytes);
+    const float f0 = most(&MaterialTraits::f0);
+    std::string reason = fmt::format("writeback.mode = {}; specular reflectance up to {:.3g}{}", nameOf(mode), f0,
+                                     shines_ ? ", lit" : ", no light to reflect");
+    decide(Effect::writeback, f0 > 0 && shines_, std::move(reason), bytes);
   }
 
   void emitterSampling() {
@@ -366,6 +383,7 @@ Settings obeyed(const Settings& settings, const EffectPlan& plan) {
   if (plan.on(Effect::bruteForce)) s.effects.matrix = EffectMode::on;
   if (plan.off(Effect::sky)) s.sky = {};
   if (plan.off(Effect::specular)) s.specular.mode = SpecularMode::off;
+  if (plan.off(Effect::writeback)) s.writeback.mode = WritebackMode::off;
   if (!plan.pixelEmitters) s.sample.emitters = EmitterLookup::facets;
   if (plan.off(Effect::blur) && s.sample.gpu.filter_ == SampleFilter::blur) s.sample.gpu.filter_ = SampleFilter::linear;
   return s;

@@ -26,6 +26,7 @@ struct ForwardEffects;
   X(matrix, "matrix", "Matrix and solve", "effects.matrix", &EffectSettings::matrix)             \
   X(bruteForce, "brute-force", "Brute force", "", nullptr)                                       \
   X(specular, "specular", "Specular", "effects.specular", &EffectSettings::specular)             \
+  X(writeback, "writeback", "Writeback", "effects.writeback", &EffectSettings::writeback)        \
   X(field, "field", "Distance field", "effects.field", &EffectSettings::field)                   \
   X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                  \
   X(rebuild, "rebuild", "Rebuild", "", nullptr)                                                  \

@@ -23,6 +23,7 @@ IndirectInputs indirectInputs(const Products& p, View view, bool pixelEmitters, 
   in.field = &*p.field;
   in.direct = &p.light->direct;
   in.shaded = &p.light->shaded();
+  in.keepFacet = obeyed.writeback.mode != WritebackMode::off;
   in.keepPosition = pixelEmitters && p.light->emitted;
   const ViewInfo* info = viewInfo(view);
   if (((info != nullptr && info->isFrom(FROM_EMITTED)) || in.keepPosition) && p.light->emitted)
@@ -37,7 +38,10 @@ ViewInputs viewInputs(Products& p, bool pixelEmitters) {
   if (p.facets) inputs.facets = &*p.facets;
   if (p.field) inputs.field = &*p.field;
   if (p.matrix && *p.matrix) inputs.matrix = &*p.matrix;
-  if (p.light && *p.light) inputs.lighting = &*p.light;
+  if (p.light && *p.light) {
+    inputs.lighting = &*p.light;
+    inputs.written = &p.light->writeback;
+  }
   if (p.emitters) inputs.emitters = &*p.emitters;
   if (pixelEmitters) inputs.emissiveTriangles = &p.emissiveTriangles;
   if (p.reference) inputs.reference = &p.reference;

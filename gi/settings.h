@@ -25,6 +25,7 @@ namespace irad {
 #define IRAD_VOXEL_METHODS(X) X(raster, "raster") X(conservative, "conservative")
 #define IRAD_FIELD_METHODS(X) X(chebyshev, "chebyshev") X(jfa, "jfa")
 #define IRAD_SPECULAR_MODES(X) X(off, "off") X(fragment, "fragment") X(compute, "compute")
+#define IRAD_WRITEBACK_MODES(X) X(off, "off") X(mask, "mask") X(compute, "compute")
 #define IRAD_EMITTER_LOOKUPS(X) X(automatic, "auto") X(facets, "facets") X(pixels, "pixels")
 #define IRAD_SOLVER_METHODS(X) X(matrix, "matrix") X(bruteForce, "brute_force")
 #define IRAD_SOLVER_KERNELS(X) X(automatic, "auto") X(tree, "tree") X(subgroup, "subgroup") X(row, "row")
@@ -40,6 +41,8 @@ namespace irad {
 IRAD_ENUM(VoxelMethod, IRAD_VOXEL_METHODS)
 IRAD_ENUM(FieldMethod, IRAD_FIELD_METHODS)
 IRAD_ENUM(SpecularMode, IRAD_SPECULAR_MODES)
+/// How reflections become a source of the facets that show them (docs/method.md 8).
+IRAD_ENUM(WritebackMode, IRAD_WRITEBACK_MODES)
 /// Who gives a pixel the light that comes straight from emissive faces: the facets around it, or their triangles.
 IRAD_ENUM(EmitterLookup, IRAD_EMITTER_LOOKUPS)
 /// Where F in H = F B comes from: a matrix that is built once, or rays that are traced anew in every frame.
@@ -99,6 +102,11 @@ struct SpecularSettings {
   SpecularParams gpu{4, Traversal::sdf, 0.6f, 0.15f, 1e-4f, true};
   bool operator==(const SpecularSettings&) const = default;
 };
+struct WritebackSettings {
+  WritebackMode mode = WritebackMode::off;
+  WritebackParams gpu{0.5f, 1.0f, 0.9f};
+  bool operator==(const WritebackSettings&) const = default;
+};
 struct LightSettings {
   uint32_t shadowResolution = 2048;  ///< texels per side; point lights use half per cube face
   ShadowFilter shadowFilter = ShadowFilter::pcf;
@@ -144,7 +152,7 @@ struct ThesisSettings {
 
 /// Overrides of the effect plan.
 struct EffectSettings {
-  EffectMode emission{}, sky{}, matrix{}, specular{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
+  EffectMode emission{}, sky{}, matrix{}, specular{}, writeback{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
   // One for each kind of light: sun, point, spot.
 #define IRAD_LIGHT_MODE(constant, number, id, effect, gltf, name, one, many, map, traits) EffectMode effect{};
   IRAD_LIGHT_KINDS(IRAD_LIGHT_MODE)
@@ -167,6 +175,7 @@ struct Settings {
   ScatterSettings scatter;
   SampleSettings sample;
   SpecularSettings specular;
+  WritebackSettings writeback;
   LightSettings light;
   SkySettings sky;
   CameraSettings camera;

@@ -6,6 +6,6 @@
 namespace irad::Subsystem {
 
 inline constexpr SubsystemName Voxels{"voxels"}, Field{"field"}, Facets{"facets"}, Matrix{"matrix"}, Solver{"solver"},
-    Volumes{"volumes"}, Specular{"specular"};
+    Volumes{"volumes"}, Specular{"specular"}, Writeback{"writeback"};
 
 }  // namespace irad::Subsystem

@@ -42,12 +42,13 @@ std::optional<Defect> findDefect(Context& context, const FacetList& facets, cons
       {"GI BuildMatrix", "row sum of form factors", light.rowSum, 1, 1},
       {"GI Gather", "direct irradiance", light.direct, 4, 3},
       {"GI Gather", "irradiance from the sky", light.sky, 4, 3},
+      {"GI Writeback", "reflections written back", light.writeback.used, 4, 3},
       {"GI Solve Emitters", "irradiance from emitters", light.emitted, 4, 3},
       {"GI Solve", "indirect irradiance", light.indirect, 4, 3},
       {"GI Solve", "radiosity", light.radiosity, 4, 3},
   };
   for (const Product& p : products) {
-    if (&p.values == &light.sky && !light.sky) continue;
+    if ((&p.values == &light.sky || &p.values == &light.writeback.used) && !p.values) continue;
     if ((&p.values == &facets.emission || &p.values == &light.emitted) && !facets.hasEmission) continue;
     const auto values = downloadAs<float>(context, p.values);
     for (uint32_t i = 0; i < facets.count; ++i)
@@ -81,9 +82,14 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
   push.area = pass.in(facets.area);
   push.rowSum = pass.in(light.rowSum);
   push.sky = pass.inIfAny(light.sky);
+  push.reflected = pass.inIfAny(light.writeback.used);
   push.sums = pass.out(sums);
   push.invocations = invocations;
-  pass.shader("gi/energy.comp").constant(CONSTANT_SKY, static_cast<bool>(light.sky)).push(push).dispatch(invocations);
+  pass.shader("gi/energy.comp")
+      .constant(CONSTANT_SKY, static_cast<bool>(light.sky))
+      .constant(CONSTANT_REFLECTED, static_cast<bool>(light.writeback.used))
+      .push(push)
+      .dispatch(invocations);
   frame.readback(sums, 0, sizeof(EnergySums) * uint64_t{invocations}, [&](std::span<const uint8_t> bytes) {
     for (size_t at = 0; at < bytes.size(); at += sizeof(EnergySums)) {
       EnergySums part;

@@ -39,6 +39,9 @@ struct Targets {
   Buffer pixelLists;    ///< a PixelList per material and one more
   Buffer listedPixels;  ///< the lists' entries: x | y << 16, triangle
 
+  Buffer facet;  ///< uint per pixel, row by row: the facet that it lies on, NO_FACET (shared/facets.h) where there is
+                 ///< none; where reflections are written back and lookups go by facets
+
   // Lists of pixels (shaders/shared/picked.h), where there are the passes that make them:
   Buffer sought;   ///< whose facet is searched for
   Buffer doubted;  ///< whose direct light is asked of rays

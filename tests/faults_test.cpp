@@ -117,12 +117,15 @@ class NoMemory : public GpuTest {
 };
 
 TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
-  std::set<std::string> subsystems = everyResource(small(12));
-  subsystems.merge(everyResource(small(12, "thesis")));
+  Settings ours = small(12), thesis = small(12, "thesis");
+  ours.writeback.mode = WritebackMode::compute;
+  thesis.writeback.mode = WritebackMode::mask;
+  std::set<std::string> subsystems = everyResource(ours);
+  subsystems.merge(everyResource(thesis));
   subsystems.merge(everyResource(framewise(12)));
   if (kStep == 1) {
     EXPECT_EQ(subsystems, (std::set<std::string>{"facets", "field", "matrix", "scene", "shadow", "solver", "specular",
-                                                 "staging", "targets", "volumes", "voxels"}));
+                                                 "staging", "targets", "volumes", "voxels", "writeback"}));
   }
   // With the context goes what it kept.
   gpu().context.reset();

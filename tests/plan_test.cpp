@@ -58,6 +58,7 @@ constexpr auto thesis = EDIT(applyPreset(s, "thesis"), dark(t, s));           //
 constexpr auto sky = EDIT(s.sky.source = SkySource::constant, t.sky = 2);
 constexpr auto framewise = EDIT(s.solver.method = SolverMethod::bruteForce, t.build->matrix = t.build->sampled = false,
                                 t.light.frames = 9, t.light.standardError = 1e-4f);
+constexpr auto writes = EDIT(s.writeback.mode = WritebackMode::compute);
 constexpr auto byPixels = EDIT(s.sample.emitters = EmitterLookup::pixels);
 
 /// What an edit makes of an effect: its row in words, * for any.
@@ -129,6 +130,22 @@ const Case kCases[]{
     {E::specular, noMode, "off: specular.mode = off"},
     {E::specular, EDIT(noMode(t, s), s.effects.specular = EffectMode::on), "off: specular.mode = off"},
     {E::specular, rough, "on: 1 of 2 materials * roughness 0.9 at least, rays up to 0.6 *"},
+    {E::writeback, thesis, "off: writeback.mode = off"},
+    {E::writeback, glossy, "off, 28000 B: writeback.mode = off"},
+    {E::writeback, EDIT(glossy(t, s), s.effects.writeback = EffectMode::on), "off, 28000 B: writeback.mode = off"},
+    {E::writeback, EDIT(glossy(t, s), writes(t, s)),
+     "on: writeback.mode = compute; specular reflectance up to 0.04, lit"},
+    {E::writeback, EDIT(glossy(t, s), writes(t, s), s.effects.writeback = EffectMode::off),
+     "off, 30000 B: forced off: writeback.mode = compute; *"},
+    {E::writeback, EDIT(glossy(t, s), s.writeback.mode = WritebackMode::mask, t.pixels = 100),
+     "on: writeback.mode = mask; *"},
+    {E::writeback, writes, "off, 30000 B: writeback.mode = compute, but no reflections"},
+    {E::writeback, EDIT(writes(t, s), s.effects.specular = s.effects.writeback = EffectMode::on),
+     "on: forced on: writeback.mode = compute; specular reflectance up to 0, lit"},
+    {E::writeback, EDIT(noMode(t, s), writes(t, s)), "off, 30000 B: writeback.mode = compute, but no reflections"},
+    {E::writeback, EDIT(glossy(t, s), writes(t, s), unlit(t, s)), "off, 30000 B: *, but no reflections"},
+    {E::writeback, EDIT(glossy(t, s), writes(t, s), s.effects.matrix = EffectMode::off),
+     "off, 30000 B: writeback.mode = compute, but no matrix and solve"},
     {E::field, thesis, "on: *"},
     {E::field, none, "on: rays of the matrix skip by it, specular rays do not"},
     {E::field, dda, "off, 1000 B: rays of the matrix do not skip by it, specular rays do not"},
@@ -224,7 +241,7 @@ TEST(Plan, MomentsTakeFourTimesTheMemoryOfDepths) {
 TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
   T t = lit();
   S unforced = usual();
-  glossy(t, unforced);
+  glossy(t, unforced), writes(t, unforced);  // which nothing forces on
   std::set<std::string> names;
   for (const EffectRow& row : plan(t, unforced).rows) {
     const EffectInfo& info = row.info();
@@ -234,6 +251,7 @@ TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
     for (const EffectState state : {EffectState::on, EffectState::off}) {
       if (!info.mode) continue;
       S s = usual();
+      writes(t, s);
       applySetting(s, fmt::format("{}={}", info.setting, nameOf(state)));
       const EffectRow forced = plan(t, s).row(row.effect);
       EXPECT_EQ(forced.state, state) << info.setting;

@@ -30,6 +30,7 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
                     .shaders = context.shaders.modified()};
   Targets targets(context, session.targets.size);
   pipeline.solvedAfresh(progress, [&] {
+    pipeline.settleReflections(manifest.cameras.front(), targets, progress);
     for (const ViewInfo& view : chosen) {
       const float done = static_cast<float>(manifest.views.size()) / static_cast<float>(chosen.size());
       if (!progress(view.label, done)) throw WorkError("cancelled");

@@ -20,7 +20,7 @@ std::span<const CheckCase> checkCases() {
   static const std::vector<CheckCase> all = [] {
     std::vector<CheckCase> cases;
     for (const auto group : {furnaceCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases, leakCases,
-                             roomCases, samplingCases, stabilityCases, guardCases}) {
+                             roomCases, samplingCases, writebackCases, stabilityCases, guardCases}) {
       const std::vector<CheckCase> more = group();
       cases.insert(cases.end(), more.begin(), more.end());
     }

@@ -22,9 +22,10 @@ float linearExposure(const Settings& settings) {
   return settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
 }
 
-void drawTargets(Frame& frame, View view, const Buffer* sky, const Buffer& camera, const Settings& settings,
+void drawTargets(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                  Targets& targets) {
   const ViewInfo* info = viewInfo(view);
+  const Buffer* sky = inputs.sky;
   Pass pass = frame.pass("View");
   ViewPush push{};
   push.camera = pass.in(camera);
@@ -32,6 +33,11 @@ void drawTargets(Frame& frame, View view, const Buffer* sky, const Buffer& camer
   push.kind = info != nullptr ? info->kind : VIEW_KIND_COLOR;
   push.exposure = linearExposure(settings);
   push.toneCurve = settings.camera.gpu.toneCurve;
+  if (inputs.facets != nullptr) {
+    push.origin = inputs.facets->grid.origin;
+    push.inverseEdge = inputs.facets->grid.inverseEdge;
+  }
+  push.writeback = settings.writeback.gpu;
   pass.shader("view/debug_view.comp")
       .constant(CONSTANT_VIEW, view)
       .constant(CONSTANT_SKY, sky != nullptr)
@@ -49,20 +55,20 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   const ViewInfo* known = viewInfo(view);
   if (inputs.fields != nullptr && (known == nullptr || !known->isFrom(FROM_ANY_FIELD | FROM_MATRIX_ROW)))
     *inputs.fields = {};  // no memory for what is not shown
-  if (known == nullptr) return drawTargets(frame, view, inputs.sky, camera, settings, targets);
+  if (known == nullptr) return drawTargets(frame, view, inputs, camera, settings, targets);
 
   const ViewInfo& info = *known;
   if (info.shape) {
     drawVoxels(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_PICTURE)) {
-    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, VIEW_LIT, inputs.sky, camera, settings, targets);
+    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, VIEW_LIT, inputs, camera, settings, targets);
     drawReference(frame, info, inputs, targets);
   } else if (info.isFrom(FROM_SHADOW_MAPS)) {
     drawShadowView(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_FACETS)) {
     drawPinHoles(frame, inputs, camera, targets);
   } else {
-    drawTargets(frame, view, inputs.sky, camera, settings, targets);
+    drawTargets(frame, view, inputs, camera, settings, targets);
     if (!info.hasRange()) return;  // the display picture is there
   }
   if (info.hasRange()) {

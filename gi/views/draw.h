@@ -18,6 +18,7 @@ struct FormFactors;
 struct Lighting;
 struct ShadowMaps;
 struct Targets;
+struct Writeback;
 
 /// Everything that a view may draw from; absent parts are null and draw as empty.
 struct ViewInputs {
@@ -26,6 +27,7 @@ struct ViewInputs {
   const Field* field = nullptr;
   const FormFactors* matrix = nullptr;
   const Lighting* lighting = nullptr;
+  Writeback* written = nullptr;  ///< of `lighting`, which what a picture shows is written back to
   const Emitters* emitters = nullptr;
   const EmissiveTriangles* emissiveTriangles = nullptr;  ///< where pixels look for emitters themselves
   const Buffer* reference = nullptr;                     ///< vec4 per facet: H by the oracle, W/m^2

@@ -6,9 +6,9 @@
 
 namespace irad {
 
-/// Over the targets of the forward pass; draws the display picture too where the view's kind has no range. `sky`:
-/// behind the scene, where light is shown; null: none.
-void drawTargets(Frame& frame, View view, const Buffer* sky, const Buffer& camera, const Settings& settings,
+/// Over the targets of the forward pass; draws the display picture too where the view's kind has no range. The sky is
+/// behind the scene, where light is shown.
+void drawTargets(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                  Targets& targets);
 /// Over the voxels.
 void drawVoxels(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, const Buffer& camera,

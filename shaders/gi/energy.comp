@@ -7,6 +7,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_SKY) const bool SKY = false;
+layout(constant_id = CONSTANT_REFLECTED) const bool REFLECTED = false;
 layout(push_constant, scalar) uniform Push { EnergyPush p; };
 
 void main() {
@@ -20,6 +21,7 @@ void main() {
     vec3 exitance = f.hasEmission != 0u ? f.emission.at[facet] : vec3(0.0f);
     sum.entering += area * (exitance + direct);
     if (SKY) sum.entering += area * p.sky.at[facet].xyz;
+    if (REFLECTED) sum.entering += area * p.reflected.at[facet].xyz;
     sum.absorbed += area * (vec3(1.0f) - unpackAlbedo(f.albedo.at[facet])) * (direct + p.indirect.at[facet].xyz);
     sum.escaped += area * (1.0f - p.rowSum.at[facet]) * p.radiosity.at[facet].xyz;
   }

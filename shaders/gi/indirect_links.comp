@@ -38,6 +38,10 @@ float spread(SurfaceTaps taps) {
   return most > 0.0 ? smoothstep(0.3, 0.5, 1.0 - least / most) : 0.0;
 }
 
+void keepFacet(ivec2 pixel, uint facet) {
+  if (uint64_t(push.facet) != 0ul) push.facet.at[uint(pixel.y) * push.size.x + uint(pixel.x)] = facet;
+}
+
 void main() {
   Grid grid = push.grid.at[0];
   SurfaceArrays surface = push.surface.at[0];
@@ -54,10 +58,11 @@ void main() {
   float seen = lookup.w;
   bool drawn = position.w != 0.0;
   if (!SEEKS && !drawn) {
+    keepFacet(pixel, NO_FACET);
     if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, 0.0));
     return;
   }
-  uint triangle = seenTriangle(seen);
+  uint triangle = listed ? seenTriangle(seen) : 0u;
   GpuCamera camera = push.camera.at[0];
   vec3 viewer = towardsViewer(camera, position.xyz, viewAxis(camera));
   vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
@@ -74,6 +79,7 @@ void main() {
     }
   }
   if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, seen));
+  keepFacet(pixel, facet);
   vec3 h = vec3(0.0);
   vec4 e = vec4(0.0, 0.0, 0.0, 1.0);
   if (facet != NO_FACET) {

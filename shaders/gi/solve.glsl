@@ -9,6 +9,7 @@
 layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
 layout(constant_id = CONSTANT_SOLVE_WORK) const uint WORK = SOLVE_WATCH;
 layout(constant_id = CONSTANT_SKY) const bool SKY = false;
+layout(constant_id = CONSTANT_REFLECTED) const bool REFLECTED = false;
 layout(push_constant, scalar) uniform Push { SolvePush p; };
 const bool GAINS = WORK == SOLVE_GAINS;
 const bool WATCHES = WORK == SOLVE_WATCH || GAINS;
@@ -75,6 +76,7 @@ Watch finishRow(uint row, Sum sum, float weight) {
     sky = p.sky.at[row].xyz;
     source += rho * sky;
   }
+  if (REFLECTED) source += p.reflected.at[row].xyz;
   vec3 h = sum.light.xyz;
   // The emitters' share of the row's rays replaced by that of the samples; below 0 by rounding alone.
   if (p.correctionGain != 0.0f) {

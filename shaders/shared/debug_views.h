@@ -36,8 +36,10 @@ IRAD_CONST uint FROM_EXACT = 8192u;        ///< less the exact distance
 IRAD_CONST uint FROM_SHADOW_MAPS = 16384u; ///< one light's
 IRAD_CONST uint FROM_PICTURE = 32768u;     ///< the reference picture
 IRAD_CONST uint FROM_STANDARD_ERROR = 65536u; ///< a value per facet: of H by brute force
+IRAD_CONST uint FROM_WRITTEN = 131072u;    ///< a value per facet: what the picture writes back to it
 // What several of them have in common.
-IRAD_CONST uint FROM_FACET_VALUES = FROM_D | FROM_H | FROM_B | FROM_ORACLE | FROM_MATRIX_ROW | FROM_STANDARD_ERROR;
+IRAD_CONST uint FROM_FACET_VALUES =
+    FROM_D | FROM_H | FROM_B | FROM_ORACLE | FROM_MATRIX_ROW | FROM_STANDARD_ERROR | FROM_WRITTEN;
 IRAD_CONST uint FROM_STORED_FIELD = FROM_FIELD | FROM_CHEBYSHEV | FROM_JFA;
 IRAD_CONST uint FROM_ANY_FIELD = FROM_STORED_FIELD | FROM_JUMP_FLOOD;
 
@@ -89,7 +91,10 @@ IRAD_FN bool viewHasSign(uint kind) {
   X(REFERENCE_PICTURE,  33, "reference-picture",   "Reference picture",                    "W/(m^2 sr)",  "Reference", LIGHT,        0.0f,   1.0f, NONE,       FROM_PICTURE) \
   X(ERROR,              34, "error",               "Relative error of lit, signed",        "",            "Reference", SIGNED,      -0.5f,   0.5f, NONE,       FROM_TARGETS | FROM_PICTURE) \
   X(MATRIX_ROW,         35, "matrix-row",          "Matrix row: F to each facet",          "",            "Matrix",    SCALAR,       0.0f,   0.0f, CUBES,      FROM_MATRIX_ROW) \
-  X(STANDARD_ERROR,     36, "standard-error",      "Voxels: standard error of H",          "W/m^2",       "Voxels",    SCALAR,       0.0f,   0.0f, CUBES,      FROM_STANDARD_ERROR)
+  X(STANDARD_ERROR,     36, "standard-error",      "Voxels: standard error of H",          "W/m^2",       "Voxels",    SCALAR,       0.0f,   0.0f, CUBES,      FROM_STANDARD_ERROR) \
+  X(WRITEBACK,          37, "writeback",           "Voxels: reflections written back W",   "W/m^2",       "Writeback", IRRADIANCE,   0.0f,   1.0f, CUBES,      FROM_WRITTEN) \
+  X(WRITEBACK_WRITERS,  38, "writeback-writers",   "Voxels: pixels that write back",       "pixels",      "Writeback", SCALAR,       0.0f,   2.0f, CUBES,      FROM_WRITTEN) \
+  X(WRITEBACK_MASK,     39, "writeback-mask",      "Pixels that the mask selects",         "",            "Writeback", COLOR,        0.0f,   1.0f, NONE,       FROM_TARGETS)
 // clang-format on
 
 #define IRAD_VIEW_CONSTANT(constant, number, name, label, unit, group, kind, low, high, shape, from) \

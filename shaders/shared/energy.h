@@ -31,7 +31,7 @@ IRAD_FN float facetArea(vec3 normal, float offset) {
 
 /// Sums over the facets of an invocation, W/m^2 x voxels^2, by colour channel.
 struct EnergySums {
-  vec3 entering;  ///< A (M + D), and what comes from the sky
+  vec3 entering;  ///< A (M + W + D), and what comes from the sky
   vec3 absorbed;  ///< A (1 - rho) (D + H)
   vec3 escaped;   ///< A B (1 - sum_j F_ij)
 };
@@ -42,7 +42,8 @@ struct EnergyPush {
   FacetRecord facets;
   Vec4Array direct, indirect, radiosity;  ///< D, H, B
   FloatArray area, rowSum;
-  Vec4Array sky;  ///< irradiance, where there is one
+  Vec4Array sky;        ///< irradiance, where there is one
+  Vec4Array reflected;  ///< W, where reflections are written back
   EnergyArray sums;  ///< one per invocation
   uint invocations;
   uint pad;

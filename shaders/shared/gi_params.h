@@ -62,6 +62,14 @@ struct SpecularParams {
   IRAD_EQUALITY(SpecularParams)
 };
 
+/// Of writeback.mode = mask: which fragments write (T eq. 25-28, shared/writeback.h).
+struct WritebackParams {
+  float alpha;      ///< exponent of the distance from the camera, below 1
+  float k;          ///< from the distance to a voxel's centre, voxels, to that from the camera, m^alpha
+  float threshold;  ///< tau: the least score of a fragment that writes
+  IRAD_EQUALITY(WritebackParams)
+};
+
 struct ShadeParams {
   float exposure;  ///< linear factor 2^EV
   IRAD_AS(ToneCurve) toneCurve;

@@ -23,6 +23,7 @@ struct IndirectPush {
   Vec4Array direct;         ///< D per facet; 0: no light shines, or none is asked for
   UintArray sought;         ///< Targets::sought
   UintArray doubted;        ///< Targets::doubted, where there is `direct`
+  UintArray facet;          ///< Targets::facet; 0: none is asked for
   SampleParams sampling;
   uvec2 size;
 };

@@ -15,7 +15,7 @@ struct SolveResidual {
   uint maxDelta;   ///< max |B' - B|, W/m^2
   uint maxH;       ///< W/m^2
   uint maxGain;    ///< largest row gain lambda x max_c rho_c x sum_j F_ij
-  uint maxSource;  ///< max |M + rho D|, W/m^2
+  uint maxSource;  ///< max |M + W + rho D|, W/m^2
   uint nonFinite;  ///< components of B' that are NaN or infinite
   uint nan;        ///< of those, NaN
   uint negative;   ///< components of M + rho D, H or B', and row sums of F, below zero
@@ -46,6 +46,7 @@ struct SolvePush {
   FloatArray rowSum;     ///< sum_j F_ij, written where it is watched
   Vec4Array correction;  ///< F M by samples of the emitters less that by rays
   Vec4Array sky;         ///< irradiance from the sky, where there is one
+  Vec4Array reflected;   ///< W, reflections that are written back, where there are any
   float lambda, omega, flush;
   float correctionGain;  ///< the factor on M in B, and so on the correction to F B. 0: there is none
 };

@@ -18,6 +18,9 @@ struct ViewPush {
   uint kind;
   float exposure;  ///< linear factor
   IRAD_AS(ToneCurve) toneCurve;
+  vec3 origin;  ///< these two: of the Grid
+  float inverseEdge;
+  WritebackParams writeback;
 };
 
 // clang-format off
@@ -53,7 +56,7 @@ struct VoxelViewPush {
   Grid grid;
   FacetRecord facets;
   MatrixRecord matrix;  ///< 0: there is none
-  Vec4Array values;     ///< per facet: H, B, D or F, as the view has it; 0: there are none
+  Vec4Array values;     ///< per facet: H, B, D, W or F, as the view has it; 0: there are none
   UintArray bytes;      ///< a distance field, 4 voxels per uint
   UintArray seeds;      ///< packVoxel of a solid voxel, or NO_SEED
   UintArray exact;      ///< exact distance (view/exact_distance.comp)

@@ -6,6 +6,7 @@
 #include "shared/constants.h"
 #include "shared/passes.h"
 #include "shared/view.h"
+#include "shared/writeback.h"
 #include "view/finish.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -32,6 +33,23 @@ layout(push_constant, scalar) uniform PushBlock { ViewPush push; };
 vec3 skyBehind(GpuCamera camera, ivec2 pixel) {
   vec3 axis = viewAxis(camera);
   return skySeen(push.sky.at[0], -towardsViewer(camera, pixelPosition(camera, pixel, 1.0, axis), axis));
+}
+
+/// T Fig. 14: the fragments that the writeback's mask selects are red, the voxels' seams white.
+vec3 maskAt(GpuCamera camera, ivec2 pixel, float depth) {
+  vec3 axis = viewAxis(camera);
+  float z = viewDepth(camera, depth);
+  vec3 local = pixelPosition(camera, pixel, z, axis);
+  vec3 v = (local - push.origin) * push.inverseEdge;
+  vec3 face = normalize(imageLoad(geometricTarget, pixel).xyz);
+  if (writebackSelects(length(camera.position - local), v, face, push.writeback)) return vec3(1.0, 0.0, 0.0);
+  // A seam is as wide as a pixel, of the axes that the face crosses, where there are several pixels between two.
+  float width = 2.0 * length(camera.inverseViewProjection[1].xyz) / float(camera.size.y) * push.inverseEdge *
+                (camera.orthographic != 0u ? 1.0 : z);
+  vec3 toSeam = abs(v - round(v));
+  bvec3 seam = lessThan(toSeam, 0.5 * width * sqrt(max(1.0 - face * face, 0.0)));
+  if (width < 0.25 && any(seam)) return vec3(1.0);
+  return vec3(0.1 + 0.3 * max(dot(face, towardsViewer(camera, local, axis)), 0.0));
 }
 
 void main() {
@@ -71,6 +89,7 @@ void main() {
     case VIEW_DIRECT_IRRADIANCE: value = direct + IRAD_TERM(TARGET_EMITTED, emittedTarget); break;
     case VIEW_IRRADIANCE: value = indirect; break;
     case VIEW_EMITTER_IRRADIANCE: value = IRAD_TERM(TARGET_EMITTED, emittedTarget); break;
+    case VIEW_WRITEBACK_MASK: value = drawn ? maskAt(camera, pixel, depth) : vec3(0.0); break;
     default: {
       // A view without a case here: magenta.
       imageStore(linearTarget, pixel, vec4(1.0, 0.0, 1.0, 1.0));

@@ -34,9 +34,11 @@ bool isFrom(uint sources) { return (FROM & sources) != 0u; }
 /// What the view shows for one facet of a voxel that holds `count`.
 vec3 facetValue(FacetArrays facets, uint facet, uint count) {
   if (isFrom(FROM_FACET_VALUES)) {
-    vec3 value = uvec2(push.values) != uvec2(0u) ? push.values.at[facet].xyz : vec3(0.0);
+    if (uvec2(push.values) == uvec2(0u)) return vec3(0.0);
+    vec4 value = push.values.at[facet];
     // One number: of the colour channel where it is largest.
-    return isFrom(FROM_STANDARD_ERROR) ? vec3(max(value.x, max(value.y, value.z))) : value;
+    if (isFrom(FROM_STANDARD_ERROR)) return vec3(max(value.x, max(value.y, value.z)));
+    return VIEW == VIEW_WRITEBACK_WRITERS ? value.www : value.xyz;
   }
   switch (VIEW) {
     case VIEW_VOXEL_ALBEDO: return unpackAlbedo(facets.albedo.at[facet]);

@@ -124,6 +124,10 @@ class InspectorPanel : public Panel {
       valueRow("sky", three(facet.sky));
       helpTooltip("The part of H that comes straight from the sky, W/m\u00B2");
     }
+    if (facet.reflected != glm::dvec3(0)) {
+      valueRow("reflected", three(facet.reflected));
+      helpTooltip("Reflections that are written back: a part of B, W/m\u00B2");
+    }
     if (facet.correction != glm::dvec3(0)) {
       valueRow("emitters", three(facet.correction));
       helpTooltip("What samples of the emitters add to H in place of the row's rays, W/m\u00B2");

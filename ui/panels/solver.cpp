@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cfloat>
 #include <cmath>
 #include <span>
 
 #include "gi/convergence.h"
+#include "gi/lighting.h"
+#include "gi/pipeline.h"
 #include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/plot.h"
@@ -50,6 +54,7 @@ class SolverPanel : public Panel {
     helpTooltip("The largest share of its light that a facet's row passes on: below 1 the solver converges");
     valueRow("\u03BA", shortNumber(report.kappa));
     helpTooltip("Proven from the gains of all rows together: an error is at most so many times the residual");
+    drawReflections(session);
     drawCurves();
     drawEnergy(*session.built);
     drawWatch(*session.built);
@@ -117,6 +122,27 @@ class SolverPanel : public Panel {
     ImGui::SameLine();
     if (ImGui::Button("H = 0", third)) session.darken = true;
     helpTooltip("Start again from the dark");
+  }
+
+  /// What the last picture has written back, where it has.
+  static void drawReflections(const Session& session) {
+    const auto& report = session.pipeline->lighting().writeback.report;
+    if (!report || report->pending) return;
+    valueRow("written back",
+             fmt::format("{} of {} facets", withThousands(report->written()), withThousands(report->visible())));
+    helpTooltip("Of the facets that pixels see those to which any has written the reflection that it shows");
+    valueRow("writers 0, 1, more",
+             fmt::format("{}, {}, {}", withThousands(report->writers[0]), withThousands(report->writers[1]),
+                         withThousands(report->written() - report->writers[1])));
+    helpTooltip(
+        "Visible facets by how many pixels have written to them; with writeback.mode=compute the mean of all is one");
+    std::array<float, WRITEBACK_BINS> bars{};
+    std::ranges::copy(report->writers, bars.begin());
+    ImGui::PlotHistogram("##writers", bars.data(), static_cast<int>(bars.size()), 0, nullptr, 0, FLT_MAX,
+                         {ImGui::GetContentRegionAvail().x, std::floor(3 * ImGui::GetFontSize())});
+    helpTooltip("Visible facets with 0, 1, ... 7 writers, and with 8 or more");
+    valueRow("W largest, change", shortNumber(report->largest) + ", " + shortNumber(report->change) + " W/m\u00B2");
+    helpTooltip("The largest that is written back, and by how much it differs from what the light was solved with");
   }
 
   /// The solver's calls as curves over all sweeps since it woke.

@@ -1,0 +1,55 @@
+// "GI Writeback", last: W of every facet, 0 where no pixel has written, and what there is to say of it. One invocation
+// per facet. IRAD_MASK: of what the mask's fragments have stored; otherwise the mean of the facet's pixels.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/writeback.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { WritebackFacetsPush p; };
+#ifdef IRAD_MASK
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D stored;
+#endif
+
+// A workgroup's share of the counts.
+shared uint writersShared[WRITEBACK_BINS], stores, change, largest;
+
+float sumAt(uint word) {
+  uint64_t sum = uint64_t(p.sums.at[word]) | (uint64_t(p.sums.at[word + 1u]) << 32);
+  return float(sum) / WRITEBACK_STEPS;
+}
+
+void main() {
+  if (gl_LocalInvocationIndex < WRITEBACK_BINS) writersShared[gl_LocalInvocationIndex] = 0u;
+  if (gl_LocalInvocationIndex == 0u) stores = change = largest = 0u;
+  barrier();
+  uint facet = irad_index();
+  if (facet < p.facets) {
+    uint pixels = p.pixels.at[facet];
+    vec3 w = vec3(0.0f);
+#ifdef IRAD_MASK
+    uint writers = p.writers.at[facet];
+    atomicAdd(stores, writers);
+    if (writers > 0u) w = imageLoad(stored, writebackTexel(facet)).rgb;
+#else
+    uint writers = min(pixels, 1u);
+    atomicAdd(stores, pixels);
+    if (pixels > 0u) {
+      float most = uintBitsToFloat(p.counts.at[0].most);
+      w = vec3(sumAt(6u * facet), sumAt(6u * facet + 2u), sumAt(6u * facet + 4u)) / float(pixels) * most;
+    }
+#endif
+    w = mix(w, vec3(0.0f), lessThan(w, vec3(p.flush)));
+    vec3 d = abs(w - p.used.at[facet].xyz);
+    p.drawn.at[facet] = vec4(w, float(writers));
+    if (pixels > 0u) atomicAdd(writersShared[min(writers, WRITEBACK_BINS - 1u)], 1u);
+    atomicMax(change, floatBitsToUint(max(d.x, max(d.y, d.z))));
+    atomicMax(largest, floatBitsToUint(max(w.x, max(w.y, w.z))));
+  }
+  barrier();
+  if (gl_LocalInvocationIndex < WRITEBACK_BINS && writersShared[gl_LocalInvocationIndex] > 0u)
+    atomicAdd(p.counts.at[0].writers[gl_LocalInvocationIndex], writersShared[gl_LocalInvocationIndex]);
+  if (gl_LocalInvocationIndex != 0u) return;
+  if (stores > 0u) atomicAdd(p.counts.at[0].stores, stores);
+  if (change > 0u) atomicMax(p.counts.at[0].change, change);
+  if (largest > 0u) atomicMax(p.counts.at[0].largest, largest);
+}
