@@ -132,7 +132,8 @@ struct Pipeline::Impl {
   SkyInputs skyInputs(std::span<const Light> lights) const {
     SkyInputs in{.image = scene.sky.get(), .sun = {}};
     for (const Light& light : lights)
-      if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && !in.sun) in.sun = -light.direction;
+      if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && light.intensity > 0 && !in.sun)
+        in.sun = SkySun{-light.direction, light.intensity * light.color};
     return in;
   }
   void lookAtSky(std::span<const Light> lights) {

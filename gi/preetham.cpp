@@ -57,6 +57,17 @@ double preethamZenith(double turbidity, double fromZenith) {
   return (4.0453 * turbidity - 4.9710) * std::tan(chi) - 0.2155 * turbidity + 2.4192;
 }
 
+double preethamSun(double turbidity, double fromZenith) {
+  constexpr double kAboveAir = 133.8;     // klx
+  constexpr double kMicrometres = 0.555;  // where eyes see best: of the spectrum of appendix A.1 the one wavelength
+  constexpr double kOzone = 0.35, kOzoneAbsorption = 0.085;  // cm, 1/cm
+  const double degrees = std::clamp(fromZenith * 180 / pi, 0.0, 85.0);
+  const double mass = 1 / (std::cos(degrees * pi / 180) + 0.15 * std::pow(93.885 - degrees, -1.253));
+  const double aerosols = (0.04608 * turbidity - 0.04586) * std::pow(kMicrometres, -1.3);
+  const double rayleigh = 0.008735 * std::pow(kMicrometres, -4.08);
+  return kAboveAir * std::exp(-mass * (rayleigh + aerosols + kOzone * kOzoneAbsorption));
+}
+
 SkyTexels preethamSky(float turbidity, const glm::vec3& towardsSun) {
   const double t = turbidity;
   glm::dvec3 sun(towardsSun);

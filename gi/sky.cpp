@@ -10,6 +10,7 @@
 #include "gi/subsystems.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/record.h"
+#include "shaders/shared/emitters.h"
 
 namespace irad {
 namespace {
@@ -18,9 +19,15 @@ namespace {
 constexpr uint32_t kBinSamples = 16;
 
 glm::vec3 towardsSun(const SkySettings& s, const SkyInputs& inputs) {
-  if (s.coupled && inputs.sun) return *inputs.sun;
+  if (s.coupled && inputs.sun) return inputs.sun->towards;
   const float elevation = glm::radians(s.elevation), azimuth = glm::radians(s.azimuth);
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
+}
+
+/// What takes kcd/m^2 of Preetham's sky to the unit of a sun, so that the two are to each other as in the open.
+float asBrightAs(const SkySun& sun, float turbidity) {
+  const double fromZenith = std::acos(std::clamp(double{sun.towards.y}, -1.0, 1.0));
+  return luminance(sun.irradiance) / static_cast<float>(preethamSun(turbidity, fromZenith));
 }
 
 glm::vec3 mostOf(const SkyTexels& sky) {
@@ -72,6 +79,7 @@ Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
       sky.texels = before != nullptr && before->model == sky.model
                        ? before->texels
                        : std::make_shared<const SkyTexels>(preethamSky(s.turbidity, glm::vec3(sky.model)));
+      if (s.coupled && inputs.sun) sky.scale *= asBrightAs(*inputs.sun, s.turbidity);
       break;
   }
   if (!sky.whole) sky.whole = sky.texels;

@@ -36,7 +36,7 @@ struct Sky {
 /// Where a sky takes what is not in its settings from.
 struct SkyInputs {
   const SkyImage* image = nullptr;  ///< null: there is none, and sky.source = image is black
-  std::optional<glm::vec3> sun;     ///< towards the scene's first, unit
+  std::optional<SkySun> sun;        ///< the scene's first that shines
 };
 /// `before`: one whose computed texels may serve again.
 Sky makeSky(const SkySettings& settings, const SkyInputs& inputs, const Sky* before = nullptr);

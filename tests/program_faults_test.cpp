@@ -306,14 +306,14 @@ TEST(NewerFiles, SceneCachesAreInputErrors) {
   writeSceneCache(loadScene(assets() / "box.glb"), path);
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   file.seekp(8);  // behind the magic: uint32 version
-  file.put(2);
+  file.put(3);
   file.close();
   try {
     loadScene(path);
-    FAIL() << "a cache of version 2 is read";
+    FAIL() << "a cache of version 3 is read";
   } catch (const InputError& error) {
     EXPECT_EQ(error.exitStatus, 3);
-    EXPECT_TRUE(contains(error.what(), "version 2; this program reads 1")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "version 3; this program reads 2")) << error.what();
   }
 }
 

@@ -413,6 +413,17 @@ TEST_F(Skies, PreethamsIsThePapers) {
   Settings s = under(SkySource::preetham);
   Pipeline p(context(), b.finish("sunny"), s);
   EXPECT_LT(glm::distance(glm::vec3(p.sky().model), glm::normalize(glm::vec3(-1, 1, 0))), 1e-5f);
+  // And as bright as goes with it: by the paper's formulas such a sun, 45 degrees high in a haze of 3, brings 84.6 klx
+  // to what faces it; thrice the sun brings thrice the sky.
+  EXPECT_NEAR(p.sky().scale.x, 3 / 84.6, 1e-4);
+  EXPECT_NEAR(preethamSun(2, 0), 106.8, 0.1);
+  EXPECT_EQ(preethamSun(3, glm::radians(85.0)), preethamSun(3, glm::radians(100.0)));
+  std::vector<Light> lights = p.scene().lights;
+  lights.back().intensity = 1;
+  p.setLights(lights);
+  EXPECT_NEAR(p.sky().scale.x, 1 / 84.6, 1e-4);
+  lights.back().intensity = 3;
+  p.setLights(lights);
   const auto before = p.sky().texels;
   s.sky.intensity = 2;
   p.set(s);
