@@ -172,7 +172,7 @@ TEST_F(WindowLoop, FramesOfBruteForceEndInRestAndBeginAnewFromTheDark) {
   run([&] {  // once it rests
     from = timings_.now();
     click("Solver/H = 0");
-    screen_->xdotool("mousemove 360 510");
+    screen_->xdotool("mousemove 360 510 sleep 2");  // it rests until the click arrives, too
     EXPECT_TRUE(until([&] { return rests(); }));
     to = timings_.now();
   });
