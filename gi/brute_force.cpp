@@ -182,6 +182,7 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
   FrameMean& mean = light.frameMean;
   const SolverParams& params = solver.gpu;
   FrameTracer tracer(context, facets, field, sky, light, settings);
+  const float litBefore = light.litH;
   if (restarts || light.report.nonFinite > 0 || mean.weights.frames() == 0 || mean.weights.frames() > solver.frames ||
       light.guard.lambda != params.lambda || light.guard.asked != params.omega) {
     beginSolve(context, facets, light, params);
@@ -208,35 +209,20 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
       throw WorkError("cancelled");
     const FrameTracer::Reduced r = tracer.next();
     ++report.sweeps;
-    report.largestH = std::bit_cast<float>(r.residual.maxH);
-    report.largestGain = std::bit_cast<float>(r.residual.maxGain);
-    report.nonFinite = r.residual.nonFinite;
-    report.nan = r.residual.nan;
-    report.negative = r.residual.negative;
+    // The mean over the facets hardly knows the noise of single ones.
+    watchSolve(report, r.residual, static_cast<float>(std::abs(r.meanH - mean.meanH)), light.guard);
+    report.omega = light.guard.omega;
     report.dark = r.residual.maxSource == 0 && !sky;
-    report.residual = static_cast<float>(std::abs(r.meanH - mean.meanH));
     mean.meanH = r.meanH;
     report.meanH = static_cast<float>(r.meanH);
     report.standardError = static_cast<float>(r.meanError);
-    // The mean over the facets hardly knows the noise of single ones.
-    if (report.nonFinite == 0) light.guard.judge(report.largestGain, report.residual);
-    report.omega = light.guard.omega;
-    report.growth = light.guard.growth;
-    report.damped = light.guard.damped;
-    report.diverging = light.guard.gaveUp;
     if (!report.dark) light.litH = report.largestH;
     judge();
     light.report = report;
   }
-  if (report.diverging) {
-    restoreLight(context, facets, light);
-    mean.weights = {};
-  }
-  if (report.settled()) {
-    light.guard.radiosity = Buffer(), light.guard.indirect = Buffer();
-    mean.hits = Buffer();
-  }
-  if (report.nonFinite + report.negative > 0) report.defect = findDefect(context, facets, light);
+  endSolve(context, facets, light, report, litBefore);
+  if (report.diverging) mean.weights = {};
+  if (report.settled()) mean.hits = Buffer();
   return light.report = report;
 }
 

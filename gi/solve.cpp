@@ -44,15 +44,9 @@ float target(const SolveReport& report, float omega, float tolerance) {
   return std::max(tolerance * report.meanH, report.kappa / omega * report.largestH * 0x1p-23f);
 }
 
-/// How far B may still be from its fixed point, and H from F times it. |dB|: the last change.
+/// How far B may still be from its fixed point, and H from F times it, after watchSolve(). |dB|: the last change.
 void judge(SolveReport& report, const SolveResidual& r, double meanH, float omega, float tolerance) {
-  report.residual = std::bit_cast<float>(r.maxDelta);
-  report.largestH = std::bit_cast<float>(r.maxH);
-  report.largestGain = std::bit_cast<float>(r.maxGain);
   report.meanH = static_cast<float>(meanH);
-  report.nonFinite = r.nonFinite;
-  report.nan = r.nan;
-  report.negative = r.negative;
   report.dark = r.maxSource == 0;
   report.omega = omega;
   // The error of B before the sweep is at most kappa |dB| / omega, and so is that of H, row sums being <= 1.
@@ -70,6 +64,17 @@ uint32_t sweepsToGo(const SolveReport& report, float omega, float tolerance) {
     return std::numeric_limits<uint32_t>::max();
   const double sweeps = std::ceil(std::log(wanted / report.residual) / std::log(report.contraction));
   return static_cast<uint32_t>(std::clamp(sweeps, 1.0, 1e6));
+}
+
+/// The light from before the solve, where it was kept.
+void restoreLight(Context& context, const FacetList& facets, Lighting& light) {
+  if (!light.guard.radiosity) return;
+  const uint64_t bytes = 16ull * facets.count;
+  Frame frame = context.begin();
+  frame.pass(kSolveStage).copy(light.guard.radiosity, light.radiosity, bytes);
+  frame.pass(kSolveStage).copy(light.guard.indirect, light.indirect, bytes);
+  frame.submit();
+  light.gain = light.guard.gain;
 }
 
 }  // namespace
@@ -104,14 +109,26 @@ void beginSolve(Context& context, const FacetList& facets, Lighting& light, cons
   guard = std::move(fresh);
 }
 
-void restoreLight(Context& context, const FacetList& facets, Lighting& light) {
-  if (!light.guard.radiosity) return;
-  const uint64_t bytes = 16ull * facets.count;
-  Frame frame = context.begin();
-  frame.pass(kSolveStage).copy(light.guard.radiosity, light.radiosity, bytes);
-  frame.pass(kSolveStage).copy(light.guard.indirect, light.indirect, bytes);
-  frame.submit();
-  light.gain = light.guard.gain;
+void watchSolve(SolveReport& report, const SolveResidual& r, float residual, DivergenceGuard& guard) {
+  report.residual = residual;
+  report.largestH = std::bit_cast<float>(r.maxH);
+  report.largestGain = std::bit_cast<float>(r.maxGain);
+  report.nonFinite = r.nonFinite;
+  report.nan = r.nan;
+  report.negative = r.negative;
+  if (report.nonFinite == 0) guard.judge(report.largestGain, report.residual);
+  report.growth = guard.growth;
+  report.damped = guard.damped;
+  report.diverging = guard.gaveUp;
+}
+
+void endSolve(Context& context, const FacetList& facets, Lighting& light, SolveReport& report, float litBefore) {
+  if (report.diverging) {
+    restoreLight(context, facets, light);
+    light.litH = litBefore;
+  }
+  if (report.settled()) light.guard.radiosity = Buffer(), light.guard.indirect = Buffer();
+  if (report.nonFinite + report.negative > 0) report.defect = findDefect(context, facets, light);
 }
 
 void DivergenceGuard::judge(float gain, float residual) {
@@ -187,6 +204,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     frame.submitAndWait();
     if (report.kappaSlack > kTight || !proven) judgeGains(report, residuals[count - 1]);
     proven = true;
+    watchSolve(report, residuals[count - 1], std::bit_cast<float>(residuals[count - 1].maxDelta), guard);
     judge(report, residuals[count - 1], sums.meanH, sweep.omega, settings.solver.tolerance);
     const float previous = count > 1 ? std::bit_cast<float>(residuals[count - 2].maxDelta) : 0;
     if (previous > 0)
@@ -194,10 +212,6 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     else if (left > 0)
       report.contraction = std::pow(report.residual / left, 1.0f / static_cast<float>(count));
     left = report.residual;
-    if (report.nonFinite == 0) guard.judge(report.largestGain, report.residual);
-    report.growth = guard.growth;
-    report.damped = guard.damped;
-    report.diverging = guard.gaveUp;
     // Where light may grow it is checked often, and while it does grow after every sweep.
     if (report.largestGain >= 1)
       batch = guard.growing > 0 || guard.damped ? 1 : std::min(4u, longest);
@@ -225,12 +239,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
       sweep.flush = std::max(params.flush, kDark * light.litH);
     }
   }
-  if (report.diverging) {
-    restoreLight(context, facets, light);
-    light.litH = litBefore;
-  }
-  if (report.settled()) guard.radiosity = Buffer(), guard.indirect = Buffer();
-  if (report.nonFinite + report.negative > 0) report.defect = findDefect(context, facets, light);
+  endSolve(context, facets, light, report, litBefore);
   if (report.converged && params.lambda == 1) report.energy = balance(context, facets, light);
   return light.report = report;
 }

@@ -20,6 +20,7 @@
 #include "renderer/targets.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
+#include "shaders/shared/picked.h"
 
 namespace irad {
 namespace {
@@ -37,6 +38,11 @@ uint32_t traceMethod(const Settings& settings, const Field& field) {
   if (settings.specular.gpu.traversal == Traversal::dda) return bytes ? TRACE_DDA_FIELD : TRACE_DDA_REVERSE;
   if (field.method == FieldMethod::jfa && field.jumpFlood.distance) return TRACE_JFA;
   return bytes ? TRACE_SKIP : TRACE_DDA_REVERSE;
+}
+
+/// Invocations that share a pixel's rays. On a CPU those that have none, as all but one of a mirror, are work for all.
+uint32_t lobeLanes(const Device& device) {
+  return device.isCpu ? 2 : 4;
 }
 
 /// W/m^2. In the dark no pixel traces rays, unless the threshold is 0.
@@ -116,6 +122,8 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
 
   Pass trace = frame.pass(kSpecularStage);
   trace.shader(fieldIsImage(picture) ? "specular/trace_jfa.comp" : "specular/trace.comp");
+  const uint32_t lanes = lobeLanes(frame.context().device);
+  trace.constant(CONSTANT_LOBE_LANES, lanes).constant(CONSTANT_LOBE_WORKGROUP, lanes * PICKED_GROUP);
   const bool emitters = inputs.facets->surface && inputs.emitters != nullptr && inputs.emitters->count > 0;
   addRays(picture, trace, emitters ? inputs.emitters : nullptr).write(targets.linear);
   sampleField(picture, trace).dispatchIndirect(targets.glossy);

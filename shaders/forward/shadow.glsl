@@ -106,27 +106,26 @@ float cubeVisibility(GpuLight light, vec3 p, vec3 n, float offset, uint pcf) {
 /// What a light's map holds on the way to `p`, and by how much that is nearer to the light, the gap: metres along a distant
 /// light; of the others the distance between the two as a share of that from the light to the nearer. A light's size
 /// times it is what the light's disc comes to at p, seen through a hole there. <= 0: nothing is nearer.
-float mapGap(GpuLight light, vec3 p, out float widest) {
+struct MapGap {
+  float gap, widest;  ///< widest: of what is as near to the light as its map begins
+};
+MapGap mapGap(GpuLight light, vec3 p) {
   float axial, stored;
-  widest = 0.0;
   if (hasCubeMap(light)) {
     vec3 d = p - light.position, a = abs(d);
     axial = max(a.x, max(a.y, a.z));
-    if (!(axial > 0.0)) return 0.0;
+    if (!(axial > 0.0)) return MapGap(0.0, 0.0);
     stored = textureLod(shadowCubes, vec4(d, float(light.shadowLayer)), 0.0).r;
   } else {
     vec4 clip = project(light.shadowMatrix, p);
     axial = clip.w;
-    if (!(axial > 0.0)) return 0.0;
+    if (!(axial > 0.0)) return MapGap(0.0, 0.0);
     vec3 ndc = clip.xyz / clip.w;
     stored = textureLod(shadowFlat, vec3(ndc.xy * vec2(0.5, -0.5) + 0.5, float(light.shadowLayer)), 0.0).r;
-    if (lightHas(light, LIGHT_DISTANT)) {
-      widest = (1.0 - ndc.z) * light.shadowFar;
-      return (stored - ndc.z) * light.shadowFar;
-    }
+    if (lightHas(light, LIGHT_DISTANT))
+      return MapGap((stored - ndc.z) * light.shadowFar, (1.0 - ndc.z) * light.shadowFar);
   }
-  widest = axial / light.shadowNear - 1.0;
-  return axial * stored / light.shadowNear - 1.0;
+  return MapGap(axial * stored / light.shadowNear - 1.0, axial / light.shadowNear - 1.0);
 }
 
 const float WIDEST_GAP = 7.0;  ///< penumbrae of what is nearer to a lamp than an eighth of the way are no wider
@@ -141,8 +140,7 @@ float penumbraVisibility(GpuLight light, vec3 p, vec3 n, float lift, float texel
   float away = distant ? 1.0 : length(light.position - start);
   float cosine = max(dot(n, towards), 0.05);  // grazing light: a steeper plane than 1 : 20 is not followed
   float least = 0.5 * float(pcf) * texel;     // as wide as the filter of a light without a size
-  float widest;
-  mapGap(light, start, widest);
+  float widest = mapGap(light, start).widest;
   widest = light.size * (distant ? widest : min(widest, WIDEST_GAP));
   uvec3 bits = floatBitsToUint(start);
   uint hash = hashUint(bits.x ^ hashUint(bits.y ^ hashUint(bits.z)));
@@ -159,8 +157,7 @@ float penumbraVisibility(GpuLight light, vec3 p, vec3 n, float lift, float texel
       float phi = 2.0 * IRAD_PI * u.y;
       vec3 aside = toWorld(vec3(r * cos(phi), r * sin(phi), 0.0), towards);
       float along = -dot(n, aside) / cosine;  // on the point's plane
-      float ignored;
-      float gap = mapGap(light, start + aside + towards * along, ignored);
+      float gap = mapGap(light, start + aside + towards * along).gap;
       if (gap <= 0.0) continue;
       // Above the point itself. From a lamp's place the plane's point at `along` is seen further aside than r.
       float further = distant ? 1.0 : away / (away - along);
@@ -224,15 +221,14 @@ float mapVisibility(GpuLight light, vec3 p, vec3 n, float lift, float texel, uin
   if (hasSize(light)) return penumbraVisibility(light, p, n, lift, texel, pcf);
   precise vec3 lifted = p + n * lift;
   if (light.shadowFilter == SHADOW_VSM) return varianceVisibility(light, lifted);
-  float ignored;
-  return mapGap(light, lifted, ignored) > 0.0 ? 0.0 : 1.0;
+  return mapGap(light, lifted).gap > 0.0 ? 0.0 : 1.0;
 }
 bool readsMapItself(GpuLight light) { return hasSize(light) || (FILTERS && light.shadowFilter != SHADOW_PCF); }
 
-/// Share of the light that reaches a point of a surface, 0..1: by SHADOW_PCF pcf x pcf bilinear comparisons one texel apart,
-/// else as mapVisibility() has it. The point is lifted off the surface along its normal by `biasTexels` texels times the sine between the normal and the map's axis,
-/// which is what the surface's slope inside one texel needs; nothing here has a length of its own, so the scene's scale
-/// does not matter.
+/// Share of the light that reaches a point of a surface, 0..1: by SHADOW_PCF pcf x pcf bilinear comparisons one texel
+/// apart, else as mapVisibility() has it. The point is lifted off the surface along its normal by `biasTexels` texels
+/// times the sine between the normal and the map's axis, which is what the surface's slope inside one texel needs;
+/// nothing here has a length of its own, so the scene's scale does not matter.
 float shadowVisibility(GpuLight light, vec3 localPosition, vec3 normal, float biasTexels, uint pcf) {
   if (light.shadowLayer < 0) return 1.0;
   pcf |= 1u;  // odd

@@ -32,10 +32,10 @@ bool seesLight(ivec2 pixel, uint triangle) {
   SurfelPoint from =
       liftedSeen(surface, triangle, (local - push.origin) / push.edge, towardsViewer(camera, local, axis));
   GpuScene scene = push.scene.at[0];
+  uvec2 shift = uvec2(hashUint(uint(pixel.x)), hashUint(~uint(pixel.y)));
   for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
     GpuLight light = scene.lights.at[i];
     if (lightIrradiance(light, local, from.facing) == vec3(0.0)) continue;
-    uvec2 shift = uvec2(hashUint(uint(pixel.x)), hashUint(~uint(pixel.y)));
     if (lightShare(world, surface, from, light, local, push.edge, 0u, 1u, light.points, shift) > 0.0) return true;
   }
   return false;

@@ -1,7 +1,7 @@
 // Albedo = base colour x (1 - metallic) clamped to [0, .98] and emitted exitance of each piece, at its middle
 // (docs/method.md 1-2); of an emission texture the mean over the piece, so that all of its light is there. The albedo is
-// what the surface gives back of an even sky: the bumps of a normal map take their share of it (docs/method.md 9). One dispatch per textured material, whose set 1 is bound, and one for all pieces that
-// sample no texture.
+// what the surface gives back of an even sky: the bumps of a normal map take their share of it (docs/method.md 9). One
+// dispatch per textured material, whose set 1 is bound, and one for all pieces that sample no texture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "specular/trace.glsl"
 
-layout(local_size_x = PICKED_GROUP * LOBE_LANES) in;
+layout(local_size_x_id = CONSTANT_LOBE_WORKGROUP) in;
 layout(set = 0, binding = 0) uniform sampler2D depthTarget;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D normalTarget;
 layout(set = 0, binding = 2, rgba16f) uniform readonly image2D geometricTarget;
@@ -12,7 +12,7 @@ layout(set = 0, binding = 3, rgba16f) uniform readonly image2D f0Target;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D tracedTarget;
 
-shared vec4 lobes[PICKED_GROUP * LOBE_LANES];
+shared vec4 lobes[gl_WorkGroupSize.x];
 
 /// What a lane finds (traceLobe) for a pixel at view depth `z`.
 vec4 reflectedAt(GpuCamera camera, ivec2 pixel, float z, uint lane) {

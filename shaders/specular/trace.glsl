@@ -68,7 +68,7 @@ vec3 beyond(TraceHit hit, vec3 direction) {
 
 /// Invocations that share a pixel's rays: as many run side by side, and few wait for long ones. (Mesa's CPU driver ends
 /// loops after 65,535 rounds of an invocation, which is a bound on what its rays may meet together.)
-const uint LOBE_LANES = 4u;
+layout(constant_id = CONSTANT_LOBE_LANES) const uint LOBE_LANES = 4u;
 
 /// Reflected radiance before the lobe's reflectance, times pi and the sum of the weights (w), of one lane's rays; the
 /// pixel's mean is the quotient of the lanes' sums. Rays follow visible normals of GGX (Heitz 2018), each
