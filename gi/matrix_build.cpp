@@ -11,7 +11,7 @@ namespace irad {
 static_assert(sizeof(MatrixArrays) <= FormFactors::kSegmentTable);
 
 uint64_t raysPerSubmission(const Device& device) {
-  return device.isCpu ? uint64_t{1} << 18 : uint64_t{1} << 24;
+  return device.isCpu ? uint64_t{1} << 18 : uint64_t{1} << 25;
 }
 
 void reportRows(const std::function<bool(float)>& progress, uint64_t done, uint64_t all) {

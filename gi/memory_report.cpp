@@ -50,8 +50,8 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.surface.links, FACET_LINKS * s);
   buffer(facets.surface.firstPiece, 4 * (s + 1));
   // Nothing but these arrays knows how many triangles, pieces and cuts there are: what was asked for.
-  for (const Buffer* b : {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes, &facets.surface.sides,
-                          &facets.surface.cuts})
+  for (const Buffer* b : {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes,
+                          &facets.surface.groups, &facets.surface.sides, &facets.surface.cuts})
     buffer(*b, b->bytes);
   buffer(facets.surface.record, sizeof(SurfaceArrays));
   buffer(facets.record, sizeof(FacetArrays));

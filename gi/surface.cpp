@@ -37,7 +37,7 @@ struct Pieces {
   Buffer triangle;                ///< per piece, ascending within a voxel
   Buffer pieceVoxel;              ///< which solid voxel
   Buffer area;                    ///< float, voxel faces
-  Buffer boxes;                   ///< packBox
+  Buffer boxes, groups;           ///< packBox; and around groups of them
   Buffer firstPoint, firstCut;    ///< per piece, and the end: its PiecePoints, and its words of SurfaceArrays::cuts
   uint32_t points = 0, cuts = 0;
 };
@@ -126,6 +126,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   p.pieceVoxel = words(device, "pieces' voxels", p.count);
   p.area = words(device, "pieces' areas", p.count);
   p.boxes = words(device, "pieces' boxes", p.count);
+  p.groups = words(device, "boxes of groups", groupPlaces(p.count));
   Buffer unsorted = words(device, "unsorted pieces", p.count);
   Frame frame = context.begin();
   frame.pass(kListStage).copy(pieces, p.first, 4, 0, 4ull * p.solid);
@@ -169,6 +170,13 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     shape.cuts = pass.out(p.firstCut);
     shape.count = p.count;
     pass.shader("gi/piece_shape.comp").push(shape).dispatch(p.count);
+    Pass around = frame.pass(kListStage);
+    PieceGroupsPush groups{};
+    groups.firstPiece = around.in(p.first);
+    groups.boxes = around.in(p.boxes);
+    groups.groups = around.out(p.groups);
+    groups.count = p.solid;
+    around.shader("gi/piece_groups.comp").push(groups).dispatch(p.solid);
   }
   scanToEnd(frame, p.firstPoint, p.count, solid, p.points);
   scanToEnd(frame, p.firstCut, p.count, pieces, p.cuts);
@@ -309,7 +317,7 @@ void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
   push.links = pass.out(surface.links);
   push.dims = list.grid.dims;
   push.count = list.count;
-  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + 1) / 2);
+  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
 }
 
 void makeRecord(Context& context, FacetList& list) {
@@ -321,6 +329,7 @@ void makeRecord(Context& context, FacetList& list) {
   if (s.pieces) {
     arrays.pieces = record.of(s.pieces);
     arrays.boxes = record.of(s.boxes);
+    arrays.groups = record.of(s.groups);
     arrays.sides = record.of(s.sides);
     arrays.cuts = record.of(s.cuts);
   }
@@ -419,6 +428,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   list.solidVoxels = pieces.solid;
   surface.pieces = std::move(pieces.triangle);
   surface.boxes = std::move(pieces.boxes);
+  surface.groups = std::move(pieces.groups);
   surface.sides = words(device, "pieces' sides", pieces.count);
   surface.cuts = words(device, "pieces' cuts", pieces.cuts);
   makeRecord(context, list);

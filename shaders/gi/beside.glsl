@@ -33,12 +33,12 @@ float liftOf(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p
   return entry == NO_FACET ? ABOVE_SURFACE : clearAbove(piecesOf(surface, entry), p.position, p.facing, p.triangle);
 }
 
-bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint a, SurfelPoint b) {
+bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from, SurfelPoint b) {
+  SurfelPoint a = from.at;
   vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0;
   SideWay way = wayBetween(surface.corners, low - AROUND_CELL, high + AROUND_CELL, a, b);
   if (!way.open) return false;
-  SidePath path = pathOf(way, SidePoint(a, liftOf(surface, reverse, dims, a)),
-                         SidePoint(b, liftOf(surface, reverse, dims, b)));
+  SidePath path = pathOf(way, from, SidePoint(b, liftOf(surface, reverse, dims, b)));
   for (uint i = 0u; i < segmentsOf(path); ++i) {
     vec3 p, q;
     segmentAt(path, i, p, q);

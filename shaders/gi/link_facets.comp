@@ -1,15 +1,26 @@
 // Which facets of the voxels around continue a facet's surface on the same side (docs/method.md 4): one of the same
 // triangle, where nothing stands on it; or their normals are alike, and from a surfel near the voxels' common border to
-// the nearest one of the other nothing is in between. 32 invocations per facet, of which 27 take a voxel each.
+// the nearest one of the other nothing is in between.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/beside.glsl"
-layout(local_size_x = 32, local_size_y = 2) in;
+layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 
+// A workgroup takes some facets, and each of these the voxels around it: places. Most of them hold no facet whose way
+// has to be looked at, so that all invocations take turns at those that do: one facet of each place a round.
+const uint PLACES = 27u * LINK_FACETS;
+const uint MIDDLE = 13u;
 const uint NOTHING_STANDS = 0xFFFFu;
-shared uint whole[2][27];
-shared vec3 surfels[2][FACET_SURFELS];  ///< positions of the facet's own
+shared uint sides[LINK_FACETS];                        ///< triangle | SURFEL_BACK of each facet
+shared vec3 facings[LINK_FACETS];
+shared vec3 surfels[LINK_FACETS][FACET_SURFELS];       ///< their positions
+shared float lifts[LINK_FACETS][FACET_SURFELS];
+shared uint entries[PLACES], whole[PLACES];
+shared uint link[PLACES], next[PLACES];           ///< best so far, and the facet to look at next
+shared float best[PLACES];
+shared uint queue[PLACES];                        ///< places with a facet to look at in this round
+shared uint queued[2];
 
 /// The facet of a side of a triangle in a voxel, counted from the first; NO_LINK where others stand on it, or it is too
 /// small to have one; NOTHING_STANDS where the triangle has no piece.
@@ -17,78 +28,110 @@ uint wholePiece(SurfaceArrays surface, uint entry, uint side) {
   if (entry == NO_FACET) return NOTHING_STANDS;
   uint piece = pieceIn(piecesOf(surface, entry), side & ~SURFEL_BACK);
   if (piece == NO_PIECE) return NOTHING_STANDS;
-  uint sides = surface.sides.at[piece];
-  if ((sides & PIECE_CUT) != 0u) return NO_LINK;
-  uint found = ((side & SURFEL_BACK) != 0u ? sides >> 8 : sides) & 0xFFu;
+  uint of = surface.sides.at[piece];
+  if ((of & PIECE_CUT) != 0u) return NO_LINK;
+  uint found = ((side & SURFEL_BACK) != 0u ? of >> 8 : of) & 0xFFu;
   return found < PIECE_UNKNOWN ? found : NO_LINK;
 }
 
-/// The facet's surfel that is nearest to a point.
-SurfelPoint ownSurfel(SurfaceArrays surface, uint facet, vec3 point) {
-  uint nearest = 0u;
-  float best = 1e30;
-  for (uint k = 0u; k < FACET_SURFELS; ++k) {
-    vec3 d = surfels[gl_LocalInvocationID.y][k] - point;
-    if (dot(d, d) >= best) continue;
-    best = dot(d, d);
-    nearest = k;
-  }
-  return surfelOf(surface, facet, nearest);
+ivec3 stepOf(uint place) {
+  uint i = place % 27u;
+  return ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
 }
 
 /// Whether the facet's triangle goes on into the voxel at `step_`: nothing stands on it in any voxel of the block between
 /// them, which is convex.
-bool goesOn(ivec3 step_) {
+bool goesOn(uint own, ivec3 step_) {
   for (int corner = 0; corner < 8; ++corner) {
     ivec3 part = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
     ivec3 at = part * step_ + 1;
-    if (all(equal(part * abs(step_), part)) && whole[gl_LocalInvocationID.y][at.x + 3 * at.y + 9 * at.z] == NO_LINK)
-      return false;
+    if (all(equal(part * abs(step_), part)) && whole[27u * own + at.x + 3 * at.y + 9 * at.z] == NO_LINK) return false;
   }
   return true;
 }
 
-void main() {
-  uint facet = 2u * irad_workgroup() + gl_LocalInvocationID.y;
-  uint i = gl_LocalInvocationID.x;
-  bool any = facet < push.count;
-  SurfaceArrays surface = push.surface.at[0];
-  ivec3 voxel = ivec3(0), step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-  uint entry = NO_FACET, side = 0u;
-  if (any) {
-    voxel = ivec3(unpackVoxel(push.voxel.at[facet]));
-    side = surface.surfels.at[FACET_SURFELS * facet + FACET_SURFELS / 2u].triangle;
-    if (i < FACET_SURFELS) surfels[gl_LocalInvocationID.y][i] = surfelOf(surface, facet, i).position;
+/// The next facet of a place whose normal is like the facet's own; facetsOf where there is none.
+uint nextAlike(SurfaceArrays surface, uint place, uint k) {
+  uint entry = entries[place];
+  for (; k < facetsOf(entry); ++k) {
+    uint side = surface.surfels.at[FACET_SURFELS * (firstFacet(entry) + k) + FACET_SURFELS / 2u].triangle;
+    if (dot(facings[place / 27u], triangleFacing(surface, side)) >= SAME_SIDE_COSINE) break;
   }
-  if (any && i < 27u) {
-    entry = entryOf(push.reverse, push.dims, voxel + step_);
-    whole[gl_LocalInvocationID.y][i] = wholePiece(surface, entry, side);
+  return k;
+}
+
+/// Which of the facet's surfels is nearest to a point.
+uint ownSurfel(uint own, vec3 point) {
+  uint nearest = 0u;
+  float distance2 = 1e30;
+  for (uint k = 0u; k < FACET_SURFELS; ++k) {
+    vec3 d = surfels[own][k] - point;
+    if (dot(d, d) >= distance2) continue;
+    distance2 = dot(d, d);
+    nearest = k;
+  }
+  return nearest;
+}
+
+void lookAt(SurfaceArrays surface, uint place) {
+  uint own = place / 27u, facet = LINK_FACETS * irad_workgroup() + own, k = next[place];
+  vec3 border = vec3(unpackVoxel(push.voxel.at[facet])) + 0.5 + 0.5 * vec3(stepOf(place));
+  uint nearest = ownSurfel(own, border);
+  SidePoint from = SidePoint(surfelOf(surface, facet, nearest), lifts[own][nearest]);
+  float distance2;
+  SurfelPoint to = nearestSurfel(surface, firstFacet(entries[place]) + k, from.at.position, distance2);
+  if (distance2 >= best[place] || !continues(surface, push.reverse, push.dims, from, to)) return;
+  best[place] = distance2;
+  link[place] = k;
+}
+
+void main() {
+  uint lane = gl_LocalInvocationIndex, firstFacet_ = LINK_FACETS * irad_workgroup();
+  uint count = min(LINK_FACETS, push.count - firstFacet_), places = 27u * count;
+  SurfaceArrays surface = push.surface.at[0];
+  for (uint i = lane; i < count; i += gl_WorkGroupSize.x) {
+    sides[i] = surface.surfels.at[FACET_SURFELS * (firstFacet_ + i) + FACET_SURFELS / 2u].triangle;
+    facings[i] = triangleFacing(surface, sides[i]);
+  }
+  for (uint i = lane; i < FACET_SURFELS * count; i += gl_WorkGroupSize.x) {
+    SurfelPoint p = surfelOf(surface, firstFacet_ + i / FACET_SURFELS, i % FACET_SURFELS);
+    surfels[i / FACET_SURFELS][i % FACET_SURFELS] = p.position;
+    lifts[i / FACET_SURFELS][i % FACET_SURFELS] = liftOf(surface, push.reverse, push.dims, p);
+  }
+  if (lane < 2u) queued[lane] = 0u;
+  barrier();
+  for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
+    ivec3 voxel = ivec3(unpackVoxel(push.voxel.at[firstFacet_ + i / 27u]));
+    entries[i] = entryOf(push.reverse, push.dims, voxel + stepOf(i));
+    whole[i] = wholePiece(surface, entries[i], sides[i / 27u]);
   }
   barrier();
-  if (!any || i >= FACET_LINKS) return;
-  uint link = NO_LINK;
-  if (i == 13u) {
-    link = facet - firstFacet(entry);
-  } else if (entry != NO_FACET) {
-    uint own = facet - firstFacet(entryOf(push.reverse, push.dims, voxel));
-    if (whole[gl_LocalInvocationID.y][13] == own && goesOn(step_))
-      link = min(whole[gl_LocalInvocationID.y][i], NO_LINK);
-    bool known = link != NO_LINK;
-    vec3 facing = triangleFacing(surface, side), border = vec3(voxel) + 0.5 + 0.5 * vec3(step_);
-    SurfelPoint from;
-    float best = 1e30, distance2;
-    bool chosen = false;
-    for (uint k = 0u; k < facetsOf(entry) && !known; ++k) {
-      uint other = firstFacet(entry) + k;
-      uint otherSide = surface.surfels.at[FACET_SURFELS * other + FACET_SURFELS / 2u].triangle;
-      if (dot(facing, triangleFacing(surface, otherSide)) < SAME_SIDE_COSINE) continue;
-      if (!chosen) from = ownSurfel(surface, facet, border);
-      chosen = true;
-      SurfelPoint to = nearestSurfel(surface, other, from.position, distance2);
-      if (distance2 >= best || !continues(surface, push.reverse, push.dims, from, to)) continue;
-      best = distance2;
-      link = k;
+  for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
+    uint own = i / 27u, middle = 27u * own + MIDDLE;
+    uint inVoxel = firstFacet_ + own - firstFacet(entries[middle]);
+    link[i] = NO_LINK;
+    best[i] = 1e30;
+    next[i] = 0xFFFFu;
+    if (i == middle) link[i] = inVoxel;
+    else if (entries[i] != NO_FACET) {
+      if (whole[middle] == inVoxel && goesOn(own, stepOf(i))) link[i] = min(whole[i], NO_LINK);
+      if (link[i] == NO_LINK) next[i] = nextAlike(surface, i, 0u);
     }
   }
-  push.links.at[FACET_LINKS * facet + i] = uint8_t(link);
+  for (uint round = 0u;; ++round) {
+    for (uint i = lane; i < places; i += gl_WorkGroupSize.x)
+      if (next[i] < facetsOf(entries[i])) queue[atomicAdd(queued[round & 1u], 1u)] = i;
+    barrier();
+    uint all_ = queued[round & 1u];
+    if (all_ == 0u) break;
+    if (lane == 0u) queued[(round + 1u) & 1u] = 0u;
+    for (uint i = lane; i < all_; i += gl_WorkGroupSize.x) lookAt(surface, queue[i]);
+    barrier();
+    for (uint i = lane; i < places; i += gl_WorkGroupSize.x)
+      if (next[i] < facetsOf(entries[i])) next[i] = nextAlike(surface, i, next[i] + 1u);
+  }
+  for (uint i = lane; i < FACET_LINKS * count; i += gl_WorkGroupSize.x) {
+    uint own = i / FACET_LINKS, at = i % FACET_LINKS;
+    push.links.at[FACET_LINKS * firstFacet_ + i] = uint8_t(at < 27u ? link[27u * own + at] : NO_LINK);
+  }
 }

@@ -11,8 +11,9 @@ layout(constant_id = CONSTANT_SOUGHT_LANES) const uint SOUGHT_LANES = 32u;  ///<
 
 /// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side, and nearer than `nearest`;
 /// or NO_FACET. They are asked the nearest first: looking for that is little beside `continues`.
-uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SurfelPoint p,
+uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SidePoint from,
                    inout float nearest) {
+  SurfelPoint p = from.at;
   uint entry = entryOf(reverse, dims, voxel);
   if (entry == NO_FACET) return NO_FACET;
   float asked = -1.0;  // the distance of the last that was asked
@@ -30,7 +31,7 @@ uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 v
       to = s;
     }
     if (next == NO_FACET) return NO_FACET;
-    if (continues(surface, reverse, dims, p, to)) {
+    if (continues(surface, reverse, dims, from, to)) {
       nearest = best;
       return firstFacet(entry) + next;
     }
@@ -106,12 +107,12 @@ Candidate foundByRounding(SurfaceArrays surface, UintArray reverse, uvec3 dims, 
 }
 
 /// A lane's candidate by its distance, of those whose nearest surfel is seen from the point.
-Candidate foundAround(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p) {
+Candidate foundAround(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from) {
   Candidate found = NO_CANDIDATE;
-  ivec3 cell = ivec3(floor(p.position));
+  ivec3 cell = ivec3(floor(from.at.position));
   for (int i = int(soughtLane()); i < 27; i += int(SOUGHT_LANES)) {
     uint facet =
-        facetBesideIn(surface, reverse, dims, cell + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, p, found.rank);
+        facetBesideIn(surface, reverse, dims, cell + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, from, found.rank);
     if (facet != NO_FACET) found.facet = facet;
   }
   return found;
@@ -133,12 +134,13 @@ uint soughtFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, u
   uint found = bestOf(mine).facet;
   bool seeks = listed && found == NO_FACET;
   mine = NO_CANDIDATE;
+  SidePoint from = SidePoint(point, seeks ? liftOf(surface, reverse, dims, point) : 0.0);
   if (seeks && soughtLane() == 0u)
-    mine.facet = facetBesideIn(surface, reverse, dims, ivec3(floor(p)), point, mine.rank);
+    mine.facet = facetBesideIn(surface, reverse, dims, ivec3(floor(p)), from, mine.rank);
   uint inVoxel = bestOf(mine).facet;
   if (seeks) found = inVoxel;
   seeks = seeks && found == NO_FACET;
-  uint around = bestOf(seeks ? foundAround(surface, reverse, dims, point) : NO_CANDIDATE).facet;
+  uint around = bestOf(seeks ? foundAround(surface, reverse, dims, from) : NO_CANDIDATE).facet;
   if (seeks) found = around;
   if (seeks && found == NO_FACET) found = facetInCrowd(surface, reverse, dims, ivec3(floor(p)), point);
   return found;

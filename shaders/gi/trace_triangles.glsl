@@ -80,10 +80,9 @@ float countsAt(TraceWorld world, SurfaceArrays surface, TriangleWalk w, uint tri
   return t + backDelay(world.dims, dot(facingOf(triangleAt(surface.corners, triangle), false), w.direction));
 }
 
-/// Whether the ray passes through the box of the next piece before its hit. The box's steps are put into the mantissas
+/// Whether the ray passes through a box in its cell before its hit. The box's steps are put into the mantissas
 /// of numbers from 1 to 2: GPUs convert integers at a quarter of their rate.
-bool meetsBox(SurfaceArrays surface, TriangleWalk w) {
-  uint box = surface.boxes.at[w.piece];
+bool meetsBox(TriangleWalk w, uint box) {
   const uint STEP = 0x7C0000u, ONE = 0x3F800000u;
   vec3 low = uintBitsToFloat((uvec3(box << 18, box << 13, box << 8) & STEP) | ONE);
   vec3 high = uintBitsToFloat((uvec3(box << 3, box >> 2, box >> 7) & STEP) | ONE);
@@ -130,11 +129,17 @@ void leaveCube(inout TriangleWalk w, vec3 exits, float around) {
 /// cells, and rays side by side wait little for each other.
 const int CELLS_A_TURN = 2;
 
-/// Asks the next piece, and goes on to the next cells that may hold one; false: the ray has met what it meets.
+/// Asks the next piece, or passes its group by, and goes on to the next cells that may hold one; false: the ray has met
+/// what it meets.
 bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
   if (w.piece < w.endPiece) {
-    if (meetsBox(surface, w)) askPiece(world, surface, w);
-    if (++w.piece < w.endPiece) return true;
+    if ((w.endPiece - w.piece) % PIECE_GROUP == 0u && !meetsBox(w, surface.groups.at[groupPlace(w.piece)])) {
+      w.piece += PIECE_GROUP;
+    } else {
+      if (meetsBox(w, surface.boxes.at[w.piece])) askPiece(world, surface, w);
+      ++w.piece;
+    }
+    if (w.piece < w.endPiece) return true;
     if (!(w.leave < w.nearest)) return false;
     leaveCube(w, exitsOf(w, 0.0f), 0.0f);
   }

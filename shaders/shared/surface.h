@@ -79,6 +79,24 @@ IRAD_FN vec3 boxHigh(uint box) {
          (1.0f / BOX_STEPS);
 }
 
+/// Pieces of a voxel, counted from its last one back, in groups with a box around each (SurfaceArrays::groups): of a crowd
+/// most are passed by without a look at every piece.
+IRAD_CONST uint PIECE_GROUP = 4u;
+/// The place of the box around the group that begins with a piece: groups do not overlap, and in each there is one
+/// multiple of PIECE_GROUP.
+IRAD_FN uint groupPlace(uint piece) { return (piece + PIECE_GROUP - 1u) / PIECE_GROUP; }
+/// Places of the groups of so many pieces.
+IRAD_FN uint groupPlaces(uint pieces) { return groupPlace(pieces) + 1u; }
+/// The packed box around two.
+IRAD_FN uint boxAround(uint a, uint b) {
+  uint around = 0u;
+  for (uint shift = 0u; shift < 30u; shift += 5u) {
+    uint x = (a >> shift) & 31u, y = (b >> shift) & 31u;
+    around |= ((shift < 15u) == (x < y) ? x : y) << shift;
+  }
+  return around;
+}
+
 /// Corners, voxel units.
 struct Triangle {
   vec3 a, b, c;
@@ -169,6 +187,7 @@ struct SurfaceArrays {
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel
   UintArray boxes;        ///< per piece: packBox
+  UintArray groups;       ///< by groupPlace: boxAround a group's
   UintArray sides;        ///< per piece
   UintArray cuts;
   UintArray voxel;        ///< per facet, of FacetArrays
@@ -178,7 +197,15 @@ struct SurfaceArrays {
 };
 IRAD_ARRAY(SurfaceRecord, SurfaceArrays, 16)
 
-/// gi/link_facets.comp.
+/// gi/piece_groups.comp.
+struct PieceGroupsPush {
+  UintArray firstPiece;  ///< per solid voxel, and the end
+  UintArray boxes, groups;
+  uint count;            ///< solid voxels
+};
+
+/// gi/link_facets.comp: as many facets a workgroup.
+IRAD_CONST uint LINK_FACETS = 8u;
 struct LinkFacetsPush {
   SurfaceRecord surface;
   UintArray voxel, reverse;
