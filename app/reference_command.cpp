@@ -381,6 +381,7 @@ fs::path writePerFacet(const fs::path& path, const std::vector<glm::vec<3, T>>& 
 /// Indirect light without a matrix, frame after frame.
 void traceVoxels(const ReferenceArguments& arguments, const Task& task, DeviceSession& session, Scene scene,
                  const Camera& camera) {
+  const Settings asked = session.settings;
   Settings& settings = session.settings;
   const uint64_t most = task.spp || task.seconds || task.noise ? task.spp.value_or(0) : kUsualRays;
   // The mean over n frames has the variance of 5/9 n (docs/method.md 9).
@@ -452,7 +453,7 @@ void traceVoxels(const ReferenceArguments& arguments, const Task& task, DeviceSe
   print("rays        {:.6g} per facet that count, of {} frames of {}; {:.2f} Mrays/s\n", counted, report.frames, rays,
         static_cast<double>(all) * 1e-6 / goal.elapsed());
   print("noise       standard error {:.3g} W/m^2 of mean H {:.6g}\n", report.standardError, report.meanH);
-  settings.solver.method = arguments.settings.resolve(task.config, session.device->isCpu).solver.method;
+  settings = asked;  // which is what the manifest tells `irad render`
   finishFiles(task, arguments, session.manifest("reference", pipeline), camera, truth, std::move(written));
   session.checkNumbers(pipeline);
   session.checkValidation();
@@ -535,8 +536,9 @@ Command referenceCommand() {
                                       "OpenImageIO: NAME.error.pfm)",
                                       linearExtension()));
             options.value("--of", "WHAT", arguments->of,
-                          "triangles: path traced, diffuse, in double precision; of the settings scene.*, sky.* and "
-                          "matrix.seed apply. voxels: the model with very many rays per facet, without a matrix. "
+                          "triangles: path traced, diffuse (metals are black: see scene.lambertian), in double "
+                          "precision; of the settings scene.*, sky.* and matrix.seed apply. voxels: the model with "
+                          "very many rays per facet, without a matrix. "
                           "matrix: the matrix solved in double precision to 1e-12 of the mean H");
             options.values("--layer", "NAME[,NAME...]", arguments->layers,
                            "lit (default) or indirect, as the views of these names; the second one has channels "

@@ -51,6 +51,10 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"export", "box", "--inspect", "3,4,x"}, "--inspect: 'x' is not allowed; expected an integer, 0 to 1023"},
       {{"bench", "box", "--versus", "matrix.fromat=csr"}, "did you mean matrix.format"},
       {{"bench", "box", "--rebuilds", "x"}, "--rebuilds: 'x'"},
+      {{"reference", "box"}, "--of: triangles, voxels or matrix"},
+      {{"reference", "box", "--of", "triangels"}, "--of: unknown 'triangels' (did you mean triangles?)"},
+      {{"reference", "box", "--of", "triangles", "--spp", "1"}, "--spp: '1' is not allowed; expected an integer, 2 to"},
+      {{"reference", "box", "--of", "triangles", "--noise", "2"}, "--noise: '2' is not allowed; expected a number"},
       {{"settings", "--bogus"}, "unknown option '--bogus'"},
       {{"views", "extra"}, "unexpected argument 'extra'"},
   };
@@ -116,9 +120,9 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
 TEST(Cli, HelpVersionAndDevicesAreStatus0) {
   const RunResult help = runIrad({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"render", "bench", "export", "memory", "settings", "views", "Exit status"})
+  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "views", "Exit status"})
     EXPECT_TRUE(contains(help.out, command)) << command;
-  for (const char* command : {"render", "bench", "export", "memory", "settings", "views"})
+  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "views"})
     EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
   const RunResult version = runIrad({"--version"});
   EXPECT_EQ(version.status, 0);
