@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "renderer/base/console.h"
 
@@ -17,8 +18,7 @@ void ProgressReport::finish() {
 }
 
 std::string timeLeft(double seconds) {
-  if (!(seconds < 1e7)) return "no end in sight";
-  const auto s = static_cast<int>(std::max(0.0, seconds) + 0.5);
+  const auto s = static_cast<int64_t>(std::clamp(seconds, 0.0, 1e12) + 0.5);
   if (s < 60) return fmt::format("{} s left", s);
   if (s < 3600) return fmt::format("{} min {:02} s left", s / 60, s % 60);
   return fmt::format("{} h {:02} min left", s / 3600, s / 60 % 60);

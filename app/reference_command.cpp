@@ -159,10 +159,14 @@ class Goal {
     return (most_ > 0 && done >= most_) || (task_.noise && noise <= *task_.noise) ||
            (task_.seconds && elapsed() >= *task_.seconds);
   }
+  /// Empty: nothing says yet.
   std::string left(uint64_t done, double noise) const {
-    const double f = fraction(done, noise), worked = static_cast<double>(done - before_);
-    if (!(f > 0) || !(worked > 0)) return "";
-    return timeLeft(elapsed() * (1 / f - 1) * static_cast<double>(done) / worked);
+    double seconds = task_.seconds ? *task_.seconds - elapsed() : std::numeric_limits<double>::infinity();
+    const double n = static_cast<double>(done), each = elapsed() / (n - static_cast<double>(before_));
+    if (done > before_ && most_ > 0) seconds = std::min(seconds, (static_cast<double>(most_) - n) * each);
+    if (done > before_ && task_.noise && std::isfinite(noise))
+      seconds = std::min(seconds, (noise * noise / (*task_.noise * *task_.noise) - 1) * n * each);
+    return std::isfinite(seconds) ? timeLeft(seconds) : "";
   }
 
  private:

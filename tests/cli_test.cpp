@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/progress.h"
 #include "tests/support.h"
 
 namespace irad::cli_suite {
@@ -99,6 +100,14 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
   const RunResult unknown = runIrad({"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_TRUE(contains(unknown.err, "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays")) << unknown.err;
+}
+
+TEST(Cli, TimeLeftInWords) {
+  EXPECT_EQ(app::timeLeft(-1), "0 s left");
+  EXPECT_EQ(app::timeLeft(59.4), "59 s left");
+  EXPECT_EQ(app::timeLeft(59.6), "1 min 00 s left");
+  EXPECT_EQ(app::timeLeft(3599.4), "59 min 59 s left");
+  EXPECT_EQ(app::timeLeft(7500), "2 h 05 min left");
 }
 
 TEST(Cli, NoSuchDeviceIsStatus4) {
