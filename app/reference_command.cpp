@@ -404,15 +404,14 @@ void traceVoxels(const ReferenceArguments& arguments, const Task& task, DeviceSe
     return r.frames >= 16 && r.meanH > 0 ? double{r.standardError} / r.meanH : std::numeric_limits<double>::infinity();
   };
   pipeline.prepare([&](const char* stage, float fraction) { return session.progress(stage, fraction); }, 1);
-  while (!pipeline.asleep() && !interrupts.came()) {
+  // One frame alone has no standard error.
+  while (!pipeline.asleep() && (!interrupts.came() || pipeline.lighting().report.frames < 2)) {
     const SolveReport& r = pipeline.lighting().report;
     if (r.frames >= 2 && task.seconds && goal.elapsed() >= *task.seconds) break;
     session.progress("frames of rays", goal.fraction(r.frames, noise(r)), goal.left(r.frames, noise(r)));
     pipeline.prepare({}, 1);
   }
   const SolveReport report = pipeline.lighting().report;
-  if (pipeline.lighting() && report.frames < 2)
-    throw WorkError("interrupted: one frame has no standard error, and nothing was written");
   const bool whole = !interrupts.came() || pipeline.asleep();
 
   Targets targets(*session.context, task.size);

@@ -335,6 +335,51 @@ TEST_F(ThreeTruths, VoxelsAndMatrixAgreeWithinTheirNoise) {
   EXPECT_LT(static_cast<double>(far), 0.06 * static_cast<double>(of));
 }
 
+#ifdef IRAD_OIIO
+TEST_F(ThreeTruths, TheErrorOfVoxelsBoundsWhatOtherSeedsGive) {
+  std::array<ExrPicture, 2> picture, error;
+  for (const size_t seed : {0u, 1u}) {
+    const RunResult run = runIrad(of(
+        "voxels", {"--layer", "indirect", "--spp", "600", "--set", "matrix.rays=32", "--seed", std::to_string(seed)}));
+    ASSERT_EQ(run.status, 0) << run.err;
+    picture[seed] = readExr(file("voxels.exr"));
+    error[seed] = readExr(file("voxels.exr"), "error");
+  }
+  size_t far = 0, of = 0;
+  double difference = 0, stated = 0;
+  for (size_t i = 0; i < picture[0].pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double d = double{picture[0].pixels[i][c]} - picture[1].pixels[i][c],
+                   e2 = std::pow(error[0].pixels[i][c], 2) + std::pow(error[1].pixels[i][c], 2);
+      if (e2 == 0) continue;  // black
+      ++of;
+      far += std::abs(d) > 3 * std::sqrt(e2);
+      difference += d * d;
+      stated += e2;
+    }
+  printf("%zu of %zu differ by more than 3 standard errors; rms %.2f of what is stated\n", far, of,
+         std::sqrt(difference / stated));
+  EXPECT_GT(of, picture[0].pixels.size());
+  EXPECT_LT(static_cast<double>(far), 0.01 * static_cast<double>(of));
+  EXPECT_LT(difference, stated);  // neighbours' errors cancel in part
+  EXPECT_GT(difference, 0.05 * stated) << "a bound that says nothing";
+}
+#endif
+
+TEST_F(ThreeTruths, CtrlCKeepsTheFramesThatThereAre) {
+  const Words words = of("voxels", {"--spp", "1000000", "--set", "matrix.rays=64"});
+  Process process(iradProgram(), words, file("out"), file("err"));
+  while (!process.poll() && !contains(slurp(file("err")), "frames of rays"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  ::kill(process.pid(), SIGINT);
+  EXPECT_EQ(process.wait(), 1) << slurp(file("err"));
+  EXPECT_TRUE(contains(slurp(file("err")), "interrupted: ")) << slurp(file("err"));
+  EXPECT_EQ(truth("voxels.json").at("complete"), false);
+  EXPECT_GE(truth("voxels.json").at("frames"), 2);
+  EXPECT_EQ(readLinear(file("voxels") + std::string(linearExtension())).size, glm::uvec2(24, 16));
+}
+
 TEST_F(ThreeTruths, OfAFurnaceAllGiveTheClosedForm) {
   const double expected = 2 / std::numbers::pi;  // rho = .5, M = 1: B = 2
   for (const char* what : {"triangles", "voxels", "matrix"}) {
