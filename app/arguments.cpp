@@ -78,10 +78,14 @@ DeviceOptions DeviceArguments::options() const {
 }
 
 void PictureArguments::declare(Options& options) {
+  declareView(options);
+  options.value("--frames", "N", frames, "Frames to render");
+}
+
+void PictureArguments::declareView(Options& options) {
   options.value("--size", "WxH", size, "Size of the pictures in pixels (default 640x640)");
   options.values("--camera", "NAME|JSON", cameras,
                  "Camera of the scene, `all`, or JSON (repeatable; default: the first)");
-  options.value("--frames", "N", frames, "Frames to render");
 }
 
 glm::uvec2 PictureArguments::resolveSize(const Config& config) const {
@@ -161,6 +165,14 @@ void useSky(Settings& settings, const LoadOptions& options) {
   if (options.sky && settings.sky.source == SkySource::none) settings.sky.source = SkySource::image;
   if (!options.sky && settings.sky.source == SkySource::image)
     throw UsageError("sky.source=image: no picture of the sky was given (--sky FILE)");
+}
+
+double parseNumber(const std::string& option, const std::string& text, double min, double max) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= min && value <= max))
+    throw UsageError(fmt::format("{}: '{}' is not allowed; expected a number, {} to {}", option, text, min, max));
+  return value;
 }
 
 uint64_t parseInteger(const std::string& option, const std::string& text, uint64_t min, uint64_t max) {

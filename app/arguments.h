@@ -38,6 +38,7 @@ struct PictureArguments {
   std::optional<std::string> size, frames;
   std::vector<std::string> cameras;
   void declare(Options& options);
+  void declareView(Options& options);                  ///< --size and --camera alone
   glm::uvec2 resolveSize(const Config& config) const;  ///< default 640 x 640
   uint32_t resolveFrames(const Config& config, uint32_t otherwise) const;
   /// Named cameras of the scene and its sidecar, "all", or JSON; default: those of the config, else the scene's first.
@@ -46,6 +47,8 @@ struct PictureArguments {
   void check() const;
 };
 
+/// A number of an option; UsageError names the option and the range.
+double parseNumber(const std::string& option, const std::string& text, double min, double max);
 /// A whole number of an option; UsageError names the option and the range.
 uint64_t parseInteger(const std::string& option, const std::string& text, uint64_t min, uint64_t max);
 /// "12,3,40": a voxel's place in the grid, which is not known yet.

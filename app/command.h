@@ -41,6 +41,7 @@ Command checkCommand();
 Command exportCommand();
 Command memoryCommand();
 Command planCommand();
+Command referenceCommand();
 Command settingsCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();

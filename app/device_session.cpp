@@ -23,9 +23,14 @@ DeviceSession::DeviceSession(const SettingArguments& arguments, const DeviceArgu
 }
 
 Scene DeviceSession::load(const std::filesystem::path& path, const SceneArguments& arguments) {
+  return loadForRun(path, arguments, config, settings, progress);
+}
+
+Scene loadForRun(const std::filesystem::path& path, const SceneArguments& arguments, const Config& config,
+                 Settings& settings, ProgressReport& progress) {
   LoadOptions options = arguments.load(config, settings);
   useSky(settings, options);
-  options.progress = [this](float fraction, const char* step) { progress(step, fraction); };
+  options.progress = [&progress](float fraction, const char* step) { progress(step, fraction); };
   Scene scene = openScene(path, options);
   if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
   for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);

@@ -13,6 +13,11 @@
 
 namespace irad::app {
 
+/// Loads a scene, with its sidecar, and says what is odd about it, on standard error. Where a sky is given `settings`
+/// show it.
+Scene loadForRun(const std::filesystem::path& path, const SceneArguments& arguments, const Config& config,
+                 Settings& settings, ProgressReport& progress);
+
 struct DeviceSession {
   /// Checks the settings first (so that mistakes are reported before a device is opened), then opens the device. Times
   /// are kept of the last `timedFrames` frames.
@@ -26,7 +31,7 @@ struct DeviceSession {
   Settings settings;
   ProgressReport progress;
 
-  /// Loads the scene, with its sidecar, and says what is odd about it, on standard error.
+  /// loadForRun
   Scene load(const std::filesystem::path& path, const SceneArguments& arguments);
   /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
   /// next smaller ones, in `settings` too.

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
                         checkCommand(),
                         memoryCommand(),
                         planCommand(),
+                        referenceCommand(),
                         writebackCommand(),
                         exportCommand(),
                         settingsCommand(),

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "renderer/base/console.h"
 
@@ -16,15 +17,24 @@ void ProgressReport::finish() {
   barShown_ = false;
 }
 
-bool ProgressReport::operator()(const char* step, float fraction) {
+std::string timeLeft(double seconds) {
+  const auto s = static_cast<int64_t>(std::clamp(seconds, 0.0, 1e12) + 0.5);
+  if (s < 60) return fmt::format("{} s left", s);
+  if (s < 3600) return fmt::format("{} min {:02} s left", s / 60, s % 60);
+  return fmt::format("{} h {:02} min left", s / 3600, s / 60 % 60);
+}
+
+bool ProgressReport::operator()(const char* step, float fraction, const std::string& remark) {
   const int percent = static_cast<int>(100.0f * std::clamp(fraction, 0.0f, 1.0f));
   const bool fresh = step_ != step;
-  if (!fresh && percent == percent_) return true;
+  if (!fresh && percent == percent_ && remark == remark_) return true;
   step_ = step;
   percent_ = percent;
+  remark_ = remark;
   if (terminal_) {
     const int filled = percent * 30 / 100;
-    tell("\r\x1b[K[{:#<{}}{:.<{}}] {:3} % {}", "", filled, "", 30 - filled, percent, step);
+    tell("\r\x1b[K[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step,
+         remark.empty() ? "" : ", ", remark);
     barShown_ = true;
   } else if (fresh) {
     tell("{}\n", step);

@@ -129,15 +129,8 @@ struct Pipeline::Impl {
     decide();
   }
 
-  SkyInputs skyInputs(std::span<const Light> lights) const {
-    SkyInputs in{.image = scene.sky.get(), .sun = {}};
-    for (const Light& light : lights)
-      if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && light.intensity > 0 && !in.sun)
-        in.sun = SkySun{-light.direction, light.intensity * light.color};
-    return in;
-  }
   void lookAtSky(std::span<const Light> lights) {
-    sky = makeSky(settings.sky, skyInputs(lights), &sky);
+    sky = makeSky(settings.sky, skyInputs(scene, lights), &sky);
     planned.traits.sky = sky.largest();
     content.sky = scene.sky ? Digest().add(std::as_bytes(std::span(scene.sky->sha256))).value() : 0;
   }
@@ -435,7 +428,7 @@ Redo Pipeline::set(const Settings& settings) {
 Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
   SceneTraits traits = p.planned.traits;
-  traits.sky = makeSky(settings.sky, p.skyInputs(p.scene.lights), &p.sky).largest();
+  traits.sky = makeSky(settings.sky, skyInputs(p.scene, p.scene.lights), &p.sky).largest();
   const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
@@ -571,6 +564,20 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
   } before{p};
   p.relight(p.now, Redo::Gather, /*maxSweeps=*/0, progress);
   draw();
+}
+
+void Pipeline::showLight(std::span<const glm::vec4> indirect, std::span<const glm::vec4> radiosity) {
+  Impl& p = *impl_;
+  IRAD_CHECK(current() && *p.now.light, "no light has been prepared");
+  const auto put = [&](const Buffer& buffer, std::span<const glm::vec4> values) {
+    if (values.empty()) return;
+    IRAD_CHECK_OP(values.size(), ==, p.now.facets->count);
+    upload(p.context, buffer, std::as_bytes(values));
+  };
+  put(p.now.light->indirect, indirect);
+  put(p.now.light->radiosity, radiosity);
+  ++p.revision.light;
+  p.scatterInto(p.now);
 }
 
 std::vector<Finding> Pipeline::findings() const {

@@ -110,6 +110,9 @@ class Pipeline {
   /// sweep.) Nothing is written back yet: where it is to be, `draw` begins with settleReflections(). Afterwards the
   /// light from before is back. Must be current(). Blocking.
   void solvedAfresh(const Progress& progress, const std::function<void()>& draw);
+  /// Pictures show these H and B, a value per facet, in place of those solved, until light is solved again; none: those
+  /// that are there. There must be light, and the pipeline current().
+  void showLight(std::span<const glm::vec4> indirect, std::span<const glm::vec4> radiosity);
   /// What the numerical watch has to say about the light as it is.
   std::vector<Finding> findings() const;
 

@@ -10,6 +10,7 @@
 #include "gi/subsystems.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/record.h"
+#include "renderer/scene/scene.h"
 #include "shaders/shared/emitters.h"
 
 namespace irad {
@@ -49,6 +50,14 @@ glm::vec3 Sky::radiance(const glm::vec3& direction) const {
 float Sky::largest() const {
   const glm::vec3 l = most * scale;
   return std::max({l.x, l.y, l.z});
+}
+
+SkyInputs skyInputs(const Scene& scene, std::span<const Light> lights) {
+  SkyInputs in{.image = scene.sky.get(), .sun = {}};
+  for (const Light& light : lights)
+    if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && light.intensity > 0 && !in.sun)
+      in.sun = SkySun{-light.direction, light.intensity * light.color};
+  return in;
 }
 
 Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/resources.h"
@@ -17,7 +18,9 @@ namespace irad {
 class Context;
 class Frame;
 struct FormFactors;
+struct Light;
 struct Lighting;
+struct Scene;
 struct SkySettings;
 
 /// What the settings make of it: `scale` times the texels, turned. Without texels it is black.
@@ -38,6 +41,8 @@ struct SkyInputs {
   const SkyImage* image = nullptr;  ///< null: there is none, and sky.source = image is black
   std::optional<SkySun> sun;        ///< the scene's first that shines
 };
+/// With these lights in place of the scene's.
+SkyInputs skyInputs(const Scene& scene, std::span<const Light> lights);
 /// `before`: one whose computed texels may serve again.
 Sky makeSky(const SkySettings& settings, const SkyInputs& inputs, const Sky* before = nullptr);
 

@@ -44,15 +44,25 @@ void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, const void*
   writeFile(path, std::as_bytes(std::span(memory.buffer())));
 }
 
+OIIO::ImageSpec exrSpec(glm::uvec2 size, size_t channels) {
+  OIIO::ImageSpec spec(static_cast<int>(size.x), static_cast<int>(size.y), static_cast<int>(channels),
+                       OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "    :  :     :  :  ");  // Exif's "unknown": else the file would hold the time of writing
+  return spec;
+}
+
 /// Where R, G and B are among the channels: by their plain names, else those of the first layer that has all three,
 /// else the first three (or the only one, as grey).
 std::array<int, 3> colorChannels(const OIIO::ImageSpec& spec) {
-  for (const std::string& red : spec.channelnames) {
+  std::vector<std::string> names{"R"};
+  names.insert(names.end(), spec.channelnames.begin(), spec.channelnames.end());
+  for (const std::string& red : names) {
     if (red != "R" && !red.ends_with(".R")) continue;
     const std::string layer = red.substr(0, red.size() - 1);
     const std::array<int, 3> found{spec.channelindex(red), spec.channelindex(layer + "G"),
                                    spec.channelindex(layer + "B")};
-    if (found[1] >= 0 && found[2] >= 0) return found;
+    if (found[0] >= 0 && found[1] >= 0 && found[2] >= 0) return found;
   }
   return spec.nchannels >= 3 ? std::array{0, 1, 2} : std::array{0, 0, 0};
 }
@@ -158,15 +168,48 @@ std::filesystem::path writeLinear(const std::filesystem::path& stem, glm::uvec2 
                                   std::span<const glm::vec4> pixels) {
 #ifdef IRAD_OIIO
   const std::filesystem::path path = withExtension(stem, ".exr");
-  OIIO::ImageSpec spec(static_cast<int>(size.x), static_cast<int>(size.y), 3, OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "    :  :     :  :  ");  // Exif's "unknown": else the file would hold the time of writing
-  encode(path, spec, firstThree<float>(size, pixels).data());
+  encode(path, exrSpec(size, 3), firstThree<float>(size, pixels).data());
 #else
   const std::filesystem::path path = withExtension(stem, ".pfm");
   writePfm(path, size, pixels);
 #endif
   return path;
+}
+
+const char* linearExtension() {
+#ifdef IRAD_OIIO
+  return ".exr";
+#else
+  return ".pfm";
+#endif
+}
+
+std::vector<std::filesystem::path> writeLayers(const std::filesystem::path& stem, glm::uvec2 size,
+                                               std::span<const PictureLayer> layers) {
+#ifdef IRAD_OIIO
+  const std::filesystem::path path = withExtension(stem, ".exr");
+  const size_t channels = 3 * layers.size();
+  OIIO::ImageSpec spec = exrSpec(size, channels);
+  spec.channelnames.clear();
+  std::vector<float> values(size_t{size.x} * size.y * channels);
+  for (size_t l = 0; l < layers.size(); ++l) {
+    IRAD_CHECK_OP(layers[l].pixels.size(), ==, size_t{size.x} * size.y);
+    for (int c = 0; c < 3; ++c) {
+      spec.channelnames.push_back((layers[l].name.empty() ? "" : layers[l].name + ".") + "RGB"[c]);
+      for (size_t i = 0; i < layers[l].pixels.size(); ++i)
+        values[i * channels + 3 * l + static_cast<size_t>(c)] = layers[l].pixels[i][c];
+    }
+  }
+  encode(path, spec, values.data());
+  return {path};
+#else
+  std::vector<std::filesystem::path> paths;
+  for (const PictureLayer& layer : layers) {
+    paths.push_back(withExtension(stem, (layer.name.empty() ? ".pfm" : "." + layer.name + ".pfm").c_str()));
+    writePfm(paths.back(), size, layer.pixels);
+  }
+  return paths;
+#endif
 }
 
 std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2 size,

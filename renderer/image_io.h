@@ -16,6 +16,17 @@ namespace irad {
 /// ZIP), or stem.pfm; returns the file's path.
 std::filesystem::path writeLinear(const std::filesystem::path& stem, glm::uvec2 size,
                                   std::span<const glm::vec4> pixels);
+/// A picture of several layers, which share their size.
+struct PictureLayer {
+  std::string name;  ///< "" for the first, which readLinear reads
+  std::vector<glm::vec4> pixels;
+};
+/// How files of layers end: ".exr", or ".pfm" in builds without OpenImageIO.
+const char* linearExtension();
+/// stem.exr with the channels R G B of the first layer and NAME.R NAME.G NAME.B of each other, as OpenEXR names layers;
+/// or stem.pfm and stem.NAME.pfm. Returns the files' paths.
+std::vector<std::filesystem::path> writeLayers(const std::filesystem::path& stem, glm::uvec2 size,
+                                               std::span<const PictureLayer> layers);
 /// What the screen shows: sRGB-encoded bytes, alpha left out. Writes stem.png, or stem.npy of shape (height, width, 3).
 std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2 size,
                                    std::span<const glm::u8vec4> pixels);

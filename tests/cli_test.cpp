@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/progress.h"
 #include "tests/support.h"
 
 namespace irad::cli_suite {
@@ -51,6 +52,10 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"export", "box", "--inspect", "3,4,x"}, "--inspect: 'x' is not allowed; expected an integer, 0 to 1023"},
       {{"bench", "box", "--versus", "matrix.fromat=csr"}, "did you mean matrix.format"},
       {{"bench", "box", "--rebuilds", "x"}, "--rebuilds: 'x'"},
+      {{"reference", "box"}, "--of: triangles, voxels or matrix"},
+      {{"reference", "box", "--of", "triangels"}, "--of: unknown 'triangels' (did you mean triangles?)"},
+      {{"reference", "box", "--of", "triangles", "--spp", "1"}, "--spp: '1' is not allowed; expected an integer, 2 to"},
+      {{"reference", "box", "--of", "triangles", "--noise", "2"}, "--noise: '2' is not allowed; expected a number"},
       {{"settings", "--bogus"}, "unknown option '--bogus'"},
       {{"views", "extra"}, "unexpected argument 'extra'"},
   };
@@ -97,6 +102,14 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
   EXPECT_TRUE(contains(unknown.err, "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays")) << unknown.err;
 }
 
+TEST(Cli, TimeLeftInWords) {
+  EXPECT_EQ(app::timeLeft(-1), "0 s left");
+  EXPECT_EQ(app::timeLeft(59.4), "59 s left");
+  EXPECT_EQ(app::timeLeft(59.6), "1 min 00 s left");
+  EXPECT_EQ(app::timeLeft(3599.4), "59 min 59 s left");
+  EXPECT_EQ(app::timeLeft(7500), "2 h 05 min left");
+}
+
 TEST(Cli, NoSuchDeviceIsStatus4) {
   const RunResult result = runIrad({"render", "box", "--device", "no such device"});
   EXPECT_EQ(result.status, 4) << result.err;
@@ -116,9 +129,9 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
 TEST(Cli, HelpVersionAndDevicesAreStatus0) {
   const RunResult help = runIrad({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"render", "bench", "export", "memory", "settings", "views", "Exit status"})
+  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "views", "Exit status"})
     EXPECT_TRUE(contains(help.out, command)) << command;
-  for (const char* command : {"render", "bench", "export", "memory", "settings", "views"})
+  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "views"})
     EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
   const RunResult version = runIrad({"--version"});
   EXPECT_EQ(version.status, 0);

@@ -288,6 +288,27 @@ TEST_F(PathTracing, TheSamePictureFromAnyNumberOfThreads) {
   EXPECT_NE(one.lit.mean, other.lit.mean);
 }
 
+TEST_F(PathTracing, SumsGoOnToTheSameBits) {
+  const Scene scene = mixedRoom();
+  const Camera& camera = scene.cameras[0];
+  const glm::uvec2 size(24, 16);
+  TracedSums whole, parts;
+  makePathTracer(scene)->add(camera, size, {.samples = 14, .threads = 1}, whole);
+  makePathTracer(scene)->add(camera, size, {.samples = 5, .threads = 3}, parts);
+  EXPECT_NE(parts.lit, whole.lit);
+  makePathTracer(scene)->add(camera, size, {.samples = 1}, parts);
+  makePathTracer(scene)->add(camera, size, {.samples = 8, .threads = 2}, parts);
+  EXPECT_EQ(parts.samples, 14u);
+  EXPECT_EQ(parts.lit, whole.lit);
+  EXPECT_EQ(parts.indirect, whole.indirect);
+  EXPECT_EQ(parts.rays, whole.rays);
+  const TracedPicture p = pictureOf(parts);
+  EXPECT_EQ(p.lit.error, makePathTracer(scene)->render(camera, size, {.samples = 14}).lit.error);
+  // Halves: every other sample.
+  for (size_t i = 0; i < p.lit.mean.size(); ++i)
+    EXPECT_LT(glm::length(0.5 * (p.lit.half[0][i] + p.lit.half[1][i]) - p.lit.mean[i]), 1e-12);
+}
+
 TEST_F(PathTracing, StandardErrorsAreWhatRepetitionShows) {
   const Scene scene = mixedRoom();
   const auto tracer = makePathTracer(scene);

@@ -14,8 +14,10 @@
 #include <random>
 #include <thread>
 
+#include "gi/check/path_state.h"
 #include "gi/check/process.h"
 #include "renderer/base/error.h"
+#include "renderer/image_io.h"
 #include "renderer/scene/scene.h"
 #include "tests/support.h"
 
@@ -161,6 +163,30 @@ TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholePicturesOnly) {
 TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholeArraysOnly) {
   IRAD_ONLY_WITH_ALL();
   fillDisks(smallExport);
+}
+
+TEST(ProgramFaults, AFullDiskLeavesOfAReferenceWhatARunGoesOnFrom) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  TemporaryFolder folder;
+  const auto arguments = [](const fs::path& out) {
+    return std::vector<std::string>{
+        "reference", "box",   "--of", "triangles", "--size",
+        "64x64",     "--spp", "4",    "--out",     (out / "ref").string() + linearExtension()};
+  };
+  const uint64_t stateKib = 64 * 64 * 144 / 1024;
+  for (const uint64_t kib : {stateKib / 2, stateKib + 16}) {
+    const SmallDisk run = runOnSmallDisk(folder.path, static_cast<int>(kib), arguments(folder.path / "disk" / "out"));
+    if (run.result.status == 99 || contains(run.result.err, "unshare failed"))
+      GTEST_SKIP() << "no small disk can be mounted here: " << run.result.err;
+    EXPECT_EQ(run.result.status, 1) << run.result.err;
+    EXPECT_TRUE(contains(run.result.err, "No space left on device")) << run.result.err;
+    EXPECT_FALSE(run.files.contains("ref.json"));
+    EXPECT_FALSE(run.files.contains(std::string("ref") + linearExtension()));
+    EXPECT_EQ(run.files.contains("ref.state"), kib > stateKib);
+    for (const auto& [name, content] : run.files) EXPECT_FALSE(isTemporary(name)) << name;
+  }
+  const fs::path state = folder.path / fmt::format("copy{}", stateKib + 16) / "ref.state";
+  EXPECT_EQ(readSums(state).sums.samples, 4u);
 }
 
 TEST(ProgramFaults, AFileSizeLimitIsStatus1) {

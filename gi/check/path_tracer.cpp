@@ -67,35 +67,11 @@ glm::dvec3 cosineDirection(const glm::dvec3& normal, Random& random) {
   return r * std::cos(phi) * t + r * std::sin(phi) * b + std::sqrt(std::max(0.0, 1 - r2)) * normal;
 }
 
-/// What the samples of one pixel come to.
-struct PixelSums {
-  glm::dvec3 half[2] = {}, squares{0};
-  void put(TracedLight& light, size_t pixel, uint32_t samples) const {
-    const double n = samples;
-    const glm::dvec3 mean = (half[0] + half[1]) / n;
-    light.mean[pixel] = mean;
-    light.half[0][pixel] = half[0] * (2 / n);
-    light.half[1][pixel] = half[1] * (2 / n);
-    light.error[pixel] = glm::sqrt(glm::max(squares / n - mean * mean, 0.0) / (n - 1));
-  }
-};
-
-void makeRoom(TracedLight& light, size_t pixels) {
-  light.mean.resize(pixels);
-  light.error.resize(pixels);
-  light.half[0].resize(pixels);
-  light.half[1].resize(pixels);
-}
-
-void sumUp(TracedLight& light) {
-  glm::dvec3 sum(0), variance(0);
-  for (size_t i = 0; i < light.mean.size(); ++i) {
-    sum += light.mean[i];
-    variance += light.error[i] * light.error[i];
-  }
-  const double n = static_cast<double>(light.mean.size());
-  light.pictureMean = sum / n;
-  light.pictureError = glm::sqrt(variance) / n;
+void makeRoom(TracedSums& sums, glm::uvec2 size) {
+  sums.size = size;
+  const size_t pixels = size_t{size.x} * size.y;
+  for (TracedSums::Light* light : {&sums.lit, &sums.indirect})
+    for (auto* values : {&light->half[0], &light->half[1], &light->squares}) values->assign(pixels, glm::dvec3(0));
 }
 
 class EmbreeTracer : public PathTracer {
@@ -103,19 +79,16 @@ class EmbreeTracer : public PathTracer {
   EmbreeTracer(Scene scene, Sky sky)
       : surfaces_(std::move(scene)), sky_(std::move(sky)), scene_(surfaces_.scene().positions, corners(surfaces_)) {}
 
-  TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const override {
-    IRAD_CHECK(options.samples > 0 && options.samples % 2 == 0, "{} samples", options.samples);
+  void add(const Camera& camera, glm::uvec2 size, const TraceOptions& options, TracedSums& sums) const override {
     const auto start = std::chrono::steady_clock::now();
-    TracedPicture picture{.size = size, .samples = options.samples};
-    const size_t pixels = size_t{size.x} * size.y;
-    makeRoom(picture.lit, pixels);
-    makeRoom(picture.indirect, pixels);
+    if (sums.samples == 0) makeRoom(sums, size);
+    IRAD_CHECK(sums.size == size, "sums of {} x {} pixels for {} x {}", sums.size.x, sums.size.y, size.x, size.y);
     std::atomic<uint32_t> nextRow = 0;
     std::atomic<uint64_t> rays = 0;
     const auto work = [&] {
       for (uint32_t y; (y = nextRow++) < size.y;) {
         Paths paths(*this, camera, size, options);
-        for (uint32_t x = 0; x < size.x; ++x) paths.pixel({x, y}, picture);
+        for (uint32_t x = 0; x < size.x; ++x) paths.pixel({x, y}, sums);
         rays += paths.rays;
       }
     };
@@ -125,11 +98,9 @@ class EmbreeTracer : public PathTracer {
       for (uint32_t t = 1; t < count; ++t) others.emplace_back(work);
       work();
     }
-    sumUp(picture.lit);
-    sumUp(picture.indirect);
-    picture.rays = rays;
-    picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return picture;
+    sums.samples += options.samples;
+    sums.rays += rays;
+    sums.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
  private:
@@ -153,21 +124,19 @@ class EmbreeTracer : public PathTracer {
     uint64_t rays = 0;
     glm::dvec3 lit{0}, indirect{0};  ///< of the path in hand
 
-    void pixel(glm::uvec2 at, TracedPicture& picture) {
+    void pixel(glm::uvec2 at, TracedSums& sums) {
       const size_t index = size_t{at.y} * size.x + at.x;
-      Random random(options.seed, index);
-      PixelSums litSums, indirectSums;
-      for (uint32_t s = 0; s < options.samples; ++s) {
+      for (uint32_t s = sums.samples; s < sums.samples + options.samples; ++s) {
+        Random random(options.seed, uint64_t{s} << 32 | index);
         lit = indirect = glm::dvec3(0);
         path(at, random);
-        const int half = s >= options.samples / 2;
-        litSums.half[half] += lit;
-        litSums.squares += lit * lit;
-        indirectSums.half[half] += indirect;
-        indirectSums.squares += indirect * indirect;
+        put(lit, sums.lit, index, s);
+        put(indirect, sums.indirect, index, s);
       }
-      litSums.put(picture.lit, index, options.samples);
-      indirectSums.put(picture.indirect, index, options.samples);
+    }
+    static void put(const glm::dvec3& light, TracedSums::Light& sums, size_t index, uint32_t sample) {
+      sums.half[sample % 2][index] += light;
+      sums.squares[index] += light * light;
     }
 
     RTCRay ray(const glm::dvec3& origin, const glm::dvec3& direction, float near, float far) {

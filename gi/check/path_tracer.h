@@ -23,7 +23,7 @@ struct Camera;
 struct Scene;
 
 struct TraceOptions {
-  uint32_t samples = 64;  ///< per pixel, even and > 0
+  uint32_t samples = 64;  ///< per pixel, > 1
   uint64_t seed = 1;
   /// Rays through the middle of each pixel, as a rasterizer samples; otherwise spread over it evenly.
   bool centred = false;
@@ -34,8 +34,8 @@ struct TraceOptions {
 struct TracedLight {
   std::vector<glm::dvec3> mean;
   std::vector<glm::dvec3> error;  ///< standard error of `mean`
-  /// Means of the first and of the second half of the samples: independent of each other, so that in products of their
-  /// deviations noise cancels.
+  /// Means of every other sample, from the first and from the second on: independent of each other, so that in products
+  /// of their deviations noise cancels.
   std::array<std::vector<glm::dvec3>, 2> half;
   glm::dvec3 pictureMean{0}, pictureError{0};  ///< over all pixels, with its standard error
 };
@@ -50,15 +50,34 @@ struct TracedPicture {
   double seconds = 0;
 };
 
+/// What the samples of each pixel come to so far. A sample's random numbers depend on seed, pixel and its own number
+/// alone, and sums are in its order, so that their bits show neither threads nor the calls that they were made in.
+struct TracedSums {
+  struct Light {
+    std::array<std::vector<glm::dvec3>, 2> half;  ///< samples 0, 2, 4, … and 1, 3, 5, …
+    std::vector<glm::dvec3> squares;
+    bool operator==(const Light&) const = default;
+  };
+  glm::uvec2 size{0};
+  uint32_t samples = 0;  ///< per pixel
+  Light lit, indirect;
+  uint64_t rays = 0;
+  double seconds = 0;
+};
+/// Their means and standard errors; at least two samples.
+TracedPicture pictureOf(const TracedSums& sums);
+
 class PathTracer {
  public:
   virtual ~PathTracer() = default;
-  /// Unbiased: paths end by Russian roulette alone. Samples have independent random numbers, sums are in double
-  /// precision and in a fixed order. Light: suns, points and spots in full at every vertex of a path, by one point of
-  /// those with a size; emissive
-  /// triangles by one point in proportion to their power and by the bounce, joined by the balance heuristic (Veach and
-  /// Guibas 1995); the sky likewise, by one direction.
-  virtual TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const = 0;
+  /// `options.samples` further samples of each pixel; `sums` is empty, or from calls with the same camera and options.
+  /// Unbiased: paths end by Russian roulette alone. Sums are in double precision. Light: suns, points and spots in full
+  /// at every vertex of a path, by one point of those with a size; emissive triangles by one point in proportion to
+  /// their power and by the bounce, joined by the balance heuristic (Veach and Guibas 1995); the sky likewise, by one
+  /// direction.
+  virtual void add(const Camera& camera, glm::uvec2 size, const TraceOptions& options, TracedSums& sums) const = 0;
+  /// All in one go.
+  TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const;
 };
 
 /// Whether this build has one (IRAD_EMBREE).

@@ -181,6 +181,7 @@ void NpyFile<T>::commit() {
   file_.commit();
 }
 
+template class NpyFile<double>;
 template class NpyFile<float>;
 template class NpyFile<int32_t>;
 template class NpyFile<int64_t>;

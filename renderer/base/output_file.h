@@ -62,6 +62,10 @@ struct NpyType<float> {
   static constexpr const char* descr = "<f4";
 };
 template <>
+struct NpyType<double> {
+  static constexpr const char* descr = "<f8";
+};
+template <>
 struct NpyType<int32_t> {
   static constexpr const char* descr = "<i4";
 };

@@ -7,6 +7,7 @@
 
 #include <iostream>
 
+#include "gi/check/path_state.h"
 #include "gi/settings.h"
 #include "renderer/scene/light_json.h"
 #include "tests/scene_files.h"
@@ -306,6 +307,16 @@ void writeTexts(const fs::path& folder) {
   write(folder / "config/settings.json", R"({"matrix.rays": 64, "voxel.resolution": 32})");
 }
 
+/// Of 2 x 1 pixels.
+void writeState(const fs::path& folder) {
+  SavedSums saved{.made = R"({"camera":{"yfov":0.8},"seed":1})", .sums = {.size = {2, 1}, .samples = 3, .rays = 70}};
+  for (TracedSums::Light* light : {&saved.sums.lit, &saved.sums.indirect})
+    for (auto* values : {&light->half[0], &light->half[1], &light->squares})
+      *values = {glm::dvec3(0.25, 1, 2), glm::dvec3(0)};
+  fs::create_directories(folder);
+  writeSums(folder / "sums.state", saved);
+}
+
 }  // namespace
 }  // namespace irad
 
@@ -317,6 +328,7 @@ int main(int argc, char** argv) {
     writeImages(folder / "image");
     writeScenes(folder, folder / "image");
     writeTexts(folder);
+    writeState(folder / "path_state");
   } catch (const std::exception& error) {
     return std::cerr << error.what() << "\n", 1;
   }

@@ -20,6 +20,7 @@ using Bytes = std::span<const uint8_t>;
   ROW(config)                  \
   ROW(gltf)                    \
   ROW(image)                   \
+  ROW(path_state)              \
   ROW(scene_cache)             \
   ROW(settings)                \
   ROW(sidecar)

@@ -1,0 +1,126 @@
+#include "gi/check/exact_solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gi/facets.h"
+#include "gi/host_facets.h"
+#include "gi/host_matrix.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/pipeline.h"
+#include "renderer/base/error.h"
+
+namespace irad {
+namespace {
+
+/// Rows of F, one after the other.
+struct Rows {
+  std::vector<size_t> first{0};
+  std::vector<uint32_t> columns, hits;
+  std::vector<double> weight;  ///< of a hit
+  glm::dvec3 product(size_t row, const std::vector<glm::dvec3>& b) const {
+    glm::dvec3 sum(0);
+    for (size_t k = first[row]; k < first[row + 1]; ++k) sum += double{1} * hits[k] * b[columns[k]];
+    return sum * weight[row];
+  }
+  double sum(size_t row) const {
+    double n = 0;
+    for (size_t k = first[row]; k < first[row + 1]; ++k) n += hits[k];
+    return n * weight[row];
+  }
+};
+
+Rows rowsOf(Context& context, const FormFactors& matrix) {
+  Rows rows;
+  forEachRow(context, matrix, [&](uint32_t, const HostRow& row) {
+    rows.columns.insert(rows.columns.end(), row.columns.begin(), row.columns.end());
+    rows.hits.insert(rows.hits.end(), row.hits.begin(), row.hits.end());
+    rows.first.push_back(rows.columns.size());
+    rows.weight.push_back(row.weight);
+  });
+  return rows;
+}
+
+double largest(const glm::dvec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+}  // namespace
+
+ExactLight solveExactly(Context& context, const Pipeline& pipeline, double tolerance,
+                        const std::function<bool(float)>& progress) {
+  const FacetList& list = pipeline.facets();
+  const Lighting& light = pipeline.lighting();
+  IRAD_CHECK(pipeline.matrix() && light, "there is neither matrix nor light to solve");
+  const HostFacets facets = hostFacets(context, list);
+  const Rows rows = rowsOf(context, pipeline.matrix());
+  const std::vector<glm::vec3> direct = perFacet(context, list, light.direct), sky = perFacet(context, list, light.sky),
+                               correction = perFacet(context, list, light.correction),
+                               reflected = perFacet(context, list, light.writeback.used),
+                               start = perFacet(context, list, light.radiosity);
+  const double lambda = pipeline.obeyed().solver.gpu.lambda;
+  const size_t count = facets.count();
+  IRAD_CHECK_OP(rows.weight.size(), ==, count);
+
+  // What a sweep multiplies an error of B by, at most.
+  double gain = 0;
+  for (size_t i = 0; i < count; ++i)
+    gain = std::max(gain, lambda * largest(glm::dvec3(facets.albedo[i])) * rows.sum(i));
+  if (!(gain < 1))
+    throw WorkError(fmt::format("the matrix's largest row gain is {}: not below 1, so no bound holds", gain));
+
+  ExactLight out;
+  out.indirect.resize(count);
+  out.radiosity.assign(start.begin(), start.end());
+  const auto sweep = [&] {
+    double change = 0;
+    for (size_t i = 0; i < count; ++i) {
+      // The sweeps' own equation (shaders/gi/solve.glsl): the emitters' correction never takes H below 0.
+      glm::dvec3 h = rows.product(i, out.radiosity) + lambda * glm::dvec3(correction[i]);
+      h = glm::max(h, glm::dvec3(0)) + glm::dvec3(sky[i]);
+      const glm::dvec3 b = lambda * (glm::dvec3(facets.emission[i]) + glm::dvec3(reflected[i]) +
+                                     glm::dvec3(facets.albedo[i]) * (glm::dvec3(direct[i]) + h));
+      change = std::max(change, largest(glm::abs(b - out.radiosity[i])));
+      out.indirect[i] = h;
+      out.radiosity[i] = b;
+    }
+    ++out.sweeps;
+    return change;
+  };
+  double allowed = 0, first = 0, least = INFINITY;
+  uint32_t since = 0;
+  while (true) {
+    const double change = sweep();
+    // B is now within gain / (1 - gain) of its last change: the sweeps contract in the largest norm.
+    out.bound = change * gain / (1 - gain);
+    glm::dvec3 sum(0);
+    double area = 0;
+    for (size_t i = 0; i < count; ++i) {
+      sum += facets.area[i] * out.indirect[i];
+      area += facets.area[i];
+    }
+    out.meanH = area > 0 ? largest(sum) / area : 0;
+    allowed = tolerance * out.meanH;
+    if (out.bound <= allowed) break;
+    if (first == 0) first = out.bound;
+    since = out.bound < 0.5 * least ? 0 : since + 1;
+    least = std::min(least, out.bound);
+    if (since > 1000)
+      throw WorkError(
+          fmt::format("after {} sweeps in double precision H is known to {:.3g} of its mean, which gets no "
+                      "better; {:.3g} was asked for",
+                      out.sweeps, out.bound / out.meanH, tolerance));
+    const double done = allowed > 0 && first > allowed ? std::log(first / out.bound) / std::log(first / allowed) : 0;
+    if (progress && !progress(static_cast<float>(done))) throw WorkError("cancelled");
+  }
+  // H of the B that came out, as the equation has it.
+  std::vector<glm::dvec3> h(count);
+  for (size_t i = 0; i < count; ++i)
+    h[i] = glm::max(rows.product(i, out.radiosity) + lambda * glm::dvec3(correction[i]), glm::dvec3(0)) +
+           glm::dvec3(sky[i]);
+  out.indirect = std::move(h);
+  return out;
+}
+
+}  // namespace irad

@@ -1,0 +1,51 @@
+// Sums of the path tracer's samples: what they say, in every build.
+#include <cmath>
+
+#include "gi/check/path_tracer.h"
+#include "renderer/base/error.h"
+
+namespace irad {
+namespace {
+
+TracedLight lightOf(const TracedSums::Light& sums, uint32_t samples) {
+  const double n = samples, odd = samples / 2, even = n - odd;
+  const size_t pixels = sums.squares.size();
+  TracedLight light;
+  light.mean.resize(pixels);
+  light.error.resize(pixels);
+  for (auto& half : light.half) half.resize(pixels);
+  glm::dvec3 sum(0), variance(0);
+  for (size_t i = 0; i < pixels; ++i) {
+    const glm::dvec3 mean = (sums.half[0][i] + sums.half[1][i]) / n;
+    const glm::dvec3 ofMean = glm::max(sums.squares[i] / n - mean * mean, 0.0) / (n - 1);
+    light.mean[i] = mean;
+    light.half[0][i] = sums.half[0][i] / even;
+    light.half[1][i] = sums.half[1][i] / odd;
+    light.error[i] = glm::sqrt(ofMean);
+    sum += mean;
+    variance += ofMean;
+  }
+  light.pictureMean = sum / static_cast<double>(pixels);
+  light.pictureError = glm::sqrt(variance) / static_cast<double>(pixels);
+  return light;
+}
+
+}  // namespace
+
+TracedPicture pictureOf(const TracedSums& sums) {
+  IRAD_CHECK(sums.samples > 1, "{} samples have no standard error", sums.samples);
+  return {.size = sums.size,
+          .samples = sums.samples,
+          .lit = lightOf(sums.lit, sums.samples),
+          .indirect = lightOf(sums.indirect, sums.samples),
+          .rays = sums.rays,
+          .seconds = sums.seconds};
+}
+
+TracedPicture PathTracer::render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const {
+  TracedSums sums;
+  add(camera, size, options, sums);
+  return pictureOf(sums);
+}
+
+}  // namespace irad
