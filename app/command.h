@@ -42,6 +42,7 @@ Command exportCommand();
 Command memoryCommand();
 Command planCommand();
 Command settingsCommand();
+Command studyCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 Command writebackCommand();

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
                         writebackCommand(),
                         exportCommand(),
                         settingsCommand(),
+                        studyCommand(),
                         viewsCommand(),
                     });
 }
