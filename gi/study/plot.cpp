@@ -102,6 +102,10 @@ std::string marker(PlotStyle style, double x, double y, const std::string& hint)
 
 }  // namespace
 
+std::string plainNumber(double value) {
+  return std::abs(value) >= 999.5 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value) : shortNumber(value);
+}
+
 std::string escapeXml(const std::string& text) {
   std::string out;
   for (const char c : text) switch (c) {
@@ -138,11 +142,11 @@ std::string logPlot(const std::string& xAxis, const std::string& yAxis, const st
   std::string out = begin(width, height);
   for (const double tick : logTicks(x)) {
     out += line(x.at(tick), top, x.at(tick), bottom, kGrid);
-    out += text(x.at(tick), bottom + 18, "middle", shortNumber(tick));
+    out += text(x.at(tick), bottom + 18, "middle", plainNumber(tick));
   }
   for (const double tick : logTicks(y)) {
     out += line(left, y.at(tick), right, y.at(tick), kGrid);
-    out += text(left - 8, y.at(tick) + 4, "end", shortNumber(tick));
+    out += text(left - 8, y.at(tick) + 4, "end", plainNumber(tick));
   }
   out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888888\"/>\n", left,
                      top, right - left, bottom - top);
@@ -235,7 +239,7 @@ std::string stackedBars(const std::string& axis, const std::vector<std::string>&
   std::string out = begin(width, height) + legend;
   for (const double tick : ticks(0, most, 7)) {
     out += line(at(tick), top, at(tick), bottom, kGrid);
-    out += text(at(tick), bottom + 16, "middle", shortNumber(tick));
+    out += text(at(tick), bottom + 16, "middle", plainNumber(tick));
   }
   out += text((left + right) / 2, bottom + 38, "middle", axis, "font-weight=\"600\"");
   for (size_t row = 0; row < bars.size(); ++row) {
@@ -251,10 +255,10 @@ std::string stackedBars(const std::string& axis, const std::vector<std::string>&
           "<rect x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"><title>{}: {} "
           "ms</title></rect>\n",
           at(sum), barTop, at(sum + value) - at(sum), rowHeight - 6, colorOf(part), escapeXml(names[part]),
-          shortNumber(value));
+          plainNumber(value));
       sum += value;
     }
-    out += text(at(sum) + 6, barTop + 13, "start", shortNumber(sum));
+    out += text(at(sum) + 6, barTop + 13, "start", plainNumber(sum));
   }
   out += line(left, top, left, bottom, "#888888");
   return out + "</svg>\n";

@@ -32,6 +32,8 @@ struct Bar {
 /// Bars below each other, `names` of their parts in the legend.
 std::string stackedBars(const std::string& axis, const std::vector<std::string>& names, const std::vector<Bar>& bars);
 
+/// Three digits, and no exponent where it can be read without.
+std::string plainNumber(double value);
 std::string escapeXml(const std::string& text);
 
 }  // namespace irad

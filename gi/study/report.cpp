@@ -24,7 +24,7 @@ std::vector<CostAndError> pairsOf(const std::vector<PointSummary>& points, const
 }
 
 std::string amount(const CostKind& cost, double value) {
-  return fmt::format("{} {}", shortNumber(value), cost.unit);
+  return fmt::format("{} {}", plainNumber(value), cost.unit);
 }
 std::string named(const PointSummary& p) {
   return fmt::format("{} ({})", p.point, p.label);
@@ -82,7 +82,7 @@ std::string finding(const CostKind& cost, const std::vector<PointSummary>& point
   if (cost.time && !peers.empty()) {
     if (const std::optional<double> seconds = secondsFor(peers, good.relMse.mean))
       out += fmt::format(" The path tracer takes about {} ms for the error of point {}, {} times as long.",
-                         shortNumber(1e3 * *seconds), good.point, shortNumber(1e3 * *seconds / cost.of(good)));
+                         plainNumber(1e3 * *seconds), good.point, plainNumber(1e3 * *seconds / cost.of(good)));
     else
       out +=
           fmt::format(" None of the path tracer's pictures lies on either side of the error of point {}.", good.point);
@@ -136,7 +136,7 @@ std::string crops(const fs::path& folder, const std::vector<PointSummary>& point
   if (alone) anchor = best.back();
   const auto captionOf = [&](const PointSummary& p) {
     return fmt::format("Point {}: {}; relMSE {}, first picture {} ms", p.point, p.label, shortNumber(p.relMse.mean),
-                       shortNumber(p.firstPictureMs()));
+                       plainNumber(p.firstPictureMs()));
   };
   const auto nearestPeer = [&](auto&& distance) -> const PeerRow* {
     const PeerRow* nearest = nullptr;
@@ -152,7 +152,7 @@ std::string crops(const fs::path& folder, const std::vector<PointSummary>& point
     if (peer)
       out += cropOf(folder, pictureName(peer->name, peer->samples),
                     fmt::format("Path tracer, {} samples per pixel: relMSE {}, {} ms", peer->samples,
-                                shortNumber(peer->relMse), shortNumber(1e3 * peer->seconds)),
+                                shortNumber(peer->relMse), plainNumber(1e3 * peer->seconds)),
                     notes);
     return out + "</div>\n";
   };
@@ -200,7 +200,7 @@ std::string plotOf(const CostKind& cost, const std::vector<PointSummary>& points
         peer.points.push_back({1e3 * p.seconds, p.relMse, 1e3 * p.seconds, 1e3 * p.seconds, p.relMse, p.relMse,
                                fmt::format("{}", p.samples),
                                fmt::format("path tracer, {} samples per pixel: relMSE {}, {} ms", p.samples,
-                                           shortNumber(p.relMse), shortNumber(1e3 * p.seconds))});
+                                           shortNumber(p.relMse), plainNumber(1e3 * p.seconds))});
   return logPlot(cost.axis, "relMSE of 8 × 8 means", {onFront, dominated, ours, peer});
 }
 
@@ -246,7 +246,7 @@ std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_
       continue;
     }
     const auto cell = [&](double value) {
-      out += fmt::format("<td>{}</td>", std::isfinite(value) ? shortNumber(value) : "–");
+      out += fmt::format("<td>{}</td>", std::isfinite(value) ? plainNumber(value) : "–");
     };
     cell(p.relMse.mean), cell(p.relMse.half), cell(p.rmse.mean), cell(p.meanError.mean), cell(p.psnr.mean);
     cell(p.flip.mean);
@@ -255,7 +255,7 @@ std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_
       cell(p.gpuMs(kind));
       out += spread == p.gpu.end()
                  ? std::string("<td>–</td>")
-                 : fmt::format("<td>{}–{}</td>", shortNumber(spread->second.p5), shortNumber(spread->second.p95));
+                 : fmt::format("<td>{}–{}</td>", plainNumber(spread->second.p5), plainNumber(spread->second.p95));
       if (std::string_view(kind) == "setup") {
         const auto wall = p.wall.find(kind);
         cell(wall == p.wall.end() ? std::nan("") : wall->second.p50);
