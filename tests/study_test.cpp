@@ -263,7 +263,7 @@ TEST(Reports, StandByThemselves) {
   EXPECT_FALSE(contains(html, "<script"));
   for (const char* outside : {"src=\"http", "href=\"http", "url(", "href=\"/", "src=\"/"})
     EXPECT_FALSE(contains(html, outside)) << outside;
-  EXPECT_TRUE(contains(html, "dominated by 1 (voxel.resolution=32)"));
+  EXPECT_TRUE(contains(html, "dominated by 1 (voxel.resolution=32)")) << "under the pointer, in the plots";
   EXPECT_TRUE(contains(html, "voxel.resolution=64 (given)"));
   for (const char* name : {"points.csv", "stages.csv", "error-against-first_picture.svg", "error-against-build.svg",
                            "error-against-memory.svg", "stages-setup.svg"})

@@ -102,18 +102,19 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-/// Part of a picture of the folder, twice as large, with its caption; empty where the picture is not there.
+/// Part of a picture of the folder, at least twice as large, with its caption; empty where the picture is not there.
 std::string cropOf(const fs::path& folder, const std::string& name, const std::string& caption,
                    const ReportNotes& notes) {
   std::ifstream in(folder / "pictures" / (name + ".png"), std::ios::binary);
   if (!in || notes.cropSize.x == 0) return "";
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const uint32_t zoom = std::max(2u, 224 / notes.cropSize.x);
   return fmt::format(
       "<figure><svg viewBox=\"{} {} {} {}\" width=\"{}\" height=\"{}\" role=\"img\"><image width=\"{}\" height=\"{}\" "
       "href=\"data:image/png;base64,{}\" style=\"image-rendering:pixelated\"/></svg><figcaption>{}</figcaption>"
       "</figure>\n",
-      notes.cropAt.x, notes.cropAt.y, notes.cropSize.x, notes.cropSize.y, 2 * notes.cropSize.x, 2 * notes.cropSize.y,
-      notes.pictureSize.x, notes.pictureSize.y, base64(bytes), escapeXml(caption));
+      notes.cropAt.x, notes.cropAt.y, notes.cropSize.x, notes.cropSize.y, zoom * notes.cropSize.x,
+      zoom * notes.cropSize.y, notes.pictureSize.x, notes.pictureSize.y, base64(bytes), escapeXml(caption));
 }
 
 /// Pictures beside each other that took the same time, and that have the same error: around the settings given or,
@@ -231,47 +232,77 @@ std::string barsOf(const char* title, const std::string& kind, const std::vector
   return stackedBars(title, names, bars);
 }
 
-std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_t> given) {
-  std::string out =
-      "<table>\n<tr><th>point</th><th>settings</th><th>relMSE</th><th>±</th><th>RMSE</th><th>mean error</th><th>PSNR, "
-      "dB</th><th>FLIP</th><th>build, ms</th><th>p5–p95</th><th>build wall, ms</th><th>relight, ms</th><th>p5–p95</th>"
-      "<th>frame, ms</th><th>p5–p95</th><th>matrix, MiB</th><th>device, MiB</th><th>by first picture</th></tr>\n";
+/// One row per point: its number and settings, then what `cells` makes of it; a failure in words across `columns`.
+template <class Cells>
+std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_t> given,
+                    const std::vector<const char*>& columns, Cells&& cells) {
+  std::string out = "<table>\n<tr><th>point</th><th class=\"name\">settings</th>";
+  for (const char* column : columns) out += fmt::format("<th>{}</th>", column);
+  out += "</tr>\n";
   const std::vector<std::optional<size_t>> by = dominators(pairsOf(points, costKinds().front()));
   for (const PointSummary& p : points) {
     out += fmt::format("<tr{}><td>{}</td><td class=\"name\">{}{}</td>",
                        !by[p.point] && p.seeds > 0 ? " class=\"front\"" : "", p.point, escapeXml(p.label),
                        given && *given == p.point ? " (given)" : "");
-    if (p.seeds == 0) {
-      out += fmt::format("<td colspan=\"16\" class=\"name\">{}</td></tr>\n", escapeXml(p.failure));
-      continue;
-    }
-    const auto cell = [&](double value) {
-      out += fmt::format("<td>{}</td>", std::isfinite(value) ? plainNumber(value) : "–");
-    };
-    cell(p.relMse.mean), cell(p.relMse.half), cell(p.rmse.mean), cell(p.meanError.mean), cell(p.psnr.mean);
-    cell(p.flip.mean);
-    for (const char* kind : {"setup", "relight", "camera"}) {
-      const auto spread = p.gpu.find(kind);
-      cell(p.gpuMs(kind));
-      out += spread == p.gpu.end()
-                 ? std::string("<td>–</td>")
-                 : fmt::format("<td>{}–{}</td>", plainNumber(spread->second.p5), plainNumber(spread->second.p95));
-      if (std::string_view(kind) == "setup") {
-        const auto wall = p.wall.find(kind);
-        cell(wall == p.wall.end() ? std::nan("") : wall->second.p50);
-      }
-    }
-    cell(p.matrixMib), cell(p.deviceMib);
-    out += fmt::format("<td class=\"name\">{}</td></tr>\n",
-                       by[p.point] ? fmt::format("dominated by {}", named(points[*by[p.point]])) : "front");
+    if (p.failure.empty())
+      for (const std::string& cell : cells(p)) out += fmt::format("<td>{}</td>", cell);
+    else
+      out += fmt::format("<td colspan=\"{}\" class=\"name\">{}</td>", columns.size(), escapeXml(p.failure));
+    out += "</tr>\n";
   }
   return out + "</table>\n";
+}
+
+std::string tablesOf(const std::vector<PointSummary>& points, std::optional<size_t> given) {
+  const auto cell = [](double value) { return std::isfinite(value) ? plainNumber(value) : std::string("–"); };
+  const auto range = [&](const PointSummary& p, const char* kind) {
+    const auto spread = p.gpu.find(kind);
+    return spread == p.gpu.end()
+               ? std::string("–")
+               : fmt::format("{}–{}", plainNumber(spread->second.p5), plainNumber(spread->second.p95));
+  };
+  const std::vector<std::optional<size_t>> by = dominators(pairsOf(points, costKinds().front()));
+  std::string out = "<h2>Errors of all points</h2>\n<p>Blue: on the front of error against first picture.</p>\n";
+  out += tableOf(points, given,
+                 {"relMSE", "±", "RMSE", "±", "mean error", "±", "PSNR, dB", "FLIP", "±", "seeds", "facets", "entries"},
+                 [&](const PointSummary& p) {
+                   return std::vector<std::string>{cell(p.relMse.mean),
+                                                   cell(p.relMse.half),
+                                                   cell(p.rmse.mean),
+                                                   cell(p.rmse.half),
+                                                   cell(p.meanError.mean),
+                                                   cell(p.meanError.half),
+                                                   cell(p.psnr.mean),
+                                                   cell(p.flip.mean),
+                                                   cell(p.flip.half),
+                                                   std::to_string(p.seeds),
+                                                   withThousands(static_cast<uint64_t>(p.facets)),
+                                                   withThousands(static_cast<uint64_t>(p.entries))};
+                 });
+  out += "<h2>Costs of all points</h2>\n";
+  out += tableOf(points, given,
+                 {"build, ms", "p5–p95", "wall", "relight, ms", "p5–p95", "frame, ms", "p5–p95", "matrix, MiB",
+                  "device, MiB", "dominated by"},
+                 [&](const PointSummary& p) {
+                   const auto wall = p.wall.find("setup");
+                   return std::vector<std::string>{cell(p.gpuMs("setup")),
+                                                   range(p, "setup"),
+                                                   cell(wall == p.wall.end() ? std::nan("") : wall->second.p50),
+                                                   cell(p.gpuMs("relight")),
+                                                   range(p, "relight"),
+                                                   cell(p.gpuMs("camera")),
+                                                   range(p, "camera"),
+                                                   cell(p.matrixMib),
+                                                   cell(p.deviceMib),
+                                                   by[p.point] ? std::to_string(*by[p.point]) : "front"};
+                 });
+  return out;
 }
 
 const char* const kStyle =
     "body{font:15px/1.5 Inter,'DejaVu Sans',Helvetica,Arial,sans-serif;color:#222;background:#fff;max-width:1180px;"
     "margin:32px auto;padding:0 24px}h1{font-size:26px}h2{font-size:20px;margin-top:36px}h3{font-size:16px}"
-    "table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}th,td{padding:4px 10px;"
+    "table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}th,td{padding:4px 9px;"
     "border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{border-bottom:2px solid #888}.name{text-align:"
     "left}tr.front{background:#eaf3fa}.crops{display:flex;flex-wrap:wrap;gap:16px}figure{margin:0;max-width:256px}"
     "figcaption{font-size:13px;color:#444}.finding{max-width:820px}svg{max-width:100%}";
@@ -337,7 +368,7 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
     html += plot;
   }
   html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);
-  html += "<h2>All points</h2>\n" + tableOf(points, given) + "</body>\n</html>\n";
+  html += tablesOf(points, given) + "</body>\n</html>\n";
   writeFile(folder / "report.html", html);
 }
 
