@@ -35,7 +35,7 @@ namespace irad::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Pixels = std::vector<glm::vec4>;
+using LinearPixels = std::vector<glm::vec4>;
 
 struct StudyArguments {
   std::vector<std::string> names;  ///< the study, then the scene, or folders
@@ -51,7 +51,7 @@ struct StudyArguments {
 const char* const kPathTracer = "path-tracer";
 
 /// As a screen shows it without a tone curve, which is what FLIP compares.
-void writePng(const fs::path& stem, glm::uvec2 size, const Pixels& linear, float exposure) {
+void writePng(const fs::path& stem, glm::uvec2 size, const LinearPixels& linear, float exposure) {
   std::vector<glm::u8vec4> bytes;
   for (const glm::vec4& pixel : linear) {
     glm::u8vec4 out(255);
@@ -68,27 +68,27 @@ void writePng(const fs::path& stem, glm::uvec2 size, const Pixels& linear, float
 /// What pictures are held against: one picture, or two with independent noise.
 struct Truth {
   glm::uvec2 size{0};
-  Pixels first, second;  ///< second: empty where there is one
-  std::string what;      ///< for the identity and the report
-  Pixels mean() const {
-    Pixels out = first;
+  LinearPixels first, second;  ///< second: empty where there is one
+  std::string what;            ///< for the identity and the report
+  LinearPixels mean() const {
+    LinearPixels out = first;
     for (size_t i = 0; i < second.size(); ++i) out[i] = 0.5f * (first[i] + second[i]);
     return out;
   }
 };
 
-Pixels toPixels(const std::vector<glm::dvec3>& light) {
-  Pixels out;
+LinearPixels toPixels(const std::vector<glm::dvec3>& light) {
+  LinearPixels out;
   for (const glm::dvec3& pixel : light) out.emplace_back(glm::vec3(pixel), 1);
   return out;
 }
 
-/// The half of the picture's width and height, up to 128 pixels, in which the truth has most contrast.
+/// A third of the picture's width and height, 16 to 128 pixels, where the truth has most contrast.
 void chooseCrop(const Truth& truth, ReportNotes& notes) {
   notes.pictureSize = truth.size;
   notes.cropSize = glm::min(glm::max(truth.size / 3u, glm::uvec2(16)), glm::uvec2(128));
   notes.cropSize = glm::min(notes.cropSize, truth.size);
-  const Pixels mean = truth.mean();
+  const LinearPixels mean = truth.mean();
   double most = -1;
   const glm::uvec2 step = glm::max(notes.cropSize / 4u, glm::uvec2(1));
   for (uint32_t y0 = 0; y0 + notes.cropSize.y <= truth.size.y; y0 += step.y)
@@ -297,7 +297,7 @@ class CostStudy {
     bench_->prepare({});
     bench_->forget();
     const View view = view_.view;
-    const Pixels pixels = bench_->pictures({&view, 1});
+    const LinearPixels pixels = bench_->pictures({&view, 1});
     for (const Finding& finding : pipeline.findings())
       if (finding.severity == Finding::Severity::Error) throw DeviceError(finding.text);  // a row that says so
     const PictureMetrics m = measurePicture(size_, pixels, truth_.first, truth_.second, exposure_);
@@ -368,7 +368,7 @@ class CostStudy {
       const uint32_t samples = peerSamples_[i];
       if (folder_->results.hasPeer(kPathTracer, samples)) continue;
       const TracedPicture picture = trace(samples, 1000 + i);  // other samples than the truth's
-      const Pixels pixels = toPixels(lightOf(picture).mean);
+      const LinearPixels pixels = toPixels(lightOf(picture).mean);
       const PictureMetrics m = measurePicture(size_, pixels, truth_.first, truth_.second, exposure_);
       folder_->results.peers.push_back({kPathTracer, samples, picture.seconds, m.blockRelMse, m.pixels.rmse,
                                         m.pixels.meanError, m.pixels.psnr, m.flip});
