@@ -220,6 +220,12 @@ TEST(Results, AreSummedUpByHand) {
                "with 1 (b). The settings given, 2 (c), are not: 1 (b) has 0.5 of their error for 0.512 of their "
                "ms."))
       << sentences[1];
+  EXPECT_TRUE(contains(sentences[1], "with 1 (b). ") && !contains(sentences[1], "intervals overlap"));
+  StudyResults noisy = someResults();
+  noisy.errors[3].relMse *= 3;  // the first seed of b
+  EXPECT_TRUE(
+      contains(findings(summarize(noisy, {"a", "b", "c"}), {}, 2)[1], "of their error (their intervals overlap) for"))
+      << findings(summarize(noisy, {"a", "b", "c"}), {}, 2)[1];
   // Between 8 and 200 samples the error falls as time^-1: .0101 after .4 x .125 / .0101 s.
   EXPECT_TRUE(contains(sentences[1], "The path tracer takes about 4950 ms")) << sentences[1];
 }

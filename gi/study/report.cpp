@@ -26,6 +26,11 @@ std::vector<CostAndError> pairsOf(const std::vector<PointSummary>& points, const
 std::string amount(const CostKind& cost, double value) {
   return fmt::format("{} {}", plainNumber(value), cost.unit);
 }
+/// Whether it is not known which of two errors is less.
+const char* orNot(const PointSummary& a, const PointSummary& b) {
+  const bool overlap = std::abs(a.relMse.mean - b.relMse.mean) < a.relMse.half + b.relMse.half;
+  return std::isfinite(a.relMse.half + b.relMse.half) && overlap ? " (their intervals overlap)" : "";
+}
 std::string named(const PointSummary& p) {
   return fmt::format("{} ({})", p.point, p.label);
 }
@@ -65,9 +70,10 @@ std::string finding(const CostKind& cost, const std::vector<PointSummary>& point
   if (given && std::isfinite(pairs[*given].cost) && std::isfinite(pairs[*given].error)) {
     from = given;
     if (const std::optional<size_t> by = dominators(pairs)[*given]) {
-      out += fmt::format(" The settings given, {}, are not: {} has {} of their error for {} of their {}.",
-                         named(points[*given]), named(points[*by]), shortNumber(pairs[*by].error / pairs[*given].error),
-                         shortNumber(pairs[*by].cost / pairs[*given].cost), cost.unit);
+      out +=
+          fmt::format(" The settings given, {}, are not: {} has {} of their error{} for {} of their {}.",
+                      named(points[*given]), named(points[*by]), shortNumber(pairs[*by].error / pairs[*given].error),
+                      orNot(points[*by], points[*given]), shortNumber(pairs[*by].cost / pairs[*given].cost), cost.unit);
       from = by;
     } else {
       out += fmt::format(" The settings given, {}, are on it.", named(points[*given]));
@@ -76,8 +82,9 @@ std::string finding(const CostKind& cost, const std::vector<PointSummary>& point
   const auto place = from ? std::ranges::find(best, *from) : best.begin();
   if (place != best.end() && place + 1 != best.end()) {
     const CostAndError &here = pairs[*place], &next = pairs[*(place + 1)];
-    out += fmt::format(" From {} the next on the front, {}, has {:.0f} % less error for {} more.", *place, *(place + 1),
-                       100 * (1 - next.error / here.error), amount(cost, next.cost - here.cost));
+    out += fmt::format(" From {} the next on the front, {}, has {} % less error{} for {} more.", *place, *(place + 1),
+                       shortNumber(100 * (1 - next.error / here.error)), orNot(points[*place], points[*(place + 1)]),
+                       amount(cost, next.cost - here.cost));
   }
   if (cost.time && !peers.empty()) {
     if (const std::optional<double> seconds = secondsFor(peers, good.relMse.mean))
@@ -264,7 +271,7 @@ std::string tablesOf(const std::vector<PointSummary>& points, std::optional<size
   const std::vector<std::optional<size_t>> by = dominators(pairsOf(points, costKinds().front()));
   std::string out = "<h2>Errors of all points</h2>\n<p>Blue: on the front of error against first picture.</p>\n";
   out += tableOf(points, given,
-                 {"relMSE", "±", "RMSE", "±", "mean error", "±", "PSNR, dB", "FLIP", "±", "seeds", "facets", "entries"},
+                 {"relMSE", "±", "RMSE", "±", "mean error", "±", "PSNR, dB", "FLIP", "±", "facets", "entries"},
                  [&](const PointSummary& p) {
                    return std::vector<std::string>{cell(p.relMse.mean),
                                                    cell(p.relMse.half),
@@ -275,7 +282,6 @@ std::string tablesOf(const std::vector<PointSummary>& points, std::optional<size
                                                    cell(p.psnr.mean),
                                                    cell(p.flip.mean),
                                                    cell(p.flip.half),
-                                                   std::to_string(p.seeds),
                                                    withThousands(static_cast<uint64_t>(p.facets)),
                                                    withThousands(static_cast<uint64_t>(p.entries))};
                  });
