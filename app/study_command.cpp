@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -17,8 +18,10 @@
 #include "app/version.h"
 #include "gi/check/path_tracer.h"
 #include "gi/facets.h"
+#include "gi/manifest.h"
 #include "gi/matrix.h"
 #include "gi/sky.h"
+#include "gi/study/pick.h"
 #include "gi/study/report.h"
 #include "gi/study/results.h"
 #include "gi/study/sweep.h"
@@ -41,6 +44,7 @@ struct StudyArguments {
   std::vector<std::string> names;  ///< the study, then the scene, or folders
   std::vector<std::string> sweeps, peers;
   std::optional<std::string> out, seeds, repeats, shard, view, referenceSamples, secondReference, peerSamples;
+  std::optional<std::string> budgetMs, budgetMib, targetError, cost;  ///< of pick
   ReferenceArgument reference;
   SceneArguments sceneOptions;
   SettingArguments settings;
@@ -451,6 +455,17 @@ void CostStudy::finish(const fs::path& out, const SettingGrid& grid, const Study
   print("wrote       {}\n", (out / "report.html").string());
 }
 
+SettingGrid gridOf(const StudyIdentity& identity) {
+  try {
+    const auto json = nlohmann::ordered_json::parse(identity);
+    Settings settings;
+    settingsFromJson(settings, json.at("settings").dump());
+    return {json.at("sweeps").get<std::vector<std::string>>(), settings};
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("study.json: {}", error.what()));
+  }
+}
+
 /// `irad study merge DIR... --out DIR`.
 void mergeShards(const StudyArguments& arguments) {
   const std::vector<fs::path> shards(arguments.names.begin() + 1, arguments.names.end());
@@ -476,11 +491,7 @@ void mergeShards(const StudyArguments& arguments) {
                     ignored);
     fs::copy_file(shard / "notes.json", out / "notes.json", fs::copy_options::skip_existing, ignored);
   }
-  const auto json = nlohmann::ordered_json::parse(identity);
-  Settings settings;
-  settingsFromJson(settings, json.at("settings").dump());
-  const auto texts = json.at("sweeps").get<std::vector<std::string>>();
-  const SettingGrid grid(texts, settings);
+  const SettingGrid grid = gridOf(identity);
   ReportNotes notes;
   if (fs::exists(out / "notes.json")) {
     std::ifstream in(out / "notes.json");
@@ -498,11 +509,72 @@ void mergeShards(const StudyArguments& arguments) {
   CostStudy::finish(out, grid, folder.results, notes);
 }
 
+double parsePositive(const std::string& option, const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || value <= 0)
+    throw UsageError(fmt::format("{}: '{}' is not allowed; expected a number above 0", option, text));
+  return value;
+}
+
+/// `irad study pick DIR --budget-ms X`.
+void pickPoint(const StudyArguments& arguments) {
+  if (arguments.names.size() != 2) throw UsageError("irad study pick: expected one folder of a study");
+  Budget budget;
+  if (arguments.budgetMs) budget.ms = parsePositive("--budget-ms", *arguments.budgetMs);
+  if (arguments.budgetMib) budget.mib = parsePositive("--budget-mib", *arguments.budgetMib);
+  if (arguments.targetError) budget.error = parsePositive("--target-error", *arguments.targetError);
+  if (!budget.ms && !budget.mib && !budget.error)
+    throw UsageError("irad study pick: by what? --budget-ms X, --budget-mib Y or --target-error E");
+  const std::string wanted = arguments.cost.value_or("first_picture");
+  const CostKind* cost = nullptr;
+  std::vector<std::string> names;
+  for (const CostKind& kind : costKinds())
+    if (kind.time) {
+      names.emplace_back(kind.name);
+      if (wanted == kind.name) cost = &kind;
+    }
+  if (!cost) throw UsageError(fmt::format("--cost: unknown '{}'{}", wanted, suggestion(wanted, names)));
+
+  const fs::path folder = arguments.names[1];
+  const SettingGrid grid = gridOf(readIdentity(folder));
+  const std::vector<PointSummary> points = summarize(readResults(folder), labelsOf(grid));
+  const std::optional<size_t> chosen = pick(points, *cost, budget);
+  if (!chosen)
+    throw WorkError(fmt::format("{}: none of its {} points is within that: see {}", folder.string(), points.size(),
+                                (folder / "points.csv").string()));
+  const PointSummary& p = points[*chosen];
+  const auto half = [](const MeanInterval& m) {
+    return std::isfinite(m.half) ? fmt::format(" ± {}", shortNumber(m.half)) : std::string(" (one seed)");
+  };
+  print("point       {}: {}\n", p.point, p.label);
+  print("error       relMSE {}{}, FLIP {}\n", shortNumber(p.relMse.mean), half(p.relMse), shortNumber(p.flip.mean));
+  for (const auto& [name, kind] :
+       {std::pair("build", "setup"), {"solve", "cold"}, {"relight", "relight"}, {"frame", "camera"}})
+    if (const auto spread = p.gpu.find(kind); spread != p.gpu.end())
+      print("{:<11} {} ms, {} to {} in 90 % of {} repeats\n", name, milliseconds(spread->second.p50),
+            milliseconds(spread->second.p5), milliseconds(spread->second.p95), spread->second.samples);
+  print("memory      {:.1f} MiB\n", p.deviceMib);
+  const std::optional<size_t> best = pick(points, *cost, {.error = HUGE_VAL}), least = pick(points, *cost, {});
+  if (least && *least != *chosen)
+    print("loss        {} times the error of {} ({}), which takes {} times the {}\n",
+          shortNumber(p.relMse.mean / points[*least].relMse.mean), *least, points[*least].label,
+          shortNumber(cost->of(points[*least]) / cost->of(p)), cost->unit);
+  if (best && *best != *chosen)
+    print("cheapest    {} ({}): {} times the error for {} of the {}\n", *best, points[*best].label,
+          shortNumber(points[*best].relMse.mean / p.relMse.mean), shortNumber(cost->of(points[*best]) / cost->of(p)),
+          cost->unit);
+  const fs::path file = folder / "picked.json";
+  writeFile(file, settingsFile(grid.settings(*chosen)));
+  print("wrote       {} (for --config)\n", file.string());
+}
+
 void run(const StudyArguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
-  const std::vector<std::string> studies{"cost", "merge"};
+  const std::vector<std::string> studies{"cost", "merge", "pick"};
   if (arguments.names.empty()) throw UsageError(fmt::format("irad study: which? {}", fmt::join(studies, " | ")));
   if (arguments.names[0] == "merge") return mergeShards(arguments);
+  if (arguments.names[0] == "pick") return pickPoint(arguments);
   if (arguments.names[0] != "cost")
     throw UsageError(fmt::format("unknown study '{}'{}; there are: {}", arguments.names[0],
                                  suggestion(arguments.names[0], studies), fmt::join(studies, ", ")));
@@ -522,8 +594,14 @@ Command studyCommand() {
   const auto arguments = std::make_shared<StudyArguments>();
   return {"study", "What accuracy costs: error against time and memory over a grid of settings",
           [arguments](Options& options) {
-            options.arguments("STUDY", arguments->names,
-                              "cost SCENE: measure a grid; merge DIR...: put the shards of one study together");
+            options.arguments(
+                "STUDY", arguments->names,
+                "cost SCENE: measure a grid; merge DIR...: put the shards of one study together; pick DIR: settings by "
+                "a budget, from its measured points. Of a picture v "
+                "against a reference r, over all colour channels: relMSE = mean (v - r)^2 / (r^2 + e) of means "
+                "over 8 x 8 pixels, e = (0.1 mean r)^2; RMSE = sqrt mean (v - r)^2; mean error = mean (v - r); "
+                "PSNR = 20 log10(largest r / RMSE) dB; FLIP = mean LDR-FLIP (Andersson et al. 2020) of both "
+                "times 2^camera.exposure_ev within [0, 1]; +-: half a 95 % interval over seeds by Student's t");
             options.values(
                 "--sweep", "NAME=VALUES", arguments->sweeps,
                 "Setting to go through: a,b,c or FIRST..LAST*FACTOR or FIRST..LAST+STEP; several make a grid");
@@ -545,6 +623,10 @@ Command studyCommand() {
             options.values("--peer", "NAME", arguments->peers, "Measure another renderer too: path-tracer");
             options.value("--peer-samples", "N[,N...]", arguments->peerSamples,
                           "Its samples per pixel, even (default 2,8,32,128)");
+            options.value("--budget-ms", "X", arguments->budgetMs, "pick: milliseconds to spend at most, of --cost");
+            options.value("--budget-mib", "Y", arguments->budgetMib, "pick: device memory to take at most");
+            options.value("--target-error", "E", arguments->targetError, "pick: the cheapest with no more relMSE");
+            options.value("--cost", "NAME", arguments->cost, "pick: first_picture (default), build, relight or frame");
             arguments->picture.declare(options);
             arguments->sceneOptions.declare(options);
             arguments->settings.declare(options);

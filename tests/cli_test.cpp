@@ -51,7 +51,7 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"export", "box", "--inspect", "3,4,x"}, "--inspect: 'x' is not allowed; expected an integer, 0 to 1023"},
       {{"bench", "box", "--versus", "matrix.fromat=csr"}, "did you mean matrix.format"},
       {{"bench", "box", "--rebuilds", "x"}, "--rebuilds: 'x'"},
-      {{"study"}, "irad study: which? cost | merge"},
+      {{"study"}, "irad study: which? cost | merge | pick"},
       {{"study", "cots", "box"}, "unknown study 'cots' (did you mean cost?)"},
       {{"study", "cost", "box", "park"}, "unexpected argument 'park'"},
       {{"study", "cost", "box", "--sweep", "matrix.rayz=32,64"},
@@ -59,6 +59,9 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"study", "cost", "box", "--sweep", "matrix.rays=32,5000"}, "matrix.rays: '5000' is not allowed"},
       {{"study", "cost", "box", "--sweep", "matrix.rays=32..64"}, "--sweep matrix.rays: '32..64' has no step"},
       {{"study", "cost", "box", "--shard", "5/4"}, "--shard: '5/4': the part is not 1 to 4"},
+      {{"study", "pick", "a"}, "by what? --budget-ms X, --budget-mib Y or --target-error E"},
+      {{"study", "pick", "a", "--budget-ms", "-1"}, "--budget-ms: '-1' is not allowed; expected a number above 0"},
+      {{"study", "pick", "a", "--budget-ms", "5", "--cost", "biuld"}, "--cost: unknown 'biuld' (did you mean build?)"},
       {{"study", "merge"}, "irad study merge: no folders given"},
       {{"study", "merge", "a"}, "irad study merge: no --out DIR"},
       {{"settings", "--bogus"}, "unknown option '--bogus'"},
@@ -126,9 +129,9 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
 TEST(Cli, HelpVersionAndDevicesAreStatus0) {
   const RunResult help = runIrad({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"render", "bench", "export", "memory", "settings", "views", "Exit status"})
+  for (const char* command : {"render", "bench", "export", "memory", "settings", "study", "views", "Exit status"})
     EXPECT_TRUE(contains(help.out, command)) << command;
-  for (const char* command : {"render", "bench", "export", "memory", "settings", "views"})
+  for (const char* command : {"render", "bench", "export", "memory", "settings", "study", "views"})
     EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
   const RunResult version = runIrad({"--version"});
   EXPECT_EQ(version.status, 0);

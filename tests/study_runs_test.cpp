@@ -100,6 +100,18 @@ TEST_F(StudyRuns, AKilledStudyGoesOnAndShardsMergeToTheSameErrors) {
   EXPECT_EQ(file("merged", "errors.csv"), file("whole", "errors.csv"));
   EXPECT_TRUE(contains(file("merged", "report.html"), "Where the milliseconds go"));
 
+  // What is picked can be rendered.
+  const RunResult picked = runIrad({"study", "pick", (folder_.path / "merged").string(), "--target-error", "1000"});
+  ASSERT_EQ(picked.status, 0) << picked.err;
+  EXPECT_TRUE(contains(picked.out, "point       ") && contains(picked.out, "build       ")) << picked.out;
+  const RunResult rendered =
+      runIrad({"render", "box", "--size", "16x16", "--config", (folder_.path / "merged/picked.json").string(), "--out",
+               (folder_.path / "rendered").string()});
+  EXPECT_EQ(rendered.status, 0) << rendered.err;
+  const RunResult none = runIrad({"study", "pick", (folder_.path / "merged").string(), "--budget-ms", "1e-6"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_TRUE(contains(none.err, "none of its 2 points is within that")) << none.err;
+
   // Another study does not go on in its folder, and does not merge with it.
   const RunResult other = runIrad(study("killed", {"--set", "solver.tolerance=0.01"}));
   EXPECT_EQ(other.status, 2);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "gi/study/front.h"
+#include "gi/study/pick.h"
 #include "gi/study/plot.h"
 #include "gi/study/report.h"
 #include "gi/study/results.h"
@@ -228,6 +229,22 @@ TEST(Results, AreSummedUpByHand) {
       << findings(summarize(noisy, {"a", "b", "c"}), {}, 2)[1];
   // Between 8 and 200 samples the error falls as time^-1: .0101 after .4 x .125 / .0101 s.
   EXPECT_TRUE(contains(sentences[1], "The path tracer takes about 4950 ms")) << sentences[1];
+}
+
+TEST(Picking, TakesTheLeastErrorWithinABudgetOrTheLeastCostForAnError) {
+  // First pictures 16, 46 and 86 ms, memory 10, 15 and 20 MiB, relMSE .0337, .0101 and .0202.
+  std::vector<PointSummary> points = summarize(someResults(), {"a", "b", "c"});
+  const CostKind& cost = costKinds().front();
+  EXPECT_EQ(pick(points, cost, {.ms = 45}), 0u);
+  EXPECT_EQ(pick(points, cost, {.ms = 46}), 1u);
+  EXPECT_EQ(pick(points, cost, {.ms = 1000}), 1u) << "c is dearer and worse";
+  EXPECT_EQ(pick(points, cost, {.ms = 1000, .mib = 12}), 0u);
+  EXPECT_EQ(pick(points, cost, {.error = .05}), 0u) << "the cheapest that is good enough";
+  EXPECT_EQ(pick(points, cost, {.error = .03}), 1u);
+  EXPECT_EQ(pick(points, cost, {.ms = 15}), std::nullopt);
+  EXPECT_EQ(pick(points, cost, {.error = .001}), std::nullopt);
+  points[1].failure = "no memory";
+  EXPECT_EQ(pick(points, cost, {.ms = 1000}), 2u) << "not what could not be computed";
 }
 
 TEST(Results, AsTablesNameFailuresAndDominators) {
