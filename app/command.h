@@ -43,6 +43,7 @@ Command memoryCommand();
 Command planCommand();
 Command referenceCommand();
 Command settingsCommand();
+Command studyCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 Command writebackCommand();

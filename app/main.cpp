@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
                         writebackCommand(),
                         exportCommand(),
                         settingsCommand(),
+                        studyCommand(),
                         viewsCommand(),
                     });
 }

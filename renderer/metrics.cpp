@@ -3,27 +3,42 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "renderer/base/error.h"
+#include "renderer/flip.h"
 
 namespace irad {
+namespace {
+
+/// The difference of two infinities is NaN.
+bool comparable(const glm::vec4& v, const glm::vec4& r) {
+  const glm::dvec3 d = glm::dvec3(v) - glm::dvec3(r);
+  return std::isfinite(d.x + d.y + d.z);
+}
+
+double square(double value) {
+  return value * value;
+}
+
+}  // namespace
 
 Metrics measure(std::span<const glm::vec4> values, std::span<const glm::vec4> reference) {
   IRAD_CHECK_OP(values.size(), ==, reference.size());
   Metrics m;
-  double squares = 0, relative = 0, sum = 0, peak = 0;
+  double squares = 0, relative = 0, sum = 0, sumReference = 0, peak = 0;
   for (size_t i = 0; i < values.size(); ++i) {
-    const glm::dvec3 v(values[i]), r(reference[i]);
-    const glm::dvec3 d = v - r;
-    if (!std::isfinite(d.x + d.y + d.z)) {  // the difference of two infinities is NaN
+    if (!comparable(values[i], reference[i])) {
       ++m.leftOut;
       continue;
     }
+    const glm::dvec3 r(reference[i]), d = glm::dvec3(values[i]) - r;
     ++m.elements;
     for (int c = 0; c < 3; ++c) {
       squares += d[c] * d[c];
       relative += d[c] * d[c] / (r[c] * r[c] + kRelMseEpsilon);
       sum += d[c];
+      sumReference += r[c];
       peak = std::max(peak, r[c]);
       m.largest = std::max(m.largest, std::abs(d[c]));
     }
@@ -34,7 +49,65 @@ Metrics measure(std::span<const glm::vec4> values, std::span<const glm::vec4> re
   m.relMse = relative / n;
   m.psnr = m.rmse > 0 ? 20 * std::log10(peak / m.rmse) : std::numeric_limits<double>::infinity();
   m.meanError = sum / n;
+  m.meanReference = sumReference / n;
+  const double epsilon = square(.1 * m.meanReference);
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!comparable(values[i], reference[i])) continue;
+    const glm::dvec3 r(reference[i]), d = glm::dvec3(values[i]) - r;
+    for (int c = 0; c < 3; ++c)
+      if (d[c] != 0) m.scaledRelMse += d[c] * d[c] / (r[c] * r[c] + epsilon) / n;
+  }
   return m;
+}
+
+PictureMetrics measurePicture(glm::uvec2 size, std::span<const glm::vec4> values, std::span<const glm::vec4> reference,
+                              std::span<const glm::vec4> second, double exposure) {
+  IRAD_CHECK_OP(values.size(), ==, size_t{size.x} * size.y);
+  IRAD_CHECK_OP(reference.size(), ==, values.size());
+  const std::span<const glm::vec4> other = second.empty() ? reference : second;
+  IRAD_CHECK_OP(other.size(), ==, values.size());
+  PictureMetrics out;
+  std::vector<glm::vec4> middle(values.size());
+  for (size_t i = 0; i < middle.size(); ++i) middle[i] = 0.5f * (reference[i] + other[i]);
+  out.pixels = measure(values, middle);
+
+  const double epsilon = square(.1 * out.pixels.meanReference);
+  double relative = 0;
+  size_t blocks = 0;
+  for (uint32_t y0 = 0; y0 + kBlockSide <= size.y; y0 += kBlockSide)
+    for (uint32_t x0 = 0; x0 + kBlockSide <= size.x; x0 += kBlockSide) {
+      glm::dvec3 v(0), r(0), s(0);
+      bool whole = true;
+      for (uint32_t y = y0; y < y0 + kBlockSide; ++y)
+        for (uint32_t x = x0; x < x0 + kBlockSide; ++x) {
+          const size_t i = size_t{y} * size.x + x;
+          whole = whole && comparable(values[i], middle[i]);
+          v += glm::dvec3(values[i]);
+          r += glm::dvec3(reference[i]);
+          s += glm::dvec3(other[i]);
+        }
+      if (!whole) continue;
+      ++blocks;
+      const double n = square(kBlockSide);
+      for (int c = 0; c < 3; ++c) {
+        const double product = (v[c] - r[c]) * (v[c] - s[c]) / (n * n);
+        if (product != 0) relative += product / (square((r[c] + s[c]) / (2 * n)) + epsilon);
+      }
+    }
+  out.blockRelMse =
+      blocks > 0 ? relative / (3.0 * static_cast<double>(blocks)) : std::numeric_limits<double>::quiet_NaN();
+
+  const auto exposed = [&](std::span<const glm::vec4> from) {
+    std::vector<glm::vec4> to(from.begin(), from.end());
+    for (glm::vec4& pixel : to)
+      for (int c = 0; c < 3; ++c) {
+        const double value = exposure * static_cast<double>(pixel[c]);
+        pixel[c] = std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : value > 0 ? 1.0f : 0.0f;
+      }
+    return to;
+  };
+  out.flip = flip(size, exposed(values), exposed(middle));
+  return out;
 }
 
 }  // namespace irad

@@ -56,6 +56,19 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"reference", "box", "--of", "triangels"}, "--of: unknown 'triangels' (did you mean triangles?)"},
       {{"reference", "box", "--of", "triangles", "--spp", "1"}, "--spp: '1' is not allowed; expected an integer, 2 to"},
       {{"reference", "box", "--of", "triangles", "--noise", "2"}, "--noise: '2' is not allowed; expected a number"},
+      {{"study"}, "irad study: which? cost | merge | pick"},
+      {{"study", "cots", "box"}, "unknown study 'cots' (did you mean cost?)"},
+      {{"study", "cost", "box", "park"}, "unexpected argument 'park'"},
+      {{"study", "cost", "box", "--sweep", "matrix.rayz=32,64"},
+       "unknown setting 'matrix.rayz' (did you mean matrix.rays"},
+      {{"study", "cost", "box", "--sweep", "matrix.rays=32,5000"}, "matrix.rays: '5000' is not allowed"},
+      {{"study", "cost", "box", "--sweep", "matrix.rays=32..64"}, "--sweep matrix.rays: '32..64' has no step"},
+      {{"study", "cost", "box", "--shard", "5/4"}, "--shard: '5/4': the part is not 1 to 4"},
+      {{"study", "pick", "a"}, "by what? --budget-ms X, --budget-mib Y or --target-error E"},
+      {{"study", "pick", "a", "--budget-ms", "-1"}, "--budget-ms: '-1' is not allowed; expected a number above 0"},
+      {{"study", "pick", "a", "--budget-ms", "5", "--cost", "biuld"}, "--cost: unknown 'biuld' (did you mean build?)"},
+      {{"study", "merge"}, "irad study merge: no folders given"},
+      {{"study", "merge", "a"}, "irad study merge: no --out DIR"},
       {{"settings", "--bogus"}, "unknown option '--bogus'"},
       {{"views", "extra"}, "unexpected argument 'extra'"},
   };
@@ -129,9 +142,10 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
 TEST(Cli, HelpVersionAndDevicesAreStatus0) {
   const RunResult help = runIrad({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "views", "Exit status"})
+  for (const char* command :
+       {"render", "bench", "export", "memory", "reference", "settings", "study", "views", "Exit status"})
     EXPECT_TRUE(contains(help.out, command)) << command;
-  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "views"})
+  for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "study", "views"})
     EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
   const RunResult version = runIrad({"--version"});
   EXPECT_EQ(version.status, 0);

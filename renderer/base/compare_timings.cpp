@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "renderer/base/student.h"
+
 namespace irad {
 namespace {
 
@@ -39,24 +41,6 @@ double medianError(const std::vector<double>& values, size_t blocks, std::mt1993
   // With so few blocks the resampled variance is too small by 1 / blocks.
   const double mean = sum / kResamples, share = 1 - 1.0 / static_cast<double>(blocks);
   return std::sqrt(std::max(squares / kResamples - mean * mean, 0.0) / share);
-}
-
-/// Upper quantile of the standard normal distribution, by bisection.
-double normalQuantile(double upper) {
-  double low = 0, high = 10;
-  for (int i = 0; i < 60; ++i) {
-    const double z = 0.5 * (low + high);
-    (0.5 * std::erfc(z / std::sqrt(2.0)) > upper ? low : high) = z;
-  }
-  return low;
-}
-
-/// Upper quantile of Student's distribution (Abramowitz and Stegun 1964, 26.7.5; within 1 % from 9 degrees of freedom
-/// on).
-double studentQuantile(double upper, double freedom) {
-  const double z = normalQuantile(upper), z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * freedom * freedom * freedom);
 }
 
 std::string stagesOf(const FrameSample& frame) {

@@ -1,0 +1,381 @@
+#include "gi/study/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "gi/study/front.h"
+#include "gi/study/plot.h"
+#include "renderer/base/number_text.h"
+#include "renderer/base/output_file.h"
+
+namespace irad {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<CostAndError> pairsOf(const std::vector<PointSummary>& points, const CostKind& cost) {
+  std::vector<CostAndError> out;
+  for (const PointSummary& p : points) out.push_back({cost.of(p), p.relMse.mean});
+  return out;
+}
+
+std::string amount(const CostKind& cost, double value) {
+  return fmt::format("{} {}", plainNumber(value), cost.unit);
+}
+/// Whether it is not known which of two errors is less.
+const char* orNot(const PointSummary& a, const PointSummary& b) {
+  const bool overlap = std::abs(a.relMse.mean - b.relMse.mean) < a.relMse.half + b.relMse.half;
+  return std::isfinite(a.relMse.half + b.relMse.half) && overlap ? " (their intervals overlap)" : "";
+}
+std::string named(const PointSummary& p) {
+  return fmt::format("{} ({})", p.point, p.label);
+}
+
+/// The seconds after which a peer's error is `error`, between two of its pictures; none beyond them.
+std::optional<double> secondsFor(std::vector<PeerRow> peers, double error) {
+  std::erase_if(peers, [](const PeerRow& p) { return p.relMse <= 0 || p.seconds <= 0; });
+  std::ranges::sort(peers, {}, &PeerRow::seconds);
+  for (size_t i = 0; i + 1 < peers.size(); ++i) {
+    const PeerRow &a = peers[i], &b = peers[i + 1];
+    if ((a.relMse - error) * (b.relMse - error) > 0 || a.relMse == b.relMse) continue;
+    const double share = std::log(error / a.relMse) / std::log(b.relMse / a.relMse);
+    return a.seconds * std::pow(b.seconds / a.seconds, share);
+  }
+  return std::nullopt;
+}
+
+std::string finding(const CostKind& cost, const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
+                    std::optional<size_t> given) {
+  const std::vector<CostAndError> pairs = pairsOf(points, cost);
+  const std::vector<size_t> best = front(pairs);
+  std::string name = cost.name;
+  std::ranges::replace(name, '_', ' ');
+  name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  if (best.empty()) return fmt::format("{}: nothing was measured.", name);
+  const PointSummary &cheap = points[best.front()], &good = points[best.back()];
+  std::string out = fmt::format("{}: {} of {} points {} on the front", name, best.size(), points.size(),
+                                best.size() == 1 ? "is" : "are");
+  if (best.size() == 1)
+    out += fmt::format(", {} with relMSE {} at {}.", named(good), shortNumber(good.relMse.mean),
+                       amount(cost, cost.of(good)));
+  else
+    out += fmt::format(", from relMSE {} at {} with {} to {} at {} with {}.", shortNumber(cheap.relMse.mean),
+                       amount(cost, cost.of(cheap)), named(cheap), shortNumber(good.relMse.mean),
+                       amount(cost, cost.of(good)), named(good));
+  std::optional<size_t> from;
+  if (given && std::isfinite(pairs[*given].cost) && std::isfinite(pairs[*given].error)) {
+    from = given;
+    if (const std::optional<size_t> by = dominators(pairs)[*given]) {
+      out +=
+          fmt::format(" The settings given, {}, are not: {} has {} of their error{} for {} of their {}.",
+                      named(points[*given]), named(points[*by]), shortNumber(pairs[*by].error / pairs[*given].error),
+                      orNot(points[*by], points[*given]), shortNumber(pairs[*by].cost / pairs[*given].cost), cost.unit);
+      from = by;
+    } else {
+      out += fmt::format(" The settings given, {}, are on it.", named(points[*given]));
+    }
+  }
+  const auto place = from ? std::ranges::find(best, *from) : best.begin();
+  if (place != best.end() && place + 1 != best.end()) {
+    const CostAndError &here = pairs[*place], &next = pairs[*(place + 1)];
+    out += fmt::format(" From {} the next on the front, {}, has {} % less error{} for {} more.", *place, *(place + 1),
+                       shortNumber(100 * (1 - next.error / here.error)), orNot(points[*place], points[*(place + 1)]),
+                       amount(cost, next.cost - here.cost));
+  }
+  if (cost.time && !peers.empty()) {
+    if (const std::optional<double> seconds = secondsFor(peers, good.relMse.mean))
+      out += fmt::format(" The path tracer takes about {} ms for the error of point {}, {} times as long.",
+                         plainNumber(1e3 * *seconds), good.point, plainNumber(1e3 * *seconds / cost.of(good)));
+    else
+      out +=
+          fmt::format(" None of the path tracer's pictures lies on either side of the error of point {}.", good.point);
+  }
+  return out;
+}
+
+std::string base64(const std::string& bytes) {
+  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    const size_t count = std::min<size_t>(3, bytes.size() - i);
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<uint8_t>(bytes[i + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) out += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+/// Part of a picture of the folder, at least twice as large, with its caption; empty where the picture is not there.
+std::string cropOf(const fs::path& folder, const std::string& name, const std::string& caption,
+                   const ReportNotes& notes) {
+  std::ifstream in(folder / "pictures" / (name + ".png"), std::ios::binary);
+  if (!in || notes.cropSize.x == 0) return "";
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const uint32_t zoom = std::max(2u, 224 / notes.cropSize.x);
+  return fmt::format(
+      "<figure><svg viewBox=\"{} {} {} {}\" width=\"{}\" height=\"{}\" role=\"img\"><image width=\"{}\" height=\"{}\" "
+      "href=\"data:image/png;base64,{}\" style=\"image-rendering:pixelated\"/></svg><figcaption>{}</figcaption>"
+      "</figure>\n",
+      notes.cropAt.x, notes.cropAt.y, notes.cropSize.x, notes.cropSize.y, zoom * notes.cropSize.x,
+      zoom * notes.cropSize.y, notes.pictureSize.x, notes.pictureSize.y, base64(bytes), escapeXml(caption));
+}
+
+/// Pictures beside each other that took the same time, and that have the same error: around the settings given or,
+/// where those are on the front, around the point that is furthest from it.
+std::string crops(const fs::path& folder, const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
+                  std::optional<size_t> given, const ReportNotes& notes) {
+  const CostKind& cost = costKinds().front();
+  const std::vector<CostAndError> pairs = pairsOf(points, cost);
+  const std::vector<std::optional<size_t>> by = dominators(pairs);
+  const std::vector<size_t> best = front(pairs);
+  if (best.empty()) return "<p>No pictures: no point has both a time and an error.</p>\n";
+  std::optional<size_t> anchor;
+  if (given && std::isfinite(pairs[*given].cost) && std::isfinite(pairs[*given].error) && by[*given]) anchor = given;
+  double furthest = 1;
+  for (size_t i = 0; i < points.size() && !(given && anchor == given); ++i)
+    if (by[i] && std::isfinite(pairs[i].cost) && std::isfinite(pairs[i].error) &&
+        pairs[i].error / pairs[*by[i]].error > furthest)
+      furthest = pairs[i].error / pairs[*by[i]].error, anchor = i;
+  const bool alone = !anchor;
+  if (alone) anchor = best.back();
+  const auto captionOf = [&](const PointSummary& p) {
+    return fmt::format("Point {}: {}; relMSE {}, first picture {} ms", p.point, p.label, shortNumber(p.relMse.mean),
+                       plainNumber(p.firstPictureMs()));
+  };
+  const auto nearestPeer = [&](auto&& distance) -> const PeerRow* {
+    const PeerRow* nearest = nullptr;
+    for (const PeerRow& p : peers)
+      if (p.relMse > 0 && p.seconds > 0 && (!nearest || distance(p) < distance(*nearest))) nearest = &p;
+    return nearest;
+  };
+  const auto row = [&](const std::string& title, std::optional<size_t> other, const PeerRow* peer) {
+    std::string out = fmt::format("<h3>{}</h3>\n<div class=\"crops\">\n", title);
+    out += cropOf(folder, kReferenceName, "Reference", notes);
+    out += cropOf(folder, pictureName(*anchor), captionOf(points[*anchor]), notes);
+    if (other) out += cropOf(folder, pictureName(*other), captionOf(points[*other]), notes);
+    if (peer)
+      out += cropOf(folder, pictureName(peer->name, peer->samples),
+                    fmt::format("Path tracer, {} samples per pixel: relMSE {}, {} ms", peer->samples,
+                                shortNumber(peer->relMse), plainNumber(1e3 * peer->seconds)),
+                    notes);
+    return out + "</div>\n";
+  };
+  // Least error for no more time, and least time for no more error.
+  std::optional<size_t> inTime, inError;
+  if (!alone) {
+    inTime = by[*anchor];
+    for (const size_t i : best)
+      if (!inError && pairs[i].error <= pairs[*anchor].error) inError = i;
+  }
+  std::string out =
+      row("Equal time", inTime,
+          nearestPeer([&](const PeerRow& p) { return std::abs(std::log(1e3 * p.seconds / pairs[*anchor].cost)); }));
+  out += row("Equal error", inError,
+             nearestPeer([&](const PeerRow& p) { return std::abs(std::log(p.relMse / pairs[*anchor].error)); }));
+  return out;
+}
+
+std::string plotOf(const CostKind& cost, const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
+                   std::optional<size_t> given) {
+  const std::vector<CostAndError> pairs = pairsOf(points, cost);
+  const std::vector<std::optional<size_t>> by = dominators(pairs);
+  PlotSeries onFront{"on the front", PlotStyle::Front, {}}, dominated{"dominated", PlotStyle::Dominated, {}},
+      ours{"settings given", PlotStyle::Given, {}}, peer{"path tracer (CPU), samples per pixel", PlotStyle::Peer, {}};
+  const char* kind = std::string_view(cost.name) == "build"     ? "setup"
+                     : std::string_view(cost.name) == "relight" ? "relight"
+                     : std::string_view(cost.name) == "frame"   ? "camera"
+                                                                : "";
+  for (const PointSummary& p : points) {
+    const CostAndError& pair = pairs[p.point];
+    if (!(pair.cost > 0) || !(pair.error > 0) || !std::isfinite(pair.cost)) continue;
+    PlotPoint mark{pair.cost, pair.error, pair.cost, pair.cost, pair.error, pair.error, std::to_string(p.point), ""};
+    if (const auto spread = p.gpu.find(kind); spread != p.gpu.end())
+      mark.xLow = spread->second.p5, mark.xHigh = spread->second.p95;
+    if (std::isfinite(p.relMse.half)) mark.yLow = pair.error - p.relMse.half, mark.yHigh = pair.error + p.relMse.half;
+    mark.hint =
+        fmt::format("{}: {}; relMSE {}, {}", p.point, p.label, shortNumber(pair.error), amount(cost, pair.cost));
+    if (by[p.point]) mark.hint += fmt::format("; dominated by {}", named(points[*by[p.point]]));
+    if (given && *given == p.point) ours.points.push_back({mark.x, mark.y, mark.x, mark.x, mark.y, mark.y, "", ""});
+    (by[p.point] ? dominated : onFront).points.push_back(std::move(mark));
+  }
+  if (cost.time)
+    for (const PeerRow& p : peers)
+      if (p.relMse > 0 && p.seconds > 0)
+        peer.points.push_back({1e3 * p.seconds, p.relMse, 1e3 * p.seconds, 1e3 * p.seconds, p.relMse, p.relMse,
+                               fmt::format("{}", p.samples),
+                               fmt::format("path tracer, {} samples per pixel: relMSE {}, {} ms", p.samples,
+                                           shortNumber(p.relMse), plainNumber(1e3 * p.seconds))});
+  return logPlot(cost.axis, "relMSE of 8 × 8 means", {onFront, dominated, ours, peer});
+}
+
+/// The stages of the front's points in one kind of work.
+std::string barsOf(const char* title, const std::string& kind, const std::vector<PointSummary>& points,
+                   const std::vector<size_t>& chosen) {
+  std::map<std::string, double> totals;
+  for (const size_t i : chosen)
+    if (const auto stages = points[i].stages.find(kind); stages != points[i].stages.end())
+      for (const auto& [stage, spread] : stages->second) totals[stage] += spread.p50;
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [stage, ms] : totals) order.emplace_back(-ms, stage);
+  std::ranges::sort(order);
+  constexpr size_t kNamed = 8;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < std::min(order.size(), kNamed); ++i) names.push_back(order[i].second);
+  const bool rest = order.size() > kNamed;
+  if (rest) names.push_back(fmt::format("{} others", order.size() - kNamed));
+  std::vector<Bar> bars;
+  for (const size_t i : chosen) {
+    Bar bar{fmt::format("{}: {}", i, points[i].label), std::vector<double>(names.size(), 0.0)};
+    if (const auto stages = points[i].stages.find(kind); stages != points[i].stages.end())
+      for (size_t s = 0; s < order.size(); ++s)
+        if (const auto spread = stages->second.find(order[s].second); spread != stages->second.end())
+          bar.parts[std::min(s, names.size() - 1)] += spread->second.p50;
+    bars.push_back(std::move(bar));
+  }
+  return stackedBars(title, names, bars);
+}
+
+/// One row per point: its number and settings, then what `cells` makes of it; a failure in words across `columns`.
+template <class Cells>
+std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_t> given,
+                    const std::vector<const char*>& columns, Cells&& cells) {
+  std::string out = "<table>\n<tr><th>point</th><th class=\"name\">settings</th>";
+  for (const char* column : columns) out += fmt::format("<th>{}</th>", column);
+  out += "</tr>\n";
+  const std::vector<std::optional<size_t>> by = dominators(pairsOf(points, costKinds().front()));
+  for (const PointSummary& p : points) {
+    out += fmt::format("<tr{}><td>{}</td><td class=\"name\">{}{}</td>",
+                       !by[p.point] && p.seeds > 0 ? " class=\"front\"" : "", p.point, escapeXml(p.label),
+                       given && *given == p.point ? " (given)" : "");
+    if (p.failure.empty())
+      for (const std::string& cell : cells(p)) out += fmt::format("<td>{}</td>", cell);
+    else
+      out += fmt::format("<td colspan=\"{}\" class=\"name\">{}</td>", columns.size(), escapeXml(p.failure));
+    out += "</tr>\n";
+  }
+  return out + "</table>\n";
+}
+
+std::string tablesOf(const std::vector<PointSummary>& points, std::optional<size_t> given) {
+  const auto cell = [](double value) { return std::isfinite(value) ? plainNumber(value) : std::string("–"); };
+  const auto range = [&](const PointSummary& p, const char* kind) {
+    const auto spread = p.gpu.find(kind);
+    return spread == p.gpu.end()
+               ? std::string("–")
+               : fmt::format("{}–{}", plainNumber(spread->second.p5), plainNumber(spread->second.p95));
+  };
+  const std::vector<std::optional<size_t>> by = dominators(pairsOf(points, costKinds().front()));
+  std::string out = "<h2>Errors of all points</h2>\n<p>Blue: on the front of error against first picture.</p>\n";
+  out += tableOf(points, given,
+                 {"relMSE", "±", "RMSE", "±", "mean error", "±", "PSNR, dB", "FLIP", "±", "facets", "entries"},
+                 [&](const PointSummary& p) {
+                   return std::vector<std::string>{cell(p.relMse.mean),
+                                                   cell(p.relMse.half),
+                                                   cell(p.rmse.mean),
+                                                   cell(p.rmse.half),
+                                                   cell(p.meanError.mean),
+                                                   cell(p.meanError.half),
+                                                   cell(p.psnr.mean),
+                                                   cell(p.flip.mean),
+                                                   cell(p.flip.half),
+                                                   withThousands(static_cast<uint64_t>(p.facets)),
+                                                   withThousands(static_cast<uint64_t>(p.entries))};
+                 });
+  out += "<h2>Costs of all points</h2>\n";
+  out += tableOf(points, given,
+                 {"build, ms", "p5–p95", "wall", "relight, ms", "p5–p95", "frame, ms", "p5–p95", "matrix, MiB",
+                  "device, MiB", "dominated by"},
+                 [&](const PointSummary& p) {
+                   const auto wall = p.wall.find("setup");
+                   return std::vector<std::string>{cell(p.gpuMs("setup")),
+                                                   range(p, "setup"),
+                                                   cell(wall == p.wall.end() ? std::nan("") : wall->second.p50),
+                                                   cell(p.gpuMs("relight")),
+                                                   range(p, "relight"),
+                                                   cell(p.gpuMs("camera")),
+                                                   range(p, "camera"),
+                                                   cell(p.matrixMib),
+                                                   cell(p.deviceMib),
+                                                   by[p.point] ? std::to_string(*by[p.point]) : "front"};
+                 });
+  return out;
+}
+
+const char* const kStyle =
+    "body{font:15px/1.5 Inter,'DejaVu Sans',Helvetica,Arial,sans-serif;color:#222;background:#fff;max-width:1180px;"
+    "margin:32px auto;padding:0 24px}h1{font-size:26px}h2{font-size:20px;margin-top:36px}h3{font-size:16px}"
+    "table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}th,td{padding:4px 9px;"
+    "border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{border-bottom:2px solid #888}.name{text-align:"
+    "left}tr.front{background:#eaf3fa}.crops{display:flex;flex-wrap:wrap;gap:16px}figure{margin:0;max-width:256px}"
+    "figcaption{font-size:13px;color:#444}.finding{max-width:820px}svg{max-width:100%}";
+
+}  // namespace
+
+std::string pictureName(size_t point) {
+  return fmt::format("point-{:04}", point);
+}
+std::string pictureName(const std::string& peer, uint32_t samples) {
+  return fmt::format("{}-{}", peer, samples);
+}
+
+std::vector<std::string> findings(const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
+                                  std::optional<size_t> given) {
+  std::vector<std::string> out;
+  for (const CostKind& cost : costKinds()) out.push_back(finding(cost, points, peers, given));
+  return out;
+}
+
+void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyResults& results,
+                 const ReportNotes& notes) {
+  std::vector<std::string> labels, names;
+  std::vector<std::vector<std::string>> values;
+  std::optional<size_t> given;
+  for (const Sweep& sweep : grid.sweeps()) names.emplace_back(sweep.setting->name);
+  for (size_t point = 0; point < grid.size(); ++point) {
+    labels.push_back(grid.label(point));
+    values.push_back(grid.values(point));
+    if (!given && grid.settings(point) == grid.base()) given = point;
+  }
+  const std::vector<PointSummary> points = summarize(results, labels);
+  writeFile(folder / "points.csv", pointsCsv(points, names, values));
+  writeFile(folder / "stages.csv", stagesCsv(points));
+
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>What accuracy costs</title>"
+      "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head>\n<body>\n"
+      "<h1>What accuracy costs</h1>\n<ul>\n",
+      kStyle);
+  for (const std::string& fact : notes.facts) html += fmt::format("<li>{}</li>\n", escapeXml(fact));
+  html += "</ul>\n";
+  const std::vector<std::string> sentences = findings(points, results.peers, given);
+  for (size_t i = 0; i < costKinds().size(); ++i) {
+    const CostKind& cost = costKinds()[i];
+    const std::string plot = plotOf(cost, points, results.peers, given);
+    writeFile(folder / fmt::format("error-against-{}.svg", cost.name), plot);
+    html += fmt::format("<h2>Error against {}</h2>\n<p class=\"finding\">{}</p>\n{}", escapeXml(cost.axis),
+                        escapeXml(sentences[i]), plot);
+  }
+
+  // The front by first picture, and the settings given.
+  std::vector<size_t> chosen = front(pairsOf(points, costKinds().front()));
+  if (given && std::ranges::find(chosen, *given) == chosen.end() && points[*given].seeds > 0) chosen.push_back(*given);
+  html +=
+      "<h2>Where the milliseconds go</h2>\n<p class=\"finding\">Medians per stage of the points on the front by first "
+      "picture, cheapest first, and of the settings given.</p>\n";
+  const std::pair<const char*, const char*> kinds[] = {
+      {"setup", "build, ms"}, {"relight", "relight, ms"}, {"camera", "frame, ms"}};
+  for (const auto& [kind, axis] : kinds) {
+    const std::string plot = barsOf(axis, kind, points, chosen);
+    writeFile(folder / fmt::format("stages-{}.svg", kind), plot);
+    html += plot;
+  }
+  html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);
+  html += tablesOf(points, given) + "</body>\n</html>\n";
+  writeFile(folder / "report.html", html);
+}
+
+}  // namespace irad

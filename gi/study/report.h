@@ -1,0 +1,36 @@
+// A study's results for people: plots as SVG, one HTML file that needs nothing but itself.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gi/study/results.h"
+#include "gi/study/sweep.h"
+
+namespace irad {
+
+/// What a report says beside the figures.
+struct ReportNotes {
+  std::string title;               ///< "Cost of accuracy: box"
+  std::vector<std::string> facts;  ///< device, camera, reference, …: a line each
+  glm::uvec2 pictureSize{0};
+  glm::uvec2 cropAt{0}, cropSize{0};  ///< where the pictures are compared side by side
+  std::vector<std::string> warnings;
+};
+
+/// A sentence per plot and for the point `given` (that of the settings as they are, where the grid has it), from the
+/// numbers.
+std::vector<std::string> findings(const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
+                                  std::optional<size_t> given);
+
+/// points.csv, stages.csv, error-against-COST.svg, stages.svg, report.html; from the folder's pictures/ the crops.
+void writeReport(const std::filesystem::path& folder, const SettingGrid& grid, const StudyResults& results,
+                 const ReportNotes& notes);
+
+/// Names within pictures/, without extension.
+std::string pictureName(size_t point);
+std::string pictureName(const std::string& peer, uint32_t samples);
+inline constexpr const char* kReferenceName = "reference";
+
+}  // namespace irad

@@ -1,0 +1,141 @@
+#include "gi/study/sweep.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "renderer/base/error.h"
+
+namespace irad {
+namespace {
+
+double numberOf(const Setting& setting, std::string_view text, std::string_view range) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    throw UsageError(fmt::format("--sweep {}: '{}' of '{}' is no number", setting.name, text, range));
+  return value;
+}
+
+/// "a..b*f" or "a..b+s" as texts of its values.
+std::vector<std::string> expandRange(const Setting& setting, std::string_view range) {
+  if (setting.kind == SettingKind::toggle || setting.kind == SettingKind::choice)
+    throw UsageError(
+        fmt::format("--sweep {}: '{}' is a range, but its values are {}", setting.name, range, setting.allowed()));
+  const size_t dots = range.find(".."), step = range.find_first_of("*+", dots + 2);
+  if (step == std::string_view::npos)
+    throw UsageError(fmt::format("--sweep {}: '{}' has no step; expected FIRST..LAST*FACTOR or FIRST..LAST+STEP",
+                                 setting.name, range));
+  const double first = numberOf(setting, range.substr(0, dots), range),
+               last = numberOf(setting, range.substr(dots + 2, step - dots - 2), range),
+               by = numberOf(setting, range.substr(step + 1), range);
+  const bool multiplies = range[step] == '*';
+  if (last < first || (multiplies ? by <= 1 || first <= 0 : by <= 0))
+    throw UsageError(fmt::format("--sweep {}: '{}' does not get from {} to {}", setting.name, range, first, last));
+  std::vector<std::string> out;
+  for (size_t i = 0;; ++i) {
+    const double n = static_cast<double>(i), value = multiplies ? first * std::pow(by, n) : first + by * n;
+    if (value > last * (1 + 1e-9)) break;
+    if (out.size() >= SettingGrid::kMostPoints)
+      throw UsageError(
+          fmt::format("--sweep {}: '{}' has more than {} values", setting.name, range, SettingGrid::kMostPoints));
+    out.push_back(setting.kind == SettingKind::integer ? fmt::format("{:.0f}", std::round(value))
+                                                       : fmt::format("{}", static_cast<float>(value)));
+  }
+  return out;
+}
+
+Sweep parseSweep(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw UsageError(fmt::format("--sweep '{}': expected NAME=VALUE,VALUE,... or NAME=FIRST..LAST*FACTOR", text));
+  Sweep sweep{&findSetting(text.substr(0, equals)), {}};
+  if (std::string_view(sweep.setting->name) == "matrix.seed")
+    throw UsageError("--sweep matrix.seed: the seeds of a study are --seeds and --seed");
+  size_t start = equals + 1;
+  while (true) {
+    const size_t comma = text.find(',', start);
+    const std::string value = text.substr(start, comma - start);
+    const std::vector<std::string> values =
+        value.find("..") != std::string::npos ? expandRange(*sweep.setting, value) : std::vector<std::string>{value};
+    for (const std::string& one : values) {
+      Settings settings;
+      sweep.setting->assign(settings, one);
+      const std::string plain = sweep.setting->text(settings);
+      if (std::ranges::find(sweep.values, plain) != sweep.values.end())
+        throw UsageError(fmt::format("--sweep {}: {} is there twice", sweep.setting->name, plain));
+      sweep.values.push_back(plain);
+    }
+    if (comma == std::string::npos) return sweep;
+    start = comma + 1;
+  }
+}
+
+}  // namespace
+
+std::string Sweep::text() const {
+  return fmt::format("{}={}", setting->name, fmt::join(values, ","));
+}
+
+SettingGrid::SettingGrid(std::span<const std::string> sweeps, const Settings& base) : base_(base) {
+  for (const std::string& text : sweeps) {
+    Sweep sweep = parseSweep(text);
+    for (const Sweep& before : sweeps_)
+      if (before.setting == sweep.setting)
+        throw UsageError(fmt::format("--sweep {}: is swept twice", sweep.setting->name));
+    size_ *= sweep.values.size();
+    if (size_ > kMostPoints)
+      throw UsageError(fmt::format("--sweep {}: {} points are more than {}", sweep.setting->name, size_, kMostPoints));
+    sweeps_.push_back(std::move(sweep));
+  }
+  for (size_t point = 0; point < size_; ++point) try {
+      requireMatching(settings(point));
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--sweep: the point {}: {}", label(point), error.what()));
+    }
+}
+
+std::vector<std::string> SettingGrid::values(size_t point) const {
+  IRAD_CHECK_OP(point, <, size_);
+  std::vector<std::string> out(sweeps_.size());
+  for (size_t i = sweeps_.size(); i-- > 0;) {
+    out[i] = sweeps_[i].values[point % sweeps_[i].values.size()];
+    point /= sweeps_[i].values.size();
+  }
+  return out;
+}
+
+Settings SettingGrid::settings(size_t point) const {
+  Settings out = base_;
+  const std::vector<std::string> chosen = values(point);
+  for (size_t i = 0; i < chosen.size(); ++i) sweeps_[i].setting->assign(out, chosen[i]);
+  return out;
+}
+
+std::string SettingGrid::label(size_t point) const {
+  const std::vector<std::string> chosen = values(point);
+  std::string out;
+  for (size_t i = 0; i < chosen.size(); ++i)
+    out += fmt::format("{}{}={}", i > 0 ? " " : "", sweeps_[i].setting->name, chosen[i]);
+  return out.empty() ? "as given" : out;
+}
+
+Shard parseShard(std::string_view text) {
+  Shard shard;
+  const size_t slash = text.find('/');
+  const auto read = [&](std::string_view part, size_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc{} && end == part.data() + part.size();
+  };
+  if (slash == std::string_view::npos || !read(text.substr(0, slash), shard.part) ||
+      !read(text.substr(slash + 1), shard.of) || shard.of < 1 || shard.of > SettingGrid::kMostPoints)
+    throw UsageError(fmt::format("--shard: '{}' is not PART/OF", text));
+  if (shard.part < 1 || shard.part > shard.of)
+    throw UsageError(fmt::format("--shard: '{}': the part is not 1 to {}", text, shard.of));
+  return shard;
+}
+
+}  // namespace irad

@@ -1,0 +1,193 @@
+// `irad study` from outside: a study that is killed goes on, shards merge to the whole, points without memory are rows,
+// and references that do not fit are refused.
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "gi/check/path_tracer.h"
+#include "gi/check/process.h"
+#include "gi/study/results.h"
+#include "tests/support.h"
+
+namespace irad::test::study_runs_suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StudyRuns : public ::testing::Test {
+ protected:
+  /// A picture of the program's own as reference: rendered with more voxels and rays.
+  static void SetUpTestSuite() {
+    truth_ = std::make_unique<TemporaryFolder>();
+    const RunResult run =
+        runIrad({"render", "box", "--size", "32x24", "--set", "voxel.resolution=12", "--set", "matrix.rays=32", "--set",
+                 "light.shadow_resolution=64", "--out", truth_->path.string()});
+    ASSERT_EQ(run.status, 0) << run.err;
+    for (const char* name : {"lit.exr", "lit.pfm"})
+      if (fs::exists(truth_->path / name)) reference_ = truth_->path / name;
+  }
+  static void TearDownTestSuite() { truth_.reset(); }
+  std::vector<std::string> study(const std::string& out, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"study", "cost", "box", "--seeds", "2", "--sweep", "matrix.rays=8..16*2"};
+    for (const char* setting : {"voxel.resolution=8", "light.shadow_resolution=64"})
+      arguments.insert(arguments.end(), {"--set", setting});
+    arguments.insert(arguments.end(), {"--reference", reference_.string(), "--out", (folder_.path / out).string()});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  std::string file(const std::string& out, const std::string& name) const { return slurp(folder_.path / out / name); }
+
+  TemporaryFolder folder_;
+  static inline std::unique_ptr<TemporaryFolder> truth_;
+  static inline fs::path reference_;
+};
+
+TEST_F(StudyRuns, AKilledStudyGoesOnAndShardsMergeToTheSameErrors) {
+  const RunResult whole = runIrad(study("whole", {"--repeats", "1"}));
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_TRUE(contains(whole.out, "Build: ")) << whole.out;
+  const StudyResults results = readResults(folder_.path / "whole");
+  ASSERT_EQ(results.errors.size(), 4u);
+  for (const ErrorRow& r : results.errors) {
+    EXPECT_GT(r.relMse, 0);
+    EXPECT_GT(r.facets, 0u);
+    EXPECT_GT(r.deviceMib, r.matrixMib);
+  }
+  EXPECT_NE(results.errors[0].relMse, results.errors[1].relMse) << "of two seeds";
+  for (const char* name : {"report.html", "points.csv", "stages.csv", "error-against-build.svg"})
+    EXPECT_TRUE(fs::exists(folder_.path / "whole" / name)) << name;
+
+  // Killed when some errors are there.
+  const auto rows = [&] {
+    const std::string text = file("killed", "errors.csv");
+    return std::ranges::count(text, '\n');
+  };
+  bool killed = false;
+  {
+    Process process(iradProgram(), study("killed", {"--repeats", "1"}));
+    while (!killed && !process.poll()) {
+      if (rows() > 2) killed = process.kill() == 128 + SIGKILL;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  EXPECT_TRUE(killed);
+  EXPECT_LT(rows(), 5) << "killed too late to show anything";
+  EXPECT_TRUE(file("whole", "errors.csv").starts_with(file("killed", "errors.csv"))) << "what is there is whole";
+  EXPECT_FALSE(fs::exists(folder_.path / "killed/report.html"));
+  const RunResult rest = runIrad(study("killed", {"--repeats", "1"}));
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  EXPECT_EQ(file("killed", "errors.csv"), file("whole", "errors.csv")) << "the same to the last digit";
+
+  // What is done is not done again: with another repeat the times of the first stay.
+  const std::vector<TimeRow> before = readResults(folder_.path / "killed").times;
+  ASSERT_EQ(runIrad(study("killed", {"--repeats", "2"})).status, 0);
+  StudyResults more = readResults(folder_.path / "killed");
+  EXPECT_TRUE(more.hasTimes(0, 1) && more.hasTimes(1, 1) && !more.hasTimes(1, 2));
+  std::erase_if(more.times, [](const TimeRow& r) { return r.repeat > 0; });
+  EXPECT_TRUE(std::ranges::equal(more.times, before, {}, &TimeRow::ms, &TimeRow::ms));
+
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(runIrad(study(std::string("shard") + shard[0], {"--repeats", "1", "--shard", shard})).status, 0);
+  EXPECT_NE(file("shard1", "errors.csv"), file("whole", "errors.csv"));
+  const std::string shards[] = {(folder_.path / "shard1").string(), (folder_.path / "shard2").string()};
+  const RunResult merged =
+      runIrad({"study", "merge", shards[0], shards[1], "--out", (folder_.path / "merged").string()});
+  ASSERT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(file("merged", "errors.csv"), file("whole", "errors.csv"));
+  EXPECT_TRUE(contains(file("merged", "report.html"), "Where the milliseconds go"));
+
+  // What is picked can be rendered.
+  const RunResult picked = runIrad({"study", "pick", (folder_.path / "merged").string(), "--target-error", "1000"});
+  ASSERT_EQ(picked.status, 0) << picked.err;
+  EXPECT_TRUE(contains(picked.out, "point       ") && contains(picked.out, "build       ")) << picked.out;
+  const RunResult rendered =
+      runIrad({"render", "box", "--size", "16x16", "--config", (folder_.path / "merged/picked.json").string(), "--out",
+               (folder_.path / "rendered").string()});
+  EXPECT_EQ(rendered.status, 0) << rendered.err;
+  const RunResult none = runIrad({"study", "pick", (folder_.path / "merged").string(), "--budget-ms", "1e-6"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_TRUE(contains(none.err, "none of its 2 points is within that")) << none.err;
+
+  // Another study does not go on in its folder, and does not merge with it.
+  const RunResult other = runIrad(study("killed", {"--set", "solver.tolerance=0.01"}));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "holds another study: solver.tolerance")) << other.err;
+  std::string identity = file("shard2", "study.json");
+  const std::string member = "\"solver.tolerance\": 0.002";
+  ASSERT_TRUE(contains(identity, member));
+  identity.replace(identity.find(member), member.size(), "\"solver.tolerance\": 0.01");
+  std::ofstream(folder_.path / "shard2/study.json") << identity;
+  const RunResult mixed = runIrad({"study", "merge", shards[0], shards[1], "--out", (folder_.path / "mixed").string()});
+  EXPECT_EQ(mixed.status, 3);
+  EXPECT_TRUE(contains(mixed.err, "not the study of ") && contains(mixed.err, "solver.tolerance")) << mixed.err;
+}
+
+TEST_F(StudyRuns, APointWithoutMemoryIsARow) {
+  const RunResult run =
+      runIrad({"study", "cost", "box", "--sweep", "voxel.resolution=1022,8", "--set", "matrix.rays=8", "--set",
+               "light.shadow_resolution=64", "--seeds", "1", "--repeats", "1", "--memory-budget", "512", "--reference",
+               reference_.string(), "--out", (folder_.path / "full").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::string points = file("full", "points.csv");
+  EXPECT_TRUE(contains(points, "\n0,1022,\"pieces of voxels (facets) needs") ||
+              contains(points, "\n0,1022,pieces of voxels (facets) needs"))
+      << points;
+  EXPECT_TRUE(contains(points, "\n1,8,done,1,")) << points;
+}
+
+TEST_F(StudyRuns, ReferencesThatDoNotFitAreRefused) {
+  const RunResult size = runIrad(study("wrong", {"--size", "64x64"}));
+  EXPECT_EQ(size.status, 2);
+  EXPECT_TRUE(contains(size.err, ": 32 x 24 pixels, --size is 64 x 64")) << size.err;
+  EXPECT_FALSE(fs::exists(folder_.path / "wrong"));
+  EXPECT_EQ(runIrad({"study", "cost", "box", "--reference", (folder_.path / "none.exr").string()}).status, 3);
+  EXPECT_EQ(
+      runIrad({"study", "merge", (folder_.path / "none").string(), "--out", (folder_.path / "m").string()}).status, 3);
+}
+
+TEST_F(StudyRuns, ThePathTracersErrorFallsWithItsSamples) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  const RunResult run = runIrad({"study",
+                                 "cost",
+                                 "box",
+                                 "--set",
+                                 "voxel.resolution=12",
+                                 "--set",
+                                 "matrix.rays=16",
+                                 "--set",
+                                 "light.shadow_resolution=64",
+                                 "--seeds",
+                                 "1",
+                                 "--repeats",
+                                 "1",
+                                 "--view",
+                                 "indirect",
+                                 "--size",
+                                 "32x24",
+                                 "--reference-samples",
+                                 "1024",
+                                 "--peer",
+                                 "path-tracer",
+                                 "--peer-samples",
+                                 "2,8,32",
+                                 "--out",
+                                 (folder_.path / "peer").string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const StudyResults results = readResults(folder_.path / "peer");
+  ASSERT_EQ(results.peers.size(), 3u);
+  // Unbiased and independent: the error falls as 1/n, a factor of 4 each time.
+  for (size_t i = 0; i + 1 < 3; ++i) {
+    EXPECT_LT(results.peers[i + 1].relMse, results.peers[i].relMse / 2);
+    EXPECT_GT(results.peers[i].seconds, 0);
+  }
+  const RunResult lit = runIrad({"study", "cost", "box", "--reference-samples", "4"});
+  EXPECT_EQ(lit.status, 2);
+  EXPECT_TRUE(contains(lit.err, "--view lit: the path tracer is diffuse")) << lit.err;
+}
+
+}  // namespace
+}  // namespace irad::test::study_runs_suite

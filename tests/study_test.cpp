@@ -1,0 +1,334 @@
+// Studies without a device: grids of settings, fronts, rows on disk, merging, the report.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "gi/study/front.h"
+#include "gi/study/pick.h"
+#include "gi/study/plot.h"
+#include "gi/study/report.h"
+#include "gi/study/results.h"
+#include "gi/study/sweep.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
+#include "renderer/image_io.h"
+#include "tests/support.h"
+
+namespace irad::test::study_suite {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string refusal(const std::vector<std::string>& sweeps) {
+  try {
+    const SettingGrid grid(sweeps, Settings{});
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Sweeps, AreListsAndRanges) {
+  const std::vector<std::string> sweeps{"voxel.resolution=32,64", "matrix.rays=64..1024*2", "solver.omega=0.5..1+0.25"};
+  const SettingGrid grid(sweeps, Settings{});
+  ASSERT_EQ(grid.sweeps().size(), 3u);
+  EXPECT_EQ(grid.sweeps()[1].text(), "matrix.rays=64,128,256,512,1024");
+  EXPECT_EQ(grid.sweeps()[2].text(), "solver.omega=0.5,0.75,1");
+  EXPECT_EQ(grid.size(), 30u);
+  EXPECT_EQ(grid.values(0), (std::vector<std::string>{"32", "64", "0.5"}));
+  EXPECT_EQ(grid.values(1), (std::vector<std::string>{"32", "64", "0.75"})) << "the last changes first";
+  EXPECT_EQ(grid.values(29), (std::vector<std::string>{"64", "1024", "1"}));
+  EXPECT_EQ(grid.settings(29).matrix.gpu.rays, 1024u);
+  EXPECT_EQ(grid.label(4), "voxel.resolution=32 matrix.rays=128 solver.omega=0.75");
+  EXPECT_EQ(SettingGrid({}, Settings{}).size(), 1u) << "the settings as they are";
+  const std::vector<std::string> choice{"matrix.traversal=dda,sdf", "matrix.jitter=true,off"};
+  EXPECT_EQ(SettingGrid(choice, Settings{}).values(3), (std::vector<std::string>{"sdf", "false"}));
+}
+
+TEST(Sweeps, RefuseWhatIsWrongByNameAndValue) {
+  EXPECT_TRUE(contains(refusal({"voxel.resolutoin=3"}), "did you mean voxel.resolution"));
+  EXPECT_TRUE(contains(refusal({"voxel.resolution"}), "expected NAME=VALUE"));
+  EXPECT_TRUE(contains(refusal({"voxel.resolution=64,4"}), "voxel.resolution: '4' is not allowed"));
+  EXPECT_TRUE(contains(refusal({"voxel.resolution=64..4096*4"}), "voxel.resolution: '1024' is not allowed"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=64,32,64"}), "matrix.rays: 64 is there twice"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=64..1024"}), "'64..1024' has no step"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=64..1024*1"}), "'64..1024*1' does not get from 64 to 1024"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=64..32+8"}), "does not get"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=64..x*2"}), "'x' of '64..x*2' is no number"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=1..1e9+1"}), "values"));
+  EXPECT_TRUE(contains(refusal({"matrix.traversal=dda..sdf*2"}), "is a range, but its values are"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=32", "matrix.rays=64"}), "matrix.rays: is swept twice"));
+  EXPECT_TRUE(contains(refusal({"matrix.seed=1,2"}), "--seeds"));
+  EXPECT_TRUE(contains(refusal({"matrix.rays=1..4000+1", "voxel.resolution=8..100+1"}), "more than 10000"));
+  EXPECT_TRUE(contains(refusal({"matrix.format=csr,padded"}), "the point matrix.format=padded: matrix.format=padded"));
+}
+
+TEST(Sweeps, ShardsShareThePoints) {
+  const Shard second = parseShard("2/3");
+  EXPECT_FALSE(second.has(0));
+  EXPECT_TRUE(second.has(1));
+  EXPECT_TRUE(second.has(4));
+  for (const char* wrong : {"0/3", "4/3", "2", "a/b", "1/0", "1/3x", "-1/3"})
+    EXPECT_THROW(parseShard(wrong), UsageError);
+  try {
+    parseShard("4/3");
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(), "--shard: '4/3': the part is not 1 to 3");
+  }
+}
+
+bool better(const CostAndError& a, const CostAndError& b) {
+  return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
+}
+
+TEST(Fronts, AreWhatComparingAllPairsGives) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    const size_t count = 1 + random() % 40;
+    const uint32_t values = 2 + random() % 30;  // few: many are equal
+    std::vector<CostAndError> points;
+    for (size_t i = 0; i < count; ++i)
+      points.push_back({static_cast<double>(random() % values), static_cast<double>(random() % values)});
+    const std::vector<std::optional<size_t>> by = dominators(points);
+    const std::vector<size_t> best = front(points);
+    for (size_t i = 0; i < count; ++i) {
+      const bool beaten = std::ranges::any_of(points, [&](const CostAndError& p) { return better(p, points[i]); });
+      EXPECT_EQ(by[i].has_value(), beaten);
+      EXPECT_EQ(std::ranges::find(best, i) == best.end(), beaten);
+      if (!by[i]) continue;
+      EXPECT_TRUE(better(points[*by[i]], points[i]));
+      EXPECT_FALSE(by[*by[i]]) << "named by a point that is on the front";
+      for (const CostAndError& p : points) {
+        EXPECT_TRUE(!better(p, points[i]) || p.error >= points[*by[i]].error) << "the least error of those";
+      }
+    }
+    for (size_t i = 0; i + 1 < best.size(); ++i) EXPECT_LE(points[best[i]].cost, points[best[i + 1]].cost);
+  }
+}
+
+TEST(Fronts, LeaveOutWhatIsNoNumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<CostAndError> points{{nan, 0}, {1, 3}, {2, nan}, {2, 1}};
+  EXPECT_EQ(front(points), (std::vector<size_t>{1, 3}));
+  EXPECT_EQ(dominators(points)[0], 3u);
+  EXPECT_TRUE(front(std::vector<CostAndError>{{nan, nan}}).empty());
+}
+
+/// Three resolutions: an error that falls, times that rise, and a last point that is worse and dearer than the second.
+StudyResults someResults() {
+  StudyResults r;
+  const double errors[] = {.1 / 3, .01, .02}, build[] = {10, 40, 80};
+  for (size_t point = 0; point < 3; ++point) {
+    for (uint32_t seed = 0; seed < 3; ++seed)
+      r.errors.push_back({point, seed, errors[point] * (1 + .01 * seed), .1, -.001, 30, .05, 1000, 20000, 1.5,
+                          10 + 5 * static_cast<double>(point)});
+    for (uint32_t repeat = 0; repeat < 5; ++repeat) {
+      const double ms = build[point] + repeat;
+      r.times.push_back({point, repeat, "setup", "GI Voxelize", .25 * ms});
+      r.times.push_back({point, repeat, "setup", "GI, Build \"Matrix\"", .75 * ms});
+      r.times.push_back({point, repeat, "setup", "wall", 2 * ms});
+      r.times.push_back({point, repeat, "cold", "GI Solve", 3});
+      r.times.push_back({point, repeat, "relight", "GI Solve", 2});
+      r.times.push_back({point, repeat, "camera", "Forward", 1});
+    }
+  }
+  r.peers.push_back({"path-tracer", 2, .1, .5, .2, 0, 20, .3});
+  r.peers.push_back({"path-tracer", 8, .4, .125, .1, 0, 25, .2});
+  r.peers.push_back({"path-tracer", 200, 10, .005, .02, 0, 40, .05});
+  return r;
+}
+const std::vector<std::string> kSweep{"voxel.resolution=16,32,64"};
+
+TEST(Results, ComeBackFromTheirFilesAsTheyWere) {
+  TemporaryFolder folder;
+  const StudyIdentity identity = R"({"scene": "box", "settings": {"matrix.rays": 16}})";
+  StudyFolder written(folder.path / "s", identity);
+  written.results = someResults();
+  written.results.failures.push_back({1, "no memory:\n\"much\", it needs"});
+  written.save();
+  const auto files = contents(folder.path / "s");
+  StudyFolder read(folder.path / "s", identity);
+  ASSERT_EQ(read.results.errors.size(), 9u);
+  EXPECT_EQ(read.results.errors[1].relMse, written.results.errors[1].relMse) << "to the last bit";
+  EXPECT_EQ(read.results.times.size(), written.results.times.size());
+  EXPECT_EQ(read.results.failures.at(0).message, "no memory: \"much\", it needs");
+  EXPECT_TRUE(read.results.hasTimes(2, 4));
+  EXPECT_FALSE(read.results.hasTimes(2, 5));
+  read.save();
+  EXPECT_EQ(contents(folder.path / "s"), files);
+
+  try {
+    StudyFolder other(folder.path / "s", R"({"scene": "park", "settings": {"matrix.rays": 32}})");
+    FAIL() << "another study's results are not gone on with";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(contains(error.what(), "scene \"box\" instead of \"park\", matrix.rays 16 instead of 32"))
+        << error.what();
+  }
+  std::ofstream(folder.path / "s" / "errors.csv") << "point,seed\n1,2\n";
+  EXPECT_THROW(readResults(folder.path / "s"), InputError);
+  std::string text = files.at("times.csv");
+  text.replace(text.find("0,0,setup"), 1, "x");
+  std::ofstream(folder.path / "s" / "errors.csv") << files.at("errors.csv");
+  std::ofstream(folder.path / "s" / "times.csv") << text;
+  try {
+    readResults(folder.path / "s");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), "times.csv: row 1: 'x' is no number")) << error.what();
+  }
+}
+
+TEST(Results, OfShardsMergeToTheWhole) {
+  const StudyResults whole = someResults();
+  StudyResults merged;
+  for (size_t part = 0; part < 3; ++part) {
+    StudyResults shard = whole;
+    std::erase_if(shard.errors, [&](const ErrorRow& r) { return r.point % 3 != part; });
+    std::erase_if(shard.times, [&](const TimeRow& r) { return r.point % 3 != part; });
+    merge(merged, shard, "shard");
+  }
+  merge(merged, whole, "again");
+  EXPECT_EQ(merged.errors.size(), whole.errors.size());
+  EXPECT_EQ(merged.times.size(), whole.times.size());
+  StudyResults other = whole;
+  other.errors[0].relMse *= 1 + 1e-15;
+  EXPECT_THROW(merge(merged, other, "other"), InputError) << "the same seed gives the same error to the last digit";
+}
+
+TEST(Results, AreSummedUpByHand) {
+  const std::vector<PointSummary> points = summarize(someResults(), {"a", "b", "c"});
+  const PointSummary& b = points.at(1);
+  EXPECT_EQ(b.seeds, 3u);
+  EXPECT_NEAR(b.relMse.mean, .0101, 1e-15);
+  EXPECT_NEAR(b.relMse.half, 4.3027 * .0001 / std::sqrt(3.0), 1e-8) << "t of 2 degrees of freedom x s / sqrt 3";
+  EXPECT_DOUBLE_EQ(b.gpuMs("setup"), 42) << "the stages' sum without the wall, median of 40 to 44";
+  EXPECT_DOUBLE_EQ(b.gpu.at("setup").p5, 40);
+  EXPECT_DOUBLE_EQ(b.gpu.at("setup").p95, 44);
+  EXPECT_DOUBLE_EQ(b.wall.at("setup").p50, 84);
+  EXPECT_DOUBLE_EQ(b.firstPictureMs(), 42 + 3 + 1);
+  EXPECT_DOUBLE_EQ(b.stages.at("setup").at("GI Voxelize").p50, 10.5);
+
+  const std::vector<std::string> sentences = findings(points, someResults().peers, 2);
+  ASSERT_EQ(sentences.size(), costKinds().size());
+  EXPECT_TRUE(
+      contains(sentences[1],
+               "Build: 2 of 3 points are on the front, from relMSE 0.0337 at 12 ms with 0 (a) to 0.0101 at 42 ms "
+               "with 1 (b). The settings given, 2 (c), are not: 1 (b) has 0.5 of their error for 0.512 of their "
+               "ms."))
+      << sentences[1];
+  EXPECT_TRUE(contains(sentences[1], "with 1 (b). ") && !contains(sentences[1], "intervals overlap"));
+  StudyResults noisy = someResults();
+  noisy.errors[3].relMse *= 3;  // the first seed of b
+  EXPECT_TRUE(
+      contains(findings(summarize(noisy, {"a", "b", "c"}), {}, 2)[1], "of their error (their intervals overlap) for"))
+      << findings(summarize(noisy, {"a", "b", "c"}), {}, 2)[1];
+  // Between 8 and 200 samples the error falls as time^-1: .0101 after .4 x .125 / .0101 s.
+  EXPECT_TRUE(contains(sentences[1], "The path tracer takes about 4950 ms")) << sentences[1];
+}
+
+TEST(Picking, TakesTheLeastErrorWithinABudgetOrTheLeastCostForAnError) {
+  // First pictures 16, 46 and 86 ms, memory 10, 15 and 20 MiB, relMSE .0337, .0101 and .0202.
+  std::vector<PointSummary> points = summarize(someResults(), {"a", "b", "c"});
+  const CostKind& cost = costKinds().front();
+  EXPECT_EQ(pick(points, cost, {.ms = 45}), 0u);
+  EXPECT_EQ(pick(points, cost, {.ms = 46}), 1u);
+  EXPECT_EQ(pick(points, cost, {.ms = 1000}), 1u) << "c is dearer and worse";
+  EXPECT_EQ(pick(points, cost, {.ms = 1000, .mib = 12}), 0u);
+  EXPECT_EQ(pick(points, cost, {.error = .05}), 0u) << "the cheapest that is good enough";
+  EXPECT_EQ(pick(points, cost, {.error = .03}), 1u);
+  EXPECT_EQ(pick(points, cost, {.ms = 15}), std::nullopt);
+  EXPECT_EQ(pick(points, cost, {.error = .001}), std::nullopt);
+  points[1].failure = "no memory";
+  EXPECT_EQ(pick(points, cost, {.ms = 1000}), 2u) << "not what could not be computed";
+}
+
+TEST(Results, AsTablesNameFailuresAndDominators) {
+  StudyResults results = someResults();
+  std::erase_if(results.errors, [](const ErrorRow& r) { return r.point == 2; });
+  results.failures.push_back({2, "the matrix needs 9.0 MiB, 1.0 MiB are free"});
+  const SettingGrid grid(kSweep, Settings{});
+  const std::string csv =
+      pointsCsv(summarize(results, {"a", "b", "c"}), {"voxel.resolution"}, {{"16"}, {"32"}, {"64"}});
+  EXPECT_TRUE(contains(csv, "\n2,64,\"the matrix needs 9.0 MiB, 1.0 MiB are free\",0,")) << csv;
+  EXPECT_TRUE(contains(csv, "\n0,16,done,3,")) << csv;
+  EXPECT_TRUE(contains(csv, ",front,front,")) << csv;
+  EXPECT_TRUE(contains(stagesCsv(summarize(results, {"a", "b", "c"})),
+                       "1,setup,\"GI, Build \"\"Matrix\"\"\",30.0000,31.5000,33.0000,5\n"));
+}
+
+/// A report as `irad study cost` writes it, with pictures where this build writes PNG.
+fs::path report(const fs::path& folder) {
+  fs::create_directories(folder / "pictures");
+  const glm::uvec2 size(48, 32);
+  for (const std::string& name :
+       {std::string(kReferenceName), pictureName(0), pictureName(1), pictureName(2), pictureName("path-tracer", 8),
+        pictureName("path-tracer", 200), pictureName("path-tracer", 2)}) {
+    std::vector<glm::u8vec4> pixels;
+    for (uint32_t i = 0; i < size.x * size.y; ++i) pixels.emplace_back(i % 256, (i * name.size()) % 256, 128, 255);
+    writeDisplay(folder / "pictures" / name, size, pixels);
+  }
+  Settings given;
+  given.voxel.resolution = 64;
+  writeReport(folder, SettingGrid(kSweep, given), someResults(),
+              {.facts = {"Scene <box> & others"}, .pictureSize = size, .cropAt = {8, 8}, .cropSize = {24, 16}});
+  return folder / "report.html";
+}
+
+TEST(Reports, StandByThemselves) {
+  TemporaryFolder folder;
+  const std::string html = slurp(report(folder.path));
+  EXPECT_TRUE(contains(html, "Scene &lt;box&gt; &amp; others"));
+  EXPECT_FALSE(contains(html, "<script"));
+  for (const char* outside : {"src=\"http", "href=\"http", "url(", "href=\"/", "src=\"/"})
+    EXPECT_FALSE(contains(html, outside)) << outside;
+  EXPECT_TRUE(contains(html, "dominated by 1 (voxel.resolution=32)")) << "under the pointer, in the plots";
+  EXPECT_TRUE(contains(html, "voxel.resolution=64 (given)"));
+  for (const char* name : {"points.csv", "stages.csv", "error-against-first_picture.svg", "error-against-build.svg",
+                           "error-against-memory.svg", "stages-setup.svg"})
+    EXPECT_TRUE(fs::exists(folder.path / name)) << name;
+  if (fs::exists(folder.path / "pictures/reference.png")) {
+    EXPECT_TRUE(contains(html, "Equal time"));
+    EXPECT_TRUE(contains(html, "href=\"data:image/png;base64,iVBORw0KGgo")) << "PNG's first bytes";
+  }
+}
+
+TEST(Reports, OpenInABrowser) {
+  if (std::system("command -v chromium > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "chromium is not installed: nobody looks at the report";
+  TemporaryFolder folder;
+  const fs::path page = report(folder.path), shot = folder.path / "shot.png";
+  const RunResult run =
+      runProgram("/usr/bin/env",
+                 {"HOME=" + folder.path.string(), "chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                  "--enable-logging=stderr", "--window-size=1240,3600", "--dump-dom", "file://" + page.string()},
+                 120);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.out, "</html>"));
+  EXPECT_FALSE(contains(run.err, "CONSOLE")) << "the page complains:\n" << run.err;
+  const RunResult picture = runProgram(
+      "/usr/bin/env",
+      {"HOME=" + folder.path.string(), "chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+       "--window-size=1240,3600", "--screenshot=" + shot.string(), "file://" + page.string()},
+      120);
+  EXPECT_EQ(picture.status, 0) << picture.err;
+  EXPECT_GT(slurp(shot).size(), 50'000u) << "an empty page is smaller";
+}
+
+TEST(Plots, AreWholeXmlWithinTheirFrame) {
+  const std::string plot = logPlot("x", "y", {{"one & only", PlotStyle::Front, {{1, 1, 1, 1, 1, 1, "0", "<hint>"}}}});
+  EXPECT_TRUE(contains(plot, "one &amp; only"));
+  EXPECT_TRUE(contains(plot, "<title>&lt;hint&gt;</title>"));
+  EXPECT_FALSE(contains(plot, "nan"));
+  EXPECT_FALSE(contains(plot, "inf"));
+  EXPECT_FALSE(contains(logPlot("x", "y", {}), "nan")) << "nothing to show is no mistake";
+  EXPECT_FALSE(contains(stackedBars("ms", {}, {}), "nan"));
+  EXPECT_TRUE(contains(stackedBars("ms", {"a"}, {{"row", {2}}}), "a: 2 ms"));
+}
+
+}  // namespace
+}  // namespace irad::test::study_suite
