@@ -144,8 +144,14 @@ struct Pipeline::Impl {
   /// Settings or sky have changed.
   void lookAgain() {
     lookAtSky(scene.lights);
-    useSun();
+    const bool moved = useSun();
     lookAtLights(onDevice.lightValues);
+    if (!moved || !shadows || !shadowsDue()) return;
+    try {
+      redrawShadows();
+    } catch (const Error&) {
+      // Its shadows are still due: prepare() says what is in the way.
+    }
   }
   /// The sun of the sky, where the sky may shine.
   std::optional<SkySun> skySun() const {
@@ -164,13 +170,20 @@ struct Pipeline::Impl {
     }
     return gpuLights(lights, scene.origin);
   }
-  /// Where that has changed it becomes one of the device's lights; its shadow map is drawn with the next prepare().
-  void useSun() {
-    if (skySun() == sunUsed) return;
+  /// Where that has changed it becomes one of the device's lights. Returns whether it has.
+  bool useSun() {
+    if (skySun() == sunUsed) return false;
     sunUsed = skySun();
     std::vector<GpuLight> values = withSun(scene.lights);
     if (shadows && shadowsMade == shadowKey(values)) keepShadows(values, onDevice.lightValues);
     onDevice.setLights(context, std::move(values), shadowNeeds().shines);
+    return true;
+  }
+  void redrawShadows() {
+    const auto start = std::chrono::steady_clock::now();
+    shadows = drawShadows(context, onDevice, settings.light.shadowResolution, shadowNeeds());
+    shadowsMade = shadowsWanted;
+    context.timings.endFrame(frameIndex, /*setup=*/false, since(start));
   }
 
   void learn(const Products& p) { planned.traits.build = buildTraits(p); }
@@ -510,10 +523,7 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
   if (p.shadowsDue()) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
-    const auto start = std::chrono::steady_clock::now();
-    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution, p.shadowNeeds());
-    p.shadowsMade = p.shadowsWanted;
-    p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
+    p.redrawShadows();
   }
   p.prepare(maxSweeps, progress);
 }

@@ -184,6 +184,10 @@ constexpr Setting kTable[] = {
     SETTING(sky.elevation, "sky.elevation", {0, 90, "degrees"}, "Height of the sun of Preetham's sky.", Gather),
     SETTING(sky.azimuth, "sky.azimuth", {-360, 360, "degrees"},
             "Direction of the sun of Preetham's sky, from -Z towards +X.", Gather),
+    SETTING(
+        sky.ground, "sky.ground", {0, 1},
+        "Diffuse albedo of the ground below the horizon of Preetham's sky, which that sky and its coupled sun light.",
+        Gather),
     SETTING(camera.exposureEv, "camera.exposure", {-16, 16, "EV"},
             "Exposure of the displayed picture; EXR files stay linear.", Nothing),
     SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),
