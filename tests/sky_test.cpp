@@ -657,6 +657,48 @@ TEST_F(SkyPictures, OfSponzaIsThePathTracers) {
   EXPECT_NEAR(is.mean, 0, 0.03);
 }
 
+TEST(SkyCommands, RefuseWhatIsNoSkyAndTakeWhatIs) {
+  const TemporaryFolder folder;
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", "box", "--size", "16x12", "--out", (folder.path / "out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    for (const char* setting : {"voxel.resolution=10", "matrix.rays=16"})
+      arguments.insert(arguments.end(), {"--set", setting});
+    return runIrad(arguments);
+  };
+  std::vector<glm::vec4> pixels(32, glm::vec4(1));
+  pixels[9].y = -0.5f;
+  writePfm(folder.path / "negative.pfm", {8, 4}, pixels);
+  pixels[9].y = std::numeric_limits<float>::quiet_NaN();
+  writePfm(folder.path / "nan.pfm", {8, 4}, pixels);
+  std::ofstream(folder.path / "text.hdr") << "no picture";
+  std::ofstream(folder.path / "short.pfm") << "PF\n8 4\n-1.0\n";
+  struct Refused {
+    const char *file, *says;
+  };
+  std::vector<Refused> refused{{"negative.pfm", "0 NaN, 0 infinite and 1 negative of 32 texels, the first at 1, 1"},
+                               {"nan.pfm", "1 NaN, 0 infinite and 0 negative of 32 texels, the first at 1, 1"},
+                               {"text.hdr", "text.hdr"},
+                               {"short.pfm", "short.pfm"},
+                               {"gone.pfm", "gone.pfm"}};
+  if (canDrawText()) {  // OpenImageIO
+    writeDisplay(folder.path / "eight", {8, 4}, std::vector<glm::u8vec4>(32, glm::u8vec4(200)));
+    refused.push_back({"eight.png", "holds integers, which end at white"});
+  }
+  for (const auto& [file, says] : refused) {
+    const RunResult run = render({"--sky", (folder.path / file).string()});
+    EXPECT_EQ(run.status, 3) << file;
+    EXPECT_TRUE(contains(run.err, file) && contains(run.err, says)) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path / "out")) << file;
+  }
+  const RunResult none = render({"--set", "sky.source=image"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(contains(none.err, "no picture of the sky was given (--sky FILE)")) << none.err;
+  const RunResult evening = render({"--sky", "evening"});
+  EXPECT_EQ(evening.status, 0) << evening.err;
+  EXPECT_TRUE(contains(slurp(folder.path / "out/manifest.json"), "evening.pfm"));
+}
+
 TEST_F(SkyPictures, OfSponzaInTheSunIsThePathTracers) {
   IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
