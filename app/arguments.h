@@ -38,6 +38,7 @@ struct PictureArguments {
   std::optional<std::string> size, frames;
   std::vector<std::string> cameras;
   void declare(Options& options);
+  void declareView(Options& options);                  ///< --size and --camera alone
   glm::uvec2 resolveSize(const Config& config) const;  ///< default 640 x 640
   uint32_t resolveFrames(const Config& config, uint32_t otherwise) const;
   /// Named cameras of the scene and its sidecar, "all", or JSON; default: those of the config, else the scene's first.
