@@ -340,7 +340,7 @@ struct Pipeline::Impl {
       solveFor(p, first, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
-    scatterInto(p);
+    if (!p.light->frameMean.held) scatterInto(p);
     learn(p);
     if (flipsBlur(p.light->report)) scatterInto(p);
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
@@ -353,9 +353,34 @@ struct Pipeline::Impl {
       solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
       return;
     }
-    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, maxSweeps != 0 ? 1 : obeyed.solver.frames,
-               /*restarts=*/first <= Redo::Gather,
-               [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
+    const bool restarts = first <= Redo::Gather, byFrames = maxSweeps != 0;
+    if (restarts && byFrames) hold(*p.light);
+    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, byFrames ? 1 : obeyed.solver.frames,
+               restarts, [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
+    FrameMean& mean = p.light->frameMean;
+    if (mean.held && (++mean.heldFor >= kHeldFrames || !byFrames || p.light->report.settled())) {
+      mean.held = Buffer();
+      mean.heldEmitted = Buffer();
+    }
+  }
+
+  /// A mean over frames begins in the dark, and with noise. What was shown before is shown on until it is better, which
+  /// is no part of the mean. (While a light is dragged each frame begins anew, and is shown after the first few.)
+  static constexpr uint32_t kHeldFrames = 8;
+  void hold(Lighting& light) {
+    FrameMean& mean = light.frameMean;
+    if (mean.held || light.report.frames < kHeldFrames) return;
+    Frame frame = context.begin();
+    const auto copied = [&](const Buffer& from) {
+      Buffer to(context.device, "shown while frames begin anew", Subsystem::Solver, from.bytes);
+      frame.pass("GI BruteForce").copy(from, to, from.bytes);
+      return to;
+    };
+    Buffer h = copied(light.shaded()), emitted = light.shadedEmitted() ? copied(light.shadedEmitted()) : Buffer();
+    frame.submit();
+    mean.held = std::move(h);
+    mean.heldEmitted = std::move(emitted);
+    mean.heldFor = 0;
   }
 
   /// Whether the picture that was drawn last has changed what is written back by more than H is known to.

@@ -99,10 +99,10 @@ LinearPicture readLinear(const std::filesystem::path& path) {
   if (!input) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), OIIO::geterror()));
   const OIIO::ImageSpec spec = input->spec();
   checkSize(path, spec.width, spec.height);
-  // No format packs pixels closer (zlib: 1,032 bytes to one); a header that promises more has nothing behind it.
-  constexpr uint64_t kMostPixelsPerByte = 1024;
-  if (static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height) / kMostPixelsPerByte >
-      std::filesystem::file_size(path))
+  // Before there is memory for what a few bytes may promise: large pictures take more than a byte for 1,024 pixels.
+  constexpr uint64_t kLarge = uint64_t{1} << 24, kMostPixelsPerByte = 1024;
+  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+  if (pixels > kLarge && pixels / kMostPixelsPerByte > std::filesystem::file_size(path))
     throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), spec.width, spec.height));
   if (spec.depth > 1 || spec.nchannels < 1)
     throw InputError(fmt::format("{}: {} channels, {} deep: not a picture", path.string(), spec.nchannels, spec.depth));
