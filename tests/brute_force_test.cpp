@@ -491,8 +491,9 @@ TEST_F(BruteForce, LightThatGrowsWithoutBoundIsStopped) {
 TEST_F(BruteForce, ViewsSayWhatIsMissing) {
   const Settings settings = framewise(8, 16, 4), matrix = byMatrix(settings);
   for (const ViewInfo& info : views()) {
-    EXPECT_EQ(whatIsMissing(info, settings).empty(), !info.isFrom(FROM_MATRIX | FROM_MATRIX_ROW)) << info.name;
-    EXPECT_EQ(whatIsMissing(info, matrix).empty(), info.view != VIEW_STANDARD_ERROR) << info.name;
+    EXPECT_EQ(whatIsMissing(info, settings).empty(), !info.isFrom(FROM_MATRIX | FROM_MATRIX_ROW | FROM_SKY))
+        << info.name;
+    EXPECT_EQ(whatIsMissing(info, matrix).empty(), !info.isFrom(FROM_STANDARD_ERROR | FROM_SKY)) << info.name;
   }
   const auto sum = [&](Pipeline& pipeline, View view) {
     Targets targets(context(), {32, 24});

@@ -501,6 +501,9 @@ TEST_F(Skies, PreethamsHasAGround) {
   fmt::print("sheets: up {:.5f} of {:.5f}, down {:.5f} of {:.5f}\n", up / upArea, above.x, down / downArea, below);
   EXPECT_NEAR(up / upArea / above.x, 1, 0.01);
   EXPECT_NEAR(down / downArea / below, 1, 2e-3);
+  // The view of it: from below the sheets show what they get from the ground, on their voxels.
+  const std::vector<glm::vec4> view = picture(p, {32, 32}, VIEW_SKY_IRRADIANCE);
+  EXPECT_NEAR(std::ranges::max(view, {}, [](const glm::vec4& v) { return v.x; }).x / below, 1, 0.05);
   // Drawn behind the scene, and by the path tracer, which lights a ground of its own.
   const std::vector<glm::vec4> seen = picture(p, {32, 32});
   EXPECT_NEAR(seen[31 * 32 + 3].x / (below / kPi), 1, 1e-3);
