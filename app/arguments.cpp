@@ -77,15 +77,15 @@ DeviceOptions DeviceArguments::options() const {
   return out;
 }
 
-void PictureArguments::declare(Options& options) {
-  declareView(options);
-  options.value("--frames", "N", frames, "Frames to render");
-}
-
 void PictureArguments::declareView(Options& options) {
   options.value("--size", "WxH", size, "Size of the pictures in pixels (default 640x640)");
   options.values("--camera", "NAME|JSON", cameras,
                  "Camera of the scene, `all`, or JSON (repeatable; default: the first)");
+}
+
+void PictureArguments::declare(Options& options) {
+  declareView(options);
+  options.value("--frames", "N", frames, "Frames to render");
 }
 
 glm::uvec2 PictureArguments::resolveSize(const Config& config) const {

@@ -12,6 +12,7 @@
 #include "gi/export.h"
 #include "gi/facets.h"
 #include "gi/inspect.h"
+#include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/pipeline.h"
 #include "gi/plan.h"
@@ -19,6 +20,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
 #include "renderer/base/output_file.h"
+#include "renderer/targets.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
@@ -29,6 +31,7 @@ struct ExportArguments {
   std::vector<std::string> volumes, formats;
   bool matrix = false, facets = false;
   SceneArguments sceneOptions;
+  PictureArguments picture;
   SettingArguments settings;
   DeviceArguments device;
 };
@@ -113,6 +116,7 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
     throw UsageError(fmt::format("{}: solver.method = brute_force has no matrix; take solver.method=matrix",
                                  arguments.matrix ? "--matrix" : "--inspect"));
   Scene scene = session.load(scenePath, arguments.sceneOptions);
+  const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");
   makeFolder(out);
   // Exports need matrix and field, whether or not a picture calls for them.
@@ -120,6 +124,15 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
     if (*asked == EffectMode::automatic) *asked = EffectMode::on;
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
   session.prepare(pipeline);
+  // What is written back is what one camera sees.
+  const glm::uvec2 size = arguments.picture.resolveSize(session.config);
+  const bool writesBack = static_cast<bool>(pipeline.lighting().writeback.used);
+  if (writesBack) {
+    if (cameras.size() > 1) throw UsageError("--camera: what is written back is what one camera sees; give one");
+    Targets targets(*session.context, size);
+    pipeline.settleReflections(cameras.front(), targets,
+                               [&](const char* stage, float done) { return session.progress(stage, done); });
+  }
   if (arguments.matrix && !pipeline.matrix()) throw UsageError("--matrix: effects.matrix = off, there is no matrix");
   if (std::ranges::find(volumes, Volume::distance) != volumes.end() && !pipeline.field())
     throw UsageError("--volume distance: effects.field = off, there is no distance field");
@@ -165,6 +178,10 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
     manifest.arguments.emplace_back("--format");
     manifest.arguments.push_back(format);
   }
+  if (writesBack) {
+    manifest.size = size;
+    manifest.cameras = cameras;
+  }
   manifest.details.emplace_back("grid", gridJson(pipeline.scene(), pipeline.facets().grid));
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
   writeFile(out / "manifest.json", manifest.toJson());
@@ -177,6 +194,7 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
 void run(const ExportArguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
+  arguments.picture.check();
   const std::vector<Volume> volumes = parseVolumes(arguments.volumes);
   const std::vector<std::string> formats = parseFormats(arguments);
   std::optional<glm::uvec3> inspected;
@@ -217,6 +235,7 @@ Command exportCommand() {
             options.value("--cache", "FILE", arguments->cache,
                           "The scene with its images decoded (.irscene), for builds without image decoders");
             arguments->sceneOptions.declare(options);
+            arguments->picture.declareView(options);
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },

@@ -194,6 +194,7 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
     report = light.report;
     report.sweeps = 0;
     report.converged = report.atMostFrames = false;
+    report.energy.reset();
   }
   const auto judge = [&] {
     report.frames = mean.weights.frames();
@@ -223,6 +224,8 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
   endSolve(context, facets, light, report, litBefore);
   if (report.diverging) mean.weights = {};
   if (report.settled()) mean.hits = Buffer();
+  // What a sky brings is in H and nowhere by itself.
+  if (report.converged && params.lambda == 1 && !sky) report.energy = balance(context, facets, light);
   return light.report = report;
 }
 

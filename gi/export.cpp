@@ -144,6 +144,7 @@ FacetTable readFacets(Context& context, const FacetList& facets, const Lighting&
   add("direct", perFacet(context, facets, lighting.direct));
   add("irradiance", perFacet(context, facets, lighting.indirect));
   add("radiosity", perFacet(context, facets, lighting.radiosity));
+  if (const Buffer& reflected = lighting.writeback.used) add("reflected", perFacet(context, facets, reflected));
   return table;
 }
 

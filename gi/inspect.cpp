@@ -63,6 +63,7 @@ void Inspector::refresh() {
   correction_ = perFacet(context_, list, light.correction);
   sky_ = perFacet(context_, list, light.sky);
   reflected_ = perFacet(context_, list, light.writeback.used);
+  standardError_ = perFacet(context_, list, light.frameMean.standardError);
 }
 
 bool Inspector::contains(const glm::ivec3& voxel) const {
@@ -182,6 +183,7 @@ InspectedFacet Inspector::facet(uint32_t i) const {
   r.correction = gain * glm::dvec3(correction_[i]);
   r.sky = sky_[i];
   r.reflected = reflected_[i];
+  r.standardError = standardError_[i];
   r.met = traceOnDevice(i);
   addLinks(i, r);
 

@@ -63,7 +63,7 @@ class Inspector {
   oracle::DistanceField field_;
   std::vector<uint32_t> seeds_;   ///< packVoxel, with jump flooding
   std::vector<glm::uvec2> rows_;  ///< MatrixArrays::rowInfo
-  std::vector<glm::vec3> direct_, irradiance_, radiosity_, correction_, sky_, reflected_;
+  std::vector<glm::vec3> direct_, irradiance_, radiosity_, correction_, sky_, reflected_, standardError_;
 };
 
 /// Of these facets, from the dark.

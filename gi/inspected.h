@@ -57,10 +57,11 @@ struct InspectedFacet {
   double area = 0;                 ///< m^2
   glm::dvec3 albedo{0};
   glm::dvec3 emission{0}, direct{0}, irradiance{0}, radiosity{0};  ///< M, D, H, B, W/m^2
-  glm::dvec3 correction{0};  ///< what samples of the emitters add to H in place of rays, W/m^2
-  glm::dvec3 sky{0};         ///< the part of H that comes straight from the sky, W/m^2
-  glm::dvec3 reflected{0};   ///< W, reflections that are written back, W/m^2
-  double residual = 0;       ///< how far one more sweep would move B, largest channel, W/m^2
+  glm::dvec3 correction{0};     ///< what samples of the emitters add to H in place of rays, W/m^2
+  glm::dvec3 sky{0};            ///< the part of H that comes straight from the sky, W/m^2
+  glm::dvec3 reflected{0};      ///< W, reflections that are written back, W/m^2
+  glm::dvec3 standardError{0};  ///< of H by brute force, W/m^2; 0 with a matrix
+  double residual = 0;          ///< how far one more sweep would move B, largest channel, W/m^2
   RayShares rays;
   std::vector<uint32_t> met;  ///< by ray: a facet or TRACE_*, traced again on the device
   Links row, column;

@@ -45,10 +45,13 @@ struct DivergenceGuard {
 struct FrameMean {
   FrameWeights weights;
   Buffer next;           ///< beside Lighting::radiosityNext: B that the rays of one frame bring, and those of the next
-  Buffer standardError;  ///< of H
+  Buffer standardError;  ///< of H; w: share of the rays that meet a facet
   Buffer hits;           ///< scratch, while frames are traced
   std::shared_ptr<const HostTrace> host;  ///< CPU devices: what traces them
   double meanH = 0;                       ///< after the last frame, W/m^2
+  /// What shading sampled before an edit of light, and goes on to sample for the first frames after it.
+  Buffer held, heldEmitted;
+  uint32_t heldFor = 0;  ///< frames
 };
 /// Per-facet light, fp32 vec4 (xyz; w is used in B alone): W/m^2.
 struct Lighting {
@@ -77,8 +80,10 @@ struct Lighting {
   SolveReport report;
   DivergenceGuard guard;
   /// What shading samples, H and F M, blurred or not.
-  const Buffer& shaded() const { return blurred ? blurred : indirect; }
-  const Buffer& shadedEmitted() const { return blurred ? blurredEmitted : emitted; }
+  const Buffer& shaded() const { return frameMean.held ? frameMean.held : blurred ? blurred : indirect; }
+  const Buffer& shadedEmitted() const {
+    return frameMean.heldEmitted ? frameMean.heldEmitted : blurred ? blurredEmitted : emitted;
+  }
   /// False: there is no light and nothing is stored of it; every value is 0.
   explicit operator bool() const { return static_cast<bool>(radiosity); }
   /// Largest H while sources last shone, W/m^2: in the dark, light below 1e-6 of it is put out; reflections of less

@@ -72,7 +72,8 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
                           &lighting.radiosityNext, &lighting.blurred, &lighting.blurredEmitted})
     buffer(*b, 16 * s);
   for (const Buffer& b : lighting.history) buffer(b, 16 * s);
-  for (const Buffer* b : {&lighting.frameMean.next, &lighting.frameMean.standardError}) buffer(*b, 16 * s);
+  const FrameMean& frames = lighting.frameMean;
+  for (const Buffer* b : {&frames.next, &frames.standardError, &frames.held, &frames.heldEmitted}) buffer(*b, 16 * s);
   buffer(lighting.frameMean.hits, lighting.frameMean.hits.bytes);  // a chunk's size is the device's
   buffer(lighting.sums,
          sizeof(glm::vec4) * SOLVE_SUMS *

@@ -137,8 +137,14 @@ struct Pipeline::Impl {
   /// Settings or sky have changed.
   void lookAgain() {
     lookAtSky(scene.lights);
-    useSun();
+    const bool moved = useSun();
     lookAtLights(onDevice.lightValues);
+    if (!moved || !shadows || !shadowsDue()) return;
+    try {
+      redrawShadows();
+    } catch (const Error&) {
+      // Its shadows are still due: prepare() says what is in the way.
+    }
   }
   /// The sun of the sky, where the sky may shine.
   std::optional<SkySun> skySun() const {
@@ -157,13 +163,20 @@ struct Pipeline::Impl {
     }
     return gpuLights(lights, scene.origin);
   }
-  /// Where that has changed it becomes one of the device's lights; its shadow map is drawn with the next prepare().
-  void useSun() {
-    if (skySun() == sunUsed) return;
+  /// Where that has changed it becomes one of the device's lights. Returns whether it has.
+  bool useSun() {
+    if (skySun() == sunUsed) return false;
     sunUsed = skySun();
     std::vector<GpuLight> values = withSun(scene.lights);
     if (shadows && shadowsMade == shadowKey(values)) keepShadows(values, onDevice.lightValues);
     onDevice.setLights(context, std::move(values), shadowNeeds().shines);
+    return true;
+  }
+  void redrawShadows() {
+    const auto start = std::chrono::steady_clock::now();
+    shadows = drawShadows(context, onDevice, settings.light.shadowResolution, shadowNeeds());
+    shadowsMade = shadowsWanted;
+    context.timings.endFrame(frameIndex, /*setup=*/false, since(start));
   }
 
   void learn(const Products& p) { planned.traits.build = buildTraits(p); }
@@ -320,7 +333,7 @@ struct Pipeline::Impl {
       solveFor(p, first, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
-    scatterInto(p);
+    if (!p.light->frameMean.held) scatterInto(p);
     learn(p);
     if (flipsBlur(p.light->report)) scatterInto(p);
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
@@ -333,9 +346,34 @@ struct Pipeline::Impl {
       solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
       return;
     }
-    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, maxSweeps != 0 ? 1 : obeyed.solver.frames,
-               /*restarts=*/first <= Redo::Gather,
-               [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
+    const bool restarts = first <= Redo::Gather, byFrames = maxSweeps != 0;
+    if (restarts && byFrames) hold(*p.light);
+    bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, byFrames ? 1 : obeyed.solver.frames,
+               restarts, [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
+    FrameMean& mean = p.light->frameMean;
+    if (mean.held && (++mean.heldFor >= kHeldFrames || !byFrames || p.light->report.settled())) {
+      mean.held = Buffer();
+      mean.heldEmitted = Buffer();
+    }
+  }
+
+  /// A mean over frames begins in the dark, and with noise. What was shown before is shown on until it is better, which
+  /// is no part of the mean. (While a light is dragged each frame begins anew, and is shown after the first few.)
+  static constexpr uint32_t kHeldFrames = 8;
+  void hold(Lighting& light) {
+    FrameMean& mean = light.frameMean;
+    if (mean.held || light.report.frames < kHeldFrames) return;
+    Frame frame = context.begin();
+    const auto copied = [&](const Buffer& from) {
+      Buffer to(context.device, "shown while frames begin anew", Subsystem::Solver, from.bytes);
+      frame.pass("GI BruteForce").copy(from, to, from.bytes);
+      return to;
+    };
+    Buffer h = copied(light.shaded()), emitted = light.shadedEmitted() ? copied(light.shadedEmitted()) : Buffer();
+    frame.submit();
+    mean.held = std::move(h);
+    mean.heldEmitted = std::move(emitted);
+    mean.heldFor = 0;
   }
 
   /// Whether the picture that was drawn last has changed what is written back by more than H is known to.
@@ -503,10 +541,7 @@ void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
   if (p.shadowsDue()) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
-    const auto start = std::chrono::steady_clock::now();
-    p.shadows = drawShadows(p.context, p.onDevice, p.settings.light.shadowResolution, p.shadowNeeds());
-    p.shadowsMade = p.shadowsWanted;
-    p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
+    p.redrawShadows();
   }
   p.prepare(maxSweeps, progress);
 }

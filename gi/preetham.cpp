@@ -91,4 +91,16 @@ SkyTexels preethamSky(float turbidity, const glm::vec3& towardsSun) {
   return sky;
 }
 
+glm::dvec3 irradianceFromAbove(const SkyTexels& sky) {
+  // Row by row: the integral of cos theta over its part of the sphere, times the mean of its texels.
+  glm::dvec3 sum(0);
+  for (uint32_t y = 0; y < sky.size.y / 2; ++y) {
+    glm::dvec3 row(0);
+    for (uint32_t x = 0; x < sky.size.x; ++x) row += glm::dvec3(sky.texels[size_t{y} * sky.size.x + x]);
+    const double top = std::sin(pi * y / sky.size.y), bottom = std::sin(pi * (y + 1.0) / sky.size.y);
+    sum += row * (pi * (bottom * bottom - top * top) / sky.size.x);
+  }
+  return sum;
+}
+
 }  // namespace irad

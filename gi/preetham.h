@@ -13,5 +13,7 @@ double preethamZenith(double turbidity, double fromZenith);
 double preethamSun(double turbidity, double fromZenith);
 /// The sky, linear, its luminance in kcd/m^2; black below the horizon. A sun that has set counts as setting.
 SkyTexels preethamSky(float turbidity, const glm::vec3& towardsSun);
+/// What the upper half of a sky brings to a horizontal plane.
+glm::dvec3 irradianceFromAbove(const SkyTexels& sky);
 
 }  // namespace irad

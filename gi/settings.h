@@ -123,6 +123,7 @@ struct SkySettings {
   // Of Preetham's: haze, and where the sun is if it is not the scene's first; degrees, the azimuth from -Z towards +X.
   float turbidity = 3, elevation = 45, azimuth = 0;
   bool coupled = true;
+  float ground = 0.2f;  ///< albedo of what is below its horizon
   bool operator==(const SkySettings&) const = default;
 };
 struct CameraSettings {

@@ -147,10 +147,15 @@ constexpr Setting kTable[] = {
             "nearest to voxel centres write theirs, as the thesis does it; compute: the mean over a facet's pixels.",
             Solve),
     SETTING(writeback.gpu.alpha, "writeback.alpha", {0, 1},
-            "Of the mask: exponent by which a fragment's distance from the camera counts.", Shade),
-    SETTING(writeback.gpu.k, "writeback.k", {0, 1000, "", /*logarithmic=*/true},
-            "Of the mask: weight of a fragment's distance from the voxel's centre against that from the camera.",
+            "Of the mask: exponent by which a fragment's distance from the camera counts, in metres; 0: not at all, "
+            "and the "
+            "mask is the same in every unit.",
             Shade),
+    SETTING(
+        writeback.gpu.k, "writeback.k", {0, 1000, "", /*logarithmic=*/true},
+        "Of the mask: weight of a fragment's distance from the voxel's centre against that from the camera. It goes "
+        "with the scene's unit: a fragment r metres away writes within (1 - threshold) r^alpha / k voxels.",
+        Shade),
     SETTING(writeback.gpu.threshold, "writeback.threshold", {0, 1},
             "Of the mask: least score of a fragment that writes (tau); 1: none but those in a voxel's very centre.",
             Shade),
@@ -184,6 +189,10 @@ constexpr Setting kTable[] = {
     SETTING(sky.elevation, "sky.elevation", {0, 90, "degrees"}, "Height of the sun of Preetham's sky.", Gather),
     SETTING(sky.azimuth, "sky.azimuth", {-360, 360, "degrees"},
             "Direction of the sun of Preetham's sky, from -Z towards +X.", Gather),
+    SETTING(
+        sky.ground, "sky.ground", {0, 1},
+        "Diffuse albedo of the ground below the horizon of Preetham's sky, which that sky and its coupled sun light.",
+        Gather),
     SETTING(camera.exposureEv, "camera.exposure", {-16, 16, "EV"},
             "Exposure of the displayed picture; EXR files stay linear.", Nothing),
     SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),

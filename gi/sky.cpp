@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gi/lighting.h"
 #include "gi/matrix.h"
@@ -23,6 +24,13 @@ glm::vec3 towardsSun(const SkySettings& s, const SkyInputs& inputs) {
   if (s.coupled && inputs.sun) return inputs.sun->towards;
   const float elevation = glm::radians(s.elevation), azimuth = glm::radians(s.azimuth);
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
+}
+
+/// Puts the ground below the horizon.
+void lay(const SkyGround& ground, const glm::vec3& towardsSun, SkyTexels& sky) {
+  const glm::dvec3 irradiance = irradianceFromAbove(sky) + glm::dvec3(ground.sun) * std::max(0.0, double{towardsSun.y});
+  std::fill(sky.texels.begin() + static_cast<std::ptrdiff_t>(sky.texels.size() / 2), sky.texels.end(),
+            glm::vec3(irradiance * double{ground.albedo} / std::numbers::pi));
 }
 
 /// What takes kcd/m^2 of Preetham's sky to the unit of a sun, so that the two are to each other as in the open.
@@ -83,13 +91,22 @@ Sky makeSky(const SkySettings& s, const SkyInputs& inputs, const Sky* before) {
         sky.sun = SkySun{{c * d.x + n * d.z, d.y, c * d.z - n * d.x}, s.intensity * sun->irradiance};
       }
       break;
-    case SkySource::preetham:
+    case SkySource::preetham: {
+      const bool coupled = s.coupled && inputs.sun;
+      const float unit = coupled ? asBrightAs(*inputs.sun, s.turbidity) : 1;
+      sky.scale *= unit;
       sky.model = glm::vec4(towardsSun(s, inputs), s.turbidity);
-      sky.texels = before != nullptr && before->model == sky.model
-                       ? before->texels
-                       : std::make_shared<const SkyTexels>(preethamSky(s.turbidity, glm::vec3(sky.model)));
-      if (s.coupled && inputs.sun) sky.scale *= asBrightAs(*inputs.sun, s.turbidity);
+      sky.ground = {s.ground, coupled && unit > 0 ? inputs.sun->irradiance / unit : glm::vec3(0)};
+      const bool same = before != nullptr && before->model == sky.model;
+      if (same && before->ground == sky.ground) {
+        sky.texels = before->texels;
+        break;
+      }
+      SkyTexels texels = same ? *before->texels : preethamSky(s.turbidity, glm::vec3(sky.model));
+      lay(sky.ground, glm::vec3(sky.model), texels);
+      sky.texels = std::make_shared<const SkyTexels>(std::move(texels));
       break;
+    }
   }
   if (!sky.whole) sky.whole = sky.texels;
   sky.most = before != nullptr && before->texels == sky.texels ? before->most : mostOf(*sky.texels);

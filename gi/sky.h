@@ -23,6 +23,14 @@ struct Lighting;
 struct Scene;
 struct SkySettings;
 
+/// What is below the horizon of a computed sky: a diffuse plane, lit by that sky and by the sun of the scene that it is
+/// coupled to.
+struct SkyGround {
+  float albedo = 0;
+  glm::vec3 sun{0};  ///< irradiance of what faces the sun, in the unit of the texels
+  bool operator==(const SkyGround&) const = default;
+};
+
 /// What the settings make of it: `scale` times the texels, turned. Without texels it is black.
 struct Sky {
   std::shared_ptr<const SkyTexels> texels;  ///< without a sun that is a light
@@ -32,6 +40,7 @@ struct Sky {
   glm::vec3 most{0};                                     ///< of the texels, by channel
   std::optional<SkySun> sun;                             ///< which shines as a light (gi/pipeline.h); turned and scaled
   glm::vec4 model{0};                                    ///< what texels were computed from: towards the sun, turbidity
+  SkyGround ground;                                      ///< and what those below the horizon are
   glm::vec3 radiance(const glm::vec3& direction) const;  ///< without the sun
   float largest() const;                                 ///< radiance, of any channel
   bool operator==(const Sky&) const = default;

@@ -80,7 +80,8 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
   push.indirect = pass.in(light.indirect);
   push.radiosity = pass.in(light.radiosity);
   push.area = pass.in(facets.area);
-  push.rowSum = pass.in(light.rowSum);
+  push.rowSum = pass.inIfAny(light.rowSum);
+  push.frames = pass.inIfAny(light.frameMean.standardError);
   push.sky = pass.inIfAny(light.sky);
   push.reflected = pass.inIfAny(light.writeback.used);
   push.sums = pass.out(sums);
@@ -88,6 +89,7 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
   pass.shader("gi/energy.comp")
       .constant(CONSTANT_SKY, static_cast<bool>(light.sky))
       .constant(CONSTANT_REFLECTED, static_cast<bool>(light.writeback.used))
+      .constant(CONSTANT_FRAMES, static_cast<bool>(light.frameMean.standardError))
       .push(push)
       .dispatch(invocations);
   frame.readback(sums, 0, sizeof(EnergySums) * uint64_t{invocations}, [&](std::span<const uint8_t> bytes) {

@@ -75,31 +75,33 @@ void checkSize(const std::filesystem::path& path, int64_t width, int64_t height)
     throw InputError(fmt::format("{}: {} x {} pixels; at most 2^28 are read", path.string(), width, height));
 }
 
-#ifndef IRAD_OIIO
+}  // namespace
+
 LinearPicture readPfm(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string kind;
   int64_t width = 0, height = 0;
   double scale = 0;
   if (!(in >> kind >> width >> height >> scale) || kind != "PF" || !(scale < 0))
-    throw InputError(
-        fmt::format("{}: not a little-endian colour .pfm; this build reads no other pictures", path.string()));
+    throw InputError(fmt::format("{}: not a little-endian colour .pfm", path.string()));
   checkSize(path, width, height);
   in.get();  // the one white space after the scale
+  // Before there is memory for what a few bytes may promise.
+  const std::streamoff start = in.tellg(), end = in.seekg(0, std::ios::end).tellg();
+  if (end - start < 12 * width * height)
+    throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), width, height));
+  in.seekg(start);
   LinearPicture picture{{static_cast<uint32_t>(width), static_cast<uint32_t>(height)}, {}};
   picture.pixels.resize(static_cast<size_t>(width * height));
   for (int64_t y = height; y-- > 0;)
     for (int64_t x = 0; x < width; ++x) {
       std::array<float, 3> rgb;
       if (!in.read(reinterpret_cast<char*>(rgb.data()), sizeof rgb))
-        throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), width, height));
+        throw InputError(fmt::format("{}: cannot be read", path.string()));
       picture.pixels[static_cast<size_t>(y * width + x)] = {rgb[0], rgb[1], rgb[2], 1};
     }
   return picture;
 }
-#endif
-
-}  // namespace
 
 LinearPicture readLinear(const std::filesystem::path& path) {
 #ifdef IRAD_OIIO
@@ -107,6 +109,11 @@ LinearPicture readLinear(const std::filesystem::path& path) {
   if (!input) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), OIIO::geterror()));
   const OIIO::ImageSpec spec = input->spec();
   checkSize(path, spec.width, spec.height);
+  // Before there is memory for what a few bytes may promise: large pictures take more than a byte for 1,024 pixels.
+  constexpr uint64_t kLarge = uint64_t{1} << 24, kMostPixelsPerByte = 1024;
+  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+  if (pixels > kLarge && pixels / kMostPixelsPerByte > std::filesystem::file_size(path))
+    throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), spec.width, spec.height));
   if (spec.depth > 1 || spec.nchannels < 1)
     throw InputError(fmt::format("{}: {} channels, {} deep: not a picture", path.string(), spec.nchannels, spec.depth));
   const std::array<int, 3> channels = colorChannels(spec);
@@ -119,6 +126,8 @@ LinearPicture readLinear(const std::filesystem::path& path) {
       throw InputError(fmt::format("{}: cannot be read: {}", path.string(), input->geterror()));
   return picture;
 #else
+  if (path.extension() != ".pfm")
+    throw InputError(fmt::format("{}: this build reads no pictures but .pfm", path.string()));
   return readPfm(path);
 #endif
 }

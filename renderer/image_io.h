@@ -50,6 +50,8 @@ struct LinearPicture {
   std::vector<glm::vec4> pixels;  ///< top row first; alpha 1
   bool integers = false;          ///< the file holds integers, which end at white
 };
+/// A little-endian "PF" with its pixels, in every build; a scale is left aside. InputError where that fails.
+LinearPicture readPfm(const std::filesystem::path& path);
 /// A picture to compare with: the channels R, G, B of an EXR or of its first layer that has them, the first three of
 /// any other format that OpenImageIO reads; in builds without it .pfm alone. InputError where that fails.
 LinearPicture readLinear(const std::filesystem::path& path);

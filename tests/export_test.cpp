@@ -132,6 +132,17 @@ TEST_F(Export, FacetsInMatrixOrder) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
 }
 
+TEST_F(Export, ReflectionsThatAreWrittenBack) {
+  Lighting with = lighting();
+  with.writeback.used = light("W", {{0.5f, 0.25f, 0, 0}, {1, 2, 3, 0}, {0, 0, 4, 0}});
+  const FacetTable table = readFacets(context(), list(), with);
+  EXPECT_EQ(writeFacetsNpy(table, folder.path).size(), 9u);
+  EXPECT_EQ(Npy<float>(folder.path / "facet_reflected.npy").values,
+            (std::vector<float>{0.5f, 0.25f, 0, 1, 2, 3, 0, 0, 4}));
+  const std::string csv = test::slurp(writeFacetsCsv(table, folder.path));
+  EXPECT_TRUE(contains(csv.substr(0, csv.find('\n')), "radiosity_z,reflected_x,reflected_y,reflected_z"));
+}
+
 /// A matrix of three rows in segments of two: row 0 = {1: 3/4, 2: 1/4}, row 1 empty, row 2 = {0: 2/4}.
 class MatrixExport : public Export {
  protected:

@@ -119,6 +119,7 @@ class NoMemory : public GpuTest {
 TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
   Settings ours = small(12), thesis = small(12, "thesis");
   ours.writeback.mode = WritebackMode::compute;
+  ours.sky.source = SkySource::preetham;
   thesis.writeback.mode = WritebackMode::mask;
   std::set<std::string> subsystems = everyResource(ours);
   subsystems.merge(everyResource(thesis));

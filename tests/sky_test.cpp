@@ -433,6 +433,115 @@ TEST_F(Skies, PreethamsIsThePapers) {
   EXPECT_LT(glm::distance(glm::vec3(p.sky().model), glm::vec3(std::sqrt(0.75f), 0.5f, 0)), 1e-5f);
 }
 
+TEST_F(Skies, PreethamsHasAGround) {
+  // What the sky above brings to a floor, by a quadrature of its own over what is interpolated between the texels.
+  const auto fromAbove = [](const Sky& sky) {
+    glm::dvec3 sum(0);
+    constexpr int kRows = 400, kColumns = 800;
+    for (int i = 0; i < kRows; ++i)
+      for (int k = 0; k < kColumns; ++k) {
+        const double theta = kPi / 2 * (i + 0.5) / kRows, phi = 2 * kPi * (k + 0.5) / kColumns;
+        const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+        sum += glm::dvec3(sky.radiance(glm::vec3(d))) * d.y * std::sin(theta);
+      }
+    return sum * (kPi / 2 / kRows) * (2 * kPi / kColumns);
+  };
+  // Closed forms: an even sky, and one that is as bright as it is high.
+  SkyTexels high;
+  high.size = {4, 256};
+  high.texels.resize(4 * 256);
+  for (size_t i = 0; i < high.texels.size() / 2; ++i) high.texels[i] = glm::vec3(high.direction(i).y);
+  EXPECT_NEAR(irradianceFromAbove(high).x, 2 * kPi / 3, 1e-3);
+  std::fill(high.texels.begin(), high.texels.end(), glm::vec3(2));
+  EXPECT_NEAR(irradianceFromAbove(high).x, 2 * kPi, 1e-12);
+
+  const SkySun sun{glm::normalize(glm::vec3(1, 1, 1)), {4, 3, 2}};
+  for (const bool coupled : {false, true})
+    for (const float albedo : {0.0f, 0.2f, 0.8f}) {
+      SkySettings s;
+      s.source = SkySource::preetham, s.ground = albedo, s.coupled = coupled, s.intensity = 0.5f;
+      const Sky sky = makeSky(s, {.image = nullptr, .sun = sun});
+      const glm::dvec3 brings = fromAbove(sky);
+      // Half of the sky's light, hence half of the sun's on the ground, too: intensity is the ground's as the sky's.
+      const glm::dvec3 all = brings + (coupled ? 0.5 * sun.towards.y * glm::dvec3(sun.irradiance) : glm::dvec3(0));
+      for (const glm::vec3& d : {glm::vec3(0, -1, 0), glm::normalize(glm::vec3(3, -0.2f, 1))})
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(sky.radiance(d)[c], albedo / kPi * all[c], 1e-3 * all[c]) << coupled << " " << albedo;
+      // With another intensity the texels are the same, with another ground they are others below the horizon.
+      s.intensity = 3;
+      EXPECT_EQ(makeSky(s, {.image = nullptr, .sun = sun}, &sky).texels, sky.texels);
+      s.ground = 1;
+      const Sky other = makeSky(s, {.image = nullptr, .sun = sun}, &sky);
+      EXPECT_EQ(other.texels->texels.front(), sky.texels->texels.front());
+      EXPECT_NE(other.texels->texels.back(), sky.texels->texels.back());
+    }
+
+  // Facets: what faces down gets pi times the ground's radiance, what faces up the irradiance from above.
+  SceneBuilder b;
+  const uint32_t black = b.material(glm::vec3(0));
+  b.quad(black, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  b.quad(black, {-1, -0.5f, -1}, {1, -0.5f, -1}, {1, -0.5f, 1}, {-1, -0.5f, 1});
+  b.sun(-sun.towards, 3);
+  b.camera({0, 0, 4}, {0, 0, 0});
+  Settings settings = under(SkySource::preetham, 16, 512);
+  settings.effects.matrix = EffectMode::on;  // black sheets show no H
+  settings.sky.ground = 0.5f;
+  Pipeline p(context(), b.finish("sheets"), settings);
+  p.prepare();
+  const HostFacets facets = hostFacets(context(), p.facets());
+  const std::vector<glm::vec4> h = irradiance(p);
+  const glm::dvec3 above = fromAbove(p.sky());
+  const double below = 0.5 * (above.x + 3 * sun.towards.y);
+  double up = 0, down = 0, upArea = 0, downArea = 0;
+  for (size_t i = 0; i < facets.count(); ++i) {
+    const bool isUp = facets.normal[i].y > 0;
+    (isUp ? up : down) += facets.area[i] * h[i].x;
+    (isUp ? upArea : downArea) += facets.area[i];
+  }
+  fmt::print("sheets: up {:.5f} of {:.5f}, down {:.5f} of {:.5f}\n", up / upArea, above.x, down / downArea, below);
+  EXPECT_NEAR(up / upArea / above.x, 1, 0.01);
+  EXPECT_NEAR(down / downArea / below, 1, 2e-3);
+  // The view of it: from below the sheets show what they get from the ground, on their voxels.
+  const std::vector<glm::vec4> view = picture(p, {32, 32}, VIEW_SKY_IRRADIANCE);
+  EXPECT_NEAR(std::ranges::max(view, {}, [](const glm::vec4& v) { return v.x; }).x / below, 1, 0.05);
+  // Drawn behind the scene, and by the path tracer, which lights a ground of its own.
+  const std::vector<glm::vec4> seen = picture(p, {32, 32});
+  EXPECT_NEAR(seen[31 * 32 + 3].x / (below / kPi), 1, 1e-3);
+  if (!hasPathTracer()) return;
+  const TracedPicture truth =
+      makePathTracer(p.scene(), p.sky())->render(p.scene().cameras.at(0), {32, 32}, {.samples = 2, .centred = true});
+  for (const size_t pixel : {31u * 32 + 3, 31u * 32 + 28, 27u * 32 + 16})
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(truth.lit.mean[pixel][c] / seen[pixel][c], 1, 1e-3) << pixel;
+}
+
+TEST_F(Skies, ASunThatTurnsHasItsShadowsAtOnce) {
+  // Before the light is solved anew: pixels have the new sun with its own shadow map.
+  Scene scene = stillLife(0).finish("still life");
+  scene.sky = std::make_shared<SkyImage>(readSky(assets() / "evening.pfm"));
+  Settings s = under(SkySource::image);
+  s.view.light = static_cast<uint32_t>(scene.lights.size());  // the sky's sun
+  Pipeline p(context(), scene, s);
+  p.prepare();
+  const auto shadows = [&] { return picture(p, {48, 48}, VIEW_SHADOW_MAP); };
+  const auto before = shadows();
+  s.sky.rotation = 120;
+  p.set(s);
+  const auto between = shadows();
+  EXPECT_GE(p.device().lightValues.back().shadowLayer, 0);
+  p.prepare();
+  const auto after = shadows();
+  EXPECT_FALSE(before == after);
+  EXPECT_TRUE(between == after);
+  // The same where the sun goes, and comes back.
+  s.sky.source = SkySource::constant;
+  p.set(s);
+  p.prepare();
+  EXPECT_FALSE(shadows() == after);
+  s.sky.source = SkySource::image;
+  p.set(s);
+  EXPECT_TRUE(shadows() == after);
+}
+
 TEST_F(Skies, ASunIsTakenOutAndShinesAsALight) {
   const SkyImage image = readSky(assets() / "evening.pfm");
   ASSERT_TRUE(image.sun);
@@ -517,18 +626,23 @@ TEST_F(SkyPictures, AreThePathTracers) {
     const char* name;
     SkySource source;
     std::shared_ptr<const SkyImage> image;
+    bool sun = false;
   };
   for (const Case& c :
        {Case{"constant", SkySource::constant, nullptr}, Case{"image", SkySource::image, evening()},
-        Case{"image with a sun", SkySource::image, sunny}, Case{"preetham", SkySource::preetham, nullptr}}) {
+        Case{"image with a sun", SkySource::image, sunny}, Case{"preetham", SkySource::preetham, nullptr},
+        Case{"preetham with the scene's sun", SkySource::preetham, nullptr, true}}) {
     Settings s = under(c.source, 48, 512);
+    s.sky.ground = 0.5f;
     s.sky.rotation = 110;
     s.sky.elevation = 40, s.sky.azimuth = 100;
-    const Off is = off(stillLife(/*light=*/0).finish("still life"), s, c.image, {64, 48}, 256);
+    SceneBuilder room = stillLife(/*light=*/0);
+    if (c.sun) room.sun(glm::normalize(glm::vec3(0.5f, -0.8f, -1)), 3);
+    const Off is = off(room.finish("still life"), s, c.image, {64, 48}, 256);
     fmt::print("{}: mean off by {:+.2f} %, mean |difference| {:.2f} %\n", c.name, 100 * is.mean, 100 * is.pixels);
     EXPECT_NEAR(is.mean, 0, 0.01) << c.name;
     // Where a sun shines the rims of its shadows count, of which the picture has few pixels to each.
-    EXPECT_LT(is.pixels, c.image == sunny ? 0.05 : 0.03) << c.name;
+    EXPECT_LT(is.pixels, c.image == sunny || c.sun ? 0.05 : 0.03) << c.name;
   }
 }
 
@@ -544,6 +658,78 @@ TEST_F(SkyPictures, OfSponzaIsThePathTracers) {
                      {64, 48}, 256);
   fmt::print("Sponza: mean off by {:+.2f} %, mean |difference| {:.2f} %\n", 100 * is.mean, 100 * is.pixels);
   EXPECT_NEAR(is.mean, 0, 0.03);
+}
+
+TEST(SkyCommands, RefuseWhatIsNoSkyAndTakeWhatIs) {
+  const TemporaryFolder folder;
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", "box", "--size", "16x12", "--out", (folder.path / "out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    for (const char* setting : {"voxel.resolution=10", "matrix.rays=16"})
+      arguments.insert(arguments.end(), {"--set", setting});
+    return runIrad(arguments);
+  };
+  std::vector<glm::vec4> pixels(32, glm::vec4(1));
+  pixels[9].y = -0.5f;
+  writePfm(folder.path / "negative.pfm", {8, 4}, pixels);
+  pixels[9].y = std::numeric_limits<float>::quiet_NaN();
+  writePfm(folder.path / "nan.pfm", {8, 4}, pixels);
+  std::ofstream(folder.path / "text.hdr") << "no picture";
+  std::ofstream(folder.path / "short.pfm") << "PF\n8 4\n-1.0\n";
+  struct Refused {
+    const char *file, *says;
+  };
+  std::vector<Refused> refused{{"negative.pfm", "0 NaN, 0 infinite and 1 negative of 32 texels, the first at 1, 1"},
+                               {"nan.pfm", "1 NaN, 0 infinite and 0 negative of 32 texels, the first at 1, 1"},
+                               {"text.hdr", "text.hdr"},
+                               {"short.pfm", "short.pfm"},
+                               {"gone.pfm", "gone.pfm"}};
+  if (canDrawText()) {  // OpenImageIO
+    writeDisplay(folder.path / "eight", {8, 4}, std::vector<glm::u8vec4>(32, glm::u8vec4(200)));
+    refused.push_back({"eight.png", "holds integers, which end at white"});
+  }
+  for (const auto& [file, says] : refused) {
+    const RunResult run = render({"--sky", (folder.path / file).string()});
+    EXPECT_EQ(run.status, 3) << file;
+    EXPECT_TRUE(contains(run.err, file) && contains(run.err, says)) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path / "out")) << file;
+  }
+  const RunResult none = render({"--set", "sky.source=image"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(contains(none.err, "no picture of the sky was given (--sky FILE)")) << none.err;
+  const RunResult evening = render({"--sky", "evening"});
+  EXPECT_EQ(evening.status, 0) << evening.err;
+  EXPECT_TRUE(contains(slurp(folder.path / "out/manifest.json"), "evening.pfm"));
+}
+
+TEST_F(SkyPictures, OfSponzaInTheSunIsThePathTracers) {
+  IRAD_ONLY_WITH_ALL();
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  const auto folder = sharedScenes();
+  if (!folder) GTEST_SKIP() << "no shared scenes";
+  LoadOptions options;
+  options.lambertian = options.doubleSided = true;
+  Scene scene = loadScene(*folder / "sponza/sponza_small_lit_m.glb", options);
+  const auto sun = std::ranges::find(scene.lights, LightType::Sun, &Light::type);
+  ASSERT_NE(sun, scene.lights.end());
+  for (Material& m : scene.materials) {
+    m.lambertian = true, m.metallic = 0, m.roughness = 1;
+    m.metallicRoughnessTexture = {};
+  }
+  // Preetham's, coupled to the scene's sun, above its ground. The sun's outlines and the textures are fine: the picture
+  // has many pixels, and the path tracer samples all over its few.
+  Pipeline p(context(), scene, under(SkySource::preetham, 64, 256));
+  p.prepare();
+  const std::vector<glm::vec4> found = picture(p, {512, 384});
+  const TracedPicture truth =
+      makePathTracer(scene, p.sky())->render(scene.cameras.at(0), {64, 48}, {.samples = 128, .centred = false});
+  glm::dvec3 sum(0);
+  for (const glm::vec4& v : found) sum += glm::dvec3(v) / static_cast<double>(found.size());
+  const auto mean = [](const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; };
+  const double off = mean(sum) / mean(truth.lit.pictureMean) - 1,
+               error = mean(truth.lit.pictureError) / mean(truth.lit.pictureMean);
+  fmt::print("Sponza in the sun: mean off by {:+.2f} %, truth's standard error {:.2f} %\n", 100 * off, 100 * error);
+  EXPECT_NEAR(off, 0, 0.03);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 namespace irad {
 
 std::vector<CheckCase> furnaceCases();     ///< closed rooms whose answer is known everywhere
+std::vector<CheckCase> skyCases();         ///< open to a sky
 std::vector<CheckCase> formFactorCases();  ///< rows of the matrix against Howell's catalogue
 std::vector<CheckCase> energyCases();      ///< conservation, reciprocity, linearity
 std::vector<CheckCase> limitCases();       ///< dark, black, white and worse albedos

@@ -19,8 +19,8 @@ constexpr std::string_view kScheme = "check:";
 std::span<const CheckCase> checkCases() {
   static const std::vector<CheckCase> all = [] {
     std::vector<CheckCase> cases;
-    for (const auto group : {furnaceCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases, leakCases,
-                             roomCases, samplingCases, writebackCases, stabilityCases, guardCases}) {
+    for (const auto group : {furnaceCases, skyCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases,
+                             leakCases, roomCases, samplingCases, writebackCases, stabilityCases, guardCases}) {
       const std::vector<CheckCase> more = group();
       cases.insert(cases.end(), more.begin(), more.end());
     }

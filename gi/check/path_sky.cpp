@@ -11,6 +11,7 @@ using std::numbers::pi;
 
 SkyLight::SkyLight(Sky sky) : sky_(std::move(sky)) {
   if (!sky_.whole) return;
+  if (sky_.model.w > 0) layGround();
   const glm::ivec2 size(sky_.whole->size);
   double sum = 0;
   for (int y = 0; y < size.y; ++y)
@@ -24,6 +25,27 @@ SkyLight::SkyLight(Sky sky) : sky_(std::move(sky)) {
     }
   for (double& c : cumulative_) c /= sum;
   if (!(sum > 0)) cumulative_.clear();
+}
+
+void SkyLight::layGround() {
+  SkyTexels own = *sky_.whole;
+  const auto below = own.texels.begin() + static_cast<std::ptrdiff_t>(own.texels.size() / 2);
+  std::fill(below, own.texels.end(), glm::vec3(0));
+  // The irradiance as pi times the mean over directions that are even in the disc below the hemisphere.
+  constexpr int kAcross = 512, kAround = 1024;
+  const glm::uvec2 size = own.size;
+  dvec3 mean(0);
+  for (int i = 0; i < kAcross; ++i)
+    for (int k = 0; k < kAround; ++k) {
+      const double theta = std::asin(std::sqrt((i + 0.5) / kAcross));
+      const auto row = static_cast<size_t>(theta / pi * size.y),
+                 column = static_cast<size_t>((k + 0.5) / kAround * size.x);
+      mean += dvec3(own.texels[row * size.x + column]) / double{kAcross * kAround};
+    }
+  const double height = double{sky_.model.y} / glm::length(dvec3(sky_.model));
+  const dvec3 radiance = double{sky_.ground.albedo} * (mean + dvec3(sky_.ground.sun) * std::max(height, 0.0) / pi);
+  std::fill(below, own.texels.end(), glm::vec3(radiance));
+  sky_.whole = std::make_shared<const SkyTexels>(std::move(own));
 }
 
 dvec3 SkyLight::texel(int x, int y) const {

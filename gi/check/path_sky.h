@@ -1,4 +1,5 @@
-// The sky as the path tracer has it: the texels that the program has, looked up and drawn from by code of its own.
+// The sky as the path tracer has it: the texels that the program has, looked up and drawn from by code of its own. What
+// a computed sky has below its horizon is computed here once more.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,6 +26,7 @@ class SkyLight {
   double density(const glm::dvec3& direction) const;
 
  private:
+  void layGround();                                     ///< in place of what the program has below the horizon
   glm::dvec2 place(const glm::dvec3& direction) const;  ///< in texels
   glm::dvec3 texel(int x, int y) const;                 ///< any x, the nearest y
   double solidAngle(uint32_t row) const;

@@ -71,6 +71,9 @@ std::string whatIsMissing(const ViewInfo& info, const Settings& settings) {
     return "solver.method = brute_force: there is no matrix.";
   if (!framewise && info.isFrom(FROM_STANDARD_ERROR))
     return "solver.method = matrix: only frames of brute_force have a standard error.";
+  if (info.isFrom(FROM_SKY) && (framewise || settings.sky.source == SkySource::none))
+    return framewise ? "solver.method = brute_force: what comes from the sky is in H and nowhere by itself."
+                     : "sky.source = none: there is no sky.";
   return {};
 }
 

@@ -25,6 +25,7 @@ const Buffer* facetValues(const ViewInfo& info, const ViewInputs& inputs) {
          : info.isFrom(FROM_H)                                                ? &light->indirect
          : info.isFrom(FROM_B)                                                ? &light->radiosity
          : info.isFrom(FROM_STANDARD_ERROR) && light->frameMean.standardError ? &light->frameMean.standardError
+         : info.isFrom(FROM_SKY) && light->sky                                ? &light->sky
          : info.isFrom(FROM_WRITTEN) && light->writeback.drawn                ? &light->writeback.drawn
                                                                               : nullptr;
 }

@@ -40,15 +40,18 @@ Watch finishFacet(FacetArrays f, uint facet, Brought sum) {
 
   // By weights, after West (1979): the mean, and the variance about it, which is kept as the standard error.
   vec3 mean = h, error = vec3(0.0f);
+  float rowSum = float(sum.met) * weight;
   bool first = p.share == 1.0f;  // what is there is of no earlier frame, and may be no number
   if (!first) {
-    vec3 before = p.indirect.at[facet].xyz, errorBefore = p.standardError.at[facet].xyz, off = h - before;
+    vec4 kept = p.standardError.at[facet];  // as a whole: of .w alone Mesa's CPU driver (22.3) makes .x
+    vec3 before = p.indirect.at[facet].xyz, errorBefore = kept.xyz, off = h - before;
     mean = before + p.share * off;
     vec3 variance = (1.0f - p.share) * (p.toVariance * errorBefore * errorBefore + p.share * off * off);
     error = sqrt(p.toError * variance);
+    rowSum = mix(kept.w, rowSum, p.share);
   }
   p.indirect.at[facet] = vec4(mean, 0.0f);
-  p.standardError.at[facet] = vec4(error, 0.0f);
+  p.standardError.at[facet] = vec4(error, rowSum);
   if (EMITTED) {
     vec3 emitted = sum.emitted * weight;
     if (!first) emitted = mix(p.emitted.at[facet].xyz, emitted, p.share);

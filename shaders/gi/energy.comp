@@ -8,6 +8,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 layout(constant_id = CONSTANT_REFLECTED) const bool REFLECTED = false;
+layout(constant_id = CONSTANT_FRAMES) const bool FRAMES = false;
 layout(push_constant, scalar) uniform Push { EnergyPush p; };
 
 void main() {
@@ -23,7 +24,14 @@ void main() {
     if (SKY) sum.entering += area * p.sky.at[facet].xyz;
     if (REFLECTED) sum.entering += area * p.reflected.at[facet].xyz;
     sum.absorbed += area * (vec3(1.0f) - unpackAlbedo(f.albedo.at[facet])) * (direct + p.indirect.at[facet].xyz);
-    sum.escaped += area * (1.0f - p.rowSum.at[facet]) * p.radiosity.at[facet].xyz;
+    float rowSum;
+    if (FRAMES) {
+      vec4 kept = p.frames.at[facet];  // as a whole, as in gi/brute_force.comp
+      rowSum = kept.w;
+    } else {
+      rowSum = p.rowSum.at[facet];
+    }
+    sum.escaped += area * (1.0f - rowSum) * p.radiosity.at[facet].xyz;
   }
   p.sums.at[me] = sum;
 }

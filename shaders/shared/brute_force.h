@@ -15,7 +15,7 @@ struct BruteForcePush {
   Vec4Array indirect;        ///< mean H
   Vec4Array emitted;         ///< mean F M, where facets emit
   Vec4Array radiosity;       ///< B of the mean H
-  Vec4Array standardError;   ///< of the mean H
+  Vec4Array standardError;   ///< of the mean H; w: mean share of the rays that meet a facet
   ResidualArray residual;    ///< without maxDelta, maxRise, maxFall and maxReach
   uint firstFacet, count;    ///< this dispatch's facets
   uint rays;                 ///< per facet; 0: nothing is brought, and B for the first frame is lambda (M + rho D)

@@ -26,6 +26,7 @@ IRAD_CONST uint CONSTANT_SCATTER_STORES = 35u;
 IRAD_CONST uint CONSTANT_EMITTED = 36u;        ///< F M too, beside H
 IRAD_CONST uint CONSTANT_SOLVE_VECTORS = 37u;  ///< gi/solve_sums.comp, gi/extrapolate.comp: n
 IRAD_CONST uint CONSTANT_REFLECTED = 38u;      ///< there is light written back, W
+IRAD_CONST uint CONSTANT_FRAMES = 39u;         ///< light by brute force: there is no matrix
 
 // Pictures.
 IRAD_CONST uint CONSTANT_VIEW = 40u;

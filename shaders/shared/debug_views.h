@@ -37,9 +37,10 @@ IRAD_CONST uint FROM_SHADOW_MAPS = 16384u; ///< one light's
 IRAD_CONST uint FROM_PICTURE = 32768u;     ///< the reference picture
 IRAD_CONST uint FROM_STANDARD_ERROR = 65536u; ///< a value per facet: of H by brute force
 IRAD_CONST uint FROM_WRITTEN = 131072u;    ///< a value per facet: what the picture writes back to it
+IRAD_CONST uint FROM_SKY = 262144u;        ///< a value per facet: of H what comes straight from the sky
 // What several of them have in common.
 IRAD_CONST uint FROM_FACET_VALUES =
-    FROM_D | FROM_H | FROM_B | FROM_ORACLE | FROM_MATRIX_ROW | FROM_STANDARD_ERROR | FROM_WRITTEN;
+    FROM_D | FROM_H | FROM_B | FROM_ORACLE | FROM_MATRIX_ROW | FROM_STANDARD_ERROR | FROM_WRITTEN | FROM_SKY;
 IRAD_CONST uint FROM_STORED_FIELD = FROM_FIELD | FROM_CHEBYSHEV | FROM_JFA;
 IRAD_CONST uint FROM_ANY_FIELD = FROM_STORED_FIELD | FROM_JUMP_FLOOD;
 
@@ -94,7 +95,8 @@ IRAD_FN bool viewHasSign(uint kind) {
   X(STANDARD_ERROR,     36, "standard-error",      "Voxels: standard error of H",          "W/m^2",       "Voxels",    SCALAR,       0.0f,   0.0f, CUBES,      FROM_STANDARD_ERROR) \
   X(WRITEBACK,          37, "writeback",           "Voxels: reflections written back W",   "W/m^2",       "Writeback", IRRADIANCE,   0.0f,   1.0f, CUBES,      FROM_WRITTEN) \
   X(WRITEBACK_WRITERS,  38, "writeback-writers",   "Voxels: pixels that write back",       "pixels",      "Writeback", SCALAR,       0.0f,   2.0f, CUBES,      FROM_WRITTEN) \
-  X(WRITEBACK_MASK,     39, "writeback-mask",      "Pixels that the mask selects",         "",            "Writeback", COLOR,        0.0f,   1.0f, NONE,       FROM_TARGETS)
+  X(WRITEBACK_MASK,     39, "writeback-mask",      "Pixels that the mask selects",         "",            "Writeback", COLOR,        0.0f,   1.0f, NONE,       FROM_TARGETS) \
+  X(SKY_IRRADIANCE,     40, "sky-irradiance",      "Voxels: irradiance from the sky S",    "W/m^2",       "Voxels",    IRRADIANCE,   0.0f,   1.0f, CUBES,      FROM_SKY)
 // clang-format on
 
 #define IRAD_VIEW_CONSTANT(constant, number, name, label, unit, group, kind, low, high, shape, from) \

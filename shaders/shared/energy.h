@@ -42,6 +42,7 @@ struct EnergyPush {
   FacetRecord facets;
   Vec4Array direct, indirect, radiosity;  ///< D, H, B
   FloatArray area, rowSum;
+  Vec4Array frames;     ///< w: row sums by brute force, which has no matrix
   Vec4Array sky;        ///< irradiance, where there is one
   Vec4Array reflected;  ///< W, where reflections are written back
   EnergyArray sums;  ///< one per invocation

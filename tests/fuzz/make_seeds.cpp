@@ -5,10 +5,12 @@
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <meshoptimizer.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "gi/check/path_state.h"
 #include "gi/settings.h"
+#include "renderer/image_io.h"
 #include "renderer/scene/light_json.h"
 #include "tests/scene_files.h"
 
@@ -317,6 +319,29 @@ void writeState(const fs::path& folder) {
   writeSums(folder / "sums.state", saved);
 }
 
+/// A sky with a sun, in each format; and what is refused: the suite fuzz_seeds lets a regression be.
+void writeSkies(const fs::path& folder) {
+  fs::create_directories(folder);
+  constexpr glm::uvec2 kSize(16, 8);
+  std::vector<glm::vec4> pixels(kSize.x * kSize.y, glm::vec4(0.25f, 0.5f, 1, 1));
+  pixels[35] = glm::vec4(900, 800, 600, 1);
+  writePfm(folder / "sun.pfm", kSize, pixels);
+  writeLinear(folder / "sun", kSize, pixels);  // .exr
+  const auto hdr = OIIO::ImageOutput::create((folder / "sun.hdr").string());
+  if (!hdr || !hdr->open((folder / "sun.hdr").string(), OIIO::ImageSpec(16, 8, 3, OIIO::TypeDesc::FLOAT)) ||
+      !hdr->write_image(OIIO::TypeDesc::FLOAT, pixels.data(), sizeof(glm::vec4)) || !hdr->close())
+    throw WorkError("sun.hdr cannot be written");
+  for (const auto& [name, value] :
+       {std::pair("nan", NAN), std::pair("infinite", INFINITY), std::pair("negative", -1.0f)}) {
+    pixels[5].y = value;
+    writePfm(folder / fmt::format("regression-{}.pfm", name), kSize, pixels);
+  }
+  write(folder / "regression-large.pfm", "PF\n16384 8192\n-1.0\n");
+  write(folder / "regression-short.pfm", "PF\n4 2\n-1.0\n0123456789");
+  write(folder / "regression-big_endian.pfm", "PF\n2 1\n1.0\n" + std::string(24, '\0'));
+  write(folder / "regression-large.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n");
+}
+
 }  // namespace
 }  // namespace irad
 
@@ -329,6 +354,7 @@ int main(int argc, char** argv) {
     writeScenes(folder, folder / "image");
     writeTexts(folder);
     writeState(folder / "path_state");
+    writeSkies(folder / "sky");
   } catch (const std::exception& error) {
     return std::cerr << error.what() << "\n", 1;
   }

@@ -23,7 +23,8 @@ using Bytes = std::span<const uint8_t>;
   ROW(path_state)              \
   ROW(scene_cache)             \
   ROW(settings)                \
-  ROW(sidecar)
+  ROW(sidecar)                 \
+  ROW(sky)
 
 #define IRAD_FUZZ_DECLARE(name) void name(Bytes bytes);
 IRAD_FUZZ_READERS(IRAD_FUZZ_DECLARE)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gi/lighting.h"
+#include "renderer/base/number_text.h"
 #include "shaders/shared/emitters.h"
 #include "ui/imgui.h"
 #include "ui/link_table.h"
@@ -43,13 +45,22 @@ class InspectorPanel : public Panel {
     drawTop(in);
     drawPlace(in, *facet);
     drawNormal(*facet);
-    drawLight(*facet);
     const bool hasMatrix = session.pipeline->obeyed().solver.method == SolverMethod::matrix;
+    drawLight(*facet, hasMatrix);
+    if (!hasMatrix) {
+      valueRow("frames", withThousands(session.pipeline->lighting().report.frames));
+      helpTooltip("In the mean of H, each with rays of its own");
+    }
     drawHistory(in, hasMatrix);
-    if (hasMatrix)
+    if (hasMatrix) {
       drawMatrix(in, *facet);
-    else
-      ImGui::TextColored(theme::dim, "solver.method = brute_force: no row, no column");
+    } else {
+      ImGui::PushTextWrapPos(0);
+      ImGui::TextColored(theme::dim,
+                         "solver.method = brute_force: there is no matrix, and so neither row nor column. Each frame "
+                         "traces this facet's rays anew; below are those of the first.");
+      ImGui::PopTextWrapPos();
+    }
     drawRay(in, *facet);
   }
 
@@ -109,7 +120,7 @@ class InspectorPanel : public Panel {
                     facet.mesh->triangle, facet.mesh->back ? ", its back" : ""));
   }
 
-  static void drawLight(const InspectedFacet& facet) {
+  static void drawLight(const InspectedFacet& facet, bool hasMatrix) {
     valueRow("M", three(facet.emission));
     helpTooltip("Emitted exitance, W/m\u00B2");
     valueRow("D", three(facet.direct));
@@ -118,8 +129,13 @@ class InspectorPanel : public Panel {
     helpTooltip("Indirect irradiance, W/m\u00B2");
     valueRow("B", three(facet.radiosity));
     helpTooltip("Radiosity M + \u03C1 (D + H), W/m\u00B2");
-    valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
-    helpTooltip("How far one more sweep would move B here");
+    if (hasMatrix) {
+      valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
+      helpTooltip("How far one more sweep would move B here");
+    } else {
+      valueRow("std error", three(facet.standardError));
+      helpTooltip("Standard error of H here, from the spread of the frames, W/m\u00B2");
+    }
     if (facet.sky != glm::dvec3(0)) {
       valueRow("sky", three(facet.sky));
       helpTooltip("The part of H that comes straight from the sky, W/m\u00B2");
