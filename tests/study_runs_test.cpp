@@ -179,9 +179,10 @@ TEST_F(StudyRuns, ThePathTracersErrorFallsWithItsSamples) {
   ASSERT_EQ(run.status, 0) << run.err;
   const StudyResults results = readResults(folder_.path / "peer");
   ASSERT_EQ(results.peers.size(), 3u);
-  // Unbiased and independent: the error falls as 1/n, a factor of 4 each time.
+  // Unbiased and independent: a pixel's error halves with four times the samples. Of the picture's twelve blocks the
+  // error is known to a factor of 2 only.
   for (size_t i = 0; i + 1 < 3; ++i) {
-    EXPECT_LT(results.peers[i + 1].relMse, results.peers[i].relMse / 2);
+    EXPECT_NEAR(results.peers[i].rmse / results.peers[i + 1].rmse, 2, 0.4);
     EXPECT_GT(results.peers[i].seconds, 0);
   }
   const RunResult lit = runIrad({"study", "cost", "box", "--reference-samples", "4"});
