@@ -66,6 +66,31 @@ std::array<int, 3> colorChannels(const OIIO::ImageSpec& spec) {
   }
   return spec.nchannels >= 3 ? std::array{0, 1, 2} : std::array{0, 0, 0};
 }
+
+/// OpenEXR makes room for as many bytes as an attribute of the header says, before it looks for them: gigabytes where a
+/// damaged file says so.
+void checkExrHeader(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<uint8_t, 8> start{};  // magic number, version and flags
+  if (!in.read(reinterpret_cast<char*>(start.data()), start.size()) || start[0] != 0x76 || start[1] != 0x2f ||
+      start[2] != 0x31 || start[3] != 0x01)
+    return;
+  const bool severalParts = (start[5] & 0x10) != 0;
+  const uint64_t bytes = std::filesystem::file_size(path);
+  for (std::string name, type; std::getline(in, name, '\0');) {
+    if (name.empty()) {  // a header's end
+      if (!severalParts || in.peek() == 0) return;
+      continue;
+    }
+    std::array<uint8_t, 4> size{};
+    if (!std::getline(in, type, '\0') || !in.read(reinterpret_cast<char*>(size.data()), size.size())) return;
+    const uint64_t length = size[0] | size[1] << 8 | size[2] << 16 | uint64_t{size[3]} << 24;
+    if (length > bytes - static_cast<uint64_t>(in.tellg()))
+      throw InputError(
+          fmt::format("{}: ends before an attribute of its header does, which has {} bytes", path.string(), length));
+    in.seekg(static_cast<std::streamoff>(length), std::ios::cur);
+  }
+}
 #endif
 
 constexpr uint64_t kMostPixels = uint64_t{1} << 28;
@@ -105,12 +130,13 @@ LinearPicture readPfm(const std::filesystem::path& path) {
 
 LinearPicture readLinear(const std::filesystem::path& path) {
 #ifdef IRAD_OIIO
+  checkExrHeader(path);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), OIIO::geterror()));
   const OIIO::ImageSpec spec = input->spec();
   checkSize(path, spec.width, spec.height);
   // Before there is memory for what a few bytes may promise: large pictures take more than a byte for 1,024 pixels.
-  constexpr uint64_t kLarge = uint64_t{1} << 24, kMostPixelsPerByte = 1024;
+  constexpr uint64_t kLarge = uint64_t{1} << 20, kMostPixelsPerByte = 1024;
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
   if (pixels > kLarge && pixels / kMostPixelsPerByte > std::filesystem::file_size(path))
     throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), spec.width, spec.height));
