@@ -1,4 +1,5 @@
 // Studies without a device: grids of settings, fronts, rows on disk, merging, the report.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,18 +37,39 @@ std::string refusal(const std::vector<std::string>& sweeps) {
 TEST(Sweeps, AreListsAndRanges) {
   const std::vector<std::string> sweeps{"voxel.resolution=32,64", "matrix.rays=64..1024*2", "solver.omega=0.5..1+0.25"};
   const SettingGrid grid(sweeps, Settings{});
-  ASSERT_EQ(grid.sweeps().size(), 3u);
-  EXPECT_EQ(grid.sweeps()[1].text(), "matrix.rays=64,128,256,512,1024");
-  EXPECT_EQ(grid.sweeps()[2].text(), "solver.omega=0.5,0.75,1");
+  EXPECT_EQ(grid.texts(),
+            (std::vector<std::vector<std::string>>{
+                {"voxel.resolution=32,64", "matrix.rays=64,128,256,512,1024", "solver.omega=0.5,0.75,1"}}));
   EXPECT_EQ(grid.size(), 30u);
   EXPECT_EQ(grid.values(0), (std::vector<std::string>{"32", "64", "0.5"}));
   EXPECT_EQ(grid.values(1), (std::vector<std::string>{"32", "64", "0.75"})) << "the last changes first";
   EXPECT_EQ(grid.values(29), (std::vector<std::string>{"64", "1024", "1"}));
   EXPECT_EQ(grid.settings(29).matrix.gpu.rays, 1024u);
   EXPECT_EQ(grid.label(4), "voxel.resolution=32 matrix.rays=128 solver.omega=0.75");
-  EXPECT_EQ(SettingGrid({}, Settings{}).size(), 1u) << "the settings as they are";
+  EXPECT_EQ(SettingGrid(std::vector<std::string>{}, Settings{}).size(), 1u) << "the settings as they are";
   const std::vector<std::string> choice{"matrix.traversal=dda,sdf", "matrix.jitter=true,off"};
   EXPECT_EQ(SettingGrid(choice, Settings{}).values(3), (std::vector<std::string>{"sdf", "false"}));
+}
+
+TEST(Sweeps, OfSeveralGridsKeepTheNumbersOfTheirPoints) {
+  Settings base;
+  base.matrix.gpu.rays = 64;
+  const std::vector<std::string> coarse{"voxel.resolution=32,64"}, fine{"matrix.rays=64,128", "voxel.resolution=64,96"};
+  SettingGrid grid(coarse, base);
+  grid.add(fine);
+  ASSERT_EQ(grid.size(), 5u) << "(64, 64) is in both";
+  EXPECT_EQ(grid.label(1), "voxel.resolution=64 matrix.rays=64") << "what the first did not sweep is as given";
+  EXPECT_EQ(grid.label(2), "voxel.resolution=96 matrix.rays=64");
+  EXPECT_EQ(grid.label(4), "voxel.resolution=96 matrix.rays=128");
+  EXPECT_EQ(grid.settings(3).voxel.resolution, 64u);
+  EXPECT_EQ(grid.find(grid.settings(3)), 3u);
+  Settings other = grid.settings(3);
+  other.voxel.resolution = 65;
+  EXPECT_EQ(grid.find(other), std::nullopt);
+  EXPECT_EQ(SettingGrid(grid.texts(), base).labels(), grid.labels());
+  const std::vector<std::string> before = grid.labels(), wrong{"solver.omega=0.5", "matrix.format=padded"};
+  EXPECT_THROW(grid.add(wrong), UsageError);
+  EXPECT_EQ(grid.labels(), before) << "as it was";
 }
 
 TEST(Sweeps, RefuseWhatIsWrongByNameAndValue) {
@@ -146,7 +168,7 @@ const std::vector<std::string> kSweep{"voxel.resolution=16,32,64"};
 
 TEST(Results, ComeBackFromTheirFilesAsTheyWere) {
   TemporaryFolder folder;
-  const StudyIdentity identity = R"({"scene": "box", "settings": {"matrix.rays": 16}})";
+  const StudyIdentity identity = R"({"scene": "box", "sweeps": [["a"]], "settings": {"matrix.rays": 16}})";
   StudyFolder written(folder.path / "s", identity);
   written.results = someResults();
   written.results.failures.push_back({1, "no memory:\n\"much\", it needs"});
@@ -163,7 +185,7 @@ TEST(Results, ComeBackFromTheirFilesAsTheyWere) {
   EXPECT_EQ(contents(folder.path / "s"), files);
 
   try {
-    StudyFolder other(folder.path / "s", R"({"scene": "park", "settings": {"matrix.rays": 32}})");
+    StudyFolder other(folder.path / "s", R"({"scene": "park", "sweeps": [["a"]], "settings": {"matrix.rays": 32}})");
     FAIL() << "another study's results are not gone on with";
   } catch (const UsageError& error) {
     EXPECT_TRUE(contains(error.what(), "scene \"box\" instead of \"park\", matrix.rays 16 instead of 32"))
@@ -181,6 +203,18 @@ TEST(Results, ComeBackFromTheirFilesAsTheyWere) {
   } catch (const InputError& error) {
     EXPECT_TRUE(contains(error.what(), "times.csv: row 1: 'x' is no number")) << error.what();
   }
+}
+
+TEST(Results, AStudyGetsFurtherGrids) {
+  TemporaryFolder folder;
+  const auto identity = [](const char* sweeps) { return fmt::format(R"({{"scene": "box", "sweeps": {}}})", sweeps); };
+  const auto open = [&](const char* sweeps) { return StudyFolder(folder.path / "s", identity(sweeps)).identity(); };
+  StudyFolder(folder.path / "s", identity(R"([["a"]])")).setGrids({{"a"}, {"b"}});
+  EXPECT_EQ(gridsOf(readIdentity(folder.path / "s")), (GridTexts{{"a"}, {"b"}}));
+  EXPECT_EQ(gridsOf(open(R"([["a"]])")), (GridTexts{{"a"}, {"b"}})) << "begun again: goes on with all of them";
+  EXPECT_EQ(gridsOf(open(R"([["a"], ["b"], ["c"]])")), (GridTexts{{"a"}, {"b"}, {"c"}}));
+  EXPECT_EQ(gridsOf(readIdentity(folder.path / "s")), (GridTexts{{"a"}, {"b"}, {"c"}}));
+  EXPECT_THROW(open(R"([["a"], ["x"]])"), UsageError);
 }
 
 TEST(Results, OfShardsMergeToTheWhole) {

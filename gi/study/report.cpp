@@ -331,16 +331,12 @@ std::vector<std::string> findings(const std::vector<PointSummary>& points, const
 
 void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyResults& results,
                  const ReportNotes& notes) {
-  std::vector<std::string> labels, names;
+  std::vector<std::string> names;
   std::vector<std::vector<std::string>> values;
-  std::optional<size_t> given;
-  for (const Sweep& sweep : grid.sweeps()) names.emplace_back(sweep.setting->name);
-  for (size_t point = 0; point < grid.size(); ++point) {
-    labels.push_back(grid.label(point));
-    values.push_back(grid.values(point));
-    if (!given && grid.settings(point) == grid.base()) given = point;
-  }
-  const std::vector<PointSummary> points = summarize(results, labels);
+  for (const Setting* setting : grid.swept()) names.emplace_back(setting->name);
+  for (size_t point = 0; point < grid.size(); ++point) values.push_back(grid.values(point));
+  const std::optional<size_t> given = grid.find(grid.base());
+  const std::vector<PointSummary> points = summarize(results, grid.labels());
   writeFile(folder / "points.csv", pointsCsv(points, names, values));
   writeFile(folder / "stages.csv", stagesCsv(points));
 

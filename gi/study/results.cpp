@@ -101,6 +101,28 @@ void StudyResults::sort() {
   std::ranges::stable_sort(peers, {}, [](const PeerRow& r) { return std::pair(r.name, r.samples); });
 }
 
+GridTexts gridsOf(const StudyIdentity& identity) {
+  try {
+    return nlohmann::ordered_json::parse(identity).at("sweeps").get<GridTexts>();
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("study.json: sweeps: {}", error.what()));
+  }
+}
+
+namespace {
+
+StudyIdentity withGrids(const StudyIdentity& identity, const GridTexts& grids) {
+  auto json = nlohmann::ordered_json::parse(identity);
+  json["sweeps"] = grids;
+  return json.dump(2);
+}
+
+bool beginsWith(const GridTexts& longer, const GridTexts& start) {
+  return longer.size() >= start.size() && std::equal(start.begin(), start.end(), longer.begin());
+}
+
+}  // namespace
+
 StudyFolder::StudyFolder(fs::path path, StudyIdentity identity)
     : path_(std::move(path)), identity_(std::move(identity)) {
   const fs::path file = path_ / "study.json";
@@ -110,10 +132,21 @@ StudyFolder::StudyFolder(fs::path path, StudyIdentity identity)
     writeFile(file, identity_);
     return;
   }
-  if (const std::string other = differences(readIdentity(path_), identity_); !other.empty())
-    throw UsageError(
-        fmt::format("{} holds another study: {}; name another folder with --out, or remove it", path_.string(), other));
+  const StudyIdentity there = readIdentity(path_);
+  const GridTexts before = gridsOf(there), now = gridsOf(identity_);
+  if (beginsWith(before, now)) identity_ = withGrids(identity_, before);
+  const StudyIdentity& other = beginsWith(now, before) ? withGrids(there, now) : there;
+  if (const std::string different = differences(other, identity_); !different.empty())
+    throw UsageError(fmt::format("{} holds another study: {}; name another folder with --out, or remove it",
+                                 path_.string(), different));
+  if (now.size() > before.size()) writeFile(file, identity_);
   results = readResults(path_);
+}
+
+void StudyFolder::setGrids(const GridTexts& grids) {
+  IRAD_CHECK(beginsWith(grids, gridsOf(identity_)), "a study loses no points");
+  identity_ = withGrids(identity_, grids);
+  writeFile(path_ / "study.json", identity_);
 }
 
 void StudyFolder::save() {

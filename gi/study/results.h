@@ -43,8 +43,11 @@ struct PeerRow {
   double seconds = 0, relMse = 0, rmse = 0, meanError = 0, psnr = 0, flip = 0;
 };
 
-/// All that says which study it is: JSON text of names and values. Results of different ones do not mix.
+/// All that says which study it is: JSON text of names and values. Results of different ones do not mix. The member
+/// "sweeps" holds the grids (SettingGrid::texts).
 using StudyIdentity = std::string;
+using GridTexts = std::vector<std::vector<std::string>>;
+GridTexts gridsOf(const StudyIdentity& identity);  ///< InputError where it has none
 
 struct StudyResults {
   std::vector<ErrorRow> errors;
@@ -62,10 +65,12 @@ struct StudyResults {
 /// A study's folder. Files are replaced whole.
 class StudyFolder {
  public:
-  /// Makes the folder, or goes on with what is in it. UsageError where it holds another study: names what differs.
+  /// Makes the folder, or goes on with what is in it. A study may get further grids: where one of the two begins with
+  /// all of the other's, the longer one holds. UsageError where the folder has another study: names what differs.
   StudyFolder(std::filesystem::path path, StudyIdentity identity);
   const std::filesystem::path& path() const { return path_; }
   const StudyIdentity& identity() const { return identity_; }
+  void setGrids(const GridTexts& grids);  ///< more than before
   StudyResults results;
   void save();  ///< errors.csv, times.csv, failures.csv, peers.csv
 

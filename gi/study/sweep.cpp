@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "renderer/base/error.h"
 
@@ -81,46 +82,80 @@ std::string Sweep::text() const {
 }
 
 SettingGrid::SettingGrid(std::span<const std::string> sweeps, const Settings& base) : base_(base) {
-  for (const std::string& text : sweeps) {
-    Sweep sweep = parseSweep(text);
-    for (const Sweep& before : sweeps_)
-      if (before.setting == sweep.setting)
-        throw UsageError(fmt::format("--sweep {}: is swept twice", sweep.setting->name));
-    size_ *= sweep.values.size();
-    if (size_ > kMostPoints)
-      throw UsageError(fmt::format("--sweep {}: {} points are more than {}", sweep.setting->name, size_, kMostPoints));
-    sweeps_.push_back(std::move(sweep));
-  }
-  for (size_t point = 0; point < size_; ++point) try {
-      requireMatching(settings(point));
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("--sweep: the point {}: {}", label(point), error.what()));
-    }
+  add(sweeps);
 }
 
-std::vector<std::string> SettingGrid::values(size_t point) const {
-  IRAD_CHECK_OP(point, <, size_);
-  std::vector<std::string> out(sweeps_.size());
-  for (size_t i = sweeps_.size(); i-- > 0;) {
-    out[i] = sweeps_[i].values[point % sweeps_[i].values.size()];
-    point /= sweeps_[i].values.size();
+SettingGrid::SettingGrid(std::span<const std::vector<std::string>> grids, const Settings& base) : base_(base) {
+  for (const std::vector<std::string>& sweeps : grids) add(sweeps);
+}
+
+void SettingGrid::add(std::span<const std::string> texts) {
+  std::vector<Sweep> sweeps;
+  std::vector<std::string> plain;
+  size_t count = 1;
+  for (const std::string& text : texts) {
+    Sweep sweep = parseSweep(text);
+    for (const Sweep& before : sweeps)
+      if (before.setting == sweep.setting)
+        throw UsageError(fmt::format("--sweep {}: is swept twice", sweep.setting->name));
+    count *= sweep.values.size();
+    if (points_.size() + count > kMostPoints)
+      throw UsageError(fmt::format("--sweep {}: {} points are more than {}", sweep.setting->name,
+                                   points_.size() + count, kMostPoints));
+    plain.push_back(sweep.text());
+    sweeps.push_back(std::move(sweep));
   }
-  return out;
+
+  SettingGrid out = *this;
+  std::vector<size_t> columns;
+  for (const Sweep& sweep : sweeps) {
+    const auto column = std::ranges::find(out.swept_, sweep.setting);
+    columns.push_back(static_cast<size_t>(column - out.swept_.begin()));
+    if (column != out.swept_.end()) continue;
+    out.swept_.push_back(sweep.setting);
+    for (std::vector<std::string>& values : out.points_) values.push_back(sweep.setting->text(base_));
+  }
+  std::set<std::vector<std::string>> there(out.points_.begin(), out.points_.end());
+  for (size_t i = 0; i < count; ++i) {
+    std::vector<std::string> values;
+    for (const Setting* setting : out.swept_) values.push_back(setting->text(base_));
+    size_t rest = i;
+    for (size_t s = sweeps.size(); s-- > 0; rest /= sweeps[s].values.size())
+      values[columns[s]] = sweeps[s].values[rest % sweeps[s].values.size()];
+    if (there.insert(values).second) out.points_.push_back(std::move(values));
+  }
+  for (size_t point = points_.size(); point < out.size(); ++point) try {
+      requireMatching(out.settings(point));
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--sweep: the point {}: {}", out.label(point), error.what()));
+    }
+  out.texts_.push_back(std::move(plain));
+  *this = std::move(out);
 }
 
 Settings SettingGrid::settings(size_t point) const {
   Settings out = base_;
-  const std::vector<std::string> chosen = values(point);
-  for (size_t i = 0; i < chosen.size(); ++i) sweeps_[i].setting->assign(out, chosen[i]);
+  for (size_t i = 0; i < swept_.size(); ++i) swept_[i]->assign(out, values(point)[i]);
   return out;
 }
 
 std::string SettingGrid::label(size_t point) const {
-  const std::vector<std::string> chosen = values(point);
   std::string out;
-  for (size_t i = 0; i < chosen.size(); ++i)
-    out += fmt::format("{}{}={}", i > 0 ? " " : "", sweeps_[i].setting->name, chosen[i]);
+  for (size_t i = 0; i < swept_.size(); ++i)
+    out += fmt::format("{}{}={}", i > 0 ? " " : "", swept_[i]->name, values(point)[i]);
   return out.empty() ? "as given" : out;
+}
+
+std::vector<std::string> SettingGrid::labels() const {
+  std::vector<std::string> out;
+  for (size_t point = 0; point < size(); ++point) out.push_back(label(point));
+  return out;
+}
+
+std::optional<size_t> SettingGrid::find(const Settings& settings) const {
+  for (size_t point = 0; point < size(); ++point)
+    if (this->settings(point) == settings) return point;
+  return std::nullopt;
 }
 
 Shard parseShard(std::string_view text) {

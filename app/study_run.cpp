@@ -1,0 +1,384 @@
+#include "app/study_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/table.h"
+#include "app/version.h"
+#include "gi/facets.h"
+#include "gi/matrix.h"
+#include "gi/sky.h"
+#include "gi/watch.h"
+#include "renderer/base/console.h"
+#include "renderer/base/error.h"
+#include "renderer/base/number_text.h"
+#include "renderer/base/output_file.h"
+#include "renderer/image_io.h"
+#include "renderer/scene/camera_json.h"
+#include "shaders/shared/color_map.h"
+
+namespace irad::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kPathTracer = "path-tracer";
+
+/// As a screen shows it without a tone curve, which is what FLIP compares.
+void writePng(const fs::path& stem, glm::uvec2 size, const LinearPixels& linear, float exposure) {
+  std::vector<glm::u8vec4> bytes;
+  for (const glm::vec4& pixel : linear) {
+    glm::u8vec4 out(255);
+    for (int c = 0; c < 3; ++c) {
+      const float x = pixel[c] * exposure;
+      out[c] = std::isnan(x) ? 0 : static_cast<uint8_t>(std::lround(255 * encodeSrgb(x)));
+    }
+    bytes.push_back(out);
+  }
+  writeDisplay(stem, size, bytes);
+}
+
+LinearPixels toPixels(const std::vector<glm::dvec3>& light) {
+  LinearPixels out;
+  for (const glm::dvec3& pixel : light) out.emplace_back(glm::vec3(pixel), 1);
+  return out;
+}
+
+/// A third of the picture's width and height, 16 to 128 pixels, where the truth has most contrast.
+void chooseCrop(const Truth& truth, ReportNotes& notes) {
+  notes.pictureSize = truth.size;
+  notes.cropSize = glm::min(glm::max(truth.size / 3u, glm::uvec2(16)), glm::uvec2(128));
+  notes.cropSize = glm::min(notes.cropSize, truth.size);
+  const LinearPixels mean = truth.mean();
+  double most = -1;
+  const glm::uvec2 step = glm::max(notes.cropSize / 4u, glm::uvec2(1));
+  for (uint32_t y0 = 0; y0 + notes.cropSize.y <= truth.size.y; y0 += step.y)
+    for (uint32_t x0 = 0; x0 + notes.cropSize.x <= truth.size.x; x0 += step.x) {
+      double sum = 0, squares = 0, n = 0;
+      for (uint32_t y = y0; y < y0 + notes.cropSize.y; ++y)
+        for (uint32_t x = x0; x < x0 + notes.cropSize.x; ++x) {
+          const glm::vec4& p = mean[size_t{y} * truth.size.x + x];
+          const double value = std::log(1e-4 + std::max(0.0, double{p.x} + p.y + p.z));
+          sum += value, squares += value * value, ++n;
+        }
+      const double variance = squares / n - (sum / n) * (sum / n);
+      if (variance > most) most = variance, notes.cropAt = {x0, y0};
+    }
+}
+
+}  // namespace
+
+LinearPixels Truth::mean() const {
+  LinearPixels out = first;
+  for (size_t i = 0; i < second.size(); ++i) out[i] = 0.5f * (first[i] + second[i]);
+  return out;
+}
+
+void requirePathTracer(const ViewInfo& view, const Settings& settings) {
+  if (!hasPathTracer()) throw UsageError("--peer, --reference-samples: this build has no path tracer (IRAD_EMBREE)");
+  const std::string_view name = view.name;
+  if (name != "indirect" && !(name == "lit" && settings.scene.lambertian))
+    throw UsageError(
+        fmt::format("--view {}: the path tracer is diffuse: compare --view indirect, or --view lit with "
+                    "--set scene.lambertian=true",
+                    view.name));
+}
+
+StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task)
+    : session_(session), scene_(std::move(scene)), grid_(std::move(grid)), task_(std::move(task)) {
+  if (std::min(task_.size.x, task_.size.y) < kBlockSide)
+    throw UsageError(fmt::format("--size: {} x {} holds no block of {} x {} pixels", task_.size.x, task_.size.y,
+                                 kBlockSide, kBlockSide));
+  if (!task_.view.toneMapped()) throw UsageError(fmt::format("--view: {} is no light", task_.view.name));
+  if (task_.truth.samples || !task_.peerSamples.empty()) requirePathTracer(task_.view, grid_.base());
+  truth_.size = task_.size;
+  truth_.what = task_.truth.name();
+  for (const std::optional<ReferencePicture>* file : {&task_.truth.file, &task_.truth.secondFile})
+    if (*file && (*file)->picture.size != task_.size)
+      throw UsageError(fmt::format("{}: {} x {} pixels, --size is {} x {}", (*file)->path.string(),
+                                   (*file)->picture.size.x, (*file)->picture.size.y, task_.size.x, task_.size.y));
+  folder_.emplace(task_.out, identity());
+  const GridTexts grids = gridsOf(folder_->identity());
+  for (size_t i = grid_.texts().size(); i < grids.size(); ++i) grid_.add(grids[i]);
+  makeFolder(task_.out / "pictures");
+  bench_.emplace(*session_.context, scene_, grid_.settings(0), task_.size, task_.view.view, task_.camera);
+  exposure_ = std::exp2(grid_.base().camera.exposureEv);
+  makeTruth();
+  writePng(task_.out / "pictures" / kReferenceName, task_.size, truth_.mean(), exposure_);
+}
+
+void StudyRun::measure() {
+  measureErrors();
+  measureTimes();
+  measurePeers();
+  folder_->save();
+  session_.progress.finish();
+  const ReportNotes n = notes();
+  writeFile(task_.out / "notes.json", nlohmann::ordered_json{{"facts", n.facts},
+                                                             {"picture", {n.pictureSize.x, n.pictureSize.y}},
+                                                             {"crop", {n.cropAt.x, n.cropAt.y}},
+                                                             {"crop_size", {n.cropSize.x, n.cropSize.y}}}
+                                          .dump(2));
+}
+
+void StudyRun::extend(const std::vector<std::string>& sweeps) {
+  grid_.add(sweeps);
+  folder_->setGrids(grid_.texts());
+}
+
+// ---- The truth ----
+
+std::string TruthSource::name() const {
+  if (samples) return fmt::format("path tracer, {} samples per pixel", *samples);
+  if (settings) return fmt::format("own pictures of two seeds by {}", settingsToJson(*settings));
+  return secondFile ? fmt::format("{} and {}", file->sha256, secondFile->sha256) : file->sha256;
+}
+
+/// What is computed is two pictures of independent noise, kept in the folder.
+void StudyRun::makeTruth() {
+  const fs::path& out = task_.out;
+  const auto fileOf = [&](const char* half) {
+    for (const char* extension : {".exr", ".pfm"})
+      if (const fs::path file = out / (half + std::string(extension)); fs::exists(file)) return file;
+    return fs::path();
+  };
+  if (task_.truth.file) {
+    truth_.first = task_.truth.file->picture.pixels;
+    if (task_.truth.secondFile) truth_.second = task_.truth.secondFile->picture.pixels;
+    return;
+  }
+  if (fileOf("reference.a").empty() || fileOf("reference.b").empty()) {
+    session_.progress("reference", 0);
+    if (task_.truth.samples) {
+      const TracedPicture picture = trace(*task_.truth.samples, 1);
+      writeLinear(out / "reference.a", task_.size, toPixels(lightOf(picture).half[0]));
+      writeLinear(out / "reference.b", task_.size, toPixels(lightOf(picture).half[1]));
+    } else {
+      Settings settings = *task_.truth.settings;
+      for (const char* half : {"reference.a", "reference.b"}) {
+        settings.matrix.gpu.seed += 1'000'000;  // no seed of a point
+        writeLinear(out / half, task_.size, picture(settings));
+      }
+    }
+  }
+  truth_.first = readLinear(fileOf("reference.a")).pixels;
+  truth_.second = readLinear(fileOf("reference.b")).pixels;
+  IRAD_CHECK_OP(truth_.first.size(), ==, size_t{task_.size.x} * task_.size.y);
+  IRAD_CHECK_OP(truth_.second.size(), ==, truth_.first.size());
+}
+
+LinearPixels StudyRun::picture(const Settings& settings) {
+  Pipeline& pipeline = bench_->pipeline();
+  pipeline.set(settings);
+  bench_->prepare({});
+  bench_->forget();
+  const View view = task_.view.view;
+  LinearPixels out = bench_->pictures({&view, 1});
+  for (const Finding& finding : pipeline.findings())
+    if (finding.severity == Finding::Severity::Error) throw DeviceError(finding.text);  // a row that says so
+  return out;
+}
+
+TracedPicture StudyRun::trace(uint32_t samples, uint64_t seed) {
+  if (!tracer_) tracer_ = makePathTracer(scene_, bench_->pipeline().sky());
+  return tracer_->render(task_.camera, task_.size, {.samples = samples, .seed = seed, .centred = true});
+}
+
+const TracedLight& StudyRun::lightOf(const TracedPicture& picture) const {
+  return std::string_view(task_.view.name) == "indirect" ? picture.indirect : picture.lit;
+}
+
+StudyIdentity StudyRun::identity() const {
+  nlohmann::ordered_json json;
+  json["study"] = task_.study;
+  json["program"] = fmt::format("{} ({})", versionNumber(), versionCommit());
+  json["device"] = session_.device->info.name;
+  json["cpu"] = session_.device->isCpu;
+  json["scene"] = scene_.path.filename().string();
+  json["scene_sha256"] = scene_.sha256;
+  if (scene_.sky) json["sky_sha256"] = scene_.sky->sha256;
+  json["camera"] = nlohmann::ordered_json::parse(cameraToJson(task_.camera));
+  json["size"] = {task_.size.x, task_.size.y};
+  json["view"] = task_.view.name;
+  json["reference"] = truth_.what;
+  json["sweeps"] = grid_.texts();
+  json["settings"] = nlohmann::ordered_json::parse(settingsToJson(grid_.base()));
+  return json.dump(2);
+}
+
+// ---- Measuring ----
+
+bool StudyRun::progress(const char* what, size_t done, size_t all) {
+  return session_.progress(what, static_cast<float>(done) / static_cast<float>(std::max<size_t>(all, 1)));
+}
+
+std::vector<size_t> StudyRun::ownPoints() const {
+  std::vector<size_t> out;
+  for (size_t point = 0; point < grid_.size(); ++point)
+    if (task_.shard.has(point) && !folder_->results.hasFailed(point)) out.push_back(point);
+  return out;
+}
+
+/// Runs `act`; a point that finds no memory becomes a row that says so.
+template <class Act>
+bool StudyRun::attempt(size_t point, Act&& act) {
+  try {
+    act();
+    return true;
+  } catch (const DeviceError& error) {
+    session_.progress.note(fmt::format("{}: {}", grid_.label(point), error.what()));
+    folder_->results.failures.push_back({point, error.what()});
+    folder_->save();
+  }
+  session_.device->waitIdle();  // all that the attempt held is free from here on
+  session_.timings.reset();
+  return false;
+}
+
+/// Before any time is taken: relights that are measured nudge the lights.
+void StudyRun::measureErrors() {
+  const std::vector<size_t> points = ownPoints();
+  const uint32_t firstSeed = grid_.base().matrix.gpu.seed;
+  size_t done = 0;
+  for (const size_t point : points)
+    for (uint32_t i = 0; i < task_.seeds; ++i) {
+      progress("errors", done++, points.size() * task_.seeds);
+      const uint32_t seed = firstSeed + i;
+      if (folder_->results.hasError(point, seed) || folder_->results.hasFailed(point)) continue;
+      Settings settings = grid_.settings(point);
+      settings.matrix.gpu.seed = seed;
+      attempt(point, [&] { measureError(point, settings, i == 0); });
+      folder_->save();
+    }
+}
+
+void StudyRun::measureError(size_t point, const Settings& settings, bool keepPicture) {
+  const LinearPixels pixels = picture(settings);
+  const Pipeline& pipeline = bench_->pipeline();
+  const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
+  const bool matrix = pipeline.obeyed().solver.method == SolverMethod::matrix;
+  folder_->results.errors.push_back({.point = point,
+                                     .seed = settings.matrix.gpu.seed,
+                                     .relMse = m.blockRelMse,
+                                     .rmse = m.pixels.rmse,
+                                     .meanError = m.pixels.meanError,
+                                     .psnr = m.pixels.psnr,
+                                     .flip = m.flip,
+                                     .facets = pipeline.facets().count,
+                                     .entries = matrix ? pipeline.matrix().stats.entries : 0,
+                                     .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
+                                     .deviceMib = inMebibytes(session_.device->memory().used())});
+  if (keepPicture) writePng(task_.out / "pictures" / pictureName(point), task_.size, pixels, exposure_);
+}
+
+/// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
+/// caches, clocks and pages and counts for nothing.
+void StudyRun::measureTimes() {
+  const std::vector<size_t> points = ownPoints();
+  const auto due = [&](size_t point, uint32_t repeat) {
+    return !folder_->results.hasFailed(point) && !folder_->results.hasTimes(point, repeat);
+  };
+  bool any = false;
+  for (const size_t point : points)
+    for (uint32_t repeat = 0; repeat < task_.repeats; ++repeat) any = any || due(point, repeat);
+  if (!any) return;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point saved = Clock::now(), began = saved;
+  for (uint32_t round = 0; round <= task_.repeats; ++round) {
+    if (round == 1) {
+      const std::chrono::duration<double> once = Clock::now() - began;
+      session_.progress.note(fmt::format("{} repeats of {} points: about {:.0f} s", task_.repeats, points.size(),
+                                         once.count() * task_.repeats));
+    }
+    for (size_t i = 0; i < points.size(); ++i) {
+      progress(round == 0 ? "warming up" : "times", round == 0 ? i : (round - 1) * points.size() + i,
+               round == 0 ? points.size() : task_.repeats * points.size());
+      const size_t point = points[i];
+      const bool warms = round == 0;
+      if (warms ? folder_->results.hasFailed(point) : !due(point, round - 1)) continue;
+      attempt(point, [&] {
+        bench_->pipeline().set(grid_.settings(point));
+        bench_->rebuild();
+        bench_->relight();
+        bench_->cameraFrame();
+        if (warms) return;
+        for (const StageSamples& stage : bench_->samples())
+          for (const double ms : stage.ms)
+            folder_->results.times.push_back({point, round - 1, toString(stage.kind), stage.stage, ms});
+      });
+      bench_->forget();
+      if (Clock::now() - saved > std::chrono::seconds(2)) {
+        folder_->save();
+        saved = Clock::now();
+      }
+    }
+  }
+  folder_->save();
+}
+
+void StudyRun::measurePeers() {
+  if (task_.shard.part != 1) return;
+  for (size_t i = 0; i < task_.peerSamples.size(); ++i) {
+    progress("path tracer", i, task_.peerSamples.size());
+    const uint32_t samples = task_.peerSamples[i];
+    if (folder_->results.hasPeer(kPathTracer, samples)) continue;
+    const TracedPicture picture = trace(samples, 1000 + i);  // other samples than the truth's
+    const LinearPixels pixels = toPixels(lightOf(picture).mean);
+    const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
+    folder_->results.peers.push_back({kPathTracer, samples, picture.seconds, m.blockRelMse, m.pixels.rmse,
+                                      m.pixels.meanError, m.pixels.psnr, m.flip});
+    writePng(task_.out / "pictures" / pictureName(kPathTracer, samples), task_.size, pixels, exposure_);
+    folder_->save();
+  }
+}
+
+// ---- What is said of it ----
+
+ReportNotes StudyRun::notes() const {
+  ReportNotes notes;
+  const TruthSource& truth = task_.truth;
+  notes.facts = {
+      fmt::format("Scene {}, camera {}, view {}, {} × {} pixels", scene_.path.filename().string(),
+                  task_.camera.name.empty() ? "of its own" : task_.camera.name, task_.view.name, task_.size.x,
+                  task_.size.y),
+      fmt::format("Reference: {}", truth.file ? truth.file->path.filename().string() : truth_.what),
+      fmt::format("Device: {}; times are GPU time stamps, medians of {} repeats with all points in turn, after a round "
+                  "that warms up{}",
+                  session_.device->info.name, task_.repeats,
+                  task_.repeats < 30 ? fmt::format("; {} repeats are few: 30 and more are meant", task_.repeats) : ""),
+      fmt::format("Errors: {} seeds from {} on; relMSE of means over {} × {} pixels, ε = (0.1 × mean)²; ± is half of "
+                  "a 95 % interval over seeds (Student's t)",
+                  task_.seeds, grid_.base().matrix.gpu.seed, kBlockSide, kBlockSide)};
+  if (!task_.peerSamples.empty())
+    notes.facts.push_back(
+        "Path tracer: Embree on this machine's CPU, diffuse, one sample through each pixel's middle; "
+        "every picture takes all of its time");
+  chooseCrop(truth_, notes);
+  return notes;
+}
+
+void finishStudy(const fs::path& out, const SettingGrid& grid, const StudyResults& results, const ReportNotes& notes) {
+  writeReport(out, grid, results, notes);
+  const std::vector<PointSummary> points = summarize(results, grid.labels());
+  std::vector<std::vector<std::string>> rows{
+      {"point", "settings", "relMSE", "±", "FLIP", "build ms", "relight ms", "frame ms", "MiB", ""}};
+  for (const PointSummary& p : points) {
+    const auto ms = [&](const char* kind) {
+      return std::isfinite(p.gpuMs(kind)) ? milliseconds(p.gpuMs(kind)) : std::string("-");
+    };
+    const bool done = p.seeds > 0;
+    rows.push_back({std::to_string(p.point), p.label, done ? shortNumber(p.relMse.mean) : "-",
+                    done && std::isfinite(p.relMse.half) ? shortNumber(p.relMse.half) : "-",
+                    done ? shortNumber(p.flip.mean) : "-", ms("setup"), ms("relight"), ms("camera"),
+                    done ? fmt::format("{:.1f}", p.deviceMib) : "-", p.failure});
+  }
+  print("{}", formatTable(rows, {true, false, true, true, true, true, true, true, true, false}));
+  for (const std::string& finding : findings(points, results.peers, grid.find(grid.base()))) print("{}\n", finding);
+  print("wrote       {}\n", (out / "report.html").string());
+}
+
+}  // namespace irad::app

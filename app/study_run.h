@@ -1,0 +1,101 @@
+// What all studies are made by: pictures of one camera over a grid of settings, their errors against one truth, their
+// times and memory, in a folder that can be gone on with.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/bench.h"
+#include "app/device_session.h"
+#include "gi/check/path_tracer.h"
+#include "gi/picture.h"
+#include "gi/study/report.h"
+#include "gi/study/results.h"
+#include "gi/study/sweep.h"
+#include "gi/views/views.h"
+
+namespace irad::app {
+
+using LinearPixels = std::vector<glm::vec4>;
+
+/// Where the truth comes from: one of these.
+struct TruthSource {
+  std::optional<ReferencePicture> file, secondFile;  ///< the second: of independent noise
+  std::optional<uint32_t> samples;                   ///< of the path tracer, even: its two halves
+  std::optional<Settings> settings;                  ///< the program's own pictures by these, of two seeds
+  std::string name() const;                          ///< for identities: hashes of files, or what is computed
+};
+
+struct StudyTask {
+  std::string study = "cost";  ///< its name, in the identity
+  std::filesystem::path out;
+  Camera camera;
+  glm::uvec2 size{0};
+  ViewInfo view{};
+  TruthSource truth;
+  uint32_t seeds = 4, repeats = 30;
+  Shard shard;
+  std::vector<uint32_t> peerSamples;  ///< of the path tracer as a peer, even; empty: none
+};
+
+/// What pictures are held against: one picture, or two with independent noise.
+struct Truth {
+  glm::uvec2 size{0};
+  LinearPixels first, second;  ///< second: empty where there is one
+  std::string what;            ///< for the identity and the report
+  LinearPixels mean() const;
+};
+
+/// UsageError where the path tracer, which is diffuse, makes no truth of this view, or is not there.
+void requirePathTracer(const ViewInfo& view, const Settings& settings);
+
+class StudyRun {
+ public:
+  /// Opens the folder and makes the truth. The scene as DeviceSession::load gave it with grid.base(). UsageError where
+  /// sizes do not fit, or the folder holds another study.
+  StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task);
+  /// Measures what the folder does not have yet; notes.json is written at the end.
+  void measure();
+  /// Adds the combinations of these sweeps, for the next measure().
+  void extend(const std::vector<std::string>& sweeps);
+
+  const SettingGrid& grid() const { return grid_; }
+  const StudyResults& results() const { return folder_->results; }
+  std::vector<PointSummary> points() const { return summarize(folder_->results, grid_.labels()); }
+  const Truth& truth() const { return truth_; }
+  ReportNotes notes() const;
+
+ private:
+  void makeTruth();
+  LinearPixels picture(const Settings& settings);  ///< of a light solved from the dark
+  TracedPicture trace(uint32_t samples, uint64_t seed);
+  const TracedLight& lightOf(const TracedPicture& picture) const;
+  StudyIdentity identity() const;
+  bool progress(const char* what, size_t done, size_t all);
+  std::vector<size_t> ownPoints() const;
+  template <class Act>
+  bool attempt(size_t point, Act&& act);
+  void measureErrors();
+  void measureError(size_t point, const Settings& settings, bool keepPicture);
+  void measureTimes();
+  void measurePeers();
+
+  DeviceSession& session_;
+  Scene scene_;
+  SettingGrid grid_;
+  StudyTask task_;
+  Truth truth_;
+  float exposure_ = 1;
+  std::optional<StudyFolder> folder_;
+  std::optional<Bench> bench_;
+  std::unique_ptr<PathTracer> tracer_;
+};
+
+/// Writes the report, prints the table and the findings.
+void finishStudy(const std::filesystem::path& out, const SettingGrid& grid, const StudyResults& results,
+                 const ReportNotes& notes);
+
+}  // namespace irad::app
