@@ -185,7 +185,7 @@ TEST_F(StudyRuns, ThePathTracersErrorFallsWithItsSamples) {
     EXPECT_NEAR(results.peers[i].rmse / results.peers[i + 1].rmse, 2, 0.4);
     EXPECT_GT(results.peers[i].seconds, 0);
   }
-  const RunResult lit = runIrad({"study", "cost", "box", "--reference-samples", "4"});
+  const RunResult lit = runIrad({"study", "cost", "box", "--reference-samples", "4", "--view", "lit"});
   EXPECT_EQ(lit.status, 2);
   EXPECT_TRUE(contains(lit.err, "--view lit: the path tracer is diffuse")) << lit.err;
 }
