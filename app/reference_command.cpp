@@ -22,7 +22,6 @@ void run(const Arguments& arguments) {
   if (session.settings.writeback.mode != WritebackMode::off)
     throw UsageError(
         fmt::format("--of {}: writeback.mode is to be off: reflections are no part of this truth", task.of));
-  beginFiles(task);
   (task.of == "voxels" ? traceVoxels : solveMatrix)(arguments, task, session, std::move(scene), camera);
 }
 
