@@ -1,5 +1,6 @@
 #include "gi/check/path_tracer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
