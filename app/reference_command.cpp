@@ -45,12 +45,16 @@ Command referenceCommand() {
                       "very many rays per facet, without a matrix. "
                       "matrix: the matrix solved in double precision to 1e-12 of the mean H");
         options.values("--layer", "NAME[,NAME...]", arguments->layers,
-                       "lit (default), indirect or (with --glossy) specular, as the views of these names: indirect is "
+                       "lit (default), indirect or (with --glossy or --glossy-seen) specular, as the views of these "
+                       "names: indirect is "
                        "what the diffuse part of the surface seen reflects of all light but that of suns, points and "
                        "spots, specular what its lobe does. The second one has channels NAME.R, NAME.error.R, ...");
         options.flag("--glossy", arguments->glossy,
                      "triangles: the full metallic-roughness material, its lobe beside the diffuse part, as irad "
                      "render shows it");
+        options.flag("--glossy-seen", arguments->glossySeen,
+                     "triangles: the same of the surface that the camera sees alone; light comes to it by diffuse "
+                     "reflections, as in irad render, which this tells from what that leaves out");
         options.value("--bounces", "K", arguments->bounces,
                       "triangles, matrix: also layers bounce.0 to bounce.K, the parts of lit by how often light has "
                       "been reflected before it comes to the surface seen, and each one's share of the mean. "

@@ -58,12 +58,15 @@ Task taskOf(const Arguments& arguments) {
           "triangles and voxels: a matrix is solved to the end");
   onlyFor(arguments.resume, "--resume", !matrix, "triangles and voxels: a matrix is solved to the end");
   onlyFor(arguments.glossy, "--glossy", triangles, "triangles; the others have the materials that pictures have");
+  onlyFor(arguments.glossySeen, "--glossy-seen", triangles,
+          "triangles; the others have the materials that pictures have");
+  if (arguments.glossy && arguments.glossySeen) throw UsageError("--glossy or --glossy-seen, not both");
   onlyFor(arguments.bounces.has_value(), "--bounces", triangles || matrix,
           "triangles and matrix: frames of rays do not tell them apart");
   if (arguments.bounces)
     task.bounces = 1 + static_cast<uint32_t>(parseInteger("--bounces", *arguments.bounces, 0, kMostBounces));
-  if (std::ranges::count(task.layers, "specular") > 0 && !(triangles && arguments.glossy))
-    throw UsageError("--layer specular is for --of triangles --glossy");
+  if (std::ranges::count(task.layers, "specular") > 0 && !arguments.glossy && !arguments.glossySeen)
+    throw UsageError("--layer specular is for --of triangles with --glossy or --glossy-seen");
   onlyFor(arguments.centred, "--centred", triangles, "triangles; the others sample pixels as irad render does");
   onlyFor(arguments.facets, "--facets", !triangles, "voxels and matrix");
   arguments.sceneOptions.check();
@@ -148,6 +151,7 @@ void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest
   repeat("--noise", arguments.noise);
   repeat("--bounces", arguments.bounces);
   if (arguments.glossy) manifest.arguments.emplace_back("--glossy");
+  if (arguments.glossySeen) manifest.arguments.emplace_back("--glossy-seen");
   if (arguments.centred) manifest.arguments.emplace_back("--centred");
   if (arguments.facets) manifest.arguments.emplace_back("--facets");
   manifest.details.emplace_back("truth", truth.dump());

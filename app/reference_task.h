@@ -35,7 +35,7 @@ constexpr double kSecondsBetweenStates = 60;
 struct Arguments {
   std::optional<std::string> scene, out, of, spp, seconds, noise, bounces;
   std::vector<std::string> layers;
-  bool resume = false, centred = false, facets = false, glossy = false;
+  bool resume = false, centred = false, facets = false, glossy = false, glossySeen = false;
   SceneArguments sceneOptions;
   SettingArguments settings;
   DeviceArguments device;

@@ -57,7 +57,7 @@ Json madeOf(const Scene& scene, const Settings& settings, const Camera& camera, 
   if (scene.sky) made["sky"] = scene.sky->sha256;
   made["seed"] = settings.matrix.gpu.seed;
   made["centred"] = options.centred;
-  made["materials"] = options.glossy ? "glossy" : "diffuse";
+  made["materials"] = options.glossySeen ? "glossy-seen" : options.glossy ? "glossy" : "diffuse";
   made["bounces"] = options.bounces > 0 ? Json(options.bounces - 1) : Json("none");
   for (const Setting& setting : settingTable())
     if (setting.group() == "scene" || setting.group() == "sky") made[setting.name] = setting.text(settings);
@@ -100,7 +100,8 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
   const Camera camera = cameraOf(arguments, task, scene);
   TraceOptions options{.seed = settings.matrix.gpu.seed,
                        .centred = arguments.centred,
-                       .glossy = arguments.glossy,
+                       .glossy = arguments.glossy || arguments.glossySeen,
+                       .glossySeen = arguments.glossySeen,
                        .bounces = task.bounces};
   const Json made = madeOf(scene, settings, camera, options);
   TracedSums sums = resumed(task, arguments.resume, made);

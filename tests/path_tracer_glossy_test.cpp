@@ -219,6 +219,23 @@ TEST_F(PathTracingGlossy, MirrorsFaceToFace) {
       EXPECT_EQ(p.bounces[k].pictureMean.x, 0) << k;
 }
 
+TEST_F(PathTracingGlossy, OfWhatIsSeenAlone) {
+  // A ceiling of .5 that a white metal floor shines at: with the lobe of the ceiling alone the floor is black.
+  SceneBuilder b = floorOf(glm::vec3(1), 1, 0.5f);
+  b.quad(b.material(glm::vec3(0.5f)), {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
+  b.point({0.9, 0.5, 0}, 10);
+  const Scene scene = b.finish("floor and ceiling");
+  const TraceOptions all{.samples = 64, .glossy = true}, seen{.samples = 64, .glossy = true, .glossySeen = true};
+  const Camera up = along({0, 1, 0}, -0.5, 0.2f), down = along({0, -1, 0}, 0.5, 0.2f);
+  const TracedPicture a = traced(scene, up, 8, all), s = traced(scene, up, 8, seen);
+  EXPECT_GT(a.indirect.pictureMean.x, 10 * a.indirect.pictureError.x);
+  EXPECT_EQ(s.indirect.pictureMean.x, 0);
+  EXPECT_NEAR(s.lit.pictureMean.x, a.lit.pictureMean.x - a.indirect.pictureMean.x - a.specular.pictureMean.x, 1e-9);
+  // The floor is seen as ever, in the light that the ceiling gives back.
+  EXPECT_GT(traced(scene, down, 8, seen).specular.pictureMean.x, 0);
+  EXPECT_EQ(traced(scene, down, 8, seen).indirect.pictureMean.x, 0);
+}
+
 TEST_F(PathTracingGlossy, HighlightsOnARoughPlane) {
   const glm::dvec3 n(0, 1, 0), way = glm::normalize(glm::dvec3(1, -1.2, 0.3));
   for (const float roughness : {0.0f, 0.2f, 0.7f})

@@ -237,6 +237,9 @@ TEST_F(Truths, GlossyMaterialsGoOnToo) {
   const RunResult diffuse = runIrad(small("two.exr", {"--spp", "16", "--resume", "--bounces", "1"}));
   EXPECT_EQ(diffuse.status, 2);
   EXPECT_TRUE(contains(diffuse.err, "materials \"glossy\", not \"diffuse\"")) << diffuse.err;
+  const RunResult seen = runIrad(small("two.exr", {"--spp", "16", "--resume", "--bounces", "1", "--glossy-seen"}));
+  EXPECT_EQ(seen.status, 2);
+  EXPECT_TRUE(contains(seen.err, "materials \"glossy\", not \"glossy-seen\"")) << seen.err;
   // The manifest repeats it.
   ASSERT_EQ(runIrad(plus({"reference", "--config", file("one.json"), "--of", "triangles", "--spp", "9", "--out",
                           file("three.exr")},
@@ -556,6 +559,7 @@ TEST_F(ThreeTruths, BadUsage) {
                         Case{{"--of", "matrix", "--resume"}, "--resume is for --of triangles and voxels"},
                         Case{{"--of", "voxels", "--glossy"}, "--glossy is for --of triangles"},
                         Case{{"--of", "voxels", "--bounces", "2"}, "--bounces is for --of triangles and matrix"},
+                        Case{{"--of", "triangles", "--glossy", "--glossy-seen"}, "--glossy or --glossy-seen, not both"},
                         Case{{"--of", "triangles", "--bounces", "32"}, "--bounces: '32' is not allowed"},
                         Case{{"--of", "triangles", "--layer", "specular"}, "--layer specular is for"},
                         Case{{"--of", "voxels", "--resume", "--set", "solver.lambda=1.01"}, "solver.lambda is above 1"},

@@ -338,6 +338,7 @@ class EmbreeTracer : public PathTracer {
     void findLobe(Vertex& v, glm::dvec2 uv, const glm::dvec3& direction) const {
       v.lobe = {};
       v.lobeChoice = 0;
+      if (options.glossySeen && v.depth > 0) return;
       const auto gloss = surfaces.glossAt(v.triangle, uv, direction);
       if (!gloss) return;
       const Lobe lobe(gloss->f0, gloss->roughness, v.point.normal, -direction);

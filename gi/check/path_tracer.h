@@ -33,6 +33,9 @@ struct TraceOptions {
   bool centred = false;
   uint32_t threads = 0;  ///< 0: all cores; the picture does not depend on it, to the bit
   bool glossy = false;   ///< the full metallic-roughness material, not its diffuse part alone
+  /// With `glossy`: what is not seen by the camera itself has its diffuse part alone, so that light comes to what is
+  /// seen as the program's H does.
+  bool glossySeen = false;
   uint32_t bounces = 0;  ///< TracedPicture::bounces, how many
   TraceStrategy strategy = TraceStrategy::both;
 };
