@@ -152,10 +152,16 @@ void printChoice(const PointSummary& p, const std::vector<PointSummary>& points,
             milliseconds(spread->second.p5), milliseconds(spread->second.p95), spread->second.samples);
   print("memory      {:.1f} MiB\n", p.deviceMib);
   const std::optional<size_t> best = pick(points, *cost, {.error = HUGE_VAL}), least = pick(points, *cost, {});
-  if (least && *least != p.point)
-    print("loss        {} times the error of {} ({}), which takes {} times the {}\n",
-          shortNumber(p.relMse.mean / points[*least].relMse.mean), *least, points[*least].label,
-          shortNumber(cost->of(points[*least]) / cost->of(p)), cost->unit);
+  if (least && *least != p.point) {
+    const PointSummary& l = points[*least];
+    // With two truths an estimate may be 0 or less: as good as they can tell.
+    const std::string loss =
+        l.relMse.mean > 0
+            ? fmt::format("{} times the error of", shortNumber(p.relMse.mean / l.relMse.mean))
+            : fmt::format("relMSE {} against {} of", shortNumber(p.relMse.mean), shortNumber(l.relMse.mean));
+    print("loss        {} {} ({}), which takes {} times the {}\n", loss, *least, l.label,
+          shortNumber(cost->of(l) / cost->of(p)), cost->unit);
+  }
   if (best && *best != p.point)
     print("cheapest    {} ({}): {} times the error for {} of the {}\n", *best, points[*best].label,
           shortNumber(points[*best].relMse.mean / p.relMse.mean), shortNumber(cost->of(points[*best]) / cost->of(p)),

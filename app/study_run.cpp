@@ -233,16 +233,22 @@ std::vector<size_t> StudyRun::ownPoints() const {
   return out;
 }
 
-/// Runs `act`; a point that finds no memory becomes a row that says so.
+void StudyRun::fail(size_t point, const char* message) {
+  session_.progress.note(fmt::format("{}: {}", grid_.label(point), message));
+  folder_->results.failures.push_back({point, message});
+  folder_->save();
+}
+
+/// Runs `act`; a point that finds no memory, or whose sizes do not go together, becomes a row that says so.
 template <class Act>
 bool StudyRun::attempt(size_t point, Act&& act) {
   try {
     act();
     return true;
   } catch (const DeviceError& error) {
-    session_.progress.note(fmt::format("{}: {}", grid_.label(point), error.what()));
-    folder_->results.failures.push_back({point, error.what()});
-    folder_->save();
+    fail(point, error.what());
+  } catch (const UsageError& error) {
+    fail(point, error.what());
   }
   session_.device->waitIdle();  // all that the attempt held is free from here on
   session_.timings.reset();

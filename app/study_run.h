@@ -79,6 +79,7 @@ class StudyRun {
   StudyIdentity identity() const;
   void progress(const char* what, size_t done, size_t all);  ///< with the time left, as if each took as long
   std::vector<size_t> ownPoints() const;
+  void fail(size_t point, const char* message);
   template <class Act>
   bool attempt(size_t point, Act&& act);
   void measureErrors(const std::vector<size_t>& points, uint32_t seeds);

@@ -11,10 +11,20 @@
 namespace irad {
 namespace {
 
-SolverKernel chooseKernel(const Device& device, SolverKernel asked) {
+/// Entries per row up to which a GPU is faster with an invocation per row: row over subgroup took .63 and .66 of a
+/// relight's time with 22 and 19 entries, .92 with 51, 1.0 with 60, 1.2 and 1.4 with 125 and 166 (H200, Sponza, park
+/// and Box, docs/performance.md).
+constexpr double kShortRow = 56;
+
+SolverKernel chooseKernel(const Device& device, const FacetList& facets, const FormFactors& matrix,
+                          SolverKernel asked) {
   if (asked != SolverKernel::automatic) return asked;
-  // lavapipe loads lane by lane: reductions across lanes only add to it. GPUs want consecutive entries per subgroup.
-  return device.isCpu ? SolverKernel::row : SolverKernel::subgroup;
+  // lavapipe loads lane by lane: reductions across lanes only add to it. GPUs want consecutive entries per subgroup,
+  // where there are enough of them.
+  if (device.isCpu) return SolverKernel::row;
+  const double entries = static_cast<double>(matrix.stats.entries);
+  const bool fewEntries = matrix.format == MatrixFormat::csr && entries < kShortRow * facets.count;
+  return fewEntries ? SolverKernel::row : SolverKernel::subgroup;
 }
 
 }  // namespace
@@ -25,8 +35,9 @@ Sweep::Sweep(Context& context, const FacetList& facets, const FormFactors& matri
       facets_(facets),
       matrix_(matrix),
       lambda_(settings.gpu.lambda),
-      kernel_(chooseKernel(context.device, settings.kernel)),
-      gains_(kernel_ == SolverKernel::tree ? chooseKernel(context.device, SolverKernel::automatic) : kernel_) {
+      kernel_(chooseKernel(context.device, facets, matrix, settings.kernel)),
+      gains_(kernel_ == SolverKernel::tree ? chooseKernel(context.device, facets, matrix, SolverKernel::automatic)
+                                           : kernel_) {
   const uint32_t height = (facets.count + SOLVE_IMAGE_WIDTH - 1) / SOLVE_IMAGE_WIDTH;
   images_ = context.device.isCpu && kernel_ == SolverKernel::row && matrix.format == MatrixFormat::csr &&
             height <= context.device.limits.maxImageDimension2D;
