@@ -6,10 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "gi/study/front.h"
 #include "gi/study/plot.h"
 #include "gi/study/report_parts.h"
+#include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 
@@ -323,6 +325,24 @@ const char* reportStyle() {
          "#888}.name{text-align:"
          "left}tr.front{background:#eaf3fa}.crops{display:flex;flex-wrap:wrap;gap:16px}figure{margin:0;max-width:256px}"
          "figcaption{font-size:13px;color:#444}.finding{max-width:820px}svg{max-width:100%}";
+}
+
+ReportNotes readNotes(const fs::path& folder) {
+  ReportNotes notes;
+  const fs::path file = folder / "notes.json";
+  std::ifstream in(file);
+  if (!in) return notes;
+  const auto saved = nlohmann::ordered_json::parse(in, nullptr, /*allow_exceptions=*/false);
+  try {
+    notes.facts = saved.at("facts").get<std::vector<std::string>>();
+    const auto pair = [&](const char* name) {
+      return glm::uvec2(saved.at(name).at(0).get<uint32_t>(), saved.at(name).at(1).get<uint32_t>());
+    };
+    notes.pictureSize = pair("picture"), notes.cropAt = pair("crop"), notes.cropSize = pair("crop_size");
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+  return notes;
 }
 
 std::string pictureName(size_t point) {
