@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/interrupts.h"
 #include "app/table.h"
 #include "app/version.h"
 #include "gi/facets.h"
@@ -213,6 +214,7 @@ StudyIdentity StudyRun::identity() const {
 // ---- Measuring ----
 
 bool StudyRun::progress(const char* what, size_t done, size_t all) {
+  throwIfStopped();
   return session_.progress(what, static_cast<float>(done) / static_cast<float>(std::max<size_t>(all, 1)));
 }
 
