@@ -194,6 +194,9 @@ StudyTask ExperimentRunner::taskOf(const Experiment& e, const Scene& scene, cons
       task.truth.settings = truth;
       break;
     }
+    case TruthKind::Itself:
+      task.truth.settings = session_.settings;
+      break;
     case TruthKind::Cycles:
       task.truth.file = readReference(cyclesPicture());
       if (fs::exists(secondCyclesPicture())) task.truth.secondFile = readReference(secondCyclesPicture());

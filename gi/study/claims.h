@@ -44,8 +44,8 @@ Answer cyclesIsMatched(const NamedResults& r);
 
 using Points = std::vector<std::pair<double, double>>;
 
-inline Verdict agreesIf(bool agrees) {
-  return agrees ? Verdict::Agrees : Verdict::Disagrees;
+inline Judgement agreesIf(bool agrees) {
+  return agrees ? Judgement::Agrees : Judgement::Disagrees;
 }
 std::string percent(double share);
 std::string signedPercent(double share);

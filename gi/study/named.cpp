@@ -39,14 +39,14 @@ std::vector<Experiment> inAllScenes(const Experiment& pattern) {
   return out;
 }
 
-std::vector<Experiment> bruteForce(const StudyScale&) {
+std::vector<Experiment> bruteForce(const StudyScale& s) {
   // One sweep from the dark is one bounce.
-  const GridTexts grids{{"solver.max_sweeps=1,1000"}, {"solver.method=brute_force", "solver.frames=1,4,16,64,256"}};
+  const GridTexts grids{{"solver.max_sweeps=1,1000"},
+                        {"solver.method=brute_force", sweepOf("solver.frames", s.frames)}};
   std::vector<Experiment> out;
   for (const char* scene : {"box", "sponza"})
     out.push_back(
         {.name = fmt::format("{}-thesis", scene), .scene = scene, .camera = "", .settings = kThesis, .grids = grids});
-  out.push_back({.name = "box-ours", .scene = "box", .camera = "main", .settings = kOurs, .grids = grids});
   return out;
 }
 std::vector<Experiment> buildTime(const StudyScale&) {
@@ -96,8 +96,7 @@ std::vector<Experiment> relaxation(const StudyScale&) {
   return {{.name = "box-thesis", .scene = "box", .camera = "main", .settings = kThesis, .grids = grids},
           {.name = "park-thesis", .scene = "park", .camera = "main", .settings = kThesis, .grids = grids},
           {.name = "sponza-thesis", .scene = "sponza", .camera = "", .settings = kThesis, .grids = grids},
-          {.name = "box-ours", .scene = "box", .camera = "main", .settings = kOurs, .grids = grids},
-          {.name = "park-ours", .scene = "park", .camera = "main", .settings = kOurs, .grids = grids}};
+          {.name = "box-ours", .scene = "box", .camera = "main", .settings = kOurs, .grids = grids}};
 }
 std::vector<Experiment> sampling(const StudyScale&) {
   const GridTexts grids{{"sample.filter=linear,blur", "sample.premultiplied=false,true"}};
@@ -164,7 +163,7 @@ std::vector<Experiment> tables(const StudyScale&) {
                                              .view = "lit",
                                              .settings = settings,
                                              .grids = {},
-                                             .truth = TruthKind::OwnSettings,
+                                             .truth = TruthKind::Itself,
                                              .longTimes = true,
                                              .tables = true});
   for (const char* scene : {"sponza", "box"})
@@ -174,7 +173,7 @@ std::vector<Experiment> tables(const StudyScale&) {
                    .view = "lit",
                    .settings = joined(settings, {"writeback.mode=mask"}),
                    .grids = {},
-                   .truth = TruthKind::OwnSettings,
+                   .truth = TruthKind::Itself,
                    .longTimes = true});
   return out;
 }
@@ -196,6 +195,7 @@ const std::vector<StudyScale>& studyScales() {
                                                .repeats = 30,
                                                .tableRepeats = 100,
                                                .stillFrames = 60,
+                                               .frames = {1, 4, 16, 64, 256},
                                                .settings = {}},
                                               {.name = "small",
                                                .resolutions = {12, 24, 36},
@@ -211,6 +211,7 @@ const std::vector<StudyScale>& studyScales() {
                                                .repeats = 2,
                                                .tableRepeats = 6,
                                                .stillFrames = 8,
+                                               .frames = {1, 4, 16, 32},
                                                .settings = {"light.shadow_resolution=256"}}};
   return scales;
 }
@@ -307,15 +308,15 @@ const NamedStudy* findNamedStudy(std::string_view name) {
   return nullptr;
 }
 
-const char* toString(Verdict verdict) {
+const char* toString(Judgement verdict) {
   switch (verdict) {
-    case Verdict::Agrees:
+    case Judgement::Agrees:
       return "agrees";
-    case Verdict::Disagrees:
+    case Judgement::Disagrees:
       return "disagrees";
-    case Verdict::Answered:
+    case Judgement::Answered:
       return "answers what was open";
-    case Verdict::Open:
+    case Judgement::Open:
       return "open";
   }
   return "";

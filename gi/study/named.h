@@ -22,6 +22,7 @@ struct StudyScale {
   uint32_t truthVoxels, truthRays;          ///< of truths by this program itself
   uint32_t seeds, repeats, tableRepeats;    ///< the last: of T Tables 6 to 10
   uint32_t stillFrames;                     ///< pictures of a still camera, for flicker
+  std::vector<uint32_t> frames;             ///< of brute force, ascending
   std::vector<std::string> settings;        ///< of all experiments
 };
 const std::vector<StudyScale>& studyScales();
@@ -29,7 +30,8 @@ const std::vector<StudyScale>& studyScales();
 const StudyScale& findScale(std::string_view name);
 
 /// What a truth is made by. Path tracing is diffuse: where reflections are looked at it is none.
-enum class TruthKind { PathTracer, OwnSettings, Cycles };
+/// Itself: there is none, and times alone are looked at.
+enum class TruthKind { PathTracer, OwnSettings, Itself, Cycles };
 
 /// One cost study: a folder below the named study's.
 struct Experiment {
@@ -83,16 +85,16 @@ const PointSummary& pointOf(const ExperimentResult& experiment, const std::map<s
 
 // ---- What is concluded ----
 
-enum class Verdict {
+enum class Judgement {
   Agrees,
   Disagrees,
   Answered,  ///< what the thesis left open, by measurement
   Open,      ///< not measured, or not to be told from the numbers
 };
-const char* toString(Verdict verdict);
+const char* toString(Judgement verdict);
 
 struct Answer {
-  Verdict verdict = Verdict::Open;
+  Judgement verdict = Judgement::Open;
   std::string text;  ///< computed from results, never written ahead
 };
 /// Something that the thesis found, in our words.

@@ -32,11 +32,11 @@ std::string listOf(const std::vector<std::string>& facts) {
   return out + "</ul>\n";
 }
 
-const char* classOf(Verdict verdict) {
-  return verdict == Verdict::Agrees      ? "agrees"
-         : verdict == Verdict::Disagrees ? "disagrees"
-         : verdict == Verdict::Answered  ? "answered"
-                                         : "open";
+const char* classOf(Judgement verdict) {
+  return verdict == Judgement::Agrees      ? "agrees"
+         : verdict == Judgement::Disagrees ? "disagrees"
+         : verdict == Judgement::Answered  ? "answered"
+                                           : "open";
 }
 
 std::string findingRows(const NamedReport& report) {
@@ -62,6 +62,8 @@ const char* truthOf(TruthKind truth) {
     case TruthKind::OwnSettings:
       return "Truth: this program's own picture by better settings, since reflections have no other here; errors are "
              "distances from that, and what both get wrong alike is not in them.";
+    case TruthKind::Itself:
+      return "No truth: times alone are looked at, and errors are distances from pictures by the same settings.";
     case TruthKind::Cycles:
       return "Truth: a picture by Cycles.";
   }

@@ -56,7 +56,7 @@ Answer answerTo(const Claim& claim, const NamedResults& results) {
   try {
     return claim.judge(results);
   } catch (const NotMeasured& missing) {
-    return {Verdict::Open, fmt::format("Not measured: {}.", missing.what())};
+    return {Judgement::Open, fmt::format("Not measured: {}.", missing.what())};
   }
 }
 
