@@ -7,6 +7,7 @@
 #include "gi/study/claims.h"
 #include "gi/study/named.h"
 #include "gi/study/named_report.h"
+#include "gi/study/report.h"
 #include "gi/study/sweep.h"
 #include "gi/study/thesis_tables.h"
 #include "renderer/base/error.h"
