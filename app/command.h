@@ -44,6 +44,7 @@ Command planCommand();
 Command referenceCommand();
 Command settingsCommand();
 Command studyCommand();
+Command tuneCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 Command writebackCommand();

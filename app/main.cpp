@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
                         exportCommand(),
                         settingsCommand(),
                         studyCommand(),
+                        tuneCommand(),
                         viewsCommand(),
                     });
 }

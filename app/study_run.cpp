@@ -113,8 +113,8 @@ StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyT
 }
 
 void StudyRun::measure() {
-  measureErrors();
-  measureTimes();
+  measureErrors(ownPoints(), task_.seeds);
+  measureTimes(ownPoints(), task_.repeats);
   measurePeers();
   folder_->save();
   session_.progress.finish();
@@ -124,6 +124,13 @@ void StudyRun::measure() {
                                                              {"crop", {n.cropAt.x, n.cropAt.y}},
                                                              {"crop_size", {n.cropSize.x, n.cropSize.y}}}
                                           .dump(2));
+}
+
+void StudyRun::measureMore(size_t point, uint32_t seeds, uint32_t repeats) {
+  measureErrors({point}, task_.seeds + seeds);
+  measureTimes({point}, task_.repeats + repeats);
+  folder_->save();
+  session_.progress.finish();
 }
 
 void StudyRun::extend(const std::vector<std::string>& sweeps) {
@@ -213,9 +220,12 @@ StudyIdentity StudyRun::identity() const {
 
 // ---- Measuring ----
 
-bool StudyRun::progress(const char* what, size_t done, size_t all) {
+void StudyRun::progress(const char* what, size_t done, size_t all) {
   throwIfStopped();
-  return session_.progress(what, static_cast<float>(done) / static_cast<float>(std::max<size_t>(all, 1)));
+  if (done == 0) stepBegan_ = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - stepBegan_;
+  const double share = static_cast<double>(done) / static_cast<double>(std::max<size_t>(all, 1));
+  session_.progress(what, static_cast<float>(share), done > 0 ? timeLeft(spent.count() * (1 - share) / share) : "");
 }
 
 std::vector<size_t> StudyRun::ownPoints() const {
@@ -241,14 +251,12 @@ bool StudyRun::attempt(size_t point, Act&& act) {
   return false;
 }
 
-/// Before any time is taken: relights that are measured nudge the lights.
-void StudyRun::measureErrors() {
-  const std::vector<size_t> points = ownPoints();
+void StudyRun::measureErrors(const std::vector<size_t>& points, uint32_t seeds) {
   const uint32_t firstSeed = grid_.base().matrix.gpu.seed;
   size_t done = 0;
   for (const size_t point : points)
-    for (uint32_t i = 0; i < task_.seeds; ++i) {
-      progress("errors", done++, points.size() * task_.seeds);
+    for (uint32_t i = 0; i < seeds; ++i) {
+      progress("errors", done++, points.size() * seeds);
       const uint32_t seed = firstSeed + i;
       if (folder_->results.hasError(point, seed) || folder_->results.hasFailed(point)) continue;
       Settings settings = grid_.settings(point);
@@ -279,31 +287,35 @@ void StudyRun::measureError(size_t point, const Settings& settings, bool keepPic
 
 /// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
 /// caches, clocks and pages and counts for nothing.
-void StudyRun::measureTimes() {
-  const std::vector<size_t> points = ownPoints();
+void StudyRun::measureTimes(const std::vector<size_t>& asked, uint32_t repeats) {
   const auto due = [&](size_t point, uint32_t repeat) {
     return !folder_->results.hasFailed(point) && !folder_->results.hasTimes(point, repeat);
   };
-  bool any = false;
-  for (const size_t point : points)
-    for (uint32_t repeat = 0; repeat < task_.repeats; ++repeat) any = any || due(point, repeat);
-  if (!any) return;
+  std::vector<size_t> points;
+  for (const size_t point : asked)
+    for (uint32_t repeat = 0; repeat < repeats; ++repeat)
+      if (due(point, repeat)) {
+        points.push_back(point);
+        break;
+      }
+  if (points.empty()) return;
+  Pipeline& pipeline = bench_->pipeline();
   using Clock = std::chrono::steady_clock;
   Clock::time_point saved = Clock::now(), began = saved;
-  for (uint32_t round = 0; round <= task_.repeats; ++round) {
+  for (uint32_t round = 0; round <= repeats; ++round) {
     if (round == 1) {
       const std::chrono::duration<double> once = Clock::now() - began;
-      session_.progress.note(fmt::format("{} repeats of {} points: about {:.0f} s", task_.repeats, points.size(),
-                                         once.count() * task_.repeats));
+      session_.progress.note(
+          fmt::format("{} repeats of {} points: about {:.0f} s", repeats, points.size(), once.count() * repeats));
     }
     for (size_t i = 0; i < points.size(); ++i) {
       progress(round == 0 ? "warming up" : "times", round == 0 ? i : (round - 1) * points.size() + i,
-               round == 0 ? points.size() : task_.repeats * points.size());
+               round == 0 ? points.size() : repeats * points.size());
       const size_t point = points[i];
       const bool warms = round == 0;
       if (warms ? folder_->results.hasFailed(point) : !due(point, round - 1)) continue;
       attempt(point, [&] {
-        bench_->pipeline().set(grid_.settings(point));
+        pipeline.set(grid_.settings(point));
         bench_->rebuild();
         bench_->relight();
         bench_->cameraFrame();
@@ -319,6 +331,8 @@ void StudyRun::measureTimes() {
       }
     }
   }
+  pipeline.setLights(pipeline.scene().lights);  // relights have nudged them
+  bench_->forget();
   folder_->save();
 }
 

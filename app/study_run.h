@@ -2,6 +2,7 @@
 // times and memory, in a folder that can be gone on with.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -59,6 +60,8 @@ class StudyRun {
   StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task);
   /// Measures what the folder does not have yet; notes.json is written at the end.
   void measure();
+  /// Further seeds and repeats of one point, after those of measure().
+  void measureMore(size_t point, uint32_t seeds, uint32_t repeats);
   /// Adds the combinations of these sweeps, for the next measure().
   void extend(const std::vector<std::string>& sweeps);
 
@@ -74,13 +77,13 @@ class StudyRun {
   TracedPicture trace(uint32_t samples, uint64_t seed);
   const TracedLight& lightOf(const TracedPicture& picture) const;
   StudyIdentity identity() const;
-  bool progress(const char* what, size_t done, size_t all);
+  void progress(const char* what, size_t done, size_t all);  ///< with the time left, as if each took as long
   std::vector<size_t> ownPoints() const;
   template <class Act>
   bool attempt(size_t point, Act&& act);
-  void measureErrors();
+  void measureErrors(const std::vector<size_t>& points, uint32_t seeds);
   void measureError(size_t point, const Settings& settings, bool keepPicture);
-  void measureTimes();
+  void measureTimes(const std::vector<size_t>& points, uint32_t repeats);
   void measurePeers();
 
   DeviceSession& session_;
@@ -92,6 +95,7 @@ class StudyRun {
   std::optional<StudyFolder> folder_;
   std::optional<Bench> bench_;
   std::unique_ptr<PathTracer> tracer_;
+  std::chrono::steady_clock::time_point stepBegan_;
 };
 
 /// Writes the report, prints the table and the findings.

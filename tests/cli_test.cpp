@@ -64,6 +64,8 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"study", "cost", "box", "--sweep", "matrix.rays=32,5000"}, "matrix.rays: '5000' is not allowed"},
       {{"study", "cost", "box", "--sweep", "matrix.rays=32..64"}, "--sweep matrix.rays: '32..64' has no step"},
       {{"study", "cost", "box", "--shard", "5/4"}, "--shard: '5/4': the part is not 1 to 4"},
+      {{"tune", "box"}, "irad tune: by what? --budget-ms X, --budget-mib Y or --target-error E"},
+      {{"tune", "box", "--budget-ms", "5", "--rounds", "x"}, "--rounds"},
       {{"study", "pick", "a"}, "by what? --budget-ms X, --budget-mib Y or --target-error E"},
       {{"study", "pick", "a", "--budget-ms", "-1"}, "--budget-ms: '-1' is not allowed; expected a number above 0"},
       {{"study", "pick", "a", "--budget-ms", "5", "--cost", "biuld"}, "--cost: unknown 'biuld' (did you mean build?)"},

@@ -8,9 +8,12 @@
 #include <memory>
 #include <thread>
 
+#include "gi/check/families.h"
+#include "gi/check/glb.h"
 #include "gi/check/path_tracer.h"
 #include "gi/check/process.h"
 #include "gi/study/results.h"
+#include "gi/study/sweep.h"
 #include "tests/support.h"
 
 namespace irad::test::study_runs_suite {
@@ -188,6 +191,60 @@ TEST_F(StudyRuns, ThePathTracersErrorFallsWithItsSamples) {
   const RunResult lit = runIrad({"study", "cost", "box", "--reference-samples", "4", "--view", "lit"});
   EXPECT_EQ(lit.status, 2);
   EXPECT_TRUE(contains(lit.err, "--view lit: the path tracer is diffuse")) << lit.err;
+}
+
+TEST_F(StudyRuns, WhatTuneChoosesHoldsForOtherSeeds) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  const Family& family = *std::ranges::find(families(), std::string_view("half-filled"), &Family::name);
+  const fs::path scene = folder_.path / "half-filled.glb";
+  writeGlb(scene, familyMember(family, 20, 16).scene);
+  const std::string out = (folder_.path / "tune").string(), check = (folder_.path / "check").string();
+  const auto with = [&](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    for (const char* argument : {"--size", "48x32", "--repeats", "1", "--reference-samples", "512", "--set",
+                                 "light.shadow_resolution=256", "--set", "voxel.resolution=12"})
+      arguments.emplace_back(argument);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runIrad(arguments);
+  };
+  const auto tune = [&](const char* error) {
+    return with({"tune", scene.string(), "--out", out, "--seeds", "2", "--rounds", "1"},
+                {"--sweep", "matrix.rays=32,256", "--target-error", error});
+  };
+  const RunResult tuned = tune("0.08");
+  ASSERT_EQ(tuned.status, 0) << tuned.err;
+  const auto figure = [](const std::string& text, const std::string& head) {
+    const size_t at = text.find(head);
+    EXPECT_NE(at, std::string::npos) << head << ": " << text;
+    return std::stod(text.substr(at + head.size()));
+  };
+  const double promised = figure(tuned.out, "error       relMSE ");
+  EXPECT_TRUE(contains(tuned.out, "confidence  error: half of a 95 % interval over ")) << tuned.out;
+
+  // The same again is read, not measured, and comes to the same.
+  const std::string errors = file("tune", "errors.csv"), times = file("tune", "times.csv");
+  EXPECT_EQ(tune("0.08").out, tuned.out);
+  EXPECT_EQ(file("tune", "errors.csv"), errors);
+  EXPECT_EQ(file("tune", "times.csv"), times);
+
+  // Other seeds, another truth.
+  const RunResult held = with({"study", "cost", scene.string(), "--config", out + "/tuned.json", "--out", check},
+                              {"--seeds", "8", "--seed", "500"});
+  ASSERT_EQ(held.status, 0) << held.err;
+  const std::vector<PointSummary> point = summarize(readResults(check), {""});
+  EXPECT_NEAR(point.at(0).relMse.mean / promised, 1, 0.1);
+
+  // Errors of points that were added, after times had been taken, are those of a study that begins with them.
+  const StudyResults all = readResults(out);
+  const SettingGrid grid(gridsOf(readIdentity(out)), Settings{});
+  ASSERT_GT(grid.size(), 2u);
+  const RunResult again = with({"study", "cost", scene.string(), "--out", check + "2", "--seeds", "1"},
+                               {"--sweep", "matrix.rays=" + grid.values(2)[0]});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(readResults(check + "2").errors.at(0).relMse, std::ranges::find(all.errors, 2u, &ErrorRow::point)->relMse);
+
+  const RunResult none = tune("1e-9");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_TRUE(contains(none.err, "irad tune: nothing is within that; the nearest is matrix.rays=")) << none.err;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "gi/study/report.h"
 #include "gi/study/results.h"
 #include "gi/study/sweep.h"
+#include "gi/study/tune.h"
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
@@ -311,6 +312,53 @@ fs::path report(const fs::path& folder) {
   writeReport(folder, SettingGrid(kSweep, given), someResults(),
               {.facts = {"Scene <box> & others"}, .pictureSize = size, .cropAt = {8, 8}, .cropSize = {24, 16}});
   return folder / "report.html";
+}
+
+TEST(Tuning, MeasuresHalfWayToTheNeighboursAndBeyondTheEnds) {
+  const std::vector<std::string> sweeps{"voxel.resolution=16,64", "matrix.rays=32,64,128", "matrix.traversal=dda,sdf"};
+  const SettingGrid grid(sweeps, Settings{});
+  const auto pointAt = [&](const std::vector<std::string>& values) {
+    for (size_t i = 0; i < grid.size(); ++i)
+      if (grid.values(i) == values) return i;
+    return size_t{0};
+  };
+  EXPECT_EQ(around(grid, pointAt({"64", "64", "sdf"})),
+            (std::vector<std::string>{"voxel.resolution=64,32,256", "matrix.rays=64,45,91", "matrix.traversal=sdf"}));
+  EXPECT_EQ(around(grid, pointAt({"16", "32", "dda"})),
+            (std::vector<std::string>{"voxel.resolution=16,8,32", "matrix.rays=32,16,45", "matrix.traversal=dda"}))
+      << "16 x 16 / 64 is below the range, which ends at 8";
+  const std::vector<std::string> fixed{"voxel.resolution=64", "matrix.traversal=dda,sdf"};
+  EXPECT_TRUE(around(SettingGrid(fixed, Settings{}), 0).empty()) << "one value alone is not varied";
+
+  // Halving ends.
+  SettingGrid closing(std::vector<std::string>{"matrix.rays=32,64"}, Settings{});
+  size_t rounds = 0;
+  for (std::vector<std::string> next = around(closing, 0); !next.empty() && rounds < 100; next = around(closing, 0)) {
+    closing.add(next);
+    ++rounds;
+  }
+  EXPECT_LT(rounds, 20u);
+  for (size_t i = 1; i < closing.size(); ++i) EXPECT_NE(closing.values(i), closing.values(0));
+}
+
+TEST(Tuning, GoesOnFromTheNearestWhereNothingIsWithinTheBudget) {
+  const std::vector<PointSummary> points = summarize(someResults(), {"a", "b", "c"});
+  const CostKind& build = costKinds()[1];
+  EXPECT_EQ(nearest(points, build, {.ms = 50}), 1u) << "as pick";
+  EXPECT_EQ(nearest(points, build, {.ms = 1}), 0u);
+  EXPECT_EQ(nearest(points, build, {.error = 1e-9}), 1u);
+  EXPECT_EQ(nearest(points, build, {.mib = 1}), 0u);
+  EXPECT_EQ(nearest({}, build, {.ms = 1}), std::nullopt);
+}
+
+TEST(Tuning, PromisesByWhatHadNoPartInTheChoice) {
+  const StudyResults all = someResults();  // seeds 0 to 2, repeats 0 to 4
+  const StudyResults chosen = chosenBy(all, 0, 2, 4), rest = unseen(all, 0, 2, 4);
+  EXPECT_EQ(chosen.errors.size(), 6u);
+  EXPECT_EQ(rest.errors.size(), 3u);
+  for (const ErrorRow& r : rest.errors) EXPECT_EQ(r.seed, 2u);
+  EXPECT_EQ(chosen.times.size() + rest.times.size(), all.times.size());
+  for (const TimeRow& r : rest.times) EXPECT_EQ(r.repeat, 4u);
 }
 
 TEST(Reports, StandByThemselves) {

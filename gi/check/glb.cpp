@@ -129,10 +129,15 @@ std::string toGlb(const Scene& scene, const glm::dvec3& offset, const std::vecto
 
 }  // namespace
 
+void writeGlb(const std::filesystem::path& file, const Scene& scene, glm::dvec3 offset,
+              const std::vector<MeshNode>& nodes) {
+  writeFile(file, toGlb(scene, offset, nodes));
+}
+
 Scene throughLoader(const Scene& scene, glm::dvec3 offset, const std::vector<MeshNode>& nodes) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path / "scene.glb";
-  writeFile(file, toGlb(scene, offset, nodes));
+  writeGlb(file, scene, offset, nodes);
   return loadScene(file);
 }
 
