@@ -57,7 +57,7 @@ NamedResults results(std::vector<ExperimentResult> experiments, bool full = true
 Judgement verdict(Answer (*judge)(const NamedResults&), const NamedResults& r) {
   const Answer answer = answerTo({"T", "said", judge}, r);
   EXPECT_FALSE(answer.text.empty());
-  EXPECT_FALSE(contains(answer.text, "nan") || contains(answer.text, "inf ")) << answer.text;
+  EXPECT_FALSE(contains(answer.text, " nan") || contains(answer.text, " inf")) << answer.text;
   return answer.verdict;
 }
 constexpr Judgement kYes = Judgement::Agrees, kNo = Judgement::Disagrees, kAnswered = Judgement::Answered,
@@ -126,7 +126,7 @@ TEST(Judges, OfBruteForce) {
     return results(
         {experiment("box-thesis", {{{{"solver.method", "matrix"}, {"solver.max_sweeps", "1000"}}},
                                    {{{"solver.method", "matrix"}, {"solver.max_sweeps", "1"}}, .1, oneBounce},
-                                   {{{"solver.method", "brute_force"}, {"solver.frames", "4"}}, .1, .8},
+                                   {{{"solver.method", "brute_force"}, {"solver.frames", "1"}}, .1, .8},
                                    {{{"solver.method", "brute_force"}, {"solver.frames", "256"}}, .1, bruteLight}})});
   };
   EXPECT_EQ(verdict(claims::bruteForceDiffers, with(.8, .7)), kYes);

@@ -249,7 +249,7 @@ const PointSummary& written(const ExperimentResult& e, const char* mode) {
 Answer writebackCostsAMultiple(const NamedResults& r) {
   std::vector<std::string> parts;
   std::vector<double> factors;
-  for (const ExperimentResult* e : r.measured("box")) {
+  for (const ExperimentResult* e : allMeasured(r)) {
     const double off = kindMs(written(*e, "off"), "camera"), mask = kindMs(written(*e, "mask"), "camera");
     const double compute = kindMs(written(*e, "compute"), "camera");
     factors.push_back(mask / off);
@@ -267,7 +267,7 @@ Answer writebackCostsAMultiple(const NamedResults& r) {
 Answer writebackFlickers(const NamedResults& r) {
   std::vector<std::string> parts;
   double most = 0;
-  for (const ExperimentResult* e : r.measured("box")) {
+  for (const ExperimentResult* e : allMeasured(r)) {
     const double mask = figureOf(*e, fmt::format("flicker {}", written(*e, "mask").point)),
                  compute = figureOf(*e, fmt::format("flicker {}", written(*e, "compute").point));
     most = std::max(most, mask);
@@ -288,7 +288,7 @@ Answer writebackFlickers(const NamedResults& r) {
 Answer writebackAddsLittle(const NamedResults& r) {
   std::vector<std::string> parts;
   double most = 0;
-  for (const ExperimentResult* e : r.measured("box")) {
+  for (const ExperimentResult* e : allMeasured(r)) {
     const double off = e->light(written(*e, "off"));
     const double mask = e->light(written(*e, "mask")) / off - 1, compute = e->light(written(*e, "compute")) / off - 1;
     if (!std::isfinite(mask)) throw NotMeasured(fmt::format("{}: no mean light", e->experiment.name));

@@ -29,9 +29,10 @@ struct SceneOfStudy {
 const SceneOfStudy kScenes[] = {{"box", "main"}, {"park", "main"}, {"arena", "main"}, {"sponza", ""}};
 
 /// The same of each of the thesis's scenes.
-std::vector<Experiment> inAllScenes(const Experiment& pattern) {
+std::vector<Experiment> inAllScenes(const Experiment& pattern, bool sponza = true) {
   std::vector<Experiment> out;
   for (const SceneOfStudy& s : kScenes) {
+    if (!sponza && std::string_view(s.scene) == "sponza") continue;
     Experiment e = pattern;
     e.name = s.scene + pattern.name, e.scene = s.scene, e.camera = s.camera;
     out.push_back(e);
@@ -49,9 +50,10 @@ std::vector<Experiment> bruteForce(const StudyScale& s) {
         {.name = fmt::format("{}-thesis", scene), .scene = scene, .camera = "", .settings = kThesis, .grids = grids});
   return out;
 }
-std::vector<Experiment> buildTime(const StudyScale&) {
+std::vector<Experiment> buildTime(const StudyScale& s) {
   std::vector<Experiment> out = inAllScenes({.name = "-thesis", .settings = kThesis});
-  for (Experiment& e : inAllScenes({.name = "-ours", .settings = kOurs})) out.push_back(std::move(e));
+  for (Experiment& e : inAllScenes({.name = "-ours", .settings = kOurs}, s.sponzaByDefaults))
+    out.push_back(std::move(e));
   return out;
 }
 std::vector<Experiment> resolution(const StudyScale& s) {
@@ -85,10 +87,11 @@ std::vector<Experiment> normals(const StudyScale&) {
            .settings = kThesis,
            .grids = {{"voxel.method=raster,conservative"}, {"thesis.literal=true"}}}};
 }
-std::vector<Experiment> relight(const StudyScale&) {
+std::vector<Experiment> relight(const StudyScale& s) {
   const GridTexts one{{"solver.max_sweeps=1,1000"}};  // one iteration, as a frame of the thesis has it; all of them
   std::vector<Experiment> out = inAllScenes({.name = "-thesis", .settings = kThesis, .grids = one});
-  for (Experiment& e : inAllScenes({.name = "-ours", .settings = kOurs, .grids = one})) out.push_back(std::move(e));
+  for (Experiment& e : inAllScenes({.name = "-ours", .settings = kOurs, .grids = one}, s.sponzaByDefaults))
+    out.push_back(std::move(e));
   return out;
 }
 std::vector<Experiment> relaxation(const StudyScale&) {
@@ -143,10 +146,11 @@ std::vector<Experiment> writeback(const StudyScale&) {
            .truthSettings = joined(sky, {"writeback.mode=compute"}),
            .flicker = true}};
 }
-std::vector<Experiment> cycles(const StudyScale&) {
+std::vector<Experiment> cycles(const StudyScale& s) {
   const Texts diffuse{"scene.lambertian=true", "scene.double_sided=true"};
   std::vector<Experiment> out;
-  for (const char* preset : {"thesis", "balanced"})
+  for (const char* preset : {"thesis", "balanced"}) {
+    if (std::string_view(preset) == "balanced" && !s.sponzaByDefaults) continue;
     out.push_back({.name = fmt::format("sponza-{}", std::string_view(preset) == "thesis" ? "thesis" : "ours"),
                    .scene = "sponza",
                    .camera = "",
@@ -154,6 +158,7 @@ std::vector<Experiment> cycles(const StudyScale&) {
                    .settings = joined({fmt::format("preset={}", preset)}, diffuse),
                    .grids = {},
                    .truth = TruthKind::Cycles});
+  }
   return out;
 }
 std::vector<Experiment> tables(const StudyScale&) {
@@ -196,6 +201,7 @@ const std::vector<StudyScale>& studyScales() {
                                                .tableRepeats = 100,
                                                .stillFrames = 60,
                                                .frames = {1, 4, 16, 64, 256},
+                                               .sponzaByDefaults = true,
                                                .settings = {}},
                                               {.name = "small",
                                                .resolutions = {12, 24, 36},
@@ -212,6 +218,7 @@ const std::vector<StudyScale>& studyScales() {
                                                .tableRepeats = 6,
                                                .stillFrames = 8,
                                                .frames = {1, 4, 16, 32},
+                                               .sponzaByDefaults = false,
                                                .settings = {"light.shadow_resolution=256"}}};
   return scales;
 }

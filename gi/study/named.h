@@ -23,6 +23,7 @@ struct StudyScale {
   uint32_t seeds, repeats, tableRepeats;    ///< the last: of T Tables 6 to 10
   uint32_t stillFrames;                     ///< pictures of a still camera, for flicker
   std::vector<uint32_t> frames;             ///< of brute force, ascending
+  bool sponzaByDefaults;                    ///< Sponza by the present defaults, too: the longest of all
   std::vector<std::string> settings;        ///< of all experiments
 };
 const std::vector<StudyScale>& studyScales();
