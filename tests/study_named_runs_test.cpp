@@ -47,7 +47,7 @@ TEST_F(NamedRuns, AKilledOneGoesOnAndShardsMergeToTheSame) {
   EXPECT_TRUE(contains(whole.err, "2 of 3: rq10 curved-thesis, ") && contains(whole.err, " left")) << whole.err;
   EXPECT_TRUE(contains(whole.out, "rq10: What does blurring what is sampled do?")) << whole.out;
   EXPECT_TRUE(contains(whole.out, "skipped: no Sponza (--sponza FILE)")) << whole.out;
-  EXPECT_TRUE(contains(whole.out, "    here: relMSE, box-thesis: linear ")) << whole.out;
+  EXPECT_TRUE(contains(whole.out, "    here: FLIP, box-thesis: linear ")) << whole.out;
   const std::string html = file("whole", "report.html");
   EXPECT_TRUE(html.ends_with("</html>\n"));
   EXPECT_TRUE(contains(html, "Skipped: no Sponza"));

@@ -188,7 +188,7 @@ TEST(Judges, OfRows) {
       std::vector<Made> points;
       for (const double n : {128.0, 256.0, 384.0})
         points.push_back({{{"matrix.rays", std::to_string(static_cast<int>(n))}},
-                          .1,
+                          std::sqrt(.01 + noise / n),
                           1,
                           std::pow(n, power),
                           .0001,
