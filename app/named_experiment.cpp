@@ -10,6 +10,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "app/blender_pictures.h"
 #include "app/interrupts.h"
 #include "app/memory_table.h"
 #include "app/study_merge.h"
@@ -28,6 +29,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
+#include "renderer/image_io.h"
 
 namespace irad::app {
 namespace {
@@ -143,8 +145,8 @@ SettingGrid ExperimentRunner::gridOf(const Experiment& e) const {
 std::string ExperimentRunner::whyNot(const Experiment& e) const {
   std::error_code ignored;
   if (e.truth == TruthKind::Cycles && !fs::exists(cyclesPicture(), ignored))
-    return fmt::format("Blender does not make pictures here, and there is none by Cycles ({})",
-                       cyclesPicture().string());
+    return fmt::format("there is no picture by Cycles ({})", cyclesPicture().string());
+  if (e.truth == TruthKind::Blender) return whyNoBlender();
   if (e.scene == "sponza" && !sponza_) return "no Sponza (--sponza FILE)";
   if (e.truth == TruthKind::PathTracer && !hasPathTracer()) return "this build has no path tracer (IRAD_EMBREE)";
   return "";
@@ -202,6 +204,12 @@ StudyTask ExperimentRunner::taskOf(const Experiment& e, const Scene& scene, cons
       if (fs::exists(secondCyclesPicture())) task.truth.secondFile = readReference(secondCyclesPicture());
       task.size = task.truth.file->picture.size;
       break;
+    case TruthKind::Blender: {
+      const LinearPicture truth = blenderPart(folder.parent_path() / "blender",
+                                              {scene.path, e.camera, e.engine, task.size, scale_.samples}, e.view);
+      task.truth.file = readReference(writeLinear(folder / "truth", truth.size, truth.pixels));
+      break;
+    }
   }
   return task;
 }
@@ -223,6 +231,9 @@ void ExperimentRunner::run(const Experiment& e, const fs::path& folder) {
     run.measure();
     writeReport(folder, run.grid(), run.results(), run.notes());
     measureFigures(e, run, task);
+  } catch (const NoPicture& error) {
+    session_.progress.note(fmt::format("{}: {}", e.name, error.what()));
+    writeFile(folder / kSkipped, error.what());
   } catch (const DeviceError& error) {
     session_.progress.note(fmt::format("{}: {}", e.name, error.what()));
     session_.device->waitIdle();

@@ -10,6 +10,8 @@
 
 #include "gi/check/path_tracer.h"
 #include "gi/check/process.h"
+#include "renderer/base/output_file.h"
+#include "renderer/image_io.h"
 #include "tests/support.h"
 
 namespace irad::test::study_named_runs_suite {
@@ -119,10 +121,37 @@ TEST_F(NamedRuns, EndAtASignalWithWholeFilesAndGoOn) {
 }
 
 TEST_F(NamedRuns, WithoutPicturesByCyclesAreSkippedInWords) {
+  if (std::system("command -v blender > /dev/null 2>&1") == 0) GTEST_SKIP() << "Blender is installed";
   const RunResult run = runIrad({"study", "rq1", "--scale", "small", "--out", (folder_.path / "rq1").string()});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(contains(run.out, "skipped: Blender ")) << run.out;
+  EXPECT_TRUE(contains(run.out, "skipped: Blender is not installed")) << run.out;
   EXPECT_TRUE(contains(run.out, "Not measured: ") && contains(run.out, "\n    open\n")) << run.out;
+}
+
+/// A program in Blender's place that writes the same grey into every pass, and fails for EEVEE.
+TEST_F(NamedRuns, AskBlenderWhereItIs) {
+  const fs::path shared = folder_.path / "none", bin = folder_.path / "bin", pass = folder_.path / "pass.pfm";
+  fs::create_directories(shared / "tools");
+  fs::create_directories(bin);
+  writeFile(shared / "tools/cycles_reference.py", "the stand-in does not read it\n");
+  writePfm(pass, {16, 16}, std::vector<glm::vec4>(256, glm::vec4(.5f, .5f, .5f, 1)));
+  writeFile(
+      bin / "blender",
+      "#!/bin/sh\nwhile [ $# -gt 0 ]; do\n  [ \"$1\" = --out ] && out=$2\n  [ \"$1\" = EEVEE ] && exit 3\n  shift\n"
+      "done\nfor part in combined diffdir diffind diffcol glossind glosscol; do\n  cp " +
+          pass.string() + " \"${out}_$part.pfm\"\ndone\n");
+  fs::permissions(bin / "blender", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+  const RunResult run = runIrad({"study", "rq1", "--scale", "small", "--size", "16x16", "--seeds", "2", "--repeats",
+                                 "1", "--set", "voxel.resolution=8", "--set", "matrix.rays=8", "--set",
+                                 "light.shadow_resolution=64", "--out", (folder_.path / "rq1").string()});
+  ::setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(file("rq1", "box-cycles-lit/figures.csv"), "truth_mean,0.5\n"));
+  EXPECT_TRUE(contains(file("rq1", "park-cycles-indirect/figures.csv"), "truth_mean,0.25\n")) << "light times colour";
+  EXPECT_TRUE(contains(run.out, "box-cycles-specular: mean radiance ")) << run.out;
+  EXPECT_TRUE(contains(run.out, "box-eevee-lit skipped: blender ended with status 3: see ")) << run.out;
 }
 
 TEST_F(NamedRuns, RefuseWhatDoesNotGoTogether) {

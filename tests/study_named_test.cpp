@@ -309,9 +309,22 @@ TEST(Judges, OfWriteback) {
   EXPECT_EQ(verdict(claims::writebackAddsLittle, with(1, 0, 1.3)), kNo);
 }
 
-TEST(Judges, OfCycles) {
-  EXPECT_EQ(verdict(claims::cyclesIsMatched, results({experiment("sponza-thesis", {{{}, .1, 1.05}})})), kYes);
-  EXPECT_EQ(verdict(claims::cyclesIsMatched, results({experiment("sponza-thesis", {{{}, .1, .7}})})), kNo);
+TEST(Judges, OfBlender) {
+  const auto lit = [](const char* name, double light, double flip) {
+    ExperimentResult e = experiment(name, {{{}, flip, light}});
+    e.experiment.view = "lit";
+    return e;
+  };
+  EXPECT_EQ(verdict(claims::cyclesIsMatched, results({lit("sponza-thesis", 1.05, .1), lit("sponza-ours", 2, .1)})),
+            kYes);
+  EXPECT_EQ(verdict(claims::cyclesIsMatched, results({lit("sponza-thesis", .7, .1)})), kNo);
+  const auto both = [&](double cycles, double eevee) {
+    return results({lit("box-cycles-lit", 1, cycles), lit("park-cycles-lit", 1, cycles), lit("box-eevee-lit", 1, eevee),
+                    lit("park-eevee-lit", 1, eevee)});
+  };
+  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.1, .3)), kYes);
+  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.3, .1)), kNo);
+  EXPECT_EQ(verdict(claims::cyclesIsMatched, both(.1, .3)), kYes);
 }
 
 TEST(ThesisTables, HoldWhatWasPublishedBesideWhatIsMeasured) {

@@ -39,6 +39,7 @@ Answer writebackCostsAMultiple(const NamedResults& r);
 Answer writebackFlickers(const NamedResults& r);
 Answer writebackAddsLittle(const NamedResults& r);
 Answer cyclesIsMatched(const NamedResults& r);
+Answer eeveeIsFarOff(const NamedResults& r);
 
 // ---- Shared: numbers in words, and figures of results; NotMeasured where they are not there ----
 

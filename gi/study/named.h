@@ -31,8 +31,9 @@ const std::vector<StudyScale>& studyScales();
 const StudyScale& findScale(std::string_view name);
 
 /// What a truth is made by. Path tracing is diffuse: where reflections are looked at it is none.
-/// Itself: there is none, and times alone are looked at.
-enum class TruthKind { PathTracer, OwnSettings, Itself, Cycles };
+/// Cycles: a picture that is there; Blender: one that it makes (Experiment::engine). Itself: there is none, and times
+/// alone are looked at.
+enum class TruthKind { PathTracer, OwnSettings, Itself, Cycles, Blender };
 
 /// One cost study: a folder below the named study's.
 struct Experiment {
@@ -44,6 +45,7 @@ struct Experiment {
   GridTexts grids{};                    ///< none: one point, as given
   TruthKind truth = TruthKind::PathTracer;
   std::vector<std::string> truthSettings{};  ///< of OwnSettings, over "preset=reference"
+  std::string engine{};                      ///< of Blender: "CYCLES", "EEVEE"
   bool longTimes = false;                    ///< StudyScale::tableRepeats
   bool flicker = false;    ///< also pictures of a still camera, per point (gi/check/writeback_figures.h)
   bool movedRays = false;  ///< also how many rays end elsewhere than those of the first point

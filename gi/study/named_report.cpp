@@ -64,6 +64,10 @@ const char* truthOf(TruthKind truth) {
              "distances from that, and what both get wrong alike is not in them.";
     case TruthKind::Itself:
       return "No truth: times alone are looked at, and errors are distances from pictures by the same settings.";
+    case TruthKind::Blender:
+      return "Truth: a picture that Blender made for this study, linear radiance of the passes that the view stands "
+             "for. "
+             "Its direct light holds that of emissive faces, which is indirect light here.";
     case TruthKind::Cycles:
       return "Truth: a picture by Cycles.";
   }
