@@ -218,6 +218,9 @@ TEST(Judges, OfTraversal) {
   };
   EXPECT_EQ(verdict(claims::sdfIsTwiceAsFast, with(50, .1, 0, 0)), kYes);
   EXPECT_EQ(verdict(claims::sdfIsTwiceAsFast, with(99, .1, 0, 0)), kNo);
+  NamedResults small = with(50, .1, 0, 0);
+  small.full = false;
+  EXPECT_EQ(verdict(claims::sdfIsTwiceAsFast, small), kOpen) << "small sizes say little of how times grow";
   EXPECT_EQ(verdict(claims::sdfLosesNoQuality, with(50, .1005, 0, 0)), kYes);
   EXPECT_EQ(verdict(claims::sdfLosesNoQuality, with(50, .2, 0, 0)), kNo);
   EXPECT_EQ(verdict(claims::sdfWeakensShadows, with(50, .1, .5, .0001)), kAnswered);

@@ -63,6 +63,8 @@ std::vector<const ExperimentResult*> allMeasured(const NamedResults& r);
 /// The thesis speaks of its GPU at full size; other machines' milliseconds say nothing about those.
 const char* caveat(const NamedResults& r);
 bool comparableTimes(const NamedResults& r);
+/// Of how times grow: small sizes are mostly what every size costs.
+Judgement atFullSize(const NamedResults& r, bool agrees);
 /// "box 12 ms, park 20 ms"
 std::string listed(const std::vector<std::pair<std::string, double>>& times);
 

@@ -117,11 +117,11 @@ Answer timeIsCubicInResolution(const NamedResults& r) {
   const double all = exponentOf(over(e, "voxel.resolution", [](const PointSummary& p) { return kindMs(p, "setup"); }));
   const double matrix = exponentOf(
       over(e, "voxel.resolution", [](const PointSummary& p) { return stageMs(p, "setup", "GI BuildMatrix"); }));
-  return {agreesIf(all >= 2.5 && all <= 3.5),
+  return {atFullSize(r, all >= 2.5 && all <= 3.5),
           fmt::format("Set-up of the Box by the thesis's settings grows as N^{:.2f}, the matrix alone as N^{:.2f} "
                       "(almost cubic: 2.5 to 3.5). Facets lie on surfaces, of which there are N² times as many; only "
-                      "the steps of their rays add a power.",
-                      all, matrix)};
+                      "the steps of their rays add a power{}.",
+                      all, matrix, caveat(r))};
 }
 
 Answer matrixIsCubicInResolution(const NamedResults& r) {
@@ -165,10 +165,10 @@ Answer timeIsLinearInRows(const NamedResults& r) {
       exponentOf(over(e, "matrix.rays", [](const PointSummary& p) { return stageMs(p, "setup", "GI BuildMatrix"); }));
   const double solve =
       exponentOf(over(e, "matrix.rays", [](const PointSummary& p) { return stageMs(p, "relight", "GI Solve"); }));
-  return {agreesIf(build >= .75 && build <= 1.25),
+  return {atFullSize(r, build >= .75 && build <= 1.25),
           fmt::format("The build grows as R^{:.2f} with rows of R places, the solver's sweeps as R^{:.2f} (almost "
-                      "linear: 0.75 to 1.25 of the build).",
-                      build, solve)};
+                      "linear: 0.75 to 1.25 of the build){}.",
+                      build, solve, caveat(r))};
 }
 
 namespace {
@@ -195,11 +195,16 @@ Answer rowsQuietHardLight(const NamedResults& r) {
   };
   const PointSummary &few = at(f.shortest), &many = at(f.longest);
   const Order order = compare(many.rmse, few.rmse);
-  const std::string text = fmt::format(
+  std::string text = fmt::format(
       "RMSE {} with {:.0f} places, {} with {:.0f}. By a fit of a + b/R to its square, {} of it is noise at "
       "{:.0f} and {} at {:.0f}.",
       withInterval(few.rmse), f.shortest, withInterval(many.rmse), f.longest, percent(f.fit.noiseShare(f.shortest)),
       f.shortest, percent(f.fit.noiseShare(f.longest)), f.longest);
+  if (!r.measured("hard-ours").empty()) {
+    const RowsFigures ours = rowsOf(r, "hard-ours");
+    text += fmt::format(" By the present defaults these shares are {} and {}.",
+                        percent(ours.fit.noiseShare(ours.shortest)), percent(ours.fit.noiseShare(ours.longest)));
+  }
   if (order == Order::Unknown) return {Judgement::Open, text + " One seed says nothing about noise."};
   return {agreesIf(order == Order::Less), text};
 }
@@ -208,10 +213,11 @@ Answer rowsDoLittleInAverageLight(const NamedResults& r) {
   const RowsFigures average = rowsOf(r, "average-thesis"), hard = rowsOf(r, "hard-thesis");
   const double gain = 1 - average.flipMany / average.flipFew, hardGain = 1 - hard.flipMany / hard.flipFew;
   return {agreesIf(gain < .1 && gain < hardGain),
-          fmt::format("From {:.0f} to {:.0f} places FLIP goes from {} to {} in average light, {} less, and from {} to "
-                      "{} in hard light, {} less (unnoticeable: less than 10 %, and less than in hard light).",
-                      average.shortest, average.longest, shortNumber(average.flipFew), shortNumber(average.flipMany),
-                      percent(gain), shortNumber(hard.flipFew), shortNumber(hard.flipMany), percent(hardGain))};
+          fmt::format(
+              "From {:.0f} to {:.0f} places FLIP goes from {} to {} in average light ({}), and from {} to {} in "
+              "hard light ({}) (unnoticeable: less than 10 %, and less than in hard light).",
+              average.shortest, average.longest, shortNumber(average.flipFew), shortNumber(average.flipMany),
+              signedPercent(-gain), shortNumber(hard.flipFew), shortNumber(hard.flipMany), signedPercent(-hardGain))};
 }
 
 // ---- RQ6 ----
@@ -236,7 +242,7 @@ Answer sdfIsTwiceAsFast(const NamedResults& r) {
     parts.push_back(fmt::format("{} {:.2f} and {:.2f}", e->experiment.scene, jfa.back(), exact.back()));
   }
   const double mean = meanOf(jfa);
-  return {agreesIf(mean >= 1.5 && mean <= 2.5),
+  return {atFullSize(r, mean >= 1.5 && mean <= 2.5),
           fmt::format("The build is {:.2f} times as fast with the thesis's field on average, and {:.2f} times with the "
                       "exact one ({}){} (by 2: 1.5 to 2.5).",
                       mean, meanOf(exact), fmt::join(parts, ", "), caveat(r))};

@@ -141,12 +141,17 @@ double meanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 const char* caveat(const NamedResults& r) {
-  return r.cpu    ? " (on a CPU device: the thesis's figures are of a GPU)"
-         : r.full ? ""
-                  : " (small scale: the thesis's are of 256 voxels and 384 rays)";
+  return r.cpu && r.full ? " (on a CPU device: the thesis's figures are of a GPU)"
+         : r.cpu         ? " (small scale on a CPU device: the thesis's figures are of 256 voxels on a GPU)"
+         : r.full        ? ""
+                         : " (small scale: the thesis's figures are of 256 voxels)";
 }
 bool comparableTimes(const NamedResults& r) {
   return r.full && !r.cpu;
+}
+
+Judgement atFullSize(const NamedResults& r, bool agrees) {
+  return r.full ? agreesIf(agrees) : Judgement::Open;
 }
 
 double figureOf(const ExperimentResult& e, const std::string& name) {
