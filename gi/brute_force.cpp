@@ -20,6 +20,7 @@
 #include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
+#include "renderer/frame/transfer.h"
 #include "shaders/shared/brute_force.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/sampling.h"
@@ -168,6 +169,45 @@ float FrameWeights::errorOfVariance() const {
   if (frames_ < 2) return 0;
   const double q = squares_ / (sum_ * sum_);
   return static_cast<float>(q / (1 - q));
+}
+
+SavedFrames saveFrames(Context& context, const Lighting& light) {
+  const auto of = [&](const Buffer& buffer) {
+    return buffer ? downloadAs<glm::vec4>(context, buffer) : std::vector<glm::vec4>();
+  };
+  return {.frames = light.frameMean.weights.frames(),
+          .meanH = light.frameMean.meanH,
+          .standardError = light.report.standardError,
+          .largestH = light.report.largestH,
+          .next = of(light.radiosityNext),
+          .radiosity = of(light.radiosity),
+          .indirect = of(light.indirect),
+          .error = of(light.frameMean.standardError),
+          .emitted = of(light.emitted)};
+}
+
+void restoreFrames(Context& context, Lighting& light, const SavedFrames& saved) {
+  IRAD_CHECK(light.guard.lambda <= 1 && light.frameMean.weights.frames() > 0, "no light to go on with");
+  const auto put = [&](const Buffer& buffer, const std::vector<glm::vec4>& values) {
+    IRAD_CHECK_OP(values.size() * sizeof(glm::vec4), ==, buffer ? buffer.bytes : 0);
+    if (buffer) upload(context, buffer, std::as_bytes(std::span(values)));
+  };
+  put(light.radiosityNext, saved.next);
+  put(light.radiosity, saved.radiosity);
+  put(light.indirect, saved.indirect);
+  put(light.frameMean.standardError, saved.error);
+  put(light.emitted, saved.emitted);
+  FrameMean& mean = light.frameMean;
+  mean.weights = {};
+  for (uint32_t k = 0; k < saved.frames; ++k) mean.weights.add();
+  mean.meanH = saved.meanH;
+  SolveReport& report = light.report;
+  report.frames = saved.frames;
+  report.meanH = static_cast<float>(saved.meanH);
+  report.standardError = saved.standardError;
+  report.largestH = saved.largestH;
+  report.converged = report.atMostFrames = false;
+  if (!report.dark) light.litH = report.largestH;
 }
 
 SolveReport bruteForce(Context& context, const FacetList& facets, const Field& field, const SkyOnDevice& sky,

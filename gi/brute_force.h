@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
+#include <vector>
 
 #include "shaders/shared/gi_params.h"
 
@@ -39,6 +41,18 @@ class FrameWeights {
   uint32_t frames_ = 0;
   double last_ = 0, sum_ = 0, squares_ = 0;
 };
+
+/// All that the next frame depends on, and what pictures show, to go on with in another run.
+struct SavedFrames {
+  uint32_t frames = 0;
+  double meanH = 0;
+  float standardError = 0, largestH = 0;                             ///< SolveReport's
+  std::vector<glm::vec4> next, radiosity, indirect, error, emitted;  ///< per facet; `emitted` may be empty
+};
+SavedFrames saveFrames(Context& context, const Lighting& light);
+/// Into the light of the same settings and facets, which has a frame or more; lambda is 1 at most, so that the guard
+/// knows nothing that is not here. To the bit what it was.
+void restoreFrames(Context& context, Lighting& light, const SavedFrames& saved);
 
 /// Traces `frames` more frames, until the mean standard error of H is below solver.tolerance of the mean H, or there
 /// are solver.frames. `restarts`: the sources have changed; then, and where lambda or omega has, the mean begins anew,

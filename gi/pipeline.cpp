@@ -333,10 +333,15 @@ struct Pipeline::Impl {
       solveFor(p, first, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
+    showSolved(p);
+    context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
+  }
+
+  /// To where shading reads it.
+  void showSolved(Products& p) {
     if (!p.light->frameMean.held) scatterInto(p);
     learn(p);
     if (flipsBlur(p.light->report)) scatterInto(p);
-    context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
   }
 
   /// `maxSweeps` 0: as many as it takes; else one frame of brute force, which costs as much as a matrix.
@@ -613,6 +618,14 @@ void Pipeline::showLight(std::span<const glm::vec4> indirect, std::span<const gl
   put(p.now.light->radiosity, radiosity);
   ++p.revision.light;
   p.scatterInto(p.now);
+}
+
+void Pipeline::goOn(const SavedFrames& frames) {
+  Impl& p = *impl_;
+  IRAD_CHECK(current() && *p.now.light && p.framewise(), "no frames to go on with");
+  restoreFrames(p.context, *p.now.light, frames);
+  ++p.revision.light;
+  p.showSolved(p.now);
 }
 
 std::vector<Finding> Pipeline::findings() const {

@@ -27,6 +27,7 @@ struct FormFactors;
 struct Light;
 struct Lighting;
 struct Scene;
+struct SavedFrames;
 struct SceneTraits;
 struct ShadowMaps;
 struct Sky;
@@ -113,6 +114,9 @@ class Pipeline {
   /// Pictures show these H and B, a value per facet, in place of those solved, until light is solved again; none: those
   /// that are there. There must be light, and the pipeline current().
   void showLight(std::span<const glm::vec4> indirect, std::span<const glm::vec4> radiosity);
+  /// Goes on with the frames of brute force of an earlier run of the same scene and settings, in place of those that
+  /// have been prepared (restoreFrames); the next prepare() finds out whether there are enough. Must be current().
+  void goOn(const SavedFrames& frames);
   /// What the numerical watch has to say about the light as it is.
   std::vector<Finding> findings() const;
 

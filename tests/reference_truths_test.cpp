@@ -89,6 +89,38 @@ TEST_F(ExactSolve, TheSolverIsWithinItsBound) {
     }
 }
 
+TEST_F(ExactSolve, BouncesOfAFurnaceAreAGeometricSeries) {
+  Pipeline pipeline(context(), furnaceBox(0.7f), at(12, 64));
+  pipeline.prepare();
+  const ExactLight light = solveExactly(context(), pipeline, 1e-12, {}, 6);
+  ASSERT_EQ(light.bounces.size(), 6u);
+  const HostFacets facets = hostFacets(context(), pipeline.facets());
+  for (size_t i = 0; i < facets.count(); ++i)
+    for (size_t k = 0; k < 6; ++k) {
+      const double known = facets.emission[i].x * std::pow(double{facets.albedo[i].x}, static_cast<double>(k));
+      ASSERT_NEAR(light.bounces[k][i].x, known, 1e-12 * known) << k;
+    }
+}
+
+TEST_F(ExactSolve, BouncesAddUpToTheLight) {
+  // Lamps, points, spots; emitters that are sampled.
+  Pipeline pipeline(context(), mixedRoom(), at(12, 96));
+  pipeline.prepare();
+  const ExactLight light = solveExactly(context(), pipeline, 1e-12, {}, 300);
+  double off = 0, first = 0;
+  for (size_t i = 0; i < light.indirect.size(); ++i) {
+    glm::dvec3 sum(0);
+    for (const auto& bounce : light.bounces) sum += bounce[i];
+    for (int c = 0; c < 3; ++c) {
+      off = std::max(off, std::abs(sum[c] - light.indirect[i][c]));
+      first = std::max(first, std::abs(light.bounces[0][i][c] - light.indirect[i][c]));
+    }
+  }
+  printf("the sum of 300 is off by %.3g of mean H %.4g, the first alone by %.3g\n", off, light.meanH, first);
+  EXPECT_LE(off, 1e-10 * light.meanH);
+  EXPECT_GT(first, 0.1 * light.meanH);
+}
+
 TEST_F(ExactSolve, WhatIsShownIsWhatWasPut) {
   Pipeline pipeline(context(), furnaceBox(0.5f), at(12, 16));
   pipeline.prepare();
@@ -152,6 +184,30 @@ TEST_F(Truths, ThePictureHasItsErrorAsALayer) {
   EXPECT_EQ(truth.at("samples_per_pixel"), 8);
   EXPECT_EQ(truth.at("layers"), nlohmann::json({"indirect", "lit"}));
 }
+
+TEST_F(Truths, GlossyMaterialsAndBouncesAreLayers) {
+  const RunResult run =
+      runIrad(small("a.exr", {"--spp", "8", "--glossy", "--layer", "lit,specular", "--bounces", "2"}));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Scene scene = loadScene(assets() / "box.glb");
+  const TracedPicture p = makePathTracer(scene)->render(scene.cameras.at(0), {24, 16},
+                                                        {.samples = 8, .seed = 0, .glossy = true, .bounces = 3});
+  const auto expectSame = [&](const char* layer, const std::vector<glm::dvec3>& expected) {
+    const std::vector<glm::vec3> pixels = readExr(file("a.exr"), layer).pixels;
+    ASSERT_EQ(pixels.size(), expected.size());
+    for (size_t i = 0; i < pixels.size(); ++i) EXPECT_EQ(pixels[i], glm::vec3(expected[i])) << layer << i;
+  };
+  expectSame("specular", p.specular.mean);
+  expectSame("specular.error", p.specular.error);
+  expectSame("bounce.0", p.bounces[0].mean);
+  expectSame("bounce.2", p.bounces[2].mean);
+  expectSame("bounce.2.error", p.bounces[2].error);
+  const nlohmann::json truth = this->truth("a.json");
+  EXPECT_EQ(truth.at("materials"), "glossy");
+  EXPECT_EQ(truth.at("bounces").at(1).at("mean").at(0), p.bounces[1].pictureMean.x);
+  EXPECT_TRUE(contains(run.out, "bounce.2 ") && contains(run.out, "% of lit") && contains(run.out, "the rest"))
+      << run.out;
+}
 #endif
 
 TEST_F(Truths, ARunThatGoesOnGivesTheBitsOfOne) {
@@ -172,6 +228,27 @@ TEST_F(Truths, ARunThatGoesOnGivesTheBitsOfOne) {
   EXPECT_EQ(slurp(file("one.exr")), slurp(file("three.exr")));
 }
 
+TEST_F(Truths, GlossyMaterialsGoOnToo) {
+  const Words kind{"--glossy", "--bounces", "1"};
+  ASSERT_EQ(runIrad(small("one.exr", plus({"--spp", "9"}, kind))).status, 0);
+  ASSERT_EQ(runIrad(small("two.exr", plus({"--spp", "4"}, kind))).status, 0);
+  ASSERT_EQ(runIrad(small("two.exr", plus({"--spp", "9", "--resume"}, kind))).status, 0);
+  EXPECT_EQ(slurp(file("one.exr")), slurp(file("two.exr")));
+  const RunResult diffuse = runIrad(small("two.exr", {"--spp", "16", "--resume", "--bounces", "1"}));
+  EXPECT_EQ(diffuse.status, 2);
+  EXPECT_TRUE(contains(diffuse.err, "materials \"glossy\", not \"diffuse\"")) << diffuse.err;
+  const RunResult seen = runIrad(small("two.exr", {"--spp", "16", "--resume", "--bounces", "1", "--glossy-seen"}));
+  EXPECT_EQ(seen.status, 2);
+  EXPECT_TRUE(contains(seen.err, "materials \"glossy\", not \"glossy-seen\"")) << seen.err;
+  // The manifest repeats it.
+  ASSERT_EQ(runIrad(plus({"reference", "--config", file("one.json"), "--of", "triangles", "--spp", "9", "--out",
+                          file("three.exr")},
+                         kind))
+                .status,
+            0);
+  EXPECT_EQ(slurp(file("one.exr")), slurp(file("three.exr")));
+}
+
 TEST_F(Truths, AStateOfAnotherPictureIsRefused) {
   ASSERT_EQ(runIrad(small("a.exr", {"--spp", "4"})).status, 0);
   const std::string state = slurp(file("a.state"));
@@ -179,10 +256,12 @@ TEST_F(Truths, AStateOfAnotherPictureIsRefused) {
     Words more;
     const char* expected;
   };
-  for (const Case& c : {Case{{"--seed", "3"}, "seed 0, not 3"}, Case{{"--centred"}, "centred false, not true"},
-                        Case{{"--set", "sky.source=constant"}, "sky.source \"none\", not \"constant\""},
-                        Case{{"--set", "scene.double_sided=true"}, "scene.double_sided \"false\", not \"true\""},
-                        Case{{"--camera", R"({"position": [0, 1, 3], "target": [0, 1, 0]})"}, ": camera {"}}) {
+  for (const Case& c :
+       {Case{{"--seed", "3"}, "seed 0, not 3"}, Case{{"--glossy"}, "materials \"diffuse\", not \"glossy\""},
+        Case{{"--bounces", "2"}, "bounces \"none\", not 2"}, Case{{"--centred"}, "centred false, not true"},
+        Case{{"--set", "sky.source=constant"}, "sky.source \"none\", not \"constant\""},
+        Case{{"--set", "scene.double_sided=true"}, "scene.double_sided \"false\", not \"true\""},
+        Case{{"--camera", R"({"position": [0, 1, 3], "target": [0, 1, 0]})"}, ": camera {"}}) {
     const RunResult run = runIrad(small("a.exr", plus({"--spp", "8", "--resume"}, c.more)));
     EXPECT_EQ(run.status, 2) << run.err;
     EXPECT_TRUE(contains(run.err, "a.state is of another picture: ")) << run.err;
@@ -380,6 +459,70 @@ TEST_F(ThreeTruths, CtrlCKeepsTheFramesThatThereAre) {
   EXPECT_EQ(readLinear(file("voxels") + std::string(linearExtension())).size, glm::uvec2(24, 16));
 }
 
+TEST_F(ThreeTruths, FramesGoOnToTheBitsOfOneRun) {
+  const auto frames = [&](const char* out, const Words& more) {
+    return runIrad(plus({"reference", "box", "--of", "voxels", "--size", "24x16", "--set", "voxel.resolution=12",
+                         "--set", "matrix.rays=32", "--facets", "--out", file(out)},
+                        more));
+  };
+  const std::string one = "one" + std::string(linearExtension()), two = "two" + std::string(linearExtension());
+  ASSERT_EQ(frames(one.c_str(), {"--spp", "900"}).status, 0);
+  ASSERT_EQ(frames(two.c_str(), {"--spp", "300"}).status, 0);
+  EXPECT_NE(slurp(file(one.c_str())), slurp(file(two.c_str())));
+  const std::string state = slurp(file("two.state"));
+  // Of another light nothing goes on, and the state stays.
+  const RunResult other = frames(two.c_str(), {"--spp", "900", "--resume", "--seed", "5"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "matrix.seed \"0\", not \"5\"")) << other.err;
+  EXPECT_EQ(slurp(file("two.state")), state);
+  const RunResult rest = frames(two.c_str(), {"--spp", "900", "--resume"});
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  EXPECT_TRUE(contains(rest.out, "of 51 frames of 32, 17 by earlier runs")) << rest.out;
+  EXPECT_EQ(slurp(file(one.c_str())), slurp(file(two.c_str())));
+  for (const char* end : {".irradiance.npy", ".standard_error.npy"})
+    EXPECT_EQ(slurp(file(("one" + std::string(end)).c_str())), slurp(file(("two" + std::string(end)).c_str()))) << end;
+  // Frames that are there are not traced again; what is drawn of them is the same.
+  ASSERT_EQ(frames(two.c_str(), {"--spp", "900", "--resume"}).status, 0);
+  EXPECT_EQ(slurp(file(one.c_str())), slurp(file(two.c_str())));
+  // Damaged, and of another kind.
+  std::string damaged = state;
+  damaged[damaged.size() - 100] ^= 1;
+  std::ofstream(file("two.state"), std::ios::binary) << damaged;
+  const RunResult unread = frames(two.c_str(), {"--spp", "900", "--resume"});
+  EXPECT_EQ(unread.status, 3);
+  EXPECT_TRUE(contains(unread.err, "two.state: is damaged")) << unread.err;
+  std::ofstream(file("a.state"), std::ios::binary) << state;
+  const RunResult kind = runIrad(small("a.exr", {"--spp", "8", "--resume"}));
+  EXPECT_TRUE(contains(kind.err, "a.state: does not begin with 'irad reference sums 1'")) << kind.err;
+}
+
+TEST_F(ThreeTruths, BouncesOfAFurnaceByTrianglesAndByTheMatrix) {
+  // rho = .5, M = 1: what comes after k reflections is .5^(k + 1) / pi, and bounce.0 has M itself.
+  for (const char* what : {"triangles", "matrix"}) {
+    Words words{"reference", "check:furnace-box",
+                "--of",      what,
+                "--size",    "16x16",
+                "--bounces", "3",
+                "--set",     "scene.lambertian=true",
+                "--out",     file(what) + std::string(linearExtension())};
+    if (std::strcmp(what, "matrix") == 0)
+      words = plus(words, {"--set", "voxel.resolution=12", "--set", "matrix.rays=64"});
+    else
+      words = plus(words, {"--spp", "400"});
+    const RunResult run = runIrad(words);
+    ASSERT_EQ(run.status, 0) << run.err;
+    const nlohmann::json bounces = truth((what + std::string(".json")).c_str()).at("bounces");
+    ASSERT_EQ(bounces.size(), 4u);
+    for (size_t k = 0; k < 4; ++k) {
+      const double known = (std::pow(0.5, static_cast<double>(k) + 1) + (k == 0 ? 1 : 0)) / std::numbers::pi,
+                   mean = bounces[k].at("mean")[0], error = bounces[k].value("mean_error", std::vector<double>{0})[0];
+      printf("%s: bounce %zu %.6f +- %.6f, expected %.6f\n", what, k, mean, error, known);
+      EXPECT_NEAR(mean, known, 3 * error + 2e-4 * known) << what << k;  // albedos of facets have 16 bits
+      EXPECT_LT(error, 0.01 * known);
+    }
+  }
+}
+
 TEST_F(ThreeTruths, OfAFurnaceAllGiveTheClosedForm) {
   const double expected = 2 / std::numbers::pi;  // rho = .5, M = 1: B = 2
   for (const char* what : {"triangles", "voxels", "matrix"}) {
@@ -413,7 +556,13 @@ TEST_F(ThreeTruths, BadUsage) {
                         Case{{"--of", "triangles", "--noise", "0"}, "--noise: '0' is not allowed"},
                         Case{{"--of", "triangles", "--seconds", "soon"}, "--seconds: 'soon' is not allowed"},
                         Case{{"--of", "matrix", "--spp", "8"}, "a matrix is solved to the end"},
-                        Case{{"--of", "voxels", "--resume"}, "--resume is for --of triangles"},
+                        Case{{"--of", "matrix", "--resume"}, "--resume is for --of triangles and voxels"},
+                        Case{{"--of", "voxels", "--glossy"}, "--glossy is for --of triangles"},
+                        Case{{"--of", "voxels", "--bounces", "2"}, "--bounces is for --of triangles and matrix"},
+                        Case{{"--of", "triangles", "--glossy", "--glossy-seen"}, "--glossy or --glossy-seen, not both"},
+                        Case{{"--of", "triangles", "--bounces", "32"}, "--bounces: '32' is not allowed"},
+                        Case{{"--of", "triangles", "--layer", "specular"}, "--layer specular is for"},
+                        Case{{"--of", "voxels", "--resume", "--set", "solver.lambda=1.01"}, "solver.lambda is above 1"},
                         Case{{"--of", "triangles", "--facets"}, "--facets is for --of voxels and matrix"},
                         Case{{"--of", "triangles", "--out", "ref.png"}, "--out: 'ref.png' does not end in"},
                         Case{{"--of", "triangles", "--camera", "all", "--camera", "all"}, "--camera: one, not"},

@@ -49,7 +49,7 @@ double largest(const glm::dvec3& v) {
 }  // namespace
 
 ExactLight solveExactly(Context& context, const Pipeline& pipeline, double tolerance,
-                        const std::function<bool(float)>& progress) {
+                        const std::function<bool(float)>& progress, uint32_t bounces) {
   const FacetList& list = pipeline.facets();
   const Lighting& light = pipeline.lighting();
   IRAD_CHECK(pipeline.matrix() && light, "there is neither matrix nor light to solve");
@@ -120,6 +120,19 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
     h[i] = glm::max(rows.product(i, out.radiosity) + lambda * glm::dvec3(correction[i]), glm::dvec3(0)) +
            glm::dvec3(sky[i]);
   out.indirect = std::move(h);
+
+  // Term by term: what shines by itself, gathered; then what that makes reflected, gathered, and so on.
+  std::vector<glm::dvec3> b(count);
+  for (size_t i = 0; i < count; ++i) b[i] = lambda * (glm::dvec3(facets.emission[i]) + glm::dvec3(reflected[i]));
+  for (uint32_t k = 0; k < bounces; ++k) {
+    std::vector<glm::dvec3>& now = out.bounces.emplace_back(count);
+    for (size_t i = 0; i < count; ++i) {
+      now[i] = rows.product(i, b);
+      if (k == 0) now[i] = glm::max(now[i] + lambda * glm::dvec3(correction[i]), glm::dvec3(0)) + glm::dvec3(sky[i]);
+    }
+    for (size_t i = 0; i < count; ++i)
+      b[i] = lambda * glm::dvec3(facets.albedo[i]) * (now[i] + (k == 0 ? glm::dvec3(direct[i]) : glm::dvec3(0)));
+  }
   return out;
 }
 

@@ -2,41 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <bit>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
+#include "gi/check/state_file.h"
 #include "renderer/base/error.h"
-#include "renderer/base/json_reader.h"
-#include "renderer/base/output_file.h"
-#include "renderer/base/sha256.h"
 
 namespace irad {
 namespace {
 
-static_assert(std::endian::native == std::endian::little && sizeof(glm::dvec3) == 24);
+static_assert(sizeof(glm::dvec3) == 24);
 
-constexpr const char* kFirstLine = "irad reference sums 1";
-constexpr uint64_t kMostPixels = uint64_t{1} << 28;
-constexpr size_t kArrays = 6, kLongestLine = size_t{16} << 20;
+constexpr const char* kKind = "irad reference sums 1";
+constexpr uint64_t kMostPixels = uint64_t{1} << 28, kMostBounces = 1024;
+constexpr size_t kArrays = 3;  ///< of a light
 
-/// Of both lights: the two halves, the squares.
+/// Of each light: the two halves, the squares.
 template <class Sums>
 auto arraysOf(Sums& sums) {
-  return std::array{&sums.lit.half[0],      &sums.lit.half[1],      &sums.lit.squares,
-                    &sums.indirect.half[0], &sums.indirect.half[1], &sums.indirect.squares};
-}
-
-std::string digest(std::span<const std::byte> bytes) {
-  return sha256({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
-}
-
-/// Of the line and of each array, one after the other.
-std::string digestOf(const std::string& line, const TracedSums& sums) {
-  std::string all = digest(std::as_bytes(std::span(line)));
-  for (const auto* values : arraysOf(sums)) all += digest(std::as_bytes(std::span(*values)));
-  return digest(std::as_bytes(std::span(all)));
+  std::vector<decltype(&sums.lit.squares)> arrays;
+  const auto add = [&](auto& light) { arrays.insert(arrays.end(), {&light.half[0], &light.half[1], &light.squares}); };
+  add(sums.lit);
+  add(sums.indirect);
+  if (!sums.specular.squares.empty()) add(sums.specular);
+  for (auto& light : sums.bounces) add(light);
+  return arrays;
 }
 
 }  // namespace
@@ -49,62 +36,43 @@ void writeSums(const std::filesystem::path& path, const SavedSums& saved) {
   json["samples"] = sums.samples;
   json["rays"] = sums.rays;
   json["seconds"] = sums.seconds;
+  if (!sums.specular.squares.empty()) json["specular"] = true;
+  if (!sums.bounces.empty()) json["bounces"] = sums.bounces.size();
   json["made"] = nlohmann::ordered_json::parse(saved.made);
-  const std::string line = json.dump();
-  OutputFile file(path);
-  file.write(fmt::format("{}\n{}\n{}\n", kFirstLine, line, digestOf(line, sums)));
-  for (const auto* values : arraysOf(sums)) file.write(std::as_bytes(std::span(*values)));
-  file.commit();
+  std::vector<std::span<const std::byte>> arrays;
+  for (const auto* values : arraysOf(sums)) arrays.push_back(std::as_bytes(std::span(*values)));
+  writeState(path, kKind, json, arrays);
 }
 
 SavedSums readSums(const std::filesystem::path& path) {
-  const auto refuse = [&](const std::string& why) -> InputError {
-    return InputError(fmt::format("{}: {}", path.string(), why));
-  };
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw refuse("cannot be read");
-  std::array<std::string, 3> lines;
-  for (std::string& line : lines) {
-    char c = 0;
-    while (in.get(c) && c != '\n' && line.size() < kLongestLine) line += c;
-    if (&line == lines.data() && line != kFirstLine) throw refuse(fmt::format("does not begin with '{}'", kFirstLine));
-    if (c != '\n') throw refuse("ends in the middle of what it says of itself");
-  }
   SavedSums saved;
   TracedSums& sums = saved.sums;
-  try {
-    const OrderedJson json = parseJson(lines[1], path.string());
-    const auto whole = [&](const char* name, uint64_t most) {
-      const auto& value = json.at(name);
-      if (!value.is_number_unsigned() || value.get<uint64_t>() > most)
-        throw refuse(fmt::format("{}: unexpected value {}", name, value.dump()));
-      return value.get<uint64_t>();
-    };
+  bool specular = false;
+  uint64_t pixels = 0;
+  const auto bytes = [&](const nlohmann::ordered_json& json) {
+    const auto whole = [&](const char* name, uint64_t most) { return wholeOf(json, path, name, most); };
     sums.size = {whole("width", kMostPixels), whole("height", kMostPixels)};
     sums.samples = static_cast<uint32_t>(whole("samples", UINT32_MAX));
     sums.rays = whole("rays", UINT64_MAX);
     sums.seconds = json.at("seconds").get<double>();
+    specular = json.contains("specular") && json.at("specular").get<bool>();
+    if (json.contains("bounces")) sums.bounces.resize(whole("bounces", kMostBounces));
     saved.made = json.at("made").dump();
-  } catch (const nlohmann::json::exception& error) {
-    throw refuse(error.what());
-  } catch (const UsageError& error) {
-    throw InputError(error.what());
-  }
-  const uint64_t pixels = uint64_t{sums.size.x} * sums.size.y;
-  if (pixels < 1 || pixels > kMostPixels || sums.samples < 1)
-    throw refuse(fmt::format("{} x {} pixels of {} samples", sums.size.x, sums.size.y, sums.samples));
-  // Before anything of that size is allocated.
-  const auto begin = in.tellg();
-  in.seekg(0, std::ios::end);
-  const auto there = static_cast<uint64_t>(in.tellg() - begin), expected = pixels * kArrays * sizeof(glm::dvec3);
-  if (there != expected) throw refuse(fmt::format("holds {} bytes of sums in place of {}", there, expected));
-  in.seekg(begin);
-  for (auto* values : arraysOf(sums)) {
-    values->resize(pixels);
-    in.read(reinterpret_cast<char*>(values->data()), static_cast<std::streamsize>(pixels * sizeof(glm::dvec3)));
-  }
-  if (!in) throw refuse("cannot be read to its end");
-  if (digestOf(lines[1], sums) != lines[2]) throw refuse("is damaged: its contents are not those that were written");
+    pixels = uint64_t{sums.size.x} * sums.size.y;
+    if (pixels < 1 || pixels > kMostPixels || sums.samples < 1)
+      throw InputError(
+          fmt::format("{}: {} x {} pixels of {} samples", path.string(), sums.size.x, sums.size.y, sums.samples));
+    return pixels * kArrays * sizeof(glm::dvec3) * (2 + (specular ? 1 : 0) + sums.bounces.size());
+  };
+  readState(path, kKind, bytes, [&] {
+    if (specular) sums.specular.squares.resize(1);
+    std::vector<std::span<std::byte>> arrays;
+    for (auto* values : arraysOf(sums)) {
+      values->resize(pixels);
+      arrays.push_back(std::as_writable_bytes(std::span(*values)));
+    }
+    return arrays;
+  });
   return saved;
 }
 

@@ -8,7 +8,7 @@
 
 namespace irad {
 
-/// A line that says what it is, a line of JSON, then the sums as little-endian doubles: 144 bytes per pixel.
+/// 72 bytes per pixel and light: `lit`, `indirect`, what else there is.
 struct SavedSums {
   std::string made;  ///< what they were made of, as JSON; theirs who write it
   TracedSums sums;

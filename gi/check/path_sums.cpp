@@ -34,12 +34,17 @@ TracedLight lightOf(const TracedSums::Light& sums, uint32_t samples) {
 
 TracedPicture pictureOf(const TracedSums& sums) {
   IRAD_CHECK(sums.samples > 1, "{} samples have no standard error", sums.samples);
-  return {.size = sums.size,
-          .samples = sums.samples,
-          .lit = lightOf(sums.lit, sums.samples),
-          .indirect = lightOf(sums.indirect, sums.samples),
-          .rays = sums.rays,
-          .seconds = sums.seconds};
+  TracedPicture picture{.size = sums.size,
+                        .samples = sums.samples,
+                        .lit = lightOf(sums.lit, sums.samples),
+                        .indirect = lightOf(sums.indirect, sums.samples),
+                        .specular = {},
+                        .bounces = {},
+                        .rays = sums.rays,
+                        .seconds = sums.seconds};
+  if (!sums.specular.squares.empty()) picture.specular = lightOf(sums.specular, sums.samples);
+  for (const TracedSums::Light& light : sums.bounces) picture.bounces.push_back(lightOf(light, sums.samples));
+  return picture;
 }
 
 TracedPicture PathTracer::render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const {

@@ -166,6 +166,16 @@ SurfacePoint Surfaces::at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& di
   return p;
 }
 
+std::optional<Gloss> Surfaces::glossAt(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const {
+  const Material& m = material(triangle);
+  if (m.lambertian || (!m.doubleSided && glm::dot(direction, triangles_[triangle].normal) >= 0)) return std::nullopt;
+  const glm::dvec4 mr = texel(triangle, m.metallicRoughnessTexture, uv);
+  const double metallic = std::clamp(double{m.metallic} * mr.z, 0.0, 1.0);
+  const glm::dvec3 base = glm::clamp(glm::dvec3(baseColor(triangle, uv)), 0.0, 1.0);
+  return Gloss{.f0 = glm::mix(glm::dvec3(0.04), base, metallic),
+               .roughness = std::clamp(double{m.roughness} * mr.y, 0.0, 1.0)};
+}
+
 double Surfaces::offset(uint32_t triangle) const {
   double largest = 0;
   for (int k = 0; k < 3; ++k)

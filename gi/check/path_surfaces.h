@@ -48,6 +48,12 @@ struct SurfacePoint {
   glm::dvec3 emission{0};  ///< radiance, W/(m^2 sr)
 };
 
+/// What a point has beside the diffuse part.
+struct Gloss {
+  glm::dvec3 f0{0};      ///< reflectance at right angles, 0..1
+  double roughness = 1;  ///< 0..1
+};
+
 /// A point of an emissive triangle.
 struct EmitterPoint {
   uint32_t triangle = 0;
@@ -81,6 +87,8 @@ class Surfaces {
   bool cutOut(uint32_t triangle, glm::dvec2 uv) const;
   /// A point of a triangle as a ray along `direction` sees it.
   SurfacePoint at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
+  /// Nothing where the material is Lambertian, and on the back of a single-sided face.
+  std::optional<Gloss> glossAt(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
   /// How far a ray's start is moved off the face, m: a few units in the last place of the largest coordinate.
   double offset(uint32_t triangle) const;
 

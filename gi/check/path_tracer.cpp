@@ -1,5 +1,6 @@
 #include "gi/check/path_tracer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <numbers>
 #include <thread>
 
+#include "gi/check/path_lobe.h"
 #include "gi/check/path_sky.h"
 #include "gi/check/path_surfaces.h"
 #include "gi/embree_scene.h"
@@ -16,6 +18,7 @@ namespace irad {
 namespace {
 
 using truth::kNoTriangle;
+using truth::Lobe;
 using truth::Random;
 using truth::SkyLight;
 using truth::SurfacePoint;
@@ -59,19 +62,56 @@ struct Met {
   glm::dvec2 uv{0};
 };
 
+/// The most that a path survives with: even between perfect mirrors it ends.
+constexpr double kMostSurvival = 0.98;
+/// The least and the most that a vertex with both parts chooses the lobe with.
+constexpr double kLeastChoice = 0.1;
+
 /// A direction about `normal` with density cosine / pi.
 glm::dvec3 cosineDirection(const glm::dvec3& normal, Random& random) {
   const double r2 = random.next(), r = std::sqrt(r2), phi = 2 * std::numbers::pi * random.next();
-  const glm::dvec3 aside = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 t = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, t);
-  return r * std::cos(phi) * t + r * std::sin(phi) * b + std::sqrt(std::max(0.0, 1 - r2)) * normal;
+  const glm::dmat3 frame = truth::frameAbout(normal);
+  return r * std::cos(phi) * frame[0] + r * std::sin(phi) * frame[1] + std::sqrt(std::max(0.0, 1 - r2)) * normal;
 }
 
-void makeRoom(TracedSums& sums, glm::uvec2 size) {
+double largest(const glm::dvec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+/// Where a path has come to.
+struct Vertex {
+  SurfacePoint point;
+  Lobe lobe;              ///< none with TraceOptions::glossy off
+  double lobeChoice = 0;  ///< probability that the path goes on by the lobe
+  uint32_t triangle = kNoTriangle, depth = 0;
+  glm::dvec3 origin{0};      ///< of rays from here
+  glm::dvec3 throughput{1};  ///< to here
+  glm::dvec3 reflected{0};   ///< by the diffuse part, of irradiance
+
+  /// Per steradian, that the path goes on this way, but for a mirror.
+  double density(const glm::dvec3& towards, double cosine) const {
+    if (lobeChoice == 0) return cosine / std::numbers::pi;
+    return lobeChoice * lobe.density(towards) + (1 - lobeChoice) * cosine / std::numbers::pi;
+  }
+  glm::dvec3 diffuse(const glm::dvec3& light, const glm::dvec3& towards, double cosine) const {
+    return reflected * light * cosine * truth::pastBumps(point, towards);
+  }
+  glm::dvec3 specular(const glm::dvec3& light, const glm::dvec3& towards, double cosine) const {
+    return lobe ? throughput * light * lobe.value(towards) * cosine : glm::dvec3(0);
+  }
+};
+
+void makeRoom(TracedSums& sums, glm::uvec2 size, const TraceOptions& options) {
   sums.size = size;
-  const size_t pixels = size_t{size.x} * size.y;
-  for (TracedSums::Light* light : {&sums.lit, &sums.indirect})
-    for (auto* values : {&light->half[0], &light->half[1], &light->squares}) values->assign(pixels, glm::dvec3(0));
+  sums.bounces.resize(options.bounces);
+  const auto make = [&](TracedSums::Light& light) {
+    for (auto* values : {&light.half[0], &light.half[1], &light.squares})
+      values->assign(size_t{size.x} * size.y, glm::dvec3(0));
+  };
+  make(sums.lit);
+  make(sums.indirect);
+  if (options.glossy) make(sums.specular);
+  for (TracedSums::Light& light : sums.bounces) make(light);
 }
 
 class EmbreeTracer : public PathTracer {
@@ -81,8 +121,10 @@ class EmbreeTracer : public PathTracer {
 
   void add(const Camera& camera, glm::uvec2 size, const TraceOptions& options, TracedSums& sums) const override {
     const auto start = std::chrono::steady_clock::now();
-    if (sums.samples == 0) makeRoom(sums, size);
+    if (sums.samples == 0) makeRoom(sums, size, options);
     IRAD_CHECK(sums.size == size, "sums of {} x {} pixels for {} x {}", sums.size.x, sums.size.y, size.x, size.y);
+    IRAD_CHECK(sums.bounces.size() == options.bounces && sums.specular.squares.empty() != options.glossy,
+               "sums of other light than is asked for");
     std::atomic<uint32_t> nextRow = 0;
     std::atomic<uint64_t> rays = 0;
     const auto work = [&] {
@@ -122,16 +164,22 @@ class EmbreeTracer : public PathTracer {
     const glm::uvec2 size;
     const TraceOptions& options;
     uint64_t rays = 0;
-    glm::dvec3 lit{0}, indirect{0};  ///< of the path in hand
+    glm::dvec3 lit{0}, indirect{0}, specular{0};  ///< of the path in hand
+    std::vector<glm::dvec3> bounces = std::vector<glm::dvec3>(options.bounces);
+    glm::dvec3 diffuseShare{1};  ///< of its throughput: by the diffuse part of what is seen
 
     void pixel(glm::uvec2 at, TracedSums& sums) {
       const size_t index = size_t{at.y} * size.x + at.x;
       for (uint32_t s = sums.samples; s < sums.samples + options.samples; ++s) {
         Random random(options.seed, uint64_t{s} << 32 | index);
-        lit = indirect = glm::dvec3(0);
+        lit = indirect = specular = glm::dvec3(0);
+        diffuseShare = glm::dvec3(1);
+        std::ranges::fill(bounces, glm::dvec3(0));
         path(at, random);
         put(lit, sums.lit, index, s);
         put(indirect, sums.indirect, index, s);
+        if (options.glossy) put(specular, sums.specular, index, s);
+        for (size_t k = 0; k < bounces.size(); ++k) put(bounces[k], sums.bounces[k], index, s);
       }
     }
     static void put(const glm::dvec3& light, TracedSums::Light& sums, size_t index, uint32_t sample) {
@@ -183,10 +231,51 @@ class EmbreeTracer : public PathTracer {
       return shadow.tfar >= 0;
     }
 
-    void add(const glm::dvec3& light, bool bounced) {
+    /// Light that the path has come upon at a depth.
+    void come(const glm::dvec3& light, uint32_t depth) {
       lit += light;
-      if (bounced) indirect += light;
+      if (depth > 0) {
+        indirect += light * diffuseShare;
+        if (options.glossy) specular += light * (1.0 - diffuseShare);
+      }
+      count(light, depth > 0 ? depth - 1 : 0);
     }
+    /// Light that a vertex reflects, by either part. `punctual`: from a sun, point or spot.
+    void reflect(const Vertex& v, const glm::dvec3& diffuse, const glm::dvec3& glossy, bool punctual) {
+      const glm::dvec3 light = diffuse + glossy;
+      lit += light;
+      count(light, v.depth);
+      if (v.depth == 0) {
+        if (punctual) return;
+        indirect += diffuse;
+        specular += glossy;
+      } else {
+        indirect += light * diffuseShare;
+        if (options.glossy) specular += light * (1.0 - diffuseShare);
+      }
+    }
+    void count(const glm::dvec3& light, uint32_t reflections) {
+      if (reflections < bounces.size()) bounces[reflections] += light;
+    }
+
+    /// What drawn light is divided by, which may also be come upon: the balance heuristic's weight over the density
+    /// drawn with is 1 / (the sum of both).
+    double dividedBy(double drawn, double bounce) const {
+      return options.strategy == TraceStrategy::lights ? drawn : drawn + bounce;
+    }
+    /// The weight of light come upon that may also be drawn.
+    double weightOf(double bounce, double drawn) const {
+      switch (options.strategy) {
+        case TraceStrategy::lights:
+          return 0;
+        case TraceStrategy::bounces:
+          return 1;
+        case TraceStrategy::both:
+          break;
+      }
+      return bounce / (bounce + drawn);
+    }
+    bool draws() const { return options.strategy != TraceStrategy::bounces; }
 
     void path(glm::uvec2 at, Random& random) {
       // The camera's ray. Its direction has length 1 along the view, so that distances are depths.
@@ -203,91 +292,138 @@ class EmbreeTracer : public PathTracer {
       Met met = meet(origin, direction, std::max(camera.znear, 0.0f), far, kNoTriangle, /*shownFrom=*/0, depth1);
       direction = glm::normalize(direction);
 
-      glm::dvec3 throughput(1);
+      Vertex v;
       double bounceDensity = 0;  // per steradian, of the direction that led here
-      uint32_t depth = 0;
-      for (; met.triangle != kNoTriangle; ++depth) {
-        const SurfacePoint point = surfaces.at(met.triangle, met.uv, direction);
+      bool mayBeDrawn = false;   // what lies here could have been drawn at the vertex before
+      for (; met.triangle != kNoTriangle; ++v.depth) {
+        const SurfacePoint& point = v.point = surfaces.at(met.triangle, met.uv, direction);
+        v.triangle = met.triangle;
         // Emission that the ray has come upon. From the second vertex on it may have been drawn there, too.
         if (point.emission != glm::dvec3(0)) {
           double weight = 1;
-          if (depth > 0) {
-            const glm::dvec3 way = point.position - origin;
+          if (mayBeDrawn) {
+            const glm::dvec3 way = point.position - v.origin;
             const double cosine = std::abs(glm::dot(direction, point.face));
             const double drawn = surfaces.emitterDensity(met.triangle) * glm::dot(way, way);  // x cosine
-            weight = bounceDensity * cosine / (bounceDensity * cosine + drawn);
+            weight = weightOf(bounceDensity * cosine, drawn);
           }
-          add(throughput * point.emission * weight, depth > 0);
+          come(v.throughput * point.emission * weight, v.depth);
         }
-        if (point.albedo == glm::dvec3(0)) return;
-        origin = point.position + point.face * surfaces.offset(met.triangle);
-        const glm::dvec3 reflected = throughput * point.albedo / std::numbers::pi;
-        for (size_t l = 0; l < surfaces.lights(); ++l)
-          fromLight(l, point, met.triangle, origin, reflected, random, depth > 0);
-        if (surfaces.emits()) fromEmitter(point, met.triangle, origin, reflected, random);
-        if (sky.shines()) fromSky(point, met.triangle, origin, reflected, random);
+        if (options.glossy) findLobe(v, met.uv, direction);
+        if (point.albedo == glm::dvec3(0) && !v.lobe) return;
+        v.origin = point.position + point.face * surfaces.offset(met.triangle);
+        v.reflected = v.throughput * point.albedo / std::numbers::pi;
+        for (size_t l = 0; l < surfaces.lights(); ++l) fromLight(l, v, random);
+        if (surfaces.emits() && draws()) fromEmitter(v, random);
+        if (sky.shines() && draws()) fromSky(v, random);
 
-        // Go on in proportion to the cosine; the albedo is what is left of the weight. From the fourth bounce on a path
-        // survives with the probability of its largest channel.
-        direction = cosineDirection(point.normal, random);
-        throughput *= point.albedo;
-        if (glm::dot(direction, point.face) <= 0) return;
-        throughput *= pastBumps(point, direction);
-        if (depth >= 3) {
-          const double survive = std::min(1.0, std::max({throughput.x, throughput.y, throughput.z}));
+        mayBeDrawn = true;
+        if (!(v.lobe ? goOnGlossy(v, random, direction, bounceDensity, mayBeDrawn) : goOn(v, random, direction)))
+          return;
+        // From the fourth bounce on a path survives with the probability of its largest channel.
+        if (v.depth >= 3) {
+          const double survive = std::min(kMostSurvival, largest(v.throughput));
           if (random.next() >= survive) return;
-          throughput /= survive;
+          v.throughput /= survive;
         }
-        bounceDensity = glm::dot(direction, point.normal) / std::numbers::pi;
-        met = meetNext(origin, direction, met.triangle);
+        if (!v.lobe) bounceDensity = glm::dot(direction, point.normal) / std::numbers::pi;
+        met = meetNext(v.origin, direction, met.triangle);
       }
       // The sky that the ray has come upon, which from the second vertex on may have been drawn, too.
       if (!sky.shines()) return;
-      const double drawn = depth > 0 ? sky.density(direction) : 0;
-      add(throughput * sky.radiance(direction) * (depth > 0 ? bounceDensity / (bounceDensity + drawn) : 1), depth > 0);
+      const double drawn = mayBeDrawn ? sky.density(direction) : 0;
+      come(v.throughput * sky.radiance(direction) * (mayBeDrawn ? weightOf(bounceDensity, drawn) : 1), v.depth);
     }
 
-    void fromSky(const SurfacePoint& point, uint32_t from, const glm::dvec3& origin, const glm::dvec3& reflected,
-                 Random& random) {
+    void findLobe(Vertex& v, glm::dvec2 uv, const glm::dvec3& direction) const {
+      v.lobe = {};
+      v.lobeChoice = 0;
+      if (options.glossySeen && v.depth > 0) return;
+      const auto gloss = surfaces.glossAt(v.triangle, uv, direction);
+      if (!gloss) return;
+      const Lobe lobe(gloss->f0, gloss->roughness, v.point.normal, -direction);
+      const double shine = largest(lobe.reflectance()), diffuse = largest(v.point.albedo);
+      if (!(shine > 0)) return;
+      v.lobe = lobe;
+      v.lobeChoice = diffuse > 0 ? std::clamp(shine / (shine + diffuse), kLeastChoice, 1 - kLeastChoice) : 1;
+    }
+
+    /// In proportion to the cosine; the albedo is what is left of the weight. False: the path ends.
+    static bool goOn(Vertex& v, Random& random, glm::dvec3& direction) {
+      direction = cosineDirection(v.point.normal, random);
+      v.throughput *= v.point.albedo;
+      if (glm::dot(direction, v.point.face) <= 0) return false;
+      v.throughput *= truth::pastBumps(v.point, direction);
+      return true;
+    }
+    /// By the lobe or in proportion to the cosine; what either could have done weighs on both.
+    bool goOnGlossy(Vertex& v, Random& random, glm::dvec3& direction, double& density, bool& mayBeDrawn) {
+      const bool byLobe = v.lobeChoice == 1 || random.next() < v.lobeChoice;
+      direction = byLobe ? v.lobe.draw(random) : cosineDirection(v.point.normal, random);
+      const double cosine = glm::dot(direction, v.point.normal);
+      if (cosine <= 0 || glm::dot(direction, v.point.face) <= 0) return false;
+      glm::dvec3 diffuse(0), glossy(0);
+      if (byLobe && v.lobe.mirror()) {
+        mayBeDrawn = false;
+        glossy = v.lobe.mirrored() / v.lobeChoice;
+      } else {
+        density = v.density(direction, cosine);
+        if (!(density > 0)) return false;
+        diffuse = v.point.albedo / std::numbers::pi * cosine * truth::pastBumps(v.point, direction) / density;
+        glossy = v.lobe.value(direction) * cosine / density;
+      }
+      const glm::dvec3 all = diffuse + glossy;
+      if (v.depth == 0)
+        for (int c = 0; c < 3; ++c) diffuseShare[c] = all[c] > 0 ? diffuse[c] / all[c] : 0;
+      v.throughput *= all;
+      return largest(v.throughput) > 0;
+    }
+
+    void fromSky(const Vertex& v, Random& random) {
       const SkyLight::Drawn drawn = sky.draw(random);
-      const double cosine = glm::dot(point.normal, drawn.direction);
-      if (cosine <= 0 || glm::dot(point.face, drawn.direction) <= 0) return;
-      if (!clear(origin, drawn.direction, kFar, from, kNoTriangle, kFar)) return;
-      // The balance heuristic, as in fromEmitter.
-      add(reflected * sky.radiance(drawn.direction) * cosine * pastBumps(point, drawn.direction) /
-              (drawn.density + cosine / std::numbers::pi),
-          /*bounced=*/true);
+      const double cosine = glm::dot(v.point.normal, drawn.direction);
+      if (cosine <= 0 || glm::dot(v.point.face, drawn.direction) <= 0) return;
+      if (!clear(v.origin, drawn.direction, kFar, v.triangle, kNoTriangle, kFar)) return;
+      reflectDrawn(v, sky.radiance(drawn.direction), drawn.direction, cosine, drawn.density);
     }
 
-    void fromLight(size_t light, const SurfacePoint& point, uint32_t from, const glm::dvec3& origin,
-                   const glm::dvec3& reflected, Random& random, bool bounced) {
-      const auto arriving = surfaces.arriving(light, point.position, random);
+    void reflectDrawn(const Vertex& v, const glm::dvec3& radiance, const glm::dvec3& towards, double cosine,
+                      double drawn) {
+      const double density = dividedBy(drawn, v.density(towards, cosine));
+      reflect(v, v.diffuse(radiance, towards, cosine) / density, v.specular(radiance, towards, cosine) / density,
+              /*punctual=*/false);
+    }
+
+    void fromLight(size_t light, const Vertex& v, Random& random) {
+      const auto arriving = surfaces.arriving(light, v.point.position, random);
       if (!arriving) return;
-      const double cosine = glm::dot(point.normal, arriving->towards);
-      if (cosine <= 0 || glm::dot(point.face, arriving->towards) <= 0) return;
+      const glm::dvec3& towards = arriving->towards;
+      const double cosine = glm::dot(v.point.normal, towards);
+      if (cosine <= 0 || glm::dot(v.point.face, towards) <= 0) return;
       const float far = std::isfinite(arriving->distance) ? static_cast<float>(arriving->distance) : kFar;
-      if (clear(origin, arriving->towards, far, from, kNoTriangle, kFar))
-        add(reflected * arriving->irradiance * cosine * pastBumps(point, arriving->towards), bounced);
+      if (!clear(v.origin, towards, far, v.triangle, kNoTriangle, kFar)) return;
+      glm::dvec3 glossy(0);
+      if (v.lobe) glossy = v.throughput * arriving->irradiance * v.lobe.valueOfPoint(towards) * cosine;
+      reflect(v, v.diffuse(arriving->irradiance, towards, cosine), glossy, /*punctual=*/true);
     }
 
-    void fromEmitter(const SurfacePoint& point, uint32_t from, const glm::dvec3& origin, const glm::dvec3& reflected,
-                     Random& random) {
+    void fromEmitter(const Vertex& v, Random& random) {
       const truth::EmitterPoint drawn = surfaces.drawEmitter(random);
-      const glm::dvec3 way = drawn.position - origin;
+      const glm::dvec3 way = drawn.position - v.origin;
       const double d2 = glm::dot(way, way), distance = std::sqrt(d2);
-      if (!(distance > 0) || drawn.triangle == from) return;
+      if (!(distance > 0) || drawn.triangle == v.triangle) return;
       const glm::dvec3 towards = way / distance;
-      const double cosine = glm::dot(point.normal, towards);
-      if (cosine <= 0 || glm::dot(point.face, towards) <= 0 || surfaces.cutOut(drawn.triangle, drawn.uv)) return;
+      const double cosine = glm::dot(v.point.normal, towards);
+      if (cosine <= 0 || glm::dot(v.point.face, towards) <= 0 || surfaces.cutOut(drawn.triangle, drawn.uv)) return;
       const SurfacePoint there = surfaces.at(drawn.triangle, drawn.uv, towards);
       const double cosineThere = -glm::dot(there.face, towards);
       if (there.emission == glm::dvec3(0) || !(cosineThere > 0)) return;
       // Just short of the other triangle, lest its neighbour in the same plane is in the way.
       const auto far = static_cast<float>(distance * (1 - 0x1p-20));
-      if (!clear(origin, towards, far, from, drawn.triangle, far - around(from, drawn.triangle, cosineThere))) return;
-      // Both densities per steradian: the balance heuristic's weight over the drawn one is 1 / (their sum).
-      const double density = drawn.density * d2 / cosineThere + cosine / std::numbers::pi;
-      add(reflected * there.emission * cosine * pastBumps(point, towards) / density, /*bounced=*/true);
+      if (!clear(v.origin, towards, far, v.triangle, drawn.triangle,
+                 far - around(v.triangle, drawn.triangle, cosineThere)))
+        return;
+      reflectDrawn(v, there.emission, towards, cosine, drawn.density * d2 / cosineThere);
     }
   };
 

@@ -1,12 +1,13 @@
-// A diffuse path tracer on the triangles: what pictures are judged by. It shares the scene with the program and nothing
-// else: no facets, no shaders or headers of theirs, no sampler; its rays are Embree's, its random numbers its own.
+// A path tracer on the triangles: what pictures are judged by. It shares the scene with the program and nothing else:
+// no facets, no shaders or headers of theirs, no sampler; its rays are Embree's, its random numbers its own.
 //
-// Surfaces are Lambertian with the albedo of docs/method.md (base colour x (1 - metallic), clamped to [0, .98]); there
-// is no specular lobe, and what blends is opaque. Texels that a mask cuts out let every ray through.
+// Surfaces are Lambertian with the albedo of docs/method.md (base colour x (1 - metallic), clamped to [0, .98]), and
+// what blends is opaque. With TraceOptions::glossy they have the specular lobe, too (path_lobe.h).
+// Texels that a mask cuts out let every ray through.
 // The back of a single-sided face stops all rays and is black, but for those of the camera, which see through it.
 // Cosines, at lights and of bounces, are taken with the vertices' interpolated normal, turned to the side that was
-// met, and the normal map about it; what comes from behind the face itself adds nothing, and what grazes bumps less
-// (pastBumps), both as in Cycles.
+// met, and the normal map about it; what comes from behind the face itself adds nothing, and of the diffuse part what
+// grazes bumps less (pastBumps), both as in Cycles.
 #pragma once
 
 #include <array>
@@ -22,12 +23,21 @@ namespace irad {
 struct Camera;
 struct Scene;
 
+/// How light is found that may both be drawn and be come upon, emissive triangles and the sky: all are unbiased.
+enum class TraceStrategy { both, lights, bounces };
+
 struct TraceOptions {
   uint32_t samples = 64;  ///< per pixel, > 1
   uint64_t seed = 1;
   /// Rays through the middle of each pixel, as a rasterizer samples; otherwise spread over it evenly.
   bool centred = false;
   uint32_t threads = 0;  ///< 0: all cores; the picture does not depend on it, to the bit
+  bool glossy = false;   ///< the full metallic-roughness material, not its diffuse part alone
+  /// With `glossy`: what is not seen by the camera itself has its diffuse part alone, so that light comes to what is
+  /// seen as the program's H does.
+  bool glossySeen = false;
+  uint32_t bounces = 0;  ///< TracedPicture::bounces, how many
+  TraceStrategy strategy = TraceStrategy::both;
 };
 
 /// Radiance of every pixel, top row first, W/(m^2 sr).
@@ -45,8 +55,13 @@ struct TracedPicture {
   uint32_t samples = 0;
   TracedLight lit;       ///< everything, the sky behind the scene included
   TracedLight indirect;  ///< without emission and sky that are seen and without suns, points and spots at what is seen:
-                         ///< rho H/pi
-  uint64_t rays = 0;     ///< that were traced
+                         ///< rho H/pi, what is seen reflecting by its diffuse part alone
+  /// With TraceOptions::glossy what the lobe of what is seen reflects, but for suns, points and spots; otherwise empty.
+  TracedLight specular;
+  /// The part of `lit` that was reflected k times before it came to what is seen: [0] is what is emitted there, the sky
+  /// behind, and all light that comes there straight from where it is made.
+  std::vector<TracedLight> bounces;
+  uint64_t rays = 0;  ///< that were traced
   double seconds = 0;
 };
 
@@ -61,6 +76,8 @@ struct TracedSums {
   glm::uvec2 size{0};
   uint32_t samples = 0;  ///< per pixel
   Light lit, indirect;
+  Light specular;  ///< empty, or as TracedPicture's
+  std::vector<Light> bounces;
   uint64_t rays = 0;
   double seconds = 0;
 };
@@ -74,7 +91,7 @@ class PathTracer {
   /// Unbiased: paths end by Russian roulette alone. Sums are in double precision. Light: suns, points and spots in full
   /// at every vertex of a path, by one point of those with a size; emissive triangles by one point in proportion to
   /// their power and by the bounce, joined by the balance heuristic (Veach and Guibas 1995); the sky likewise, by one
-  /// direction.
+  /// direction. With a lobe, rays go by it or by the cosine, and every density is that of both.
   virtual void add(const Camera& camera, glm::uvec2 size, const TraceOptions& options, TracedSums& sums) const = 0;
   /// All in one go.
   TracedPicture render(const Camera& camera, glm::uvec2 size, const TraceOptions& options) const;
