@@ -146,6 +146,8 @@ std::string ExperimentRunner::whyNot(const Experiment& e) const {
   std::error_code ignored;
   if (e.truth == TruthKind::Cycles && !fs::exists(cyclesPicture(), ignored))
     return fmt::format("there is no picture by Cycles ({})", cyclesPicture().string());
+  if (e.truth == TruthKind::Cycles && linearExtension() != std::string_view(".exr"))
+    return "this build reads no EXR files (IRAD_OIIO)";
   if (e.truth == TruthKind::Blender) return whyNoBlender();
   if (e.scene == "sponza" && !sponza_) return "no Sponza (--sponza FILE)";
   if (e.truth == TruthKind::PathTracer && !hasPathTracer()) return "this build has no path tracer (IRAD_EMBREE)";
