@@ -1,9 +1,9 @@
 // `irad memory`: T Table 1 for any scene: the thesis's formula, what ours predict, what the allocator measured.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/device_session.h"
 #include "app/devices.h"
+#include "app/memory_table.h"
 #include "app/table.h"
 #include "gi/facets.h"
 #include "gi/field.h"
@@ -25,41 +25,6 @@ struct MemoryArguments {
   DeviceArguments device;
   bool markdown = false;
 };
-
-using Cells = std::vector<std::string>;
-using BytesText = std::string (*)(uint64_t);
-
-std::string mebibyteNumber(uint64_t bytes) {
-  return fmt::format("{:.3f}", inMebibytes(bytes));
-}
-
-std::string byteNumber(uint64_t bytes) {
-  return std::to_string(bytes);
-}
-
-Cells cellsOf(const std::string& group, const ThesisTable::Row& row, BytesText text) {
-  Cells cells{group, row.buffer, row.formula};
-  for (const auto& bytes : {row.thesis, row.predicted, row.measured}) cells.push_back(bytes ? text(*bytes) : "");
-  cells.push_back(fmt::format("{}", fmt::join(row.here, "; ")));
-  return cells;
-}
-
-/// The heading first; `unit` is part of its names.
-std::vector<Cells> cellsOf(const ThesisTable& table, const char* unit, BytesText text) {
-  std::vector<Cells> cells{{"subsystem", "buffer", "formula"}};
-  for (const char* column : {"thesis", "predicted", "measured"}) cells[0].push_back(fmt::format("{}_{}", column, unit));
-  cells[0].emplace_back("here");
-  const auto addGroup = [&](const ThesisTable::Group& group) {
-    for (const ThesisTable::Row& row : group.rows) cells.push_back(cellsOf(group.name, row, text));
-    cells.push_back(cellsOf(group.name, group.sum, text));
-  };
-  addGroup(table.volumes);
-  addGroup(table.matrix);
-  cells.push_back(cellsOf("GI", table.total, text));
-  addGroup(table.others);
-  cells.push_back(cellsOf("All", table.all, text));
-  return cells;
-}
 
 /// What the formulas were given, and T Table 1's other M_s.
 std::string facts(const DeviceSession& session, const Pipeline& pipeline) {
@@ -91,13 +56,13 @@ void run(const MemoryArguments& arguments) {
   const ThesisTable table = thesisTable(report, pipeline.facets(), pipeline.field(), pipeline.lighting(), rays);
   session.progress.finish();
 
-  const std::vector<Cells> cells = cellsOf(table, "mib", mebibyteNumber);
+  const std::vector<std::vector<std::string>> cells = memoryCells(table, "mib", mebibyteNumber);
   print("{}\n{}\nT 5.14 as printed does not agree with itself; its Sponza, by its own formulas:\n",
         facts(session, pipeline),
         arguments.markdown ? markdownTable(cells) : formatTable(cells, {false, false, false, true, true, true, false}));
   for (const std::string& misprint : thesisMisprints()) print("- {}\n", misprint);
   if (csv) {
-    csv->write(csvTable(cellsOf(table, "bytes", byteNumber)));
+    csv->write(csvTable(memoryCells(table, "bytes", byteNumber)));
     csv->commit();
   }
   session.checkNumbers(pipeline);

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "app/devices.h"
 #include "app/study.h"
+#include "app/study_merge.h"
+#include "app/study_named.h"
 #include "gi/manifest.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
@@ -26,6 +25,7 @@ struct StudyArguments {
   BudgetArguments budget;  ///< of pick
   std::vector<std::string> peers;
   std::optional<std::string> shard, peerSamples;
+  NamedArguments named;
 };
 
 /// `irad study cost SCENE`.
@@ -58,41 +58,9 @@ void mergeShards(const StudyArguments& arguments) {
   if (shards.empty()) throw UsageError("irad study merge: no folders given");
   if (!arguments.measure.out) throw UsageError("irad study merge: no --out DIR");
   const fs::path out = *arguments.measure.out;
-  const StudyIdentity identity = readIdentity(shards.front());
-  StudyResults results;
-  for (const fs::path& shard : shards) {
-    if (const std::string other = differences(readIdentity(shard), identity); !other.empty())
-      throw InputError(fmt::format("{}: not the study of {}: {}", shard.string(), shards.front().string(), other));
-    merge(results, readResults(shard), shard.string());
-  }
-  StudyFolder folder(out, identity);
-  merge(results, folder.results, out.string());
-  folder.results = std::move(results);
-  folder.save();
-  makeFolder(out / "pictures");
-  for (const fs::path& shard : shards) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(shard / "pictures", ignored))
-      fs::copy_file(entry.path(), out / "pictures" / entry.path().filename(), fs::copy_options::overwrite_existing,
-                    ignored);
-    fs::copy_file(shard / "notes.json", out / "notes.json", fs::copy_options::skip_existing, ignored);
-  }
-  const SettingGrid grid = gridOf(identity);
-  ReportNotes notes;
-  if (fs::exists(out / "notes.json")) {
-    std::ifstream in(out / "notes.json");
-    const auto saved = nlohmann::ordered_json::parse(in, nullptr, /*allow_exceptions=*/false);
-    try {
-      notes.facts = saved.at("facts").get<std::vector<std::string>>();
-      const auto pair = [&](const char* name) {
-        return glm::uvec2(saved.at(name).at(0).get<uint32_t>(), saved.at(name).at(1).get<uint32_t>());
-      };
-      notes.pictureSize = pair("picture"), notes.cropAt = pair("crop"), notes.cropSize = pair("crop_size");
-    } catch (const nlohmann::json::exception& error) {
-      throw InputError(fmt::format("{}: {}", (out / "notes.json").string(), error.what()));
-    }
-  }
-  finishStudy(out, grid, folder.results, notes);
+  if (isNamedStudy(shards.front())) return mergeNamedStudies(shards, out);
+  mergeStudies(shards, out);
+  finishStudy(out, gridOf(readIdentity(out)), readResults(out), readNotes(out));
 }
 
 /// `irad study pick DIR --budget-ms X`.
@@ -113,13 +81,22 @@ void pickPoint(const StudyArguments& arguments) {
   print("wrote       {} (for --config)\n", file.string());
 }
 
+/// `irad study rq2`, and whatever else gi/study/named.h lists.
+void namedStudy(const StudyArguments& a) {
+  const std::string& name = a.names[0];
+  if (a.names.size() > 1) throw UsageError(fmt::format("irad study {}: unexpected argument '{}'", name, a.names[1]));
+  runNamedStudy(name, a.measure, a.shard ? parseShard(*a.shard) : Shard{}, a.named);
+}
+
 void run(const StudyArguments& arguments) {
   if (arguments.measure.device.list) return printDevices(/*json=*/false);
   struct Study {
     const char* name;
     void (*run)(const StudyArguments&);
   };
-  const Study studies[] = {{"cost", costStudy}, {"merge", mergeShards}, {"pick", pickPoint}};
+  std::vector<Study> studies{{"cost", costStudy}, {"merge", mergeShards}, {"pick", pickPoint}};
+  const std::vector<std::string> named = namedStudyNames();
+  for (const std::string& name : named) studies.push_back({name.c_str(), namedStudy});
   std::vector<std::string> names;
   for (const Study& study : studies) names.emplace_back(study.name);
   if (arguments.names.empty()) throw UsageError(fmt::format("irad study: which? {}", fmt::join(names, " | ")));
@@ -138,17 +115,20 @@ Command studyCommand() {
             options.arguments(
                 "STUDY", arguments->names,
                 "cost SCENE: measure a grid; merge DIR...: put the shards of one study together; pick DIR: settings by "
-                "a budget, from its measured points. Of a picture v "
-                "against a reference r, over all colour channels: relMSE = mean (v - r)^2 / (r^2 + e) of means "
-                "over 8 x 8 pixels, e = (0.1 mean r)^2; RMSE = sqrt mean (v - r)^2; mean error = mean (v - r); "
-                "PSNR = 20 log10(largest r / RMSE) dB; FLIP = mean LDR-FLIP (Andersson et al. 2020) of both "
-                "times 2^camera.exposure_ev within [0, 1]; +-: half a 95 % interval over seeds by Student's t");
+                "a budget, from its measured points. " +
+                    namedStudyHelp() +
+                    ". Of a picture v "
+                    "against a reference r, over all colour channels: relMSE = mean (v - r)^2 / (r^2 + e) of means "
+                    "over 8 x 8 pixels, e = (0.1 mean r)^2; RMSE = sqrt mean (v - r)^2; mean error = mean (v - r); "
+                    "PSNR = 20 log10(largest r / RMSE) dB; FLIP = mean LDR-FLIP (Andersson et al. 2020) of both "
+                    "times 2^camera.exposure_ev within [0, 1]; +-: half a 95 % interval over seeds by Student's t");
             arguments->measure.declare(options, "out/study");
             options.value("--shard", "PART/OF", arguments->shard, "Only every OF-th point, from the PART-th on");
             options.values("--peer", "NAME", arguments->peers, "Measure another renderer too: path-tracer");
             options.value("--peer-samples", "N[,N...]", arguments->peerSamples,
                           "Its samples per pixel, even (default 2,8,32,128)");
             arguments->budget.declare(options, "pick: ");
+            arguments->named.declare(options);
           },
           [arguments] { run(*arguments); }};
 }

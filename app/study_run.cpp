@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/interrupts.h"
 #include "app/table.h"
 #include "app/version.h"
 #include "gi/facets.h"
@@ -220,6 +221,7 @@ StudyIdentity StudyRun::identity() const {
 // ---- Measuring ----
 
 void StudyRun::progress(const char* what, size_t done, size_t all) {
+  throwIfStopped();
   if (done == 0) stepBegan_ = std::chrono::steady_clock::now();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - stepBegan_;
   const double share = static_cast<double>(done) / static_cast<double>(std::max<size_t>(all, 1));

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "gi/study/front.h"
 #include "gi/study/plot.h"
+#include "gi/study/report_parts.h"
+#include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 
@@ -109,9 +112,10 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-/// Part of a picture of the folder, at least twice as large, with its caption; empty where the picture is not there.
-std::string cropOf(const fs::path& folder, const std::string& name, const std::string& caption,
-                   const ReportNotes& notes) {
+}  // namespace
+
+std::string reportCrop(const fs::path& folder, const std::string& name, const std::string& caption,
+                       const ReportNotes& notes) {
   std::ifstream in(folder / "pictures" / (name + ".png"), std::ios::binary);
   if (!in || notes.cropSize.x == 0) return "";
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -123,6 +127,8 @@ std::string cropOf(const fs::path& folder, const std::string& name, const std::s
       notes.cropAt.x, notes.cropAt.y, notes.cropSize.x, notes.cropSize.y, zoom * notes.cropSize.x,
       zoom * notes.cropSize.y, notes.pictureSize.x, notes.pictureSize.y, base64(bytes), escapeXml(caption));
 }
+
+namespace {
 
 /// Pictures beside each other that took the same time, and that have the same error: around the settings given or,
 /// where those are on the front, around the point that is furthest from it.
@@ -154,14 +160,14 @@ std::string crops(const fs::path& folder, const std::vector<PointSummary>& point
   };
   const auto row = [&](const std::string& title, std::optional<size_t> other, const PeerRow* peer) {
     std::string out = fmt::format("<h3>{}</h3>\n<div class=\"crops\">\n", title);
-    out += cropOf(folder, kReferenceName, "Reference", notes);
-    out += cropOf(folder, pictureName(*anchor), captionOf(points[*anchor]), notes);
-    if (other) out += cropOf(folder, pictureName(*other), captionOf(points[*other]), notes);
+    out += reportCrop(folder, kReferenceName, "Reference", notes);
+    out += reportCrop(folder, pictureName(*anchor), captionOf(points[*anchor]), notes);
+    if (other) out += reportCrop(folder, pictureName(*other), captionOf(points[*other]), notes);
     if (peer)
-      out += cropOf(folder, pictureName(peer->name, peer->samples),
-                    fmt::format("Path tracer, {} samples per pixel: relMSE {}, {} ms", peer->samples,
-                                shortNumber(peer->relMse), plainNumber(1e3 * peer->seconds)),
-                    notes);
+      out += reportCrop(folder, pictureName(peer->name, peer->samples),
+                        fmt::format("Path tracer, {} samples per pixel: relMSE {}, {} ms", peer->samples,
+                                    shortNumber(peer->relMse), plainNumber(1e3 * peer->seconds)),
+                        notes);
     return out + "</div>\n";
   };
   // Least error for no more time, and least time for no more error.
@@ -179,8 +185,10 @@ std::string crops(const fs::path& folder, const std::vector<PointSummary>& point
   return out;
 }
 
-std::string plotOf(const CostKind& cost, const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
-                   std::optional<size_t> given) {
+}  // namespace
+
+std::string errorPlot(const CostKind& cost, const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
+                      std::optional<size_t> given) {
   const std::vector<CostAndError> pairs = pairsOf(points, cost);
   const std::vector<std::optional<size_t>> by = dominators(pairs);
   PlotSeries onFront{"on the front", PlotStyle::Front, {}}, dominated{"dominated", PlotStyle::Dominated, {}},
@@ -212,9 +220,8 @@ std::string plotOf(const CostKind& cost, const std::vector<PointSummary>& points
   return logPlot(cost.axis, "relMSE of 8 × 8 means", {onFront, dominated, ours, peer});
 }
 
-/// The stages of the front's points in one kind of work.
-std::string barsOf(const char* title, const std::string& kind, const std::vector<PointSummary>& points,
-                   const std::vector<size_t>& chosen) {
+std::string stagePlot(const std::string& title, const std::string& kind, const std::vector<PointSummary>& points,
+                      const std::vector<size_t>& chosen) {
   std::map<std::string, double> totals;
   for (const size_t i : chosen)
     if (const auto stages = points[i].stages.find(kind); stages != points[i].stages.end())
@@ -239,6 +246,8 @@ std::string barsOf(const char* title, const std::string& kind, const std::vector
   return stackedBars(title, names, bars);
 }
 
+namespace {
+
 /// One row per point: its number and settings, then what `cells` makes of it; a failure in words across `columns`.
 template <class Cells>
 std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_t> given,
@@ -260,7 +269,9 @@ std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_
   return out + "</table>\n";
 }
 
-std::string tablesOf(const std::vector<PointSummary>& points, std::optional<size_t> given) {
+}  // namespace
+
+std::string pointTables(const std::vector<PointSummary>& points, std::optional<size_t> given) {
   const auto cell = [](double value) { return std::isfinite(value) ? plainNumber(value) : std::string("–"); };
   const auto range = [&](const PointSummary& p, const char* kind) {
     const auto spread = p.gpu.find(kind);
@@ -305,15 +316,34 @@ std::string tablesOf(const std::vector<PointSummary>& points, std::optional<size
   return out;
 }
 
-const char* const kStyle =
-    "body{font:15px/1.5 Inter,'DejaVu Sans',Helvetica,Arial,sans-serif;color:#222;background:#fff;max-width:1180px;"
-    "margin:32px auto;padding:0 24px}h1{font-size:26px}h2{font-size:20px;margin-top:36px}h3{font-size:16px}"
-    "table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}th,td{padding:4px 9px;"
-    "border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{border-bottom:2px solid #888}.name{text-align:"
-    "left}tr.front{background:#eaf3fa}.crops{display:flex;flex-wrap:wrap;gap:16px}figure{margin:0;max-width:256px}"
-    "figcaption{font-size:13px;color:#444}.finding{max-width:820px}svg{max-width:100%}";
+const char* reportStyle() {
+  return "body{font:15px/1.5 Inter,'DejaVu "
+         "Sans',Helvetica,Arial,sans-serif;color:#222;background:#fff;max-width:1180px;"
+         "margin:32px auto;padding:0 24px}h1{font-size:26px}h2{font-size:20px;margin-top:36px}h3{font-size:16px}"
+         "table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}th,td{padding:4px 9px;"
+         "border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{border-bottom:2px solid "
+         "#888}.name{text-align:"
+         "left}tr.front{background:#eaf3fa}.crops{display:flex;flex-wrap:wrap;gap:16px}figure{margin:0;max-width:256px}"
+         "figcaption{font-size:13px;color:#444}.finding{max-width:820px}svg{max-width:100%}";
+}
 
-}  // namespace
+ReportNotes readNotes(const fs::path& folder) {
+  ReportNotes notes;
+  const fs::path file = folder / "notes.json";
+  std::ifstream in(file);
+  if (!in) return notes;
+  const auto saved = nlohmann::ordered_json::parse(in, nullptr, /*allow_exceptions=*/false);
+  try {
+    notes.facts = saved.at("facts").get<std::vector<std::string>>();
+    const auto pair = [&](const char* name) {
+      return glm::uvec2(saved.at(name).at(0).get<uint32_t>(), saved.at(name).at(1).get<uint32_t>());
+    };
+    notes.pictureSize = pair("picture"), notes.cropAt = pair("crop"), notes.cropSize = pair("crop_size");
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+  return notes;
+}
 
 std::string pictureName(size_t point) {
   return fmt::format("point-{:04}", point);
@@ -344,13 +374,13 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>What accuracy costs</title>"
       "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head>\n<body>\n"
       "<h1>What accuracy costs</h1>\n<ul>\n",
-      kStyle);
+      reportStyle());
   for (const std::string& fact : notes.facts) html += fmt::format("<li>{}</li>\n", escapeXml(fact));
   html += "</ul>\n";
   const std::vector<std::string> sentences = findings(points, results.peers, given);
   for (size_t i = 0; i < costKinds().size(); ++i) {
     const CostKind& cost = costKinds()[i];
-    const std::string plot = plotOf(cost, points, results.peers, given);
+    const std::string plot = errorPlot(cost, points, results.peers, given);
     writeFile(folder / fmt::format("error-against-{}.svg", cost.name), plot);
     html += fmt::format("<h2>Error against {}</h2>\n<p class=\"finding\">{}</p>\n{}", escapeXml(cost.axis),
                         escapeXml(sentences[i]), plot);
@@ -365,12 +395,12 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
   const std::pair<const char*, const char*> kinds[] = {
       {"setup", "build, ms"}, {"relight", "relight, ms"}, {"camera", "frame, ms"}};
   for (const auto& [kind, axis] : kinds) {
-    const std::string plot = barsOf(axis, kind, points, chosen);
+    const std::string plot = stagePlot(axis, kind, points, chosen);
     writeFile(folder / fmt::format("stages-{}.svg", kind), plot);
     html += plot;
   }
   html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);
-  html += tablesOf(points, given) + "</body>\n</html>\n";
+  html += pointTables(points, given) + "</body>\n</html>\n";
   writeFile(folder / "report.html", html);
 }
 

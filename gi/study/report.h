@@ -19,6 +19,9 @@ struct ReportNotes {
   std::vector<std::string> warnings;
 };
 
+/// notes.json of a study's folder; nothing where there is none, InputError where it is no such file.
+ReportNotes readNotes(const std::filesystem::path& folder);
+
 /// A sentence per plot and for the point `given` (that of the settings as they are, where the grid has it), from the
 /// numbers.
 std::vector<std::string> findings(const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,

@@ -1,0 +1,109 @@
+#include "app/blender_pictures.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "app/named_experiment.h"
+#include "gi/check/process.h"
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
+
+namespace irad::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path script() {
+  return sharedFolder() / "tools/cycles_reference.py";
+}
+
+/// As a shell finds it; empty: it does not.
+fs::path blender() {
+  const char* const path = std::getenv("PATH");
+  std::string_view rest = path ? path : "";
+  while (!rest.empty()) {
+    const size_t colon = std::min(rest.find(':'), rest.size());
+    const fs::path candidate = fs::path(rest.substr(0, colon)) / "blender";
+    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  }
+  return {};
+}
+
+struct Parts {
+  std::string_view view;
+  const char *light, *color;  ///< passes that are multiplied; no colour: the light as it is
+};
+constexpr Parts kParts[] = {{"lit", "combined", nullptr},
+                            {"direct", "diffdir", "diffcol"},
+                            {"indirect", "diffind", "diffcol"},
+                            {"specular", "glossind", "glosscol"}};
+
+}  // namespace
+
+std::string whyNoBlender() {
+  std::error_code ignored;
+  if (blender().empty()) return "Blender is not installed";
+  if (!fs::exists(script(), ignored)) return fmt::format("{}: no such file", script().string());
+  return "";
+}
+
+LinearPicture blenderPart(const fs::path& folder, const BlenderPicture& picture, std::string_view view) {
+  const auto* const part = std::ranges::find(kParts, view, &Parts::view);
+  IRAD_CHECK(part != std::end(kParts), "a view that Blender's passes give");
+  const std::string stem = fmt::format("{}.{}.{}.{}x{}.{}", picture.scene.stem().string(), picture.camera,
+                                       picture.engine, picture.size.x, picture.size.y, picture.samples);
+  const fs::path done = folder / stem;  // all passes, or it is not there
+  const auto fileOf = [&](const char* pass) { return done / fmt::format("picture_{}.pfm", pass); };
+  std::error_code ignored;
+  if (!fs::exists(done, ignored)) {
+    const fs::path made = folder / (stem + ".made"), log = folder / (stem + ".log");
+    fs::remove_all(made, ignored);
+    makeFolder(made);
+    Process run(blender().string(),
+                {"-b",
+                 "--factory-startup",
+                 "--python-exit-code",
+                 "1",
+                 "--python",
+                 fs::absolute(script()).string(),
+                 "--",
+                 "--in",
+                 fs::absolute(picture.scene).string(),
+                 "--out",
+                 fs::absolute(made / "picture").string(),
+                 "--res",
+                 std::to_string(picture.size.x),
+                 std::to_string(picture.size.y),
+                 "--spp",
+                 std::to_string(picture.samples),
+                 "--camera",
+                 picture.camera,
+                 "--engine",
+                 picture.engine,
+                 "--split",
+                 "--pfm"},
+                log, log);
+    if (const int status = run.wait(); status != 0)
+      throw NoPicture(fmt::format("blender ended with status {}: see {}", status, log.string()));
+    fs::rename(made, done);
+  }
+  const auto read = [&](const char* pass) {
+    if (!fs::exists(fileOf(pass), ignored)) throw NoPicture(fmt::format("{} gives no pass {}", picture.engine, pass));
+    LinearPicture out = readPfm(fileOf(pass));
+    if (out.size != picture.size)
+      throw NoPicture(fmt::format("{}: {} x {} pixels", fileOf(pass).string(), out.size.x, out.size.y));
+    return out;
+  };
+  LinearPicture out = read(part->light);
+  if (!part->color) return out;
+  const LinearPicture color = read(part->color);
+  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] *= color.pixels[i];
+  return out;
+}
+
+}  // namespace irad::app

@@ -1,0 +1,23 @@
+// Ctrl+C and SIGTERM for work that takes long and is kept on disk: what is in hand is finished, and the program ends
+// with a message. A second one ends it at once.
+#pragma once
+
+#include <csignal>
+
+namespace irad::app {
+
+/// While it lives a first signal is only noted.
+class StopOnSignal {
+ public:
+  StopOnSignal();
+  ~StopOnSignal();
+  StopOnSignal(const StopOnSignal&) = delete;
+
+ private:
+  struct sigaction interrupt_ {
+  }, terminate_{};
+};
+/// WorkError where a signal was noted.
+void throwIfStopped();
+
+}  // namespace irad::app
