@@ -8,6 +8,7 @@
 
 #include "app/devices.h"
 #include "app/study.h"
+#include "app/study_attribution.h"
 #include "gi/manifest.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 struct StudyArguments {
   std::vector<std::string> names;  ///< the study, then the scene, or folders
   MeasureArguments measure;
+  AttributionArguments attribution;
   BudgetArguments budget;  ///< of pick
   std::vector<std::string> peers;
   std::optional<std::string> shard, peerSamples;
@@ -50,6 +52,12 @@ void costStudy(const StudyArguments& a) {
   run.measure();
   finishStudy(out, run.grid(), run.results(), run.notes());
   session.checkValidation();
+}
+
+/// `irad study attribution SCENE`.
+void attribution(const StudyArguments& a) {
+  if (a.names.size() > 2) throw UsageError(fmt::format("irad study attribution: unexpected argument '{}'", a.names[2]));
+  attributionStudy(a.measure, a.attribution, a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt);
 }
 
 /// `irad study merge DIR... --out DIR`.
@@ -119,7 +127,8 @@ void run(const StudyArguments& arguments) {
     const char* name;
     void (*run)(const StudyArguments&);
   };
-  const Study studies[] = {{"cost", costStudy}, {"merge", mergeShards}, {"pick", pickPoint}};
+  const Study studies[] = {
+      {"cost", costStudy}, {"attribution", attribution}, {"merge", mergeShards}, {"pick", pickPoint}};
   std::vector<std::string> names;
   for (const Study& study : studies) names.emplace_back(study.name);
   if (arguments.names.empty()) throw UsageError(fmt::format("irad study: which? {}", fmt::join(names, " | ")));
@@ -137,7 +146,8 @@ Command studyCommand() {
           [arguments](Options& options) {
             options.arguments(
                 "STUDY", arguments->names,
-                "cost SCENE: measure a grid; merge DIR...: put the shards of one study together; pick DIR: settings by "
+                "cost SCENE: measure a grid; attribution SCENE: split the error of one point among the stages; "
+                "merge DIR...: put the shards of one study together; pick DIR: settings by "
                 "a budget, from its measured points. Of a picture v "
                 "against a reference r, over all colour channels: relMSE = mean (v - r)^2 / (r^2 + e) of means "
                 "over 8 x 8 pixels, e = (0.1 mean r)^2; RMSE = sqrt mean (v - r)^2; mean error = mean (v - r); "
@@ -148,6 +158,7 @@ Command studyCommand() {
             options.values("--peer", "NAME", arguments->peers, "Measure another renderer too: path-tracer");
             options.value("--peer-samples", "N[,N...]", arguments->peerSamples,
                           "Its samples per pixel, even (default 2,8,32,128)");
+            arguments->attribution.declare(options);
             arguments->budget.declare(options, "pick: ");
           },
           [arguments] { run(*arguments); }};
