@@ -42,6 +42,11 @@ constexpr uint32_t kMostRays = 4096;   ///< of matrix.rays
 constexpr uint32_t kFewestRays = 512;  ///< that count as many
 constexpr float kHeatEnd = 0.5f;       ///< of differences' colours: this share of the truth's mean
 
+/// Of so many seeds those that pictures have whose builds take many times as long.
+uint32_t fewOf(uint32_t seeds) {
+  return std::max(static_cast<uint32_t>(ErrorEstimates::kFewestSeeds), seeds / 2);
+}
+
 /// How far a study goes.
 struct AttributionTask {
   double finer = 2;
@@ -125,7 +130,9 @@ class StagePictures {
         have(ErrorStage::facets,
              "matrix.hit_rule=triangles: a facet for each side of the true surface, and its own "
              "rays, lookup and shadows");
-      if (s.voxel.normals == NormalEncoding::oct16)
+      if (triangles)
+        lack(ErrorStage::normals, "rays, light and lookups go by the triangles: no picture reads stored normals");
+      else if (s.voxel.normals == NormalEncoding::oct16)
         lack(ErrorStage::normals, "oct16 already: within 0.95 degrees");
       else
         have(ErrorStage::normals, fmt::format("oct16 instead of {}", nameOf(s.voxel.normals)));
@@ -215,12 +222,12 @@ class StagePictures {
   // ---- Seeds and files ----
 
   uint32_t rays() const { return asGiven().matrix.gpu.rays; }
-  uint32_t fewSeeds() const { return std::max(2u, run_.task().seeds / 2); }
+  uint32_t fewSeeds() const { return fewOf(run_.task().seeds); }
   /// Fewer where a build takes many times as long.
   std::vector<uint32_t> seedsOf(const Ideals& ideals) const {
     const bool heavy = ideals.has(ErrorStage::voxels) || ideals.has(ErrorStage::rays);
     std::vector<uint32_t> out;
-    for (uint32_t i = 0; i < (heavy ? std::min(fewSeeds(), run_.task().seeds) : run_.task().seeds); ++i)
+    for (uint32_t i = 0; i < (heavy ? fewSeeds() : run_.task().seeds); ++i)
       out.push_back(asGiven().matrix.gpu.seed + i);
     return out;
   }
@@ -476,7 +483,7 @@ void attributionStudy(const MeasureArguments& measure, const AttributionArgument
   if (arguments.finer) task.finer = parseNumber("--finer", *arguments.finer, 1.25, 8);
   if (arguments.gatherRays)
     task.gatherRays = static_cast<uint32_t>(parseInteger("--gather-rays", *arguments.gatherRays, 16, 65536));
-  if (measure.seeds) parseInteger("--seeds", *measure.seeds, 2, 10'000);
+  if (measure.seeds) parseInteger("--seeds", *measure.seeds, ErrorEstimates::kFewestSeeds, 10'000);
 
   DeviceSession session(measure.settings, measure.device);
   auto [loaded, study] = measure.open(session, command, scene);
@@ -532,7 +539,7 @@ void attributionStudy(const MeasureArguments& measure, const AttributionArgument
   std::vector<std::string> facts = run.notes().facts;
   facts.push_back(fmt::format("Differences: mean pictures along the chain, blue to red is ∓{} % of the truth's mean",
                               100 * kHeatEnd));
-  facts.push_back(fmt::format("Ideal voxels and many rays: the first {} seeds", std::max(2u, seeds / 2)));
+  facts.push_back(fmt::format("Ideal voxels and many rays: the first {} seeds", fewOf(seeds)));
   writeFile(out / "attribution.csv", attributionCsv(result));
   writeFile(out / "attribution-errors.svg", errorBars(result));
   writeFile(out / "attribution-times.svg", timeBars(result));

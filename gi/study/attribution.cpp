@@ -33,6 +33,9 @@ const char* idealOf(ErrorStage stage) {
 
 namespace {
 
+/// The least share of relMSE that findings mention.
+constexpr double kWorthAWord = 0.01;
+
 std::vector<ErrorStage> allStages() {
   std::vector<ErrorStage> out;
   for (size_t i = 0; i < kErrorStages; ++i) out.push_back(static_cast<ErrorStage>(i));
@@ -337,7 +340,7 @@ Attribution attribute(const TruthBlocks& truth, const AttributionInput& input) {
   const auto percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
   const auto plusMinus = [](const MeanInterval& m) {
     return std::isfinite(m.half) ? fmt::format("{} ± {}", shortNumber(m.mean), shortNumber(m.half))
-                                 : shortNumber(m.mean) + " (one seed)";
+                                 : shortNumber(m.mean) + " (too few seeds for an interval)";
   };
   std::string first;
   if (order.empty()) {
@@ -384,7 +387,7 @@ Attribution attribute(const TruthBlocks& truth, const AttributionInput& input) {
       "Left out one at a time the stages' errors add up to {} of {}; the rest, {}, belongs to no stage alone.",
       shortNumber(out.sumOfGains), shortNumber(out.asIs.mean), shortNumber(out.restOfGains)));
   for (const StageError* row : order)
-    if (std::isfinite(row->gain.half) && row->gain.mean < -row->gain.half)
+    if (std::isfinite(row->gain.half) && row->gain.mean < -row->gain.half && row->share < -kWorthAWord)
       out.findings.push_back(
           fmt::format("With {} ideal the error is larger, by {}: its error and another's are of opposite sign.",
                       nameOf(row->stage), shortNumber(-row->gain.mean)));

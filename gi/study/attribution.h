@@ -83,6 +83,7 @@ class ErrorEstimates {
  public:
   explicit ErrorEstimates(const TruthBlocks& truth) : truth_(truth) {}
   using Left = std::optional<uint32_t>;
+  static constexpr size_t kFewestSeeds = 3;
   /// relMSE that one picture has, on average.
   double ofOne(const SeedPictures& pictures, Left left = {}) const;
   /// relMSE of the expected picture, unbiased: the products of two different pictures' errors. Of one picture its own.
@@ -97,13 +98,14 @@ class ErrorEstimates {
   double meanDifference(const SeedPictures& from, const SeedPictures& to) const;
 
   /// Value and half of a 95 % interval of anything made from such estimates: by leaving out one seed after the other
-  /// (jackknife), and Student's t by the fewest pictures of any set. Infinite for a set of one.
+  /// (jackknife), and Student's t by the fewest pictures of any set. Infinite where that is below kFewestSeeds: without
+  /// one of two pictures there is no product of different ones.
   template <class Estimate>
   static MeanInterval interval(std::span<const SeedPictures* const> sets, Estimate&& estimate) {
     std::vector<double> values;
     const std::vector<uint32_t> seeds = seedsOf(sets);
     const size_t fewest = fewestOf(sets);
-    if (fewest >= 2)
+    if (fewest >= kFewestSeeds)
       for (const uint32_t seed : seeds) values.push_back(estimate(Left(seed)));
     return jackknife(estimate(Left()), values, fewest);
   }
