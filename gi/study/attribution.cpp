@@ -102,15 +102,20 @@ TruthBlocks::TruthBlocks(glm::uvec2 size, std::span<const glm::vec4> first, std:
   std::vector<glm::vec4> middle(first.begin(), first.end());
   for (size_t i = 0; i < second.size(); ++i) middle[i] = 0.5f * (first[i] + second[i]);
   mean_ = measure(middle, middle).meanReference;
-  size_t blocks = 0;
-  for (size_t i = 0; i < first_.size(); i += 3)
-    if (std::isfinite(first_[i] + first_[i + 1] + first_[i + 2] + second_[i] + second_[i + 1] + second_[i + 2]))
-      ++blocks;
+  // Blocks that hold a pixel without a value do not count.
+  const auto counts = [&](size_t i) {
+    double sum = 0;
+    for (size_t c = i / 3 * 3; c < i / 3 * 3 + 3; ++c) sum += first_[c] + second_[c];
+    return std::isfinite(sum);
+  };
+  size_t values = 0;
+  for (size_t i = 0; i < first_.size(); ++i) values += counts(i);
   for (size_t i = 0; i < first_.size(); ++i) {
     const double m = 0.5 * (first_[i] + second_[i]), scale = m * m + 0.01 * mean_ * mean_;
-    weight_.push_back(std::isfinite(m) && scale > 0 ? 1 / (scale * 3 * static_cast<double>(blocks)) : 0);
-    if (!std::isfinite(m)) first_[i] = second_[i] = 0;
+    weight_.push_back(counts(i) && scale > 0 ? 1 / (scale * static_cast<double>(values)) : 0);
   }
+  for (size_t i = 0; i < first_.size(); ++i)
+    if (weight_[i] == 0) first_[i] = second_[i] = 0;
 }
 
 std::vector<double> TruthBlocks::of(std::span<const glm::vec4> pixels) const {
