@@ -2,12 +2,15 @@
 // study that is killed goes on; bad input is refused.
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <thread>
 
+#include "gi/check/glb.h"
 #include "gi/check/path_tracer.h"
 #include "gi/check/process.h"
+#include "gi/check/scenes.h"
 #include "renderer/base/csv.h"
 #include "tests/support.h"
 
@@ -20,9 +23,9 @@ using Strings = std::vector<std::string>;
 void append(Strings& to, const Strings& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
-/// A small Box: 12 voxels, 64 rays, 32 x 32 pixels.
+/// 12 voxels, 64 rays, 32 x 32 pixels.
 Strings small(const Strings& settings) {
-  Strings out{"box", "--size", "32x32"};
+  Strings out{"--size", "32x32"};
   for (const char* setting : {"voxel.resolution=12", "matrix.rays=64", "light.shadow_resolution=64"})
     append(out, {"--set", setting});
   for (const std::string& setting : settings) append(out, {"--set", setting});
@@ -38,15 +41,20 @@ struct Spoilt {
   std::optional<Strings> truth;
   const char* view = "indirect";
   Strings options;
+  const char* scene = "still.glb";
 };
 void PrintTo(const Spoilt& spoilt, std::ostream* out) {
   *out << spoilt.stage;
 }
 
-// Without jitter all seeds have the same rays, so that two pictures differ by what is spoilt alone.
+// Without jitter all seeds have the same rays, so that what differs from the truth is what is spoilt alone.
 const Spoilt kSpoilt[] = {
-    {"voxels", {"voxel.resolution=8", "matrix.rays=256"}, std::nullopt, "indirect", {"--finer", "4"}},
-    {"facets", {"matrix.hit_rule=thesis", "solver.lambda=1"}, std::nullopt},
+    {"voxels",
+     {"matrix.jitter=false", "voxel.resolution=8"},
+     Strings{"matrix.jitter=false", "voxel.resolution=24"},
+     "indirect",
+     {"--finer", "3"}},
+    {"facets", {"matrix.hit_rule=thesis"}, std::nullopt},
     {"normals",
      {"matrix.hit_rule=thesis", "matrix.jitter=false", "voxel.normals=axis6"},
      Strings{"matrix.hit_rule=thesis", "matrix.jitter=false"}},
@@ -54,15 +62,11 @@ const Spoilt kSpoilt[] = {
      {"matrix.hit_rule=thesis", "matrix.jitter=false", "field.method=jfa", "matrix.traversal=sdf"},
      Strings{"matrix.hit_rule=thesis", "matrix.jitter=false", "matrix.traversal=dda"}},
     {"rays", {"matrix.rays=1", "matrix.emitter_sampling=off"}, std::nullopt, "indirect", {"--seeds", "8"}},
-    // Light so weak that the solver puts out all but the brightest.
-    {"storage",
-     {"effects.emission=off", "matrix.jitter=false", "solver.flush=0.001"},
-     Strings{"effects.emission=off", "matrix.jitter=false", "solver.flush=0"},
-     "indirect",
-     {"--lights", "dim.json"}},
-    {"sweeps", {"solver.max_sweeps=1", "solver.acceleration=off"}, std::nullopt},
+    // Light so weak that the solver puts out most of it.
+    {"storage", {"matrix.jitter=false", "solver.flush=0.001"}, std::nullopt, "indirect", {}, "dim.glb"},
+    {"sweeps", {"matrix.jitter=false", "solver.max_sweeps=1", "solver.acceleration=off"}, std::nullopt},
     {"shadows", {"matrix.jitter=false"}, Strings{"matrix.jitter=false", "light.shadow_resolution=4096"}, "lit"},
-    {"lookup", {"sample.filter=nearest"}, std::nullopt},
+    {"lookup", {"matrix.rays=256", "sample.filter=nearest"}, std::nullopt, "indirect", {"--finer", "1.5"}},
     {"reflections",
      {"matrix.jitter=false", "specular.rays=1", "specular.filter=false"},
      Strings{"matrix.jitter=false", "specular.rays=64", "specular.max_roughness=1", "specular.fade=0",
@@ -73,22 +77,16 @@ const Spoilt kSpoilt[] = {
 class AttributionRuns : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::ofstream(folder_.path / "dim.json")
-        << R"([{"type": "spot", "position": [0, 4.5, 0], "direction": [0, -1, 0], "intensity": 0.05,
-               "innerConeAngle": 0.6, "outerConeAngle": 1.0}])";
+    writeGlb(at("still.glb"), stillLife().finish("still"));
+    writeGlb(at("dim.glb"), stillLife(1e-3f).finish("dim"));
   }
   std::string at(const std::string& name) const { return (folder_.path / name).string(); }
-  Strings placed(Strings options) const {
-    for (std::string& option : options)
-      if (option == "dim.json") option = at(option);
-    return options;
-  }
   Strings study(const Spoilt& spoilt, const std::string& out) const {
-    Strings arguments{"study", "attribution"};
+    Strings arguments{"study", "attribution", at(spoilt.scene)};
     append(arguments, small(spoilt.settings));
     append(arguments, {"--view", spoilt.view, "--repeats", "1", "--gather-rays", "64", "--out", at(out)});
-    append(arguments, placed(spoilt.options));
-    if (std::ranges::count(spoilt.options, "--seeds") == 0) append(arguments, {"--seeds", "3"});
+    append(arguments, spoilt.options);
+    if (std::count(spoilt.options.begin(), spoilt.options.end(), "--seeds") == 0) append(arguments, {"--seeds", "3"});
     if (spoilt.truth)
       append(arguments, {"--reference", reference_.string()});
     else
@@ -97,11 +95,9 @@ class AttributionRuns : public ::testing::Test {
   }
   void makeTruth(const Spoilt& spoilt) {
     if (!spoilt.truth) return;
-    Strings arguments{"render"};
+    Strings arguments{"render", at(spoilt.scene)};
     append(arguments, small(*spoilt.truth));
     append(arguments, {"--view", spoilt.view, "--out", at("truth")});
-    for (size_t i = 0; i + 1 < spoilt.options.size(); i += 2)
-      if (spoilt.options[i] == "--lights") append(arguments, placed({spoilt.options[i], spoilt.options[i + 1]}));
     const RunResult run = runIrad(arguments);
     ASSERT_EQ(run.status, 0) << run.err;
     for (const char* extension : {".exr", ".pfm"})
@@ -132,8 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Stages, SpoiltStages, ::testing::ValuesIn(kSpoilt),
 
 TEST_P(SpoiltStages, AreNamed) {
   const Spoilt& spoilt = GetParam();
-  if (!hasPathTracer() && (!spoilt.truth || std::string_view(spoilt.stage) == "lookup"))
-    GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  if (!hasPathTracer() && !spoilt.truth) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   makeTruth(spoilt);
   const RunResult run = runIrad(study(spoilt, "out"));
   ASSERT_EQ(run.status, 0) << run.err;

@@ -180,6 +180,22 @@ TEST(Split, ShowsTheRestWhereErrorsMeet) {
   EXPECT_TRUE(contains(all, "With voxels ideal the error is larger")) << all;
 }
 
+TEST(Split, GivesTheScatterToRaysWhateverHidesIt) {
+  // A lookup that averages over many facets shows less noise; that is no error of the lookup's.
+  const EvenTruth world(3);
+  Stages stages;
+  stages.deviation = {{ErrorStage::lookup, {.05}}};
+  stages.noise = .3;
+  AttributionInput input = stages.input(world);
+  for (auto& [seed, blocks] : input.pictures.at("lookup")) blocks = world.picture({});
+  const Attribution a = attribute(world.truth, input);
+  EXPECT_NEAR(a.stages[static_cast<size_t>(ErrorStage::lookup)].gain.mean, (.0025 - .09 / 7) * world.weight(), 1e-12);
+  EXPECT_EQ(a.dominating, ErrorStage::rays) << a.findings[0];
+  double steps = a.model.mean;
+  for (const StageError& s : a.stages) steps += s.step.mean;
+  EXPECT_NEAR(steps, a.asIs.mean, 1e-12);
+}
+
 TEST(Split, NamesNobodyWhereIntervalsOverlap) {
   const EvenTruth world(4);
   Stages stages;

@@ -269,13 +269,12 @@ Attribution attribute(const TruthBlocks& truth, const AttributionInput& input) {
     return found->second;
   };
   const SeedPictures& asIs = picturesOf({});
-  // relMSE with one stage ideal. Rays: of their mean, which has no noise.
-  const auto idealError = [&](ErrorStage stage, Left left) {
-    const SeedPictures& pictures = picturesOf(loneIdeal(stage));
-    return stage == ErrorStage::rays ? estimates.ofMean(pictures, left) : estimates.ofOne(pictures, left);
-  };
+  // What the seeds scatter by is the error of rays, whatever other stages make of it: those are told by expected
+  // pictures.
   const auto gain = [&](ErrorStage stage, Left left) {
-    return estimates.ofOne(picturesOf(loneBase(stage)), left) - idealError(stage, left);
+    const double ideal = estimates.ofMean(picturesOf(loneIdeal(stage)), left);
+    return stage == ErrorStage::rays ? estimates.ofOne(asIs, left) - ideal
+                                     : estimates.ofMean(picturesOf(loneBase(stage)), left) - ideal;
   };
   const auto over = [&](std::initializer_list<const SeedPictures*> sets, auto&& estimate) {
     return ErrorEstimates::interval(std::span(sets.begin(), sets.size()), estimate);
@@ -292,7 +291,8 @@ Attribution attribute(const TruthBlocks& truth, const AttributionInput& input) {
     if (const auto found = input.cost.find(stage); found != input.cost.end()) row.cost = found->second;
     if (row.presence.present) {
       const SeedPictures &base = picturesOf(loneBase(stage)), &ideal = picturesOf(loneIdeal(stage));
-      row.ideal = over({&ideal}, [&](Left left) { return idealError(stage, left); });
+      row.ideal =
+          over({&asIs, &base, &ideal}, [&](Left left) { return estimates.ofOne(asIs, left) - gain(stage, left); });
       row.gain = over({&base, &ideal}, [&](Left left) { return gain(stage, left); });
       row.share = out.asIs.mean != 0 ? row.gain.mean / out.asIs.mean : 0;
       out.sumOfGains += row.gain.mean;
@@ -313,10 +313,10 @@ Attribution attribute(const TruthBlocks& truth, const AttributionInput& input) {
     const SeedPictures& pictures = picturesOf(ideals);
     const bool wasNoisy = noisy;
     noisy = noisy || stage == ErrorStage::rays;
-    const auto errorOf = [&](const SeedPictures& of, bool one, Left left) {
-      return one ? estimates.ofOne(of, left) : estimates.ofMean(of, left);
+    const auto errorOf = [&](const SeedPictures& of, bool scatters, Left left) {
+      return estimates.ofMean(of, left) + (scatters ? estimates.variance(asIs, left) : 0);
     };
-    const MeanInterval error = over({&pictures}, [&](Left left) { return errorOf(pictures, noisy, left); });
+    const MeanInterval error = over({&asIs, &pictures}, [&](Left left) { return errorOf(pictures, noisy, left); });
     if (!stage) {
       out.model = error;
       const SeedPictures reference{{0, truth.first()}}, other{{0, truth.second()}};
