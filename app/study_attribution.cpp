@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
-#include <numbers>
 
 #include "app/devices.h"
 #include "app/table.h"
@@ -344,25 +343,11 @@ class StagePictures {
   }
 
   /// Takes the indirect light that was looked up out of a picture and puts in what is gathered at each pixel.
-  void replaceLookup(const Settings& settings, const std::vector<glm::dvec3>& h, std::vector<glm::dvec3> b,
+  void replaceLookup(const Settings& settings, const std::vector<glm::dvec3>& h, const std::vector<glm::dvec3>& b,
                      uint32_t seed, LinearPixels& pixels) {
     Pipeline& pipeline = run_.bench().pipeline();
     const LinearPixels lookedUp = is("indirect") ? pixels : drawn(VIEW_INDIRECT);
     Settings other = settings;
-    // What comes straight from emitters by each pixel, in closed form, where pixels can; else by the rays.
-    const bool emits = pipeline.plan().on(Effect::emission);
-    LinearPixels fromEmitters;
-    if (emits) {
-      other.sample.emitters = EmitterLookup::pixels;
-      other.sample.emitterRays = 256;
-      pipeline.set(other);
-      if (pipeline.plan().pixelEmitters) {
-        fromEmitters = drawn(VIEW_EMITTER_IRRADIANCE);
-        const HostFacets facets = hostFacets(*session_.context, pipeline.facets());
-        const double gain = pipeline.lighting().gain.radiosity;
-        for (size_t i = 0; i < b.size(); ++i) b[i] -= gain * glm::dvec3(facets.emission[i]);
-      }
-    }
     // What a pixel makes of an irradiance of 1.
     other.sample.emitters = EmitterLookup::facets;
     pipeline.set(other);
@@ -381,12 +366,9 @@ class StagePictures {
                                           .sky = pipeline.plan().on(Effect::sky) ? &pipeline.sky() : nullptr,
                                           .rays = task_.gatherRays,
                                           .seed = seed});
-    const double gain = pipeline.lighting().gain.indirect;
     for (size_t i = 0; i < pixels.size(); ++i) {
       if (!gathered[i]) continue;
-      glm::dvec3 irradiance = *gathered[i];
-      if (!fromEmitters.empty()) irradiance += gain * glm::dvec3(fromEmitters[i]);
-      const glm::dvec3 ideal = glm::dvec3(factor[i]) * irradiance;
+      const glm::dvec3 ideal = glm::dvec3(factor[i]) * *gathered[i];
       pixels[i] += glm::vec4(glm::vec3(ideal) - glm::vec3(lookedUp[i]), 0);
     }
   }

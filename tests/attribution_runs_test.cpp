@@ -90,7 +90,7 @@ class AttributionRuns : public ::testing::Test {
     if (spoilt.truth)
       append(arguments, {"--reference", reference_.string()});
     else
-      append(arguments, {"--reference-samples", "64"});
+      append(arguments, {"--reference-samples", "512"});
     return arguments;
   }
   void makeTruth(const Spoilt& spoilt) {
@@ -180,7 +180,7 @@ TEST_F(AttributionRuns, AStageWithoutMemoryIsARowThatSaysSo) {
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   Strings arguments = study({"", {}, std::nullopt}, "full");
   append(arguments,
-         {"--finer", "8", "--set", "voxel.resolution=128", "--set", "matrix.rays=4", "--memory-budget", "96"});
+         {"--finer", "8", "--set", "voxel.resolution=24", "--set", "matrix.rays=4", "--memory-budget", "24"});
   const RunResult run = runIrad(arguments);
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(field("full", "voxels", "words"), "could not be made ideal: ")) << run.out;
