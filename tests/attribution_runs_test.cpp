@@ -23,9 +23,9 @@ using Strings = std::vector<std::string>;
 void append(Strings& to, const Strings& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
-/// 12 voxels, 64 rays, 32 x 32 pixels.
+/// 12 voxels, 64 rays.
 Strings small(const Strings& settings) {
-  Strings out{"--size", "32x32"};
+  Strings out;
   for (const char* setting : {"voxel.resolution=12", "matrix.rays=64", "light.shadow_resolution=64"})
     append(out, {"--set", setting});
   for (const std::string& setting : settings) append(out, {"--set", setting});
@@ -42,6 +42,7 @@ struct Spoilt {
   const char* view = "indirect";
   Strings options;
   const char* scene = "still.glb";
+  const char* size = "32x32";
 };
 void PrintTo(const Spoilt& spoilt, std::ostream* out) {
   *out << spoilt.stage;
@@ -66,7 +67,14 @@ const Spoilt kSpoilt[] = {
     {"storage", {"matrix.jitter=false", "solver.flush=0.001"}, std::nullopt, "indirect", {}, "dim.glb"},
     {"sweeps", {"matrix.jitter=false", "solver.max_sweeps=1", "solver.acceleration=off"}, std::nullopt},
     {"shadows", {"matrix.jitter=false"}, Strings{"matrix.jitter=false", "light.shadow_resolution=4096"}, "lit"},
-    {"lookup", {"matrix.rays=256", "sample.filter=nearest"}, std::nullopt, "indirect", {"--finer", "1.5"}},
+    // Blocks of 8 x 8 pixels smaller than a voxel, and hardly any noise.
+    {"lookup",
+     {"voxel.resolution=8", "matrix.rays=1024", "sample.filter=nearest"},
+     std::nullopt,
+     "indirect",
+     {"--finer", "1.25", "--seeds", "5", "--gather-rays", "256"},
+     "still.glb",
+     "64x64"},
     {"reflections",
      {"matrix.jitter=false", "specular.rays=1", "specular.filter=false"},
      Strings{"matrix.jitter=false", "specular.rays=64", "specular.max_roughness=1", "specular.fade=0",
@@ -84,9 +92,13 @@ class AttributionRuns : public ::testing::Test {
   Strings study(const Spoilt& spoilt, const std::string& out) const {
     Strings arguments{"study", "attribution", at(spoilt.scene)};
     append(arguments, small(spoilt.settings));
-    append(arguments, {"--view", spoilt.view, "--repeats", "1", "--gather-rays", "64", "--out", at(out)});
+    append(arguments, {"--view", spoilt.view, "--size", spoilt.size, "--repeats", "1", "--out", at(out)});
     append(arguments, spoilt.options);
-    if (std::count(spoilt.options.begin(), spoilt.options.end(), "--seeds") == 0) append(arguments, {"--seeds", "3"});
+    const auto unlessGiven = [&](const char* option, const char* value) {
+      if (std::count(spoilt.options.begin(), spoilt.options.end(), option) == 0) append(arguments, {option, value});
+    };
+    unlessGiven("--seeds", "3");
+    unlessGiven("--gather-rays", "64");
     if (spoilt.truth)
       append(arguments, {"--reference", reference_.string()});
     else
@@ -97,7 +109,7 @@ class AttributionRuns : public ::testing::Test {
     if (!spoilt.truth) return;
     Strings arguments{"render", at(spoilt.scene)};
     append(arguments, small(*spoilt.truth));
-    append(arguments, {"--view", spoilt.view, "--out", at("truth")});
+    append(arguments, {"--view", spoilt.view, "--size", spoilt.size, "--out", at("truth")});
     const RunResult run = runIrad(arguments);
     ASSERT_EQ(run.status, 0) << run.err;
     for (const char* extension : {".exr", ".pfm"})
