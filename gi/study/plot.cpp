@@ -216,7 +216,7 @@ std::string stackedBars(const std::string& axis, const std::vector<std::string>&
   for (const Bar& bar : bars) {
     labels = std::max(labels, textWidth(bar.label) + 16);
     double sum = 0;
-    for (const double part : bar.parts) sum += part;
+    for (const double part : bar.parts) sum += std::max(part, 0.0);
     most = std::max(most, sum);
   }
   labels = std::min(labels, 420.0);
