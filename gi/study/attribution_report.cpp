@@ -165,10 +165,13 @@ std::string attributionReport(const Attribution& a, const std::vector<std::strin
   bool head = true;
   for (const std::vector<std::string>& row : attributionTable(a)) {
     html += "<tr>";
-    for (size_t i = 0; i < row.size(); ++i)
-      html +=
-          fmt::format("<{0}{1}>{2}</{0}>", head ? "th" : "td", i == 0 || i + 1 == row.size() ? " class=\"name\"" : "",
-                      escapeXml(row[i] == "-" ? "–" : row[i]));
+    for (size_t i = 0; i < row.size(); ++i) {
+      const bool words = i + 1 == row.size();
+      const char* look = words    ? " class=\"name\" style=\"white-space:normal;min-width:240px\""
+                         : i == 0 ? " class=\"name\""
+                                  : "";
+      html += fmt::format("<{0}{1}>{2}</{0}>", head ? "th" : "td", look, escapeXml(row[i] == "-" ? "–" : row[i]));
+    }
     html += "</tr>\n";
     head = false;
   }
