@@ -190,6 +190,8 @@ TEST(Split, GivesTheScatterToRaysWhateverHidesIt) {
   for (auto& [seed, blocks] : input.pictures.at("lookup")) blocks = world.picture({});
   const Attribution a = attribute(world.truth, input);
   EXPECT_NEAR(a.stages[static_cast<size_t>(ErrorStage::lookup)].gain.mean, (.0025 - .09 / 7) * world.weight(), 1e-12);
+  EXPECT_NEAR(a.stages[static_cast<size_t>(ErrorStage::rays)].squared, a.variance.mean, 1e-12)
+      << "of the picture as it is, not of the chain's";
   EXPECT_EQ(a.dominating, ErrorStage::rays) << a.findings[0];
   double steps = a.model.mean;
   for (const StageError& s : a.stages) steps += s.step.mean;

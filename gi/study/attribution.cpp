@@ -329,7 +329,7 @@ Attribution attribute(const TruthBlocks& truth, const AttributionInput& input) {
       row.step = over({before, &pictures},
                       [&](Left left) { return errorOf(pictures, noisy, left) - errorOf(*before, wasNoisy, left); });
       row.squared =
-          *stage == ErrorStage::rays ? estimates.variance(pictures) : estimates.squaredDifference(*before, pictures);
+          *stage == ErrorStage::rays ? estimates.variance(asIs) : estimates.squaredDifference(*before, pictures);
       row.difference = estimates.meanDifference(*before, pictures);
       out.sumOfSquares += row.squared;
     }
