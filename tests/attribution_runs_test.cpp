@@ -98,7 +98,7 @@ class AttributionRuns : public ::testing::Test {
       if (std::count(spoilt.options.begin(), spoilt.options.end(), option) == 0) append(arguments, {option, value});
     };
     unlessGiven("--seeds", "3");
-    unlessGiven("--gather-rays", "64");
+    unlessGiven("--gather-rays", "1024");
     if (spoilt.truth)
       append(arguments, {"--reference", reference_.string()});
     else
