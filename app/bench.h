@@ -50,6 +50,7 @@ class Bench {
   double gpuMs(WorkKind kind) const;
   const Pipeline& pipeline() const { return pipeline_; }
   Pipeline& pipeline() { return pipeline_; }
+  const Targets& targets() const { return targets_; }  ///< of the last picture
   /// Rays of the build over the median build time; 0 when not measured.
   double megaRaysPerSecond() const;
   /// Bytes that one Jacobi sweep has to move: every matrix entry (csr 4 B, padded 8 B) and the fp32 vec4 of B that it

@@ -5,6 +5,7 @@
 
 #include "app/devices.h"
 #include "app/study.h"
+#include "app/study_attribution.h"
 #include "app/study_merge.h"
 #include "app/study_named.h"
 #include "gi/manifest.h"
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 struct StudyArguments {
   std::vector<std::string> names;  ///< the study, then the scene, or folders
   MeasureArguments measure;
+  AttributionArguments attribution;
   BudgetArguments budget;  ///< of pick
   std::vector<std::string> peers;
   std::optional<std::string> shard, peerSamples;
@@ -50,6 +52,12 @@ void costStudy(const StudyArguments& a) {
   run.measure();
   finishStudy(out, run.grid(), run.results(), run.notes());
   session.checkValidation();
+}
+
+/// `irad study attribution SCENE`.
+void attribution(const StudyArguments& a) {
+  if (a.names.size() > 2) throw UsageError(fmt::format("irad study attribution: unexpected argument '{}'", a.names[2]));
+  attributionStudy(a.measure, a.attribution, a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt);
 }
 
 /// `irad study merge DIR... --out DIR`.
@@ -94,7 +102,8 @@ void run(const StudyArguments& arguments) {
     const char* name;
     void (*run)(const StudyArguments&);
   };
-  std::vector<Study> studies{{"cost", costStudy}, {"merge", mergeShards}, {"pick", pickPoint}};
+  std::vector<Study> studies{
+      {"cost", costStudy}, {"attribution", attribution}, {"merge", mergeShards}, {"pick", pickPoint}};
   const std::vector<std::string> named = namedStudyNames();
   for (const std::string& name : named) studies.push_back({name.c_str(), namedStudy});
   std::vector<std::string> names;
@@ -114,7 +123,8 @@ Command studyCommand() {
           [arguments](Options& options) {
             options.arguments(
                 "STUDY", arguments->names,
-                "cost SCENE: measure a grid; merge DIR...: put the shards of one study together; pick DIR: settings by "
+                "cost SCENE: measure a grid; attribution SCENE: split the error of one point among the stages; merge "
+                "DIR...: put the shards of one study together; pick DIR: settings by "
                 "a budget, from its measured points. " +
                     namedStudyHelp() +
                     ". Of a picture v "
@@ -127,6 +137,7 @@ Command studyCommand() {
             options.values("--peer", "NAME", arguments->peers, "Measure another renderer too: path-tracer");
             options.value("--peer-samples", "N[,N...]", arguments->peerSamples,
                           "Its samples per pixel, even (default 2,8,32,128)");
+            arguments->attribution.declare(options);
             arguments->budget.declare(options, "pick: ");
             arguments->named.declare(options);
           },

@@ -133,6 +133,11 @@ void StudyRun::measureMore(size_t point, uint32_t seeds, uint32_t repeats) {
   session_.progress.finish();
 }
 
+void StudyRun::measureTimesOnly() {
+  measureTimes(ownPoints(), task_.repeats);
+  folder_->save();
+}
+
 void StudyRun::extend(const std::vector<std::string>& sweeps) {
   grid_.add(sweeps);
   folder_->setGrids(grid_.texts());

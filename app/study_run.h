@@ -62,6 +62,7 @@ class StudyRun {
   void measure();
   /// Further seeds and repeats of one point, after those of measure().
   void measureMore(size_t point, uint32_t seeds, uint32_t repeats);
+  void measureTimesOnly();  ///< of measure(): for studies whose errors are made elsewhere, before this
   /// Adds the combinations of these sweeps, for the next measure().
   void extend(const std::vector<std::string>& sweeps);
 
@@ -69,6 +70,8 @@ class StudyRun {
   const StudyResults& results() const { return folder_->results; }
   std::vector<PointSummary> points() const { return summarize(folder_->results, grid_.labels()); }
   const Truth& truth() const { return truth_; }
+  const StudyTask& task() const { return task_; }
+  Bench& bench() { return *bench_; }  ///< for pictures of other settings, before measure()
   ReportNotes notes() const;
 
  private:

@@ -26,12 +26,6 @@ constexpr uint32_t kBlock = 16;
 /// than one by one; 16, Embree's streams, and rays sorted by direction are no faster than this.
 constexpr uint32_t kPacket = 8;
 
-struct HostRay {
-  glm::vec3 origin, direction;  ///< voxel units
-  uint32_t own;                 ///< triangle
-  glm::vec3 at(float t) const { return origin + direction * t; }
-};
-
 Triangle triangleAt(const oracle::Facets& facets, uint32_t triangle) {
   const glm::vec4* corner = &facets.corners[3 * size_t{triangle}];
   return {glm::vec3(corner[0]), glm::vec3(corner[1]), glm::vec3(corner[2])};
@@ -146,6 +140,12 @@ class EmbreeTrace : public HostTrace {
     std::vector<std::jthread> others;
     for (uint32_t t = 1; t < threads; ++t) others.emplace_back(work);
     work();
+  }
+
+  void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const override {
+    IRAD_CHECK_OP(hits.size(), >=, rays.size());
+    for (size_t first = 0; first < rays.size(); first += kPacket)
+      trace(rays.subspan(first, std::min<size_t>(kPacket, rays.size() - first)), &hits[first]);
   }
 
  private:

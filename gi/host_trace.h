@@ -7,12 +7,20 @@
 #include <memory>
 #include <span>
 
+#include <glm/glm.hpp>
+
 #include "shaders/shared/gi_params.h"
 
 namespace irad {
 
 class Context;
 struct FacetList;
+
+struct HostRay {
+  glm::vec3 origin, direction;  ///< voxel units
+  uint32_t own;                 ///< the triangle that it leaves, and cannot meet
+  glm::vec3 at(float t) const { return origin + direction * t; }
+};
 
 class HostTrace {
  public:
@@ -21,6 +29,8 @@ class HostTrace {
   /// TRACE_*. `threads` 0: all cores; the hits do not depend on it, to the bit. `sky`: of those that escape the bin.
   virtual void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
                     uint32_t threads = 0, bool sky = false) const = 0;
+  /// What rays from anywhere meet, one after the other: a facet or TRACE_*. For several threads at once.
+  virtual void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const = 0;
 };
 
 /// Whether this build has one (IRAD_EMBREE).

@@ -56,7 +56,7 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"reference", "box", "--of", "triangels"}, "--of: unknown 'triangels' (did you mean triangles?)"},
       {{"reference", "box", "--of", "triangles", "--spp", "1"}, "--spp: '1' is not allowed; expected an integer, 2 to"},
       {{"reference", "box", "--of", "triangles", "--noise", "2"}, "--noise: '2' is not allowed; expected a number"},
-      {{"study"}, "irad study: which? cost | merge | pick"},
+      {{"study"}, "irad study: which? cost | attribution | merge | pick"},
       {{"study", "cots", "box"}, "unknown study 'cots' (did you mean cost?)"},
       {{"study", "cost", "box", "park"}, "unexpected argument 'park'"},
       {{"study", "cost", "box", "--sweep", "matrix.rayz=32,64"},

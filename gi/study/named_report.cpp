@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "gi/study/html.h"
 #include "gi/study/plot.h"
 #include "gi/study/report_parts.h"
 #include "renderer/base/number_text.h"
@@ -15,22 +16,6 @@ namespace irad {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string page(const std::string& title, const std::string& body) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{0}</title>"
-      "<meta name=\"viewport\" content=\"width=device-width\"><style>{1}"
-      ".said td{{white-space:normal;text-align:left;vertical-align:top;min-width:90px}}"
-      ".said .here{{min-width:380px}}.agrees{{color:#00695c}}.disagrees{{color:#b3261e}}.open{{color:#666}}"
-      ".answered{{color:#0057a8}}</style></head>\n<body>\n<h1>{0}</h1>\n{2}</body>\n</html>\n",
-      escapeXml(title), reportStyle(), body);
-}
-
-std::string listOf(const std::vector<std::string>& facts) {
-  std::string out = "<ul>\n";
-  for (const std::string& fact : facts) out += fmt::format("<li>{}</li>\n", escapeXml(fact));
-  return out + "</ul>\n";
-}
 
 const char* classOf(Judgement verdict) {
   return verdict == Judgement::Agrees      ? "agrees"
@@ -81,7 +66,7 @@ std::string experimentSection(const fs::path& folder, const ExperimentResult& e)
   const ReportNotes notes = readNotes(own);
   std::vector<std::string> facts = notes.facts;
   facts.emplace_back(truthOf(e.experiment.truth));
-  out += listOf(facts);
+  out += htmlList(facts);
   std::vector<PointSummary> points;
   for (const MeasuredPoint& p : e.points) points.push_back(p.summary);
   std::vector<size_t> all(points.size());
@@ -141,19 +126,20 @@ TextTable findingsTable(const NamedStudy& study, const NamedResults& results) {
 }
 
 void writeNamedReport(const fs::path& folder, const NamedReport& report) {
-  std::string body = listOf(report.facts);
+  std::string body;
   if (!report.study->claims.empty()) {
     writeFile(folder / "findings.csv", csvOf(findingsTable(*report.study, report.results)));
     body += findingTable(findingRows(report));
   }
   body += tableSections(folder, report);
   for (const ExperimentResult& e : report.results.experiments) body += experimentSection(folder, e);
-  writeFile(folder / "report.html", page(fmt::format("{}: {}", report.study->name, report.study->question), body));
+  writeFile(folder / "report.html",
+            htmlPage(fmt::format("{}: {}", report.study->name, report.study->question), report.facts, body));
 }
 
 void writeThesisReport(const fs::path& folder, const std::vector<NamedReport>& reports) {
   TextTable findings{{"study", "section", "thesis", "here", "verdict"}};
-  std::string body = reports.empty() ? "" : listOf(reports.front().facts);
+  std::string body;
   for (const NamedReport& report : reports) {
     const NamedStudy& study = *report.study;
     const TextTable own = findingsTable(study, report.results);
@@ -164,7 +150,9 @@ void writeThesisReport(const fs::path& folder, const std::vector<NamedReport>& r
     body += tableSections(folder, report);
   }
   writeFile(folder / "findings.csv", csvOf(findings));
-  writeFile(folder / "report.html", page("The thesis's questions", body));
+  writeFile(
+      folder / "report.html",
+      htmlPage("The thesis's questions", reports.empty() ? std::vector<std::string>{} : reports.front().facts, body));
 }
 
 }  // namespace irad

@@ -209,13 +209,14 @@ std::string logPlot(const std::string& xAxis, const std::string& yAxis, const st
   return out + "</svg>\n";
 }
 
-std::string stackedBars(const std::string& axis, const std::vector<std::string>& names, const std::vector<Bar>& bars) {
+std::string stackedBars(const std::string& axis, const std::vector<std::string>& names, const std::vector<Bar>& bars,
+                        const std::string& unit) {
   const double width = 820, rowHeight = 24;
   double labels = 60, most = 0;
   for (const Bar& bar : bars) {
     labels = std::max(labels, textWidth(bar.label) + 16);
     double sum = 0;
-    for (const double part : bar.parts) sum += part;
+    for (const double part : bar.parts) sum += std::max(part, 0.0);
     most = std::max(most, sum);
   }
   labels = std::min(labels, 420.0);
@@ -253,9 +254,9 @@ std::string stackedBars(const std::string& axis, const std::vector<std::string>&
       if (value <= 0) continue;
       out += fmt::format(
           "<rect x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"><title>{}: {} "
-          "ms</title></rect>\n",
+          "{}</title></rect>\n",
           at(sum), barTop, at(sum + value) - at(sum), rowHeight - 6, colorOf(part), escapeXml(names[part]),
-          plainNumber(value));
+          plainNumber(value), unit);
       sum += value;
     }
     out += text(at(sum) + 6, barTop + 13, "start", plainNumber(sum));

@@ -29,8 +29,9 @@ struct Bar {
   std::string label;
   std::vector<double> parts;  ///< as many as there are names
 };
-/// Bars below each other, `names` of their parts in the legend.
-std::string stackedBars(const std::string& axis, const std::vector<std::string>& names, const std::vector<Bar>& bars);
+/// Bars below each other, `names` of their parts in the legend. Parts below 0 are left out.
+std::string stackedBars(const std::string& axis, const std::vector<std::string>& names, const std::vector<Bar>& bars,
+                        const std::string& unit = "ms");
 
 /// Three digits, and no exponent where it can be read without.
 std::string plainNumber(double value);

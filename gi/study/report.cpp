@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "gi/study/front.h"
+#include "gi/study/html.h"
 #include "gi/study/plot.h"
 #include "gi/study/report_parts.h"
 #include "renderer/base/error.h"
@@ -100,32 +100,11 @@ std::string finding(const CostKind& cost, const std::vector<PointSummary>& point
   return out;
 }
 
-std::string base64(const std::string& bytes) {
-  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    const size_t count = std::min<size_t>(3, bytes.size() - i);
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) out += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string reportCrop(const fs::path& folder, const std::string& name, const std::string& caption,
                        const ReportNotes& notes) {
-  std::ifstream in(folder / "pictures" / (name + ".png"), std::ios::binary);
-  if (!in || notes.cropSize.x == 0) return "";
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  const uint32_t zoom = std::max(2u, 224 / notes.cropSize.x);
-  return fmt::format(
-      "<figure><svg viewBox=\"{} {} {} {}\" width=\"{}\" height=\"{}\" role=\"img\"><image width=\"{}\" height=\"{}\" "
-      "href=\"data:image/png;base64,{}\" style=\"image-rendering:pixelated\"/></svg><figcaption>{}</figcaption>"
-      "</figure>\n",
-      notes.cropAt.x, notes.cropAt.y, notes.cropSize.x, notes.cropSize.y, zoom * notes.cropSize.x,
-      zoom * notes.cropSize.y, notes.pictureSize.x, notes.pictureSize.y, base64(bytes), escapeXml(caption));
+  return htmlFigure(folder / "pictures" / (name + ".png"), {notes.pictureSize, notes.cropAt, notes.cropSize}, caption);
 }
 
 namespace {
@@ -316,17 +295,6 @@ std::string pointTables(const std::vector<PointSummary>& points, std::optional<s
   return out;
 }
 
-const char* reportStyle() {
-  return "body{font:15px/1.5 Inter,'DejaVu "
-         "Sans',Helvetica,Arial,sans-serif;color:#222;background:#fff;max-width:1180px;"
-         "margin:32px auto;padding:0 24px}h1{font-size:26px}h2{font-size:20px;margin-top:36px}h3{font-size:16px}"
-         "table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}th,td{padding:4px 9px;"
-         "border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{border-bottom:2px solid "
-         "#888}.name{text-align:"
-         "left}tr.front{background:#eaf3fa}.crops{display:flex;flex-wrap:wrap;gap:16px}figure{margin:0;max-width:256px}"
-         "figcaption{font-size:13px;color:#444}.finding{max-width:820px}svg{max-width:100%}";
-}
-
 ReportNotes readNotes(const fs::path& folder) {
   ReportNotes notes;
   const fs::path file = folder / "notes.json";
@@ -370,13 +338,7 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
   writeFile(folder / "points.csv", pointsCsv(points, names, values));
   writeFile(folder / "stages.csv", stagesCsv(points));
 
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>What accuracy costs</title>"
-      "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head>\n<body>\n"
-      "<h1>What accuracy costs</h1>\n<ul>\n",
-      reportStyle());
-  for (const std::string& fact : notes.facts) html += fmt::format("<li>{}</li>\n", escapeXml(fact));
-  html += "</ul>\n";
+  std::string html;
   const std::vector<std::string> sentences = findings(points, results.peers, given);
   for (size_t i = 0; i < costKinds().size(); ++i) {
     const CostKind& cost = costKinds()[i];
@@ -400,8 +362,8 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
     html += plot;
   }
   html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);
-  html += pointTables(points, given) + "</body>\n</html>\n";
-  writeFile(folder / "report.html", html);
+  html += pointTables(points, given);
+  writeFile(folder / "report.html", htmlPage("What accuracy costs", notes.facts, html));
 }
 
 }  // namespace irad

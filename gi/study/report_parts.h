@@ -10,7 +10,6 @@
 
 namespace irad {
 
-const char* reportStyle();  ///< CSS
 /// Part of a picture of the folder, at least twice as large, with its caption; empty where the picture is not there.
 std::string reportCrop(const std::filesystem::path& folder, const std::string& name, const std::string& caption,
                        const ReportNotes& notes);

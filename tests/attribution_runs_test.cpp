@@ -1,0 +1,217 @@
+// `irad study attribution` from outside: it names the stage that is made bad on purpose, for each stage in turn; a
+// study that is killed goes on; bad input is refused.
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "gi/check/glb.h"
+#include "gi/check/path_tracer.h"
+#include "gi/check/process.h"
+#include "gi/check/scenes.h"
+#include "renderer/base/csv.h"
+#include "tests/support.h"
+
+namespace irad::test::attribution_runs_suite {
+namespace {
+
+namespace fs = std::filesystem;
+using Strings = std::vector<std::string>;
+
+void append(Strings& to, const Strings& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+/// 12 voxels, 64 rays.
+Strings small(const Strings& settings) {
+  Strings out;
+  for (const char* setting : {"voxel.resolution=12", "matrix.rays=64", "light.shadow_resolution=64"})
+    append(out, {"--set", setting});
+  for (const std::string& setting : settings) append(out, {"--set", setting});
+  return out;
+}
+
+/// Settings that spoil one stage.
+struct Spoilt {
+  const char* stage;
+  Strings settings;
+  /// The truth: the program's own picture by these settings, so that the spoilt stage is all that differs; none: the
+  /// path tracer's.
+  std::optional<Strings> truth;
+  const char* view = "indirect";
+  Strings options;
+  const char* scene = "still.glb";
+  const char* size = "32x32";
+};
+void PrintTo(const Spoilt& spoilt, std::ostream* out) {
+  *out << spoilt.stage;
+}
+
+// Without jitter all seeds have the same rays, so that what differs from the truth is what is spoilt alone.
+const Spoilt kSpoilt[] = {
+    {"voxels",
+     {"matrix.jitter=false", "voxel.resolution=8"},
+     Strings{"matrix.jitter=false", "voxel.resolution=24"},
+     "indirect",
+     {"--finer", "3"}},
+    {"facets", {"matrix.hit_rule=thesis"}, std::nullopt},
+    {"normals",
+     {"matrix.hit_rule=thesis", "matrix.jitter=false", "voxel.normals=axis6"},
+     Strings{"matrix.hit_rule=thesis", "matrix.jitter=false"}},
+    {"traversal",
+     {"matrix.hit_rule=thesis", "matrix.jitter=false", "field.method=jfa", "matrix.traversal=sdf"},
+     Strings{"matrix.hit_rule=thesis", "matrix.jitter=false", "matrix.traversal=dda"}},
+    {"rays", {"matrix.rays=1", "matrix.emitter_sampling=off"}, std::nullopt, "indirect", {"--seeds", "8"}},
+    // Light so weak that the solver puts out most of it.
+    {"storage", {"matrix.jitter=false", "solver.flush=0.001"}, std::nullopt, "indirect", {}, "dim.glb"},
+    {"sweeps", {"matrix.jitter=false", "solver.max_sweeps=1", "solver.acceleration=off"}, std::nullopt},
+    {"shadows", {"matrix.jitter=false"}, Strings{"matrix.jitter=false", "light.shadow_resolution=4096"}, "lit"},
+    // Blocks of 8 x 8 pixels smaller than a voxel, and hardly any noise.
+    {"lookup",
+     {"voxel.resolution=8", "matrix.rays=1024", "sample.filter=nearest"},
+     std::nullopt,
+     "indirect",
+     {"--finer", "1.25", "--seeds", "5", "--gather-rays", "256"},
+     "still.glb",
+     "64x64"},
+    {"reflections",
+     {"matrix.jitter=false", "specular.rays=1", "specular.filter=false"},
+     Strings{"matrix.jitter=false", "specular.rays=64", "specular.max_roughness=1", "specular.fade=0",
+             "specular.threshold=0", "specular.filter=false"},
+     "lit"},
+};
+
+class AttributionRuns : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    writeGlb(at("still.glb"), stillLife().finish("still"));
+    writeGlb(at("dim.glb"), stillLife(1e-3f).finish("dim"));
+  }
+  std::string at(const std::string& name) const { return (folder_.path / name).string(); }
+  Strings study(const Spoilt& spoilt, const std::string& out) const {
+    Strings arguments{"study", "attribution", at(spoilt.scene)};
+    append(arguments, small(spoilt.settings));
+    append(arguments, {"--view", spoilt.view, "--size", spoilt.size, "--repeats", "1", "--out", at(out)});
+    append(arguments, spoilt.options);
+    const auto unlessGiven = [&](const char* option, const char* value) {
+      if (std::count(spoilt.options.begin(), spoilt.options.end(), option) == 0) append(arguments, {option, value});
+    };
+    unlessGiven("--seeds", "3");
+    unlessGiven("--gather-rays", "1024");
+    if (spoilt.truth)
+      append(arguments, {"--reference", reference_.string()});
+    else
+      append(arguments, {"--reference-samples", "512"});
+    return arguments;
+  }
+  void makeTruth(const Spoilt& spoilt) {
+    if (!spoilt.truth) return;
+    Strings arguments{"render", at(spoilt.scene)};
+    append(arguments, small(*spoilt.truth));
+    append(arguments, {"--view", spoilt.view, "--size", spoilt.size, "--out", at("truth")});
+    const RunResult run = runIrad(arguments);
+    ASSERT_EQ(run.status, 0) << run.err;
+    for (const char* extension : {".exr", ".pfm"})
+      if (const fs::path file = at(std::string("truth/") + spoilt.view + extension); fs::exists(file))
+        reference_ = file;
+  }
+  /// A field of attribution.csv.
+  std::string field(const std::string& out, const std::string& row, const std::string& column) const {
+    std::ifstream in(at(out + "/attribution.csv"));
+    std::string line;
+    std::getline(in, line);
+    const Strings head = csvFields(line);
+    while (std::getline(in, line))
+      if (const Strings fields = csvFields(line); fields[0] == row)
+        for (size_t i = 0; i < fields.size(); ++i)
+          if (head[i] == column) return fields[i];
+    return "none";
+  }
+
+  TemporaryFolder folder_;
+  fs::path reference_;
+};
+
+class SpoiltStages : public AttributionRuns, public ::testing::WithParamInterface<Spoilt> {};
+
+INSTANTIATE_TEST_SUITE_P(Stages, SpoiltStages, ::testing::ValuesIn(kSpoilt),
+                         [](const auto& info) { return std::string(info.param.stage); });
+
+TEST_P(SpoiltStages, AreNamed) {
+  const Spoilt& spoilt = GetParam();
+  if (!hasPathTracer() && !spoilt.truth) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  makeTruth(spoilt);
+  const RunResult run = runIrad(study(spoilt, "out"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.out, std::string("The error of ") + spoilt.stage + " dominates: ")) << run.out;
+  for (const char* file : {"report.html", "attribution.csv", "attribution-errors.svg", "attribution-times.svg"})
+    EXPECT_TRUE(fs::exists(at(std::string("out/") + file))) << file;
+  EXPECT_TRUE(contains(slurp(at("out/report.html")), spoilt.stage + std::string(" dominates")));
+  EXPECT_GT(std::stod(field("out", spoilt.stage, "share")), 0.3) << run.out;
+  EXPECT_NE(field("out", "picture", "mib"), "0.0000");
+}
+
+TEST_F(AttributionRuns, AKilledStudyGoesOnToTheSameFigures) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  const Spoilt plain{"", {"voxel.resolution=8"}, std::nullopt};
+  const RunResult whole = runIrad(study(plain, "whole"));
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const auto pictures = [&] {
+    std::error_code none;
+    size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(at("killed/linear"), none))
+      count += entry.path().filename().string()[0] != '.';
+    return count;
+  };
+  bool killed = false;
+  {
+    Process process(iradProgram(), study(plain, "killed"));
+    while (!killed && !process.poll()) {
+      if (pictures() > 3) killed = process.kill() == 128 + SIGKILL;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  EXPECT_TRUE(killed);
+  EXPECT_FALSE(fs::exists(at("killed/report.html")));
+  const RunResult rest = runIrad(study(plain, "killed"));
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  // Times differ, errors do not: to the last digit.
+  for (const char* row : {"picture", "model", "voxels", "rays", "rays.variance", "storage", "sweeps", "lookup", "rest"})
+    for (const char* column : {"relmse", "ideal_relmse", "gain", "gain_ci95", "chain_relmse", "chain_squared"})
+      EXPECT_EQ(field("whole", row, column), field("killed", row, column)) << row << " " << column;
+  // Another study has no place there.
+  Strings other = study(plain, "killed");
+  append(other, {"--finer", "3"});
+  const RunResult refused = runIrad(other);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "holds another study: study ")) << refused.err;
+}
+
+TEST_F(AttributionRuns, AStageWithoutMemoryIsARowThatSaysSo) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  Strings arguments = study({"", {}, std::nullopt}, "full");
+  append(arguments,
+         {"--finer", "8", "--set", "voxel.resolution=24", "--set", "matrix.rays=4", "--memory-budget", "24"});
+  const RunResult run = runIrad(arguments);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(field("full", "voxels", "words"), "could not be made ideal: ")) << run.out;
+  EXPECT_EQ(field("full", "voxels", "gain"), "");
+}
+
+TEST_F(AttributionRuns, BadInputIsRefused) {
+  const auto refused = [&](Strings arguments, const std::string& words) {
+    const RunResult run = runIrad(arguments);
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_TRUE(contains(run.err, words)) << run.err;
+  };
+  refused({"study", "attribution", "box"}, "irad study attribution: no truth");
+  refused({"study", "attribution", "box", "park"}, "unexpected argument 'park'");
+  refused({"study", "attribution", "box", "--sweep", "matrix.rays=1,2"}, "has no --sweep");
+  refused({"study", "attribution", "box", "--finer", "1"}, "--finer: '1' is not allowed");
+  refused({"study", "attribution", "box", "--seeds", "2"}, "--seeds: '2' is not allowed");
+  refused({"study", "attribution", "box", "--gather-rays", "0"}, "--gather-rays: '0' is not allowed");
+}
+
+}  // namespace
+}  // namespace irad::test::attribution_runs_suite
