@@ -1,0 +1,94 @@
+#include "gi/study/loaded.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "gi/study/sweep.h"
+#include "renderer/base/csv.h"
+#include "renderer/base/error.h"
+
+namespace irad {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string member(const nlohmann::ordered_json& json, const char* name) {
+  if (!json.contains(name)) return "";
+  return json.at(name).is_string() ? json.at(name).get<std::string>() : json.at(name).dump();
+}
+
+void readPoints(LoadedStudy& study, const nlohmann::ordered_json& json) {
+  const fs::path file = study.folder / "study.json";
+  try {
+    Settings base;
+    settingsFromJson(base, json.at("settings").dump());
+    const SettingGrid grid(json.at("sweeps").get<std::vector<std::string>>(), base);
+    std::vector<std::string> labels;
+    for (size_t point = 0; point < grid.size(); ++point) {
+      labels.push_back(grid.label(point));
+      study.settings.push_back(grid.settings(point));
+    }
+    study.points = summarize(readResults(study.folder), labels);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  } catch (const UsageError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<bool> LoadedStudy::measured() const {
+  std::vector<bool> out;
+  for (const PointSummary& p : points) out.push_back(p.failure.empty() && std::isfinite(p.relMse.mean));
+  return out;
+}
+
+std::vector<StageShare> readStageShares(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> head = csvFields(line);
+  const auto column = [&](const char* name) {
+    const auto found = std::find(head.begin(), head.end(), name);
+    if (found == head.end()) throw InputError(fmt::format("{}: no column '{}' in '{}'", file.string(), name, line));
+    return static_cast<size_t>(found - head.begin());
+  };
+  const size_t stage = column("stage"), relMse = column("relmse");
+  std::vector<StageShare> out;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> fields = csvFields(line);
+    if (fields.size() <= std::max(stage, relMse)) continue;
+    const std::string& text = fields[relMse];
+    StageShare share{fields[stage], 0};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), share.relMse);
+    if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(share.relMse)) out.push_back(share);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const StageShare& a, const StageShare& b) { return a.relMse > b.relMse; });
+  return out;
+}
+
+LoadedStudy loadStudy(const fs::path& folder) {
+  LoadedStudy study;
+  study.folder = folder;
+  std::error_code ignored;
+  const fs::path attribution = folder / "attribution.csv";
+  const bool shares = fs::exists(attribution, ignored);
+  if (!shares || fs::exists(folder / "study.json", ignored)) {
+    const auto json = nlohmann::ordered_json::parse(readIdentity(folder));
+    study.scene = member(json, "scene"), study.sceneSha256 = member(json, "scene_sha256");
+    study.device = member(json, "device"), study.view = member(json, "view"), study.camera = member(json, "camera");
+    if (!shares || json.contains("sweeps")) readPoints(study, json);
+  }
+  if (shares) study.stages = readStageShares(attribution);
+  return study;
+}
+
+}  // namespace irad
