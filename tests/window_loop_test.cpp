@@ -165,6 +165,50 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
   EXPECT_EQ(asked.allocations, 0u) << "device memory for a camera";
 }
 
+/// With something to measure and nobody to look at it: no thread, nothing read back, nothing drawn beside the frames.
+TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
+  std::ofstream(options_.preferences) << R"({"format": 1, "folded": ["Accuracy"]})";
+  const glm::uvec2 size(64, 48);
+  options_.reference = ReferencePicture{.path = "/a.exr", .picture = {.size = size}};
+  options_.reference->picture.pixels.assign(size_t{size.x} * size.y, glm::vec4(0.3f, 0.3f, 0.3f, 1));
+  struct Cost {
+    uint64_t beside, buffers, images;  ///< beside: submissions that are no frames of the window
+    ptrdiff_t threads;
+  };
+  const auto threads = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
+  };
+  run([&] {
+    // Of two other views, each of which is a picture anew.
+    const auto ofPictures = [&] {
+      EXPECT_TRUE(until([&] { return rests(); }));
+      const Counters before = context_->counters();
+      const uint64_t frames = timings_.recorded();
+      const ptrdiff_t had = threads();
+      for (const char* key : {"2", "1"}) {
+        screen_->key(key);
+        EXPECT_TRUE(until([&] { return rests(); }));
+      }
+      const Counters asked = context_->counters().since(before);
+      return Cost{asked.submissions - (timings_.recorded() - frames), asked.buffers, asked.images, threads() - had};
+    };
+    const auto free = [&](const char* when) {
+      const Cost folded = ofPictures();
+      EXPECT_EQ(folded.beside, 0u) << when;
+      EXPECT_EQ(folded.images, 0u) << when;
+      EXPECT_EQ(folded.threads, 0) << when;
+    };
+    ofPictures();  // views that were not there before take memory once
+    free("at first");
+    click("Accuracy");
+    screen_->xdotool("mousemove 360 510");
+    EXPECT_GT(ofPictures().beside, 0u) << "an open one measures";
+    click("Accuracy");
+    screen_->xdotool("mousemove 360 510");
+    free("folded again");
+  });
+}
+
 TEST_F(WindowLoop, FramesOfBruteForceEndInRestAndBeginAnewFromTheDark) {
   options_.settings.solver.method = SolverMethod::bruteForce;
   options_.settings.solver.frames = 5;

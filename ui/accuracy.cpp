@@ -138,7 +138,16 @@ bool Accuracy::serveStudy() {
   if (!ready(loading_)) return false;
   try {
     studyError.clear();
-    study = loading_.get();
+    LoadedStudy loaded = loading_.get();
+    // Front and attribution are studies of their own: one of each can be there.
+    if (study && study->sceneSha256 == loaded.sceneSha256) {
+      if (loaded.points.empty())
+        loaded.points = std::move(study->points), loaded.settings = std::move(study->settings);
+      else if (loaded.stages.empty())
+        loaded.stages = std::move(study->stages);
+    }
+    study = std::move(loaded);
+    ++studies;
   } catch (const std::exception& error) {
     study.reset();
     studyError = error.what();

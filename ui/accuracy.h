@@ -45,6 +45,7 @@ class Accuracy {
   // ---- A study ----
   std::string folder = "out/study";
   std::optional<LoadedStudy> study;
+  uint64_t studies = 0;  ///< that were read
   std::string studyError;
   bool loading() const { return loading_.valid(); }
 

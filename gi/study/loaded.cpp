@@ -22,6 +22,12 @@ std::string member(const nlohmann::ordered_json& json, const char* name) {
   return json.at(name).is_string() ? json.at(name).get<std::string>() : json.at(name).dump();
 }
 
+glm::uvec2 sizeOf(const nlohmann::ordered_json& json) {
+  if (!json.contains("size") || !json["size"].is_array() || json["size"].size() != 2) return glm::uvec2(0);
+  const auto& size = json["size"];
+  return size[0].is_number_unsigned() && size[1].is_number_unsigned() ? glm::uvec2(size[0], size[1]) : glm::uvec2(0);
+}
+
 void readPoints(LoadedStudy& study, const nlohmann::ordered_json& json) {
   const fs::path file = study.folder / "study.json";
   try {
@@ -55,18 +61,22 @@ std::vector<StageShare> readStageShares(const fs::path& file) {
   std::string line;
   std::getline(in, line);
   const std::vector<std::string> head = csvFields(line);
-  const auto column = [&](const char* name) {
-    const auto found = std::find(head.begin(), head.end(), name);
-    if (found == head.end()) throw InputError(fmt::format("{}: no column '{}' in '{}'", file.string(), name, line));
-    return static_cast<size_t>(found - head.begin());
+  const auto column = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      if (const auto found = std::ranges::find(head, name); found != head.end())
+        return static_cast<size_t>(found - head.begin());
+    throw InputError(fmt::format("{}: no column '{}' in '{}'", file.string(), *names.begin(), line));
   };
-  const size_t stage = column("stage"), relMse = column("relmse");
+  const size_t name = column({"row", "stage"}), relMse = column({"relmse"}), gain = column({"gain", "relmse"});
   std::vector<StageShare> out;
   while (std::getline(in, line)) {
     const std::vector<std::string> fields = csvFields(line);
-    if (fields.size() <= std::max(stage, relMse)) continue;
-    const std::string& text = fields[relMse];
-    StageShare share{fields[stage], 0};
+    if (fields.size() <= std::max({name, relMse, gain})) continue;
+    const std::string& stage = fields[name];
+    // Sums, remainders and the parts of a part ("rays.bias") are no stages.
+    if (stage == "picture" || stage == "other" || stage == "rest" || stage.find('.') != std::string::npos) continue;
+    const std::string& text = fields[stage == "model" ? relMse : gain];
+    StageShare share{stage, 0};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), share.relMse);
     if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(share.relMse)) out.push_back(share);
   }
@@ -85,7 +95,8 @@ LoadedStudy loadStudy(const fs::path& folder) {
     const auto json = nlohmann::ordered_json::parse(readIdentity(folder));
     study.scene = member(json, "scene"), study.sceneSha256 = member(json, "scene_sha256");
     study.device = member(json, "device"), study.view = member(json, "view"), study.camera = member(json, "camera");
-    if (!shares || json.contains("sweeps")) readPoints(study, json);
+    study.size = sizeOf(json);
+    if (!shares || member(json, "study") == "cost") readPoints(study, json);
   }
   if (shares) study.stages = readStageShares(attribution);
   return study;

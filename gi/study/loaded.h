@@ -10,9 +10,9 @@
 
 namespace irad {
 
-/// The share that a stage has in the error, of a study of attribution.
+/// What a stage adds to the error, of a study of attribution.
 struct StageShare {
-  std::string stage;
+  std::string stage;  ///< or "model": what ideal stages leave
   double relMse = 0;
 };
 
@@ -20,6 +20,7 @@ struct LoadedStudy {
   std::filesystem::path folder;
   // What it was made of; empty where the folder does not say.
   std::string scene, sceneSha256, device, view, camera;  ///< scene: its file's name; camera: JSON
+  glm::uvec2 size{0};                                    ///< of its pictures
   std::vector<PointSummary> points;
   std::vector<Settings> settings;      ///< of each point
   std::vector<StageShare> stages;      ///< largest first; of attribution.csv, where there is one
@@ -29,7 +30,8 @@ struct LoadedStudy {
 /// also where the folder holds neither.
 LoadedStudy loadStudy(const std::filesystem::path& folder);
 
-/// Of an attribution.csv: its columns `stage` and `relmse`, wherever they stand; rows without a number are left out.
+/// Of an attribution.csv, by its columns `row` (or `stage`), `gain` (or `relmse`), what is gained where that stage
+/// alone is ideal, and for the row `model` `relmse`, what is left where all are. Rows without a number are left out.
 /// InputError where it has no such columns.
 std::vector<StageShare> readStageShares(const std::filesystem::path& file);
 

@@ -65,7 +65,7 @@ class AccuracyPanel : public Panel {
  private:
   size_t cost_ = 0;                    ///< of costKinds()
   std::optional<PlaceInStudy> place_;  ///< of the settings among the study's points
-  const LoadedStudy* placeIn_ = nullptr;
+  uint64_t placeIn_ = 0;               ///< Accuracy::studies
   Settings placeOf_;
   std::optional<Settings> before_;  ///< settings before a point's were taken
   std::vector<Timings::Row> rows_;
@@ -89,14 +89,15 @@ class AccuracyPanel : public Panel {
                                 : "\nA reference from a file does not say its noise: there is no interval.";
       for (const MetricRow& row :
            metricRows(*accuracy.measured, "picture", "reference", info != nullptr ? prettyUnit(info->unit) : "")) {
-        const bool flip = std::string_view(row.name) == "FLIP";
+        const bool headline = std::string_view(row.name) == "relMSE", flip = std::string_view(row.name) == "FLIP";
+        if (std::string_view(row.name) == "largest") continue;  // which is the reference's noise
         if (flip && !std::isfinite(accuracy.measured->flip)) {
           fieldLabel(row.name, row.help);
           if (ImGui::Button("measure###flip", {-1, 0})) session.accuracy.wantFlip = true;
           continue;
         }
-        valueRow(row.name, row.text + (std::string_view(row.name) == "relMSE" && !accuracy.fresh ? " \u2026" : ""));
-        helpTooltip(row.help + (std::string_view(row.name) == "relMSE" ? covers : ""));
+        valueRow(row.name, row.text + (headline && !accuracy.fresh ? " \u2026" : ""));
+        helpTooltip(row.help + (headline ? covers : "\nIt contains the reference's own noise."));
       }
     } else {
       valueRow("relMSE", accuracy.unmeasured.empty() ? "\u2026" : "\u2014");
@@ -112,8 +113,9 @@ class AccuracyPanel : public Panel {
     const bool frames = report.frames > 0;
     const double bound = frames ? report.standardError : report.bound;
     const bool known = std::isfinite(bound) && report.meanH > 0;
-    valueRow(frames ? "standard error" : "solver's bound",
-             known ? fmt::format("{} W/m\u00B2, {}", shortNumber(bound), sharePercent(bound / report.meanH)) : "\u2014");
+    valueRow(
+        frames ? "standard error" : "solver's bound",
+        known ? fmt::format("{} W/m\u00B2, {}", shortNumber(bound), sharePercent(bound / report.meanH)) : "\u2014");
     helpTooltip(frames ? "Of H by brute force, and as a share of the mean H: known without a reference"
                        : "No facet's B is further from the solution of its matrix than this; as a share of the mean H. "
                          "Known without a reference; it covers sweeps alone, not rays, voxels or lookups");
@@ -146,7 +148,9 @@ class AccuracyPanel : public Panel {
     if (accuracy.study && !accuracy.study->stages.empty()) {
       const std::vector<StageShare>& stages = accuracy.study->stages;
       valueRow("largest part", fmt::format("{}, {}", stages[0].stage, shortNumber(stages[0].relMse)));
-      std::string all = "relMSE by stage, of attribution.csv in the study's folder:";
+      std::string all =
+          "relMSE by stage, of the attribution.csv that was loaded (what is gained where it alone is ideal; model: "
+          "what is left where all are):";
       for (const StageShare& stage : stages) all += fmt::format("\n{}  {}", shortNumber(stage.relMse), stage.stage);
       helpTooltip(all);
       return;
@@ -155,7 +159,8 @@ class AccuracyPanel : public Panel {
     std::string text = "\u2014";
     if (accuracy.measured && report.frames == 0 && report.meanH > 0 && accuracy.measured->blockRelMse > 0) {
       const double relative = report.bound / report.meanH, share = relative * relative / accuracy.measured->blockRelMse;
-      text = !(share < 0.5) ? "sweeps, by the bound" : fmt::format("not sweeps (< {})", sharePercent(share));
+      text = !(share < 0.5) ? "sweeps, by the bound"
+                            : fmt::format("not sweeps (< {})", sharePercent(std::max(share, .01)));
     }
     valueRow("largest part", text);
     helpTooltip(
@@ -355,12 +360,12 @@ class AccuracyPanel : public Panel {
     const LoadedStudy* study = session.accuracy.study ? &*session.accuracy.study : nullptr;
     if (!study || study->points.empty()) {
       place_.reset();
-      placeIn_ = nullptr;
       return;
     }
-    if (placeIn_ == study && placeOf_ == session.edited && place_) return;
+    const uint64_t serial = session.accuracy.studies;
+    if (placeIn_ == serial && placeOf_ == session.edited && place_) return;
     place_ = irad::placeOf(study->settings, study->measured(), session.edited);
-    placeIn_ = study;
+    placeIn_ = serial;
     placeOf_ = session.edited;
   }
 
@@ -371,10 +376,8 @@ class AccuracyPanel : public Panel {
     const bool entered = ImGui::InputTextWithHint("##study", "folder of irad study cost", &accuracy.folder,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (ImGui::Button("Load", {button, 0}) || entered) {
-      accuracy.wantStudy = true;
-      placeIn_ = nullptr;
-    }
+    if (ImGui::Button("Load", {button, 0}) || entered) accuracy.wantStudy = true;
+    helpTooltip("A folder of irad study cost, of irad study attribution, or one after the other of both");
     if (accuracy.loading()) return ImGui::TextColored(theme::dim, "reading\u2026");
     if (!accuracy.studyError.empty()) return paragraph(theme::error, accuracy.studyError);
     if (!accuracy.study) return paragraph(theme::dim, "irad study cost measures what accuracy costs; load its folder.");
@@ -390,6 +393,8 @@ class AccuracyPanel : public Panel {
       paragraph(theme::warning, fmt::format("Of another scene: {}.", study.scene));
     if (!study.device.empty() && study.device != session.context.device.info.name)
       paragraph(theme::warning, fmt::format("Its times are of another device: {}.", study.device));
+    if (!study.view.empty())
+      paragraph(theme::dim, fmt::format("Of {}, {} \u00D7 {} pixels.", study.view, study.size.x, study.size.y));
   }
 
   void drawFront(Session& session, const LoadedStudy& study) {
@@ -397,9 +402,11 @@ class AccuracyPanel : public Panel {
     const CostKind& kind = kinds[cost_];
     fieldLabel("cost", "What the error is weighed against");
     ImGui::PushID("cost");
-    if (ImGui::BeginCombo("##", kind.axis)) {
-      for (size_t i = 0; i < kinds.size(); ++i)
-        if (ImGui::Selectable(fmt::format("{}###{}", kinds[i].axis, kinds[i].name).c_str(), i == cost_)) cost_ = i;
+    if (ImGui::BeginCombo("##", nameOf(kind).c_str())) {
+      for (size_t i = 0; i < kinds.size(); ++i) {
+        if (ImGui::Selectable(nameOf(kinds[i]).c_str(), i == cost_)) cost_ = i;
+        helpTooltip(kinds[i].axis);
+      }
       ImGui::EndCombo();
     }
     ImGui::PopID();
@@ -436,8 +443,7 @@ class AccuracyPanel : public Panel {
     if (p.seeds > 1) out += fmt::format(" \u00B1 {} over {} seeds", shortNumber(p.relMse.half), p.seeds);
     for (const CostKind& kind : costKinds())
       if (const double value = kind.of(p); std::isfinite(value))
-        out += fmt::format("\n{} {} {}", kind.name == std::string_view("first_picture") ? "first picture" : kind.name,
-                           kind.time ? milliseconds(value) : fmt::format("{:.0f}", value), kind.unit);
+        out += fmt::format("\n{} {}", nameOf(kind), costText(value, kind));
     return out + "\nA click takes its settings.";
   }
 
@@ -482,7 +488,8 @@ class AccuracyPanel : public Panel {
     const double more = next.cost - here.cost;
     std::string buys;
     if (more > 1)
-      buys = fmt::format("+1 {} buys {} of the error; ", kind.unit, sharePercent(1 - slope.errorFor(here, 1) / here.error));
+      buys = fmt::format("+1 {} buys {} of the error; ", kind.unit,
+                         sharePercent(1 - slope.errorFor(here, 1) / here.error));
     const PointSummary &a = study.points[at], &b = study.points[*slope.next];
     const bool unsure = a.seeds > 1 && b.seeds > 1 && here.error - a.relMse.half < next.error + b.relMse.half;
     paragraph(theme::text, fmt::format("{}{} {} more: relMSE {} {} {} ({}){}.", buys, costNumber(more, kind), kind.unit,
@@ -490,6 +497,12 @@ class AccuracyPanel : public Panel {
                                        point(*slope.next), unsure ? "; their intervals overlap" : ""));
   }
 
+  /// "first picture": as points.csv has it, for the eye.
+  static std::string nameOf(const CostKind& kind) {
+    std::string name = kind.name;
+    std::ranges::replace(name, '_', ' ');
+    return name;
+  }
   static std::string costNumber(double value, const CostKind& kind) {
     return kind.time ? milliseconds(value) : fmt::format("{:.0f}", value);
   }
