@@ -42,8 +42,8 @@ bool until(const std::function<bool()>& holds) {
   return false;
 }
 
-/// The Box, small, in a window of 1280 x 720 with every panel but one unfolded, its loop on the test's own thread; the user is
-/// another one. What the user asks of the context must be of the kind that threads may ask.
+/// The Box, small, in a window of 1280 x 720 with every panel but one unfolded, its loop on the test's own thread; the
+/// user is another one. What the user asks of the context must be of the kind that threads may ask.
 class WindowLoop : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -172,29 +172,35 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
   options_.reference = ReferencePicture{.path = "/a.exr", .picture = {.size = size}};
   options_.reference->picture.pixels.assign(size_t{size.x} * size.y, glm::vec4(0.3f, 0.3f, 0.3f, 1));
   struct Cost {
-    uint64_t beside, buffers, images;  ///< beside: submissions that are no frames of the window
+    int64_t beside;  ///< submissions that are no frames of the window; the last frame is counted with the next
+    uint64_t images;
     ptrdiff_t threads;
   };
+  constexpr int kPictures = 4;
   const auto threads = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
   };
   run([&] {
-    // Of two other views, each of which is a picture anew.
+    // Of views in turn, each of which is a picture anew.
     const auto ofPictures = [&] {
       EXPECT_TRUE(until([&] { return rests(); }));
       const Counters before = context_->counters();
       const uint64_t frames = timings_.recorded();
       const ptrdiff_t had = threads();
-      for (const char* key : {"2", "1"}) {
-        screen_->key(key);
-        EXPECT_TRUE(until([&] { return rests(); }));
+      for (int i = 0; i < kPictures; ++i) {
+        const uint64_t draws = context_->counters().dispatches;
+        screen_->key(i % 2 == 0 ? "2" : "1");
+        EXPECT_TRUE(until([&] { return context_->counters().dispatches > draws; })) << "no picture";
+        pause(0.5);
       }
+      EXPECT_TRUE(until([&] { return rests(); }));
       const Counters asked = context_->counters().since(before);
-      return Cost{asked.submissions - (timings_.recorded() - frames), asked.buffers, asked.images, threads() - had};
+      return Cost{static_cast<int64_t>(asked.submissions) - static_cast<int64_t>(timings_.recorded() - frames),
+                  asked.images, threads() - had};
     };
     const auto free = [&](const char* when) {
       const Cost folded = ofPictures();
-      EXPECT_EQ(folded.beside, 0u) << when;
+      EXPECT_LE(std::abs(folded.beside), 1) << when;
       EXPECT_EQ(folded.images, 0u) << when;
       EXPECT_EQ(folded.threads, 0) << when;
     };
@@ -202,7 +208,7 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
     free("at first");
     click("Accuracy");
     screen_->xdotool("mousemove 360 510");
-    EXPECT_GT(ofPictures().beside, 0u) << "an open one measures";
+    EXPECT_GE(ofPictures().beside, kPictures) << "an open one measures each";
     click("Accuracy");
     screen_->xdotool("mousemove 360 510");
     free("folded again");
