@@ -97,8 +97,11 @@ bool Accuracy::serveReference(Session& session) {
     ++references_;
     session.viewDirty = changed = true;
   }
-  // Another picture was given in its place.
+  // Another picture was given in its place: what is still at work would replace that.
   if (traced_ && (!session.reference || !session.reference->path.empty())) {
+    tracer_.cancel();
+    subject_.reset();
+    outdated.clear();
     traced_.reset();
     ++references_;
     changed = true;
