@@ -353,7 +353,7 @@ void mergeExperiment(const std::vector<fs::path>& shards, const fs::path& out) {
     if (const std::string memory = textOf(shard / kMemory); !memory.empty()) writeFile(out / kMemory, memory);
   }
   writeFigures(out, figures);
-  writeReport(out, app::gridOf(readIdentity(out)), readResults(out), readNotes(out));
+  writeReport(out, irad::gridOf(readIdentity(out)), readResults(out), readNotes(out));
 }
 
 }  // namespace irad::app

@@ -127,17 +127,6 @@ const CostKind& BudgetArguments::kind() const {
   throw UsageError(fmt::format("--cost: unknown '{}'{}", wanted, suggestion(wanted, names)));
 }
 
-SettingGrid gridOf(const StudyIdentity& identity) {
-  try {
-    const auto json = nlohmann::ordered_json::parse(identity);
-    Settings settings;
-    settingsFromJson(settings, json.at("settings").dump());
-    return {gridsOf(identity), settings};
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("study.json: {}", error.what()));
-  }
-}
-
 void printChoice(const PointSummary& p, const std::vector<PointSummary>& points, const CostKind& costKind) {
   const CostKind* cost = &costKind;
   const auto half = [](const MeanInterval& m) {

@@ -44,9 +44,6 @@ struct BudgetArguments {
 /// An even number of samples of an option.
 uint32_t evenSamples(const std::string& option, const std::string& text);
 
-/// The grid of a study's folder.
-SettingGrid gridOf(const StudyIdentity& identity);
-
 /// Prints what a chosen point has and costs (`p`), and what the front of `points` has beside it.
 void printChoice(const PointSummary& p, const std::vector<PointSummary>& points, const CostKind& cost);
 

@@ -57,7 +57,7 @@ ReferencePicture readReference(const std::filesystem::path& path) {
   LinearPicture picture = readLinear(path);
   std::ifstream in(path, std::ios::binary);
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  return {std::filesystem::absolute(path).lexically_normal(), sha256(bytes), std::move(picture)};
+  return {std::filesystem::absolute(path).lexically_normal(), sha256(bytes), std::move(picture), VIEW_LIT};
 }
 
 }  // namespace irad

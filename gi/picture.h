@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gi/views/views.h"
 #include "renderer/image_io.h"
 
 namespace irad {
@@ -33,9 +34,10 @@ std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& 
 
 /// A picture by others, which the views of group "Reference" show and compare with.
 struct ReferencePicture {
-  std::filesystem::path path;  ///< absolute
+  std::filesystem::path path;  ///< absolute; empty: it was made here, and is in no file
   std::string sha256;          ///< of the file
   LinearPicture picture;
+  View of = VIEW_LIT;  ///< what it is a picture of
 };
 /// As readLinear() does; InputError.
 ReferencePicture readReference(const std::filesystem::path& path);

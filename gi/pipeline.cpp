@@ -79,6 +79,7 @@ struct Pipeline::Impl {
   Products now;  ///< what pictures are drawn from
   std::optional<ShadowMaps> shadows;
   Image picture;  ///< the reference picture
+  View pictureOf = VIEW_LIT;
 
   Sky sky;                        ///< that the settings ask for
   std::optional<SkySun> sunUsed;  ///< that is among the device's lights
@@ -653,6 +654,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.scene = &p.onDevice;
   if (p.shadows) inputs.shadows = &*p.shadows;
   if (p.picture) inputs.picture = &p.picture;
+  inputs.pictureOf = p.pictureOf;
   if (p.skyOnDevice) inputs.sky = &p.skyOnDevice.record;
   inputs.range = range;
   lightByEmitters(frame, inputs, p.planned.settings(), targets);
@@ -661,7 +663,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   drawView(frame, view, inputs, p.camera, p.planned.settings(), targets);
 }
 
-void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels) {
+void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels, View of) {
   IRAD_CHECK_OP(pixels.size(), ==, size_t{size.x} * size.y);
   ImageDesc desc;
   desc.name = "reference picture";
@@ -669,6 +671,7 @@ void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels) 
   desc.width = size.x;
   desc.height = size.y;
   impl_->picture = Image(impl_->context.device, desc);
+  impl_->pictureOf = of;
   upload(impl_->context, impl_->picture, std::as_bytes(pixels));
 }
 bool Pipeline::knowsIrradiance() const {

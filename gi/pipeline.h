@@ -127,8 +127,9 @@ class Pipeline {
   /// writes back changes no more (docs/method.md 8), or does not settle, or kMost times. Blocking. Must be current().
   WritebackRounds settleReflections(const Camera& camera, Targets& targets, const Progress& progress = {});
 
-  /// The picture that the views of group "Reference" show and compare with: radiance, top row first.
-  void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels);
+  /// The picture that the views of group "Reference" show and compare with: radiance, top row first. `of`: what the
+  /// view `error` compares with it.
+  void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels, View of = VIEW_LIT);
   bool hasReference() const;
   /// Whether it was given what the irradiance should be, for VIEW_REFERENCE.
   bool knowsIrradiance() const;

@@ -61,8 +61,11 @@ Metrics measure(std::span<const glm::vec4> values, std::span<const glm::vec4> re
 }
 
 PictureMetrics measurePicture(glm::uvec2 size, std::span<const glm::vec4> values, std::span<const glm::vec4> reference,
-                              std::span<const glm::vec4> second, double exposure) {
+                              std::span<const glm::vec4> second, std::optional<double> exposure,
+                              std::span<const glm::vec4> error) {
   IRAD_CHECK_OP(values.size(), ==, size_t{size.x} * size.y);
+  IRAD_CHECK(error.empty() || (error.size() == values.size() && !second.empty()), "{} standard errors for {} pixels",
+             error.size(), values.size());
   IRAD_CHECK_OP(reference.size(), ==, values.size());
   const std::span<const glm::vec4> other = second.empty() ? reference : second;
   IRAD_CHECK_OP(other.size(), ==, values.size());
@@ -72,11 +75,11 @@ PictureMetrics measurePicture(glm::uvec2 size, std::span<const glm::vec4> values
   out.pixels = measure(values, middle);
 
   const double epsilon = square(.1 * out.pixels.meanReference);
-  double relative = 0;
+  double relative = 0, variance = 0;
   size_t blocks = 0;
   for (uint32_t y0 = 0; y0 + kBlockSide <= size.y; y0 += kBlockSide)
     for (uint32_t x0 = 0; x0 + kBlockSide <= size.x; x0 += kBlockSide) {
-      glm::dvec3 v(0), r(0), s(0);
+      glm::dvec3 v(0), r(0), s(0), squaredError(0);
       bool whole = true;
       for (uint32_t y = y0; y < y0 + kBlockSide; ++y)
         for (uint32_t x = x0; x < x0 + kBlockSide; ++x) {
@@ -85,23 +88,35 @@ PictureMetrics measurePicture(glm::uvec2 size, std::span<const glm::vec4> values
           v += glm::dvec3(values[i]);
           r += glm::dvec3(reference[i]);
           s += glm::dvec3(other[i]);
+          if (!error.empty()) squaredError += glm::dvec3(error[i]) * glm::dvec3(error[i]);
         }
       if (!whole) continue;
       ++blocks;
       const double n = square(kBlockSide);
       for (int c = 0; c < 3; ++c) {
         const double product = (v[c] - r[c]) * (v[c] - s[c]) / (n * n);
-        if (product != 0) relative += product / (square((r[c] + s[c]) / (2 * n)) + epsilon);
+        const double against = square((r[c] + s[c]) / (2 * n)) + epsilon;
+        if (product != 0) relative += product / against;
+        // product = (v - m)^2 - ((r - s) / 2)^2: normal deviates of variance e^2 both, the first about the difference
+        // d, so that its own variance is 4 d^2 e^2 + 4 e^4.
+        const double e2 = squaredError[c] / (n * n);
+        if (e2 > 0) variance += 4 * e2 * (std::max(product, 0.0) + e2) / square(against);
       }
     }
   out.blockRelMse =
       blocks > 0 ? relative / (3.0 * static_cast<double>(blocks)) : std::numeric_limits<double>::quiet_NaN();
+  if (!error.empty() && blocks > 0)
+    out.blockRelMseHalf = 1.96 * std::sqrt(variance) / (3.0 * static_cast<double>(blocks));
 
+  if (!exposure) {
+    out.flip = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
   const auto exposed = [&](std::span<const glm::vec4> from) {
     std::vector<glm::vec4> to(from.begin(), from.end());
     for (glm::vec4& pixel : to)
       for (int c = 0; c < 3; ++c) {
-        const double value = exposure * static_cast<double>(pixel[c]);
+        const double value = *exposure * static_cast<double>(pixel[c]);
         pixel[c] = std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : value > 0 ? 1.0f : 0.0f;
       }
     return to;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
+#include <optional>
 #include <span>
 
 namespace irad {
@@ -34,10 +36,15 @@ struct PictureMetrics {
   /// is left of whole blocks at the right and below is not looked at, nor are blocks that hold a pixel left out. With a
   /// second reference s: mean (v - r)(v - s) / (m^2 + ...), m = (r + s) / 2. NaN without a block.
   double blockRelMse = 0;
-  double flip = 0;  ///< renderer/flip.h, of linear light times `exposure`, clamped to [0, 1]
+  /// Half of a 95 % interval of blockRelMse by the noise of two references alone; NaN where it is not known.
+  double blockRelMseHalf = std::numeric_limits<double>::quiet_NaN();
+  double flip = 0;  ///< renderer/flip.h, of linear light times `exposure`, clamped to [0, 1]; NaN without one
 };
 inline constexpr uint32_t kBlockSide = 8;
+/// `exposure` none: FLIP, which takes most of the time, is left out. `error`: the standard error of the mean of
+/// reference and second, which have as much noise each.
 PictureMetrics measurePicture(glm::uvec2 size, std::span<const glm::vec4> values, std::span<const glm::vec4> reference,
-                              std::span<const glm::vec4> second = {}, double exposure = 1);
+                              std::span<const glm::vec4> second = {}, std::optional<double> exposure = 1,
+                              std::span<const glm::vec4> error = {});
 
 }  // namespace irad

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "renderer/base/student.h"
 #include "renderer/flip.h"
@@ -76,6 +77,32 @@ TEST(MetricsOfPictures, AreThoseOfTheProjectsPythonTool) {
   EXPECT_NEAR(one.blockRelMse, .24842, 5e-6);
   EXPECT_NEAR(one.pixels.scaledRelMse, .26033, 5e-6);
   EXPECT_NEAR(two.blockRelMse, .25367, 5e-6);
+}
+
+TEST(MetricsOfPictures, IntervalsByTheReferencesNoiseHoldTheTruth) {
+  // A picture a tenth too bright against pairs of references with noise of a known spread: of 95 % intervals about 95
+  // in 100 hold the relMSE against the truth.
+  const glm::uvec2 size(32, 16);
+  const Pixels truth = waves(size, 4);
+  Pixels value = truth;
+  for (glm::vec4& v : value) v = glm::vec4(glm::vec3(v) * 1.1f, 1);
+  const double exact = measurePicture(size, value, truth, {}, std::nullopt).blockRelMse;
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal(0, .3f);
+  const Pixels error(truth.size(), glm::vec4(glm::vec3(.3f / std::sqrt(2.0f)), 1));
+  int held = 0;
+  constexpr int kRounds = 400;
+  for (int round = 0; round < kRounds; ++round) {
+    Pixels a = truth, b = truth;
+    for (Pixels* pixels : {&a, &b})
+      for (glm::vec4& p : *pixels) p += glm::vec4(normal(random), normal(random), normal(random), 0);
+    const PictureMetrics m = measurePicture(size, value, a, b, std::nullopt, error);
+    EXPECT_TRUE(std::isnan(m.flip)) << "not asked for";
+    held += std::abs(m.blockRelMse - exact) <= m.blockRelMseHalf;
+  }
+  // Three standard deviations of the binomial distribution, 1.1 %.
+  EXPECT_NEAR(held, .95 * kRounds, 3 * std::sqrt(.95 * .05 * kRounds));
+  EXPECT_TRUE(std::isnan(measurePicture(size, value, truth).blockRelMseHalf)) << "unknown without standard errors";
 }
 
 TEST(MetricsOfPictures, LeaveOutBlocksThatHoldNoNumber) {

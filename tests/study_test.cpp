@@ -10,10 +10,12 @@
 #include <random>
 
 #include "gi/study/front.h"
+#include "gi/study/loaded.h"
 #include "gi/study/pick.h"
 #include "gi/study/plot.h"
 #include "gi/study/report.h"
 #include "gi/study/results.h"
+#include "gi/study/slope.h"
 #include "gi/study/sweep.h"
 #include "gi/study/tune.h"
 #include "renderer/base/error.h"
@@ -280,6 +282,134 @@ TEST(Picking, TakesTheLeastErrorWithinABudgetOrTheLeastCostForAnError) {
   EXPECT_EQ(pick(points, cost, {.error = .001}), std::nullopt);
   points[1].failure = "no memory";
   EXPECT_EQ(pick(points, cost, {.ms = 1000}), 2u) << "not what could not be computed";
+}
+
+TEST(Slopes, AreThoseOfTheFrontsNextStep) {
+  // Errors fall as cost^-2 from 1 to 2, then as cost^-1; the last is dominated by the second.
+  const std::vector<CostAndError> points{{10, .4}, {20, .1}, {40, .05}, {30, .2}};
+  const Slope first = slopeAt(points, 0);
+  EXPECT_EQ(first.better, std::nullopt);
+  EXPECT_EQ(first.next, 1u);
+  EXPECT_NEAR(first.exponent, 2, 1e-12);
+  EXPECT_NEAR(first.errorFor(points[0], 1), .4 / (1.1 * 1.1), 1e-12) << "one more on ten";
+  EXPECT_NEAR(first.errorFor(points[0], 10), .1, 1e-12) << "the whole step";
+  const Slope last = slopeAt(points, 2);
+  EXPECT_EQ(last.better, std::nullopt);
+  EXPECT_EQ(last.next, std::nullopt) << "nothing is better";
+  const Slope off = slopeAt(points, 3);
+  EXPECT_EQ(off.better, 1u) << "less error for less";
+  EXPECT_EQ(off.next, 2u);
+  EXPECT_NEAR(off.exponent, std::log(4) / std::log(40.0 / 30), 1e-12);
+}
+
+TEST(Slopes, AgreeWithBruteForceOnRandomPoints) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> log(-3, 3);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<CostAndError> points;
+    for (int i = 0; i < 12; ++i) points.push_back({std::exp(log(random)), std::exp(log(random))});
+    for (size_t at = 0; at < points.size(); ++at) {
+      // Better: of those that cost no more the least error. Next: of those with less error than both the cheapest.
+      std::optional<size_t> better, next;
+      for (size_t i = 0; i < points.size(); ++i)
+        if (points[i].cost <= points[at].cost && points[i].error < points[at].error &&
+            (!better || points[i].error < points[*better].error))
+          better = i;
+      const double bar = better ? points[*better].error : points[at].error;
+      for (size_t i = 0; i < points.size(); ++i)
+        if (points[i].error < bar && (!next || points[i].cost < points[*next].cost)) next = i;
+      const Slope slope = slopeAt(points, at);
+      EXPECT_EQ(slope.better, better);
+      EXPECT_EQ(slope.next, next);
+    }
+  }
+}
+
+TEST(Places, AreThePointItselfOrTheNearestInWords) {
+  Settings base;
+  base.matrix.gpu.rays = 64;
+  const SettingGrid grid(kSweep, base);
+  std::vector<Settings> points;
+  for (size_t i = 0; i < grid.size(); ++i) points.push_back(grid.settings(i));
+  std::vector<bool> usable(3, true);
+  Settings now = grid.settings(1);
+  now.view.facet = 7, now.matrix.gpu.seed = 9, now.camera.exposureEv = 2, now.solver.sweepsPerFrame = 3;
+  std::optional<PlaceInStudy> place = placeOf(points, usable, now);
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->point, 1u);
+  EXPECT_TRUE(place->apart.empty()) << "what a picture is shown by and seeds do not count";
+  now.voxel.resolution = 48;  // a factor 1.5 from 32, 1.33 from 64
+  now.matrix.gpu.rays = 128;
+  place = placeOf(points, usable, now);
+  EXPECT_EQ(place->point, 2u);
+  EXPECT_EQ(place->apart,
+            (std::vector<std::string>{"voxel.resolution 64 instead of 48", "matrix.rays 64 instead of 128"}));
+  usable[2] = false;
+  EXPECT_EQ(placeOf(points, usable, now)->point, 1u) << "a point that failed is no place";
+  EXPECT_EQ(placeOf(points, {false, false, false}, now), std::nullopt);
+}
+
+TEST(LoadedStudies, AreWhatTheirFoldersSay) {
+  const TemporaryFolder folder;
+  Settings base;
+  base.matrix.gpu.rays = 96;
+  const std::string identity = R"({"study": "cost", "scene": "a.glb", "scene_sha256": "abc", "device": "D",
+    "view": "indirect", "size": [64, 48], "sweeps": [["voxel.resolution=16,32,64"]], "settings": )" +
+                               settingsToJson(base) + "}";
+  StudyFolder made(folder.path / "study", identity);
+  made.results = someResults();
+  made.results.failures.push_back({2, "no memory"});
+  made.save();
+  LoadedStudy study = loadStudy(folder.path / "study");
+  EXPECT_EQ(study.scene, "a.glb");
+  EXPECT_EQ(study.size, glm::uvec2(64, 48));
+  ASSERT_EQ(study.points.size(), 3u);
+  EXPECT_EQ(study.points[1].label, "voxel.resolution=32");
+  EXPECT_NEAR(study.points[1].relMse.mean, .0101, 1e-15);
+  EXPECT_EQ(study.settings[1].voxel.resolution, 32u);
+  EXPECT_EQ(study.settings[1].matrix.gpu.rays, 96u);
+  EXPECT_EQ(study.measured(), (std::vector<bool>{true, true, false}));
+  EXPECT_TRUE(study.stages.empty());
+
+  // Attribution beside it, or alone: columns by name, rows without a number left out.
+  writeFile(
+      folder.path / "study/attribution.csv",
+      "ms,row,words,relmse,gain\n1,picture,,0.06,\n1,model,,0.01,\n1,voxels,,0.06,0.02\n2,rays,\"a, b\",0.06,0.03\n"
+      "3,rays.bias,,0.06,0.5\n3,sweeps,,0.06,\n3,rest,,0.06,0.9\n");
+  study = loadStudy(folder.path / "study");
+  EXPECT_EQ(study.points.size(), 3u);
+  ASSERT_EQ(study.stages.size(), 3u);
+  EXPECT_EQ(study.stages[0].stage, "rays");
+  EXPECT_EQ(study.stages[0].relMse, .03);
+  EXPECT_EQ(study.stages[2].stage, "model");
+  EXPECT_EQ(study.stages[2].relMse, .01);
+  makeFolder(folder.path / "alone");
+  std::filesystem::copy_file(folder.path / "study/attribution.csv", folder.path / "alone/attribution.csv");
+  study = loadStudy(folder.path / "alone");
+  EXPECT_TRUE(study.points.empty());
+  EXPECT_EQ(study.stages.size(), 3u);
+}
+
+TEST(LoadedStudies, SayWhatIsWrongWithAFolder) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& file, const std::string& text) -> std::string {
+    const fs::path at = folder.path / "study";
+    fs::remove_all(at);
+    makeFolder(at);
+    writeFile(at / file, text);
+    try {
+      loadStudy(at);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_TRUE(contains(refusal("other.txt", ""), "study.json: no such file"));
+  EXPECT_TRUE(contains(refusal("study.json", "[1]"), "expected a JSON object"));
+  EXPECT_TRUE(contains(refusal("study.json", "{}"), "study.json: "));
+  EXPECT_TRUE(contains(refusal("study.json", R"({"settings": {}, "sweeps": [["voxel.resolution=3"]]})"),
+                       "voxel.resolution: '3' is not allowed"));
+  EXPECT_TRUE(contains(refusal("attribution.csv", "stage,error\n"), "attribution.csv: no column 'relmse'"));
 }
 
 TEST(Results, AsTablesNameFailuresAndDominators) {

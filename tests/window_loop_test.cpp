@@ -42,8 +42,8 @@ bool until(const std::function<bool()>& holds) {
   return false;
 }
 
-/// The Box, small, in a window of 1280 x 720 with every panel unfolded, its loop on the test's own thread; the user is
-/// another one. What the user asks of the context must be of the kind that threads may ask.
+/// The Box, small, in a window of 1280 x 720 with every panel but one unfolded, its loop on the test's own thread; the
+/// user is another one. What the user asks of the context must be of the kind that threads may ask.
 class WindowLoop : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -59,7 +59,7 @@ class WindowLoop : public ::testing::Test {
     options_.settings.matrix.gpu.rays = 16;
     options_.preferences = folder_.path / "window.json";
     options_.controls = folder_.path / "controls";
-    std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
+    std::ofstream(options_.preferences) << R"({"format": 1, "folded": ["Accuracy"]})";
   }
   void TearDown() override {
     unsetenv("DISPLAY");
@@ -126,6 +126,7 @@ class WindowLoop : public ::testing::Test {
 };
 
 TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
+  std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
   run([&] {
     // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
     for (const std::string& place : {std::string("360 510"), placeOfSetting(), std::string("800 620")}) {
@@ -163,6 +164,55 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
   EXPECT_GT(asked.draws, 0u);
   EXPECT_EQ(asked.images, 0u);
   EXPECT_EQ(asked.allocations, 0u) << "device memory for a camera";
+}
+
+/// With something to measure and nobody to look at it: no thread, nothing read back, nothing drawn beside the frames.
+TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
+  const glm::uvec2 size(64, 48);
+  options_.reference = ReferencePicture{.path = "/a.exr", .picture = {.size = size}};
+  options_.reference->picture.pixels.assign(size_t{size.x} * size.y, glm::vec4(0.3f, 0.3f, 0.3f, 1));
+  struct Cost {
+    int64_t beside;  ///< submissions that are no frames of the window; the last frame is counted with the next
+    uint64_t images;
+    ptrdiff_t threads;
+  };
+  constexpr int kPictures = 4;
+  const auto threads = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
+  };
+  run([&] {
+    // Of views in turn, each of which is a picture anew.
+    const auto ofPictures = [&] {
+      EXPECT_TRUE(until([&] { return rests(); }));
+      const Counters before = context_->counters();
+      const uint64_t frames = timings_.recorded();
+      const ptrdiff_t had = threads();
+      for (int i = 0; i < kPictures; ++i) {
+        const uint64_t draws = context_->counters().dispatches;
+        screen_->key(i % 2 == 0 ? "2" : "1");
+        EXPECT_TRUE(until([&] { return context_->counters().dispatches > draws; })) << "no picture";
+        pause(0.5);
+      }
+      EXPECT_TRUE(until([&] { return rests(); }));
+      const Counters asked = context_->counters().since(before);
+      return Cost{static_cast<int64_t>(asked.submissions) - static_cast<int64_t>(timings_.recorded() - frames),
+                  asked.images, threads() - had};
+    };
+    const auto free = [&](const char* when) {
+      const Cost folded = ofPictures();
+      EXPECT_LE(std::abs(folded.beside), 1) << when;
+      EXPECT_EQ(folded.images, 0u) << when;
+      EXPECT_EQ(folded.threads, 0) << when;
+    };
+    ofPictures();  // views that were not there before take memory once
+    free("at first");
+    click("Accuracy");
+    screen_->xdotool("mousemove 360 510");
+    EXPECT_GE(ofPictures().beside, kPictures) << "an open one measures each";
+    click("Accuracy");
+    screen_->xdotool("mousemove 360 510");
+    free("folded again");
+  });
 }
 
 TEST_F(WindowLoop, FramesOfBruteForceEndInRestAndBeginAnewFromTheDark) {

@@ -145,7 +145,7 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
 }
 
 TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
-  fold(R"(["View", "Compare", "Solver", "Memory"])");  // the inspector fills its column
+  fold(R"(["Accuracy", "View", "Compare", "Solver", "Memory"])");  // the inspector fills its column
   start();
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));
@@ -195,7 +195,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   const std::filesystem::path scene = folder_.path / "a.glb", sidecar = sidecarPath(scene);
   std::filesystem::copy_file(assets() / "box.glb", scene);
   const std::string sha = sha256File(scene);
-  fold(R"(["Scene", "Settings"])");
+  fold(R"(["Accuracy", "Scene", "Settings"])");
   start({}, scene);
   xdotool("mousemove 360 510");
   ASSERT_TRUE(viewportSettles(lit));

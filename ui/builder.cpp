@@ -107,7 +107,8 @@ void Builder::applyLights() {
 }
 
 void Builder::giveReference(Pipeline& pipeline) {
-  if (session_.reference) pipeline.setReference(session_.reference->picture.size, session_.reference->picture.pixels);
+  if (const auto& reference = session_.reference)
+    pipeline.setReference(reference->picture.size, reference->picture.pixels, reference->of);
 }
 
 void Builder::openPicture(const std::filesystem::path& path) {

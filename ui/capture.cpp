@@ -26,7 +26,7 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
                     .size = session.targets.size,
                     .frames = 1,
                     .cameras = {session.camera.camera()},
-                    .reference = session.reference ? &*session.reference : nullptr,
+                    .reference = session.reference && !session.reference->path.empty() ? &*session.reference : nullptr,
                     .shaders = context.shaders.modified()};
   Targets targets(context, session.targets.size);
   pipeline.solvedAfresh(progress, [&] {

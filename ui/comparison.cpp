@@ -1,5 +1,7 @@
 #include "ui/comparison.h"
 
+#include <cmath>
+
 #include "gi/export.h"
 
 namespace irad {
@@ -20,9 +22,11 @@ void measureComparison(Context& context, Session& session) {
   const auto irradiance = [&](const Pipeline& p) {
     return readVolume(context, Volume::irradiance, p.facets(), p.field(), p.lighting());
   };
-  comparison.result =
-      Comparison::Result{.picture = measure(linearPixels(context, b.targets), linearPixels(context, a.targets)),
-                         .voxels = compareVoxels(irradiance(*b.pipeline), irradiance(*a.pipeline))};
+  const std::optional<double> exposure =
+      comparison.wantFlip ? std::optional(std::exp2(double{session.edited.camera.exposureEv})) : std::nullopt;
+  comparison.result = Comparison::Result{.picture = measurePicture(a.targets.size, linearPixels(context, b.targets),
+                                                                   linearPixels(context, a.targets), {}, exposure),
+                                         .voxels = compareVoxels(irradiance(*b.pipeline), irradiance(*a.pipeline))};
 }
 
 }  // namespace irad

@@ -29,6 +29,7 @@ class Panel {
   X(Effects)           \
   X(View)              \
   X(Compare)           \
+  X(Accuracy)          \
   X(Inspector)         \
   X(Solver)            \
   X(Memory)            \

@@ -41,10 +41,18 @@ void drawPictures(Session& session, Frame& frame) {
     side->pipeline->render(frame, session.shown, session.view, side->targets, range);
     range = &session.targets.viewRange;
   }
-  if (session.comparison) session.comparison->result.reset();
+  if (session.comparison) session.comparison->result.reset(), session.comparison->wantFlip = false;
+  // Beside another view the reference says nothing.
+  if (session.split && (!session.reference || session.view != session.reference->of)) session.split.reset();
+  if (session.split && !session.comparison) {
+    Targets& targets = session.split->targets;
+    if (targets.size != session.targets.size) targets = Targets(session.context, session.targets.size);
+    session.pipeline->render(frame, session.shown, VIEW_REFERENCE_PICTURE, targets);
+  }
   drawDifference(session, frame);
   readRange(session, frame);
   session.viewDirty = false;
+  ++session.pictures;
 }
 
 }  // namespace irad

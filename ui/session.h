@@ -18,6 +18,7 @@
 #include "renderer/scene/scene.h"
 #include "renderer/targets.h"
 #include "shaders/shared/view.h"
+#include "ui/accuracy.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
 #include "ui/inspection.h"
@@ -84,8 +85,8 @@ struct Comparison {
   float split = 0.5f;    ///< share of the viewport's width that is A's
   Targets difference;    ///< B less A, while that is shown
   struct Result {
-    Metrics picture;      ///< of B's linear picture against A's
-    VoxelMetrics voxels;  ///< of B's H against A's
+    PictureMetrics picture;  ///< of B's linear picture against A's; FLIP where it was asked for
+    VoxelMetrics voxels;     ///< of B's H against A's
   };
   /// Whether the side that is not edited shows at this share of the viewport's width.
   bool showsOther(float share) const {
@@ -94,6 +95,13 @@ struct Comparison {
     return a == editsB;
   }
   std::optional<Result> result;  ///< of the pictures as shown, once both sides are asleep
+  bool wantFlip = false;         ///< asked for, until the pictures are others
+};
+
+/// The picture on the left, the reference on the right.
+struct ReferenceSplit {
+  float share = 0.5f;  ///< of the viewport's width that is the picture's
+  Targets targets;     ///< of the view reference-picture
 };
 
 struct Session : Side {
@@ -108,10 +116,13 @@ struct Session : Side {
 
   View view = 0;
   std::optional<ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it
+  std::optional<ReferenceSplit> split;        ///< while there is no comparison
+  Accuracy accuracy;
   FlyCamera camera;
   int sceneCamera = 0;             ///< index into cameras(): which `camera` began as
   Camera shown;                    ///< of the picture in targets
   bool viewDirty = true;           ///< the picture must be rendered again
+  uint64_t pictures = 0;           ///< that were drawn
   View rangeView = 0;              ///< the view that `range` belongs to
   bool rangeOfDifference = false;  ///< of B less A
   std::optional<ViewRange> range;  ///< that the picture in targets was drawn with; none until it has come back

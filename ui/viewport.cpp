@@ -84,10 +84,18 @@ namespace {
 
 /// The picture; in a comparison A's left and B's right part, or one of the two.
 void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
+  const auto both = [&](const Image& left, const Image& right, float split) {
+    const float edge = std::round(split * size.x);
+    if (edge > 0) ImGui::Image(layer.texture(left), {edge, size.y}, {0, 0}, {edge / size.x, 1});
+    ImGui::SetCursorPos({edge, 0});
+    if (edge < size.x) ImGui::Image(layer.texture(right), {size.x - edge, size.y}, {edge / size.x, 0}, {1, 1});
+    ImGui::SetCursorPos({0, 0});
+  };
   if (!session.comparison) {
     if (!session.targets.display) return;
-    ImGui::Image(layer.texture(session.targets.display), size);
-    return ImGui::SetCursorPos({0, 0});
+    const bool split = session.split && session.split->targets.display;
+    return both(session.targets.display, split ? session.split->targets.display : session.targets.display,
+                split ? session.split->share : 1);
   }
   const Image &a = session.sideA().targets.display, &b = session.sideB().targets.display;
   if (!a || !b) return;
@@ -99,17 +107,13 @@ void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
   const float split = comparison.show == Comparison::Show::Split ? comparison.split
                       : comparison.show == Comparison::Show::A   ? 1.0f
                                                                  : 0.0f;
-  const float edge = std::round(split * size.x);
-  if (edge > 0) ImGui::Image(layer.texture(a), {edge, size.y}, {0, 0}, {edge / size.x, 1});
-  ImGui::SetCursorPos({edge, 0});
-  if (edge < size.x) ImGui::Image(layer.texture(b), {size.x - edge, size.y}, {edge / size.x, 0}, {1, 1});
-  ImGui::SetCursorPos({0, 0});
+  both(a, b, split);
 }
 
-/// The line between A and B with their letters; true while it has the mouse.
+/// The line between A and B, or the picture and the reference, with their names; true while it has the mouse.
 bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, bool& dragging) {
-  if (!session.comparison || !session.targets.display) return false;
-  Comparison& comparison = *session.comparison;
+  const bool reference = !session.comparison && session.split && session.split->targets.display;
+  if ((!session.comparison && !reference) || !session.targets.display) return false;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = ImGui::GetFontSize();
   const auto letter = [&](const char* text, float x, bool edited) {
@@ -119,6 +123,25 @@ bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, b
     list.AddText({at.x - half.x / 2, at.y + em * 0.25f}, ImGui::GetColorU32(edited ? theme::accent : theme::text),
                  text);
   };
+  float& split = reference ? session.split->share : session.comparison->split;
+  const auto line = [&](const char* left, bool leftEdited, const char* right, bool rightEdited) {
+    const float x = where.position.x + std::round(split * where.size.x);
+    const bool near = mouse.hovered && std::abs(mouse.position.x - x) < em * 0.5f;
+    if (mouse.pressed) dragging = near;
+    if (!mouse.hovered) dragging = false;
+    if (near || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (dragging && mouse.dragged) split = std::clamp((mouse.position.x - where.position.x) / where.size.x, 0.0f, 1.0f);
+    list.AddLine({x, where.position.y}, {x, where.position.y + where.size.y},
+                 ImGui::GetColorU32(dragging ? theme::accent : theme::text), std::max(1.0f, em / 14));
+    const auto away = [&](const char* text) {
+      return std::max(em * 1.2f, ImGui::CalcTextSize(text).x / 2 + em * 0.8f);
+    };
+    letter(left, x - away(left), leftEdited);
+    letter(right, x + away(right), rightEdited);
+    return dragging || (near && mouse.pressed);
+  };
+  if (reference) return line("picture", false, "reference", false);
+  const Comparison& comparison = *session.comparison;
   if (comparison.show == Comparison::Show::Difference) {
     letter("B \u2212 A", where.position.x + where.size.x / 2, false);
     return false;
@@ -128,18 +151,7 @@ bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, b
     letter(a ? "A" : "B", where.position.x + where.size.x / 2, a != comparison.editsB);
     return false;
   }
-  const float x = where.position.x + std::round(comparison.split * where.size.x);
-  const bool near = mouse.hovered && std::abs(mouse.position.x - x) < em * 0.5f;
-  if (mouse.pressed) dragging = near;
-  if (!mouse.hovered) dragging = false;
-  if (near || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (dragging && mouse.dragged)
-    comparison.split = std::clamp((mouse.position.x - where.position.x) / where.size.x, 0.0f, 1.0f);
-  list.AddLine({x, where.position.y}, {x, where.position.y + where.size.y},
-               ImGui::GetColorU32(dragging ? theme::accent : theme::text), std::max(1.0f, em / 14));
-  letter("A", x - em * 1.2f, !comparison.editsB);
-  letter("B", x + em * 1.2f, comparison.editsB);
-  return dragging || (near && mouse.pressed);
+  return line("A", !comparison.editsB, "B", comparison.editsB);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames while a load or a rebuild runs
 constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
+constexpr double kWatchInterval = 0.2;   ///< seconds between frames while all that goes on is a reference
 constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
 
 /// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
@@ -180,7 +181,7 @@ bool Window::measured() {
 bool Window::working() const {
   return session_.work || session_.openScene || session_.openPicture || session_.capture || session_.captureAll ||
          session_.captureFrame || session_.reloadShaders || session_.rebuild || session_.compare ||
-         session_.inspection.wanted() || builder_.stale() ||
+         session_.inspection.wanted() || session_.accuracy.measuring() || builder_.stale() ||
          (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 
@@ -196,18 +197,21 @@ void Window::wait() {
   const bool hidden = !visible_ && !working();
   const bool typing = ImGui::GetIO().WantTextInput || session_.dialogOpen();  // keys that are held fly nowhere
   const bool idle = settled() && framesLeft_ <= 0 && (typing || !input_.flying()) && options_.exitAfter == 0;
-  const bool blinks = idle && ImGui::GetIO().WantTextInput;  // the text cursor
+  const bool blinks = idle && ImGui::GetIO().WantTextInput;     // the text cursor
+  const bool watches = idle && session_.accuracy.tracingNow();  // its progress
   if (hidden)
     glfwWaitEventsTimeout(kHiddenInterval);
   else if (!idle)
     glfwPollEvents();
+  else if (watches)
+    glfwWaitEventsTimeout(kWatchInterval);
   else if (blinks)
     glfwWaitEventsTimeout(0.4);
   else
     glfwWaitEvents();
   if (input_.takeEvent())
     framesLeft_ = kFramesPerEvent;
-  else if (blinks || hidden)
+  else if (blinks || watches || hidden)
     framesLeft_ = 1;
 }
 
@@ -256,6 +260,7 @@ void Window::takeRequests() {
 void Window::frame() {
   builder_.apply(/*held=*/ImGui::IsAnyItemActive());
   if (session_.inspection.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
+  if (session_.accuracy.serve(session_)) framesLeft_ = std::max(framesLeft_, kFramesPerEvent);
   fly();  // first: on a slow machine the keys of a flight and the key that saves arrive together
   capture();
   // The pipelines that stood in until the variants came may have shown an effect that is switched off.
@@ -373,6 +378,7 @@ void Window::drawFrame() {
   // Drawn first: among windows that focus does not raise, ImGui keeps the order in which they were drawn.
   if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
   viewport_.draw(session_, layer_, where.viewport);
+  session_.accuracy.open = false;
   if (!session_.hideUi) drawPanels(session_, panels_, where);
   drawBanner(session_, where.viewport);
   drawMessages(session_, where.viewport);

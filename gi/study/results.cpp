@@ -109,6 +109,18 @@ GridTexts gridsOf(const StudyIdentity& identity) {
   }
 }
 
+SettingGrid gridOf(const StudyIdentity& identity) {
+  try {
+    Settings base;
+    settingsFromJson(base, nlohmann::ordered_json::parse(identity).at("settings").dump());
+    return {gridsOf(identity), base};
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("study.json: {}", error.what()));
+  } catch (const UsageError& error) {
+    throw InputError(fmt::format("study.json: {}", error.what()));
+  }
+}
+
 namespace {
 
 StudyIdentity withGrids(const StudyIdentity& identity, const GridTexts& grids) {

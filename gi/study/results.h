@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gi/study/sweep.h"
 #include "renderer/base/student.h"
 #include "renderer/metrics.h"
 
@@ -47,7 +48,8 @@ struct PeerRow {
 /// "sweeps" holds the grids (SettingGrid::texts).
 using StudyIdentity = std::string;
 using GridTexts = std::vector<std::vector<std::string>>;
-GridTexts gridsOf(const StudyIdentity& identity);  ///< InputError where it has none
+GridTexts gridsOf(const StudyIdentity& identity);   ///< InputError where it has none
+SettingGrid gridOf(const StudyIdentity& identity);  ///< the points of these; InputError as well
 
 struct StudyResults {
   std::vector<ErrorRow> errors;

@@ -61,7 +61,7 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   if (info.shape) {
     drawVoxels(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_PICTURE)) {
-    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, VIEW_LIT, inputs, camera, settings, targets);
+    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, inputs.pictureOf, inputs, camera, settings, targets);
     drawReference(frame, info, inputs, targets);
   } else if (info.isFrom(FROM_SHADOW_MAPS)) {
     drawShadowView(frame, info, inputs, camera, settings, targets);

@@ -33,6 +33,7 @@ struct ViewInputs {
   const Buffer* reference = nullptr;                     ///< vec4 per facet: H by the oracle, W/m^2
   const ShadowMaps* shadows = nullptr;
   const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
+  View pictureOf = VIEW_LIT;       ///< the view that it is a picture of
   const Buffer* sky = nullptr;     ///< a SkyPicture
   ViewFields* fields = nullptr;    ///< of `facets`
   const Buffer* range = nullptr;   ///< a ViewRange to draw with in place of the picture's own

@@ -90,7 +90,7 @@ IRAD_FN bool viewHasSign(uint kind) {
   X(SHADOW_MAP,         31, "shadow-map",          "Shadow map of a light",                "m",           "Lights",    SCALAR,       0.0f,   0.0f, NONE,       FROM_SHADOW_MAPS) \
   X(SHADOW,             32, "shadow",              "Share of a light that arrives",        "",            "Lights",    SCALAR,       0.0f,   1.0f, NONE,       FROM_TARGETS | FROM_SHADOW_MAPS) \
   X(REFERENCE_PICTURE,  33, "reference-picture",   "Reference picture",                    "W/(m^2 sr)",  "Reference", LIGHT,        0.0f,   1.0f, NONE,       FROM_PICTURE) \
-  X(ERROR,              34, "error",               "Relative error of lit, signed",        "",            "Reference", SIGNED,      -0.5f,   0.5f, NONE,       FROM_TARGETS | FROM_PICTURE) \
+  X(ERROR,              34, "error",               "Relative error, signed",               "",            "Reference", SIGNED,      -0.5f,   0.5f, NONE,       FROM_TARGETS | FROM_PICTURE) \
   X(MATRIX_ROW,         35, "matrix-row",          "Matrix row: F to each facet",          "",            "Matrix",    SCALAR,       0.0f,   0.0f, CUBES,      FROM_MATRIX_ROW) \
   X(STANDARD_ERROR,     36, "standard-error",      "Voxels: standard error of H",          "W/m^2",       "Voxels",    SCALAR,       0.0f,   0.0f, CUBES,      FROM_STANDARD_ERROR) \
   X(WRITEBACK,          37, "writeback",           "Voxels: reflections written back W",   "W/m^2",       "Writeback", IRRADIANCE,   0.0f,   1.0f, CUBES,      FROM_WRITTEN) \

@@ -5,6 +5,7 @@
 
 #include "ui/comparison.h"
 #include "ui/imgui.h"
+#include "ui/metric_rows.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
@@ -98,12 +99,12 @@ class ComparePanel : public Panel {
     ImGui::EndTable();
   }
 
-  static void drawResult(const Comparison& comparison, View view) {
+  static void drawResult(Comparison& comparison, View view) {
     if (!comparison.result) {
       ImGui::TextColored(theme::dim, "numbers: once both sides are asleep");
       return;
     }
-    const Comparison::Result& result = *comparison.result;
+    const Comparison::Result result = *comparison.result;
     const char* unit = "";
     for (const ViewInfo& info : views())
       if (info.view == view) unit = info.unit;
@@ -112,7 +113,6 @@ class ComparePanel : public Panel {
     ImGui::TableSetupColumn("picture");
     ImGui::TableSetupColumn("H of voxels");
     ImGui::TableHeadersRow();
-    const Metrics &p = result.picture, &v = result.voxels.irradiance;
     const auto row = [](const char* name, const std::string& picture, const std::string& voxels,
                         const std::string& help) {
       ImGui::TableNextColumn();
@@ -123,16 +123,11 @@ class ComparePanel : public Panel {
       ImGui::TableNextColumn();
       rightText(voxels);
     };
-    const auto decibels = [](double psnr) {
-      return std::isinf(psnr) ? std::string("\u2014") : fmt::format("{:.1f} dB", psnr);
-    };
-    const std::string units = fmt::format("Picture: {}. Voxels: W/m\u00B2.", *unit ? prettyUnit(unit) : "no unit");
-    row("RMSE", shortNumber(p.rmse), shortNumber(v.rmse), "Root of the mean squared difference. " + units);
-    row("relMSE", shortNumber(p.relMse), shortNumber(v.relMse),
-        fmt::format("Mean of (B \u2212 A)\u00B2 / (A\u00B2 + {})", kRelMseEpsilon));
-    row("PSNR", decibels(p.psnr), decibels(v.psnr), "20 log10(largest A / RMSE); \u2014: equal");
-    row("mean error", shortNumber(p.meanError), shortNumber(v.meanError), "Mean of B \u2212 A: signed. " + units);
-    row("largest", shortNumber(p.largest), shortNumber(v.largest), "Of |B \u2212 A|. " + units);
+    const std::vector<MetricRow> picture = metricRows(result.picture, "B", "A", prettyUnit(unit)),
+                                 voxels = metricRows(result.voxels.irradiance, "B", "A", "W/m\u00B2");
+    for (size_t i = 0; i < picture.size(); ++i)
+      row(picture[i].name, picture[i].text, voxels[i].text, picture[i].help + (*unit ? " Voxels: in W/m\u00B2." : ""));
+    const Metrics &p = result.picture.pixels, &v = result.voxels.irradiance;
     row("compared", withThousands(p.elements), withThousands(v.elements),
         fmt::format(
             "Pixels, and voxels that are solid on both sides; {} only in A, {} only in B; left out for what is no "
@@ -140,6 +135,12 @@ class ComparePanel : public Panel {
             withThousands(result.voxels.onlyReference), withThousands(result.voxels.onlyValues),
             withThousands(p.leftOut), withThousands(v.leftOut)));
     ImGui::EndTable();
+    if (std::isfinite(result.picture.flip)) return;
+    if (ImGui::Button("FLIP", {-1, 0})) {
+      comparison.wantFlip = true;
+      comparison.result.reset();
+    }
+    helpTooltip("Takes a moment: the picture is filtered as the eye does");
   }
 };
 

@@ -143,10 +143,10 @@ class ViewPanel : public Panel {
     if (info.isFrom(FROM_PICTURE) && !pipeline.hasReference())
       note("There is no picture to compare with: drop an .exr, or drop an .exr or .hdr on the window.");
     else if (info.isFrom(FROM_PICTURE) && info.isFrom(FROM_TARGETS))
-      note(
-          fmt::format("(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of lit and reference, from the reference's "
-                      "camera; its mean square is relMSE.",
-                      VIEW_ERROR_EPSILON));
+      note(fmt::format(
+          "(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of picture and reference, from the reference's "
+          "camera; its mean square is relMSE.",
+          VIEW_ERROR_EPSILON));
     else if (const std::string missing = whatIsMissing(info, pipeline.obeyed()); !missing.empty())
       note(missing);
     else if (info.isFrom(FROM_MATRIX_ROW))
