@@ -13,7 +13,7 @@ namespace {
 
 /// Entries per row up to which a GPU is faster with an invocation per row: row over subgroup took .63 and .66 of a
 /// relight's time with 22 and 19 entries, .92 with 51, 1.0 with 60, 1.2 and 1.4 with 125 and 166 (H200, Sponza, park
-/// and Box, docs/performance.md).
+/// and Box, docs/accuracy.md).
 constexpr double kShortRow = 56;
 
 SolverKernel chooseKernel(const Device& device, const FacetList& facets, const FormFactors& matrix,
