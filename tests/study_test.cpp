@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "gi/study/front.h"
+#include "gi/study/html.h"
 #include "gi/study/loaded.h"
 #include "gi/study/pick.h"
 #include "gi/study/plot.h"
@@ -507,6 +509,19 @@ TEST(Reports, StandByThemselves) {
     EXPECT_TRUE(contains(html, "Equal time"));
     EXPECT_TRUE(contains(html, "href=\"data:image/png;base64,iVBORw0KGgo")) << "PNG's first bytes";
   }
+}
+
+TEST(Reports, ShowPicturesOfBuildsThatWriteNoPng) {
+  TemporaryFolder folder;
+  std::vector<uint8_t> pixels(18);
+  std::iota(pixels.begin(), pixels.end(), uint8_t{1});
+  writeNpy<uint8_t>(folder.path / "p.npy", {2, 3, 3}, pixels);
+  const PicturePart all{{3, 2}, {0, 0}, {3, 2}};
+  // A bitmap: the last row first, blue before red, rows filled up to four bytes.
+  EXPECT_TRUE(contains(htmlFigure(folder.path / "p", all, "p"),
+                       "href=\"data:image/bmp;base64,Qk1OAAAAAAAAADYAAAAoAAAAAwAAAAIAAAABABgAAAAAAAAAAAAAAAAAAAAA"
+                       "AAAAAAAAAAAADAsKDw4NEhEQAAAAAwIBBgUECQgHAAAA\""));
+  EXPECT_EQ(htmlFigure(folder.path / "q", all, "p"), "");
 }
 
 TEST(Reports, OpenInABrowser) {

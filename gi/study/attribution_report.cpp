@@ -177,7 +177,7 @@ std::string attributionReport(const Attribution& a, const std::vector<std::strin
   }
   html += "</table>\n<h2>Pictures</h2>\n<div class=\"crops\">\n";
   for (const auto& [name, caption] : pictures)
-    html += htmlFigure(folder / "pictures" / (name + ".png"), {pictureSize, {0, 0}, pictureSize}, caption);
+    html += htmlFigure(folder / "pictures" / name, {pictureSize, {0, 0}, pictureSize}, caption);
   html += "</div>\n";
   return htmlPage("Where the error comes from", facts, html);
 }

@@ -24,6 +24,39 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
+std::string fileText(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The bytes of an .npy file's picture, height x width x 3, as a .bmp, which browsers show.
+std::string bitmapOf(const std::string& npy, glm::uvec2 size) {
+  const size_t row = size_t{3} * size.x, padded = (row + 3) / 4 * 4;
+  if (npy.size() < row * size.y) return "";
+  std::string out = "BM";
+  const auto put = [&](uint32_t value, size_t bytes) {
+    for (size_t i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 255);
+  };
+  put(static_cast<uint32_t>(54 + padded * size.y), 4), put(0, 4), put(54, 4);  // the file's size, where pixels begin
+  put(40, 4), put(size.x, 4), put(size.y, 4), put(1, 2), put(24, 2);           // one plane, bits per pixel
+  for (size_t i = 0; i < 6; ++i) put(0, 4);                                    // not compressed, no palette
+  const size_t head = npy.size() - row * size.y;
+  for (size_t y = size.y; y-- > 0;) {
+    for (size_t x = 0; x < size.x; ++x)
+      for (size_t c = 3; c-- > 0;) out += npy[head + y * row + 3 * x + c];
+    out.append(padded - row, '\0');
+  }
+  return out;
+}
+
+/// As a data URI; empty where there is none.
+std::string pictureUri(const std::filesystem::path& stem, glm::uvec2 size) {
+  if (const std::string png = fileText(stem.string() + ".png"); !png.empty())
+    return "data:image/png;base64," + base64(png);
+  const std::string bitmap = bitmapOf(fileText(stem.string() + ".npy"), size);
+  return bitmap.empty() ? "" : "data:image/bmp;base64," + base64(bitmap);
+}
+
 const char* const kStyle =
     "body{font:15px/1.5 Inter,'DejaVu Sans',Helvetica,Arial,sans-serif;color:#222;background:#fff;max-width:1180px;"
     "margin:32px auto;padding:0 24px}h1{font-size:26px}h2{font-size:20px;margin-top:36px}h3{font-size:16px}"
@@ -52,17 +85,15 @@ std::string htmlList(const std::vector<std::string>& items) {
   return out + "</ul>\n";
 }
 
-std::string htmlFigure(const std::filesystem::path& png, const PicturePart& part, const std::string& caption) {
-  std::ifstream in(png, std::ios::binary);
-  if (!in || part.size.x == 0) return "";
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+std::string htmlFigure(const std::filesystem::path& stem, const PicturePart& part, const std::string& caption) {
+  const std::string uri = part.size.x > 0 ? pictureUri(stem, part.picture) : "";
+  if (uri.empty()) return "";
   const uint32_t zoom = std::max(2u, 224 / part.size.x);
   return fmt::format(
       "<figure><svg viewBox=\"{} {} {} {}\" width=\"{}\" height=\"{}\" role=\"img\"><image width=\"{}\" height=\"{}\" "
-      "href=\"data:image/png;base64,{}\" style=\"image-rendering:pixelated\"/></svg><figcaption>{}</figcaption>"
-      "</figure>\n",
+      "href=\"{}\" style=\"image-rendering:pixelated\"/></svg><figcaption>{}</figcaption></figure>\n",
       part.at.x, part.at.y, part.size.x, part.size.y, zoom * part.size.x, zoom * part.size.y, part.picture.x,
-      part.picture.y, base64(bytes), escapeXml(caption));
+      part.picture.y, uri, escapeXml(caption));
 }
 
 }  // namespace irad

@@ -17,7 +17,8 @@ std::string htmlList(const std::vector<std::string>& items);  ///< of plain text
 struct PicturePart {
   glm::uvec2 picture{0}, at{0}, size{0};
 };
-/// A PNG file, in the page itself, at least twice as large, with its caption; empty where it is not there.
-std::string htmlFigure(const std::filesystem::path& png, const PicturePart& part, const std::string& caption);
+/// A picture as writeDisplay() has left it (.png or .npy beside `stem`), in the page itself, at least twice as large,
+/// with its caption; empty where it is not there.
+std::string htmlFigure(const std::filesystem::path& stem, const PicturePart& part, const std::string& caption);
 
 }  // namespace irad

@@ -104,7 +104,7 @@ std::string finding(const CostKind& cost, const std::vector<PointSummary>& point
 
 std::string reportCrop(const fs::path& folder, const std::string& name, const std::string& caption,
                        const ReportNotes& notes) {
-  return htmlFigure(folder / "pictures" / (name + ".png"), {notes.pictureSize, notes.cropAt, notes.cropSize}, caption);
+  return htmlFigure(folder / "pictures" / name, {notes.pictureSize, notes.cropAt, notes.cropSize}, caption);
 }
 
 namespace {
