@@ -27,26 +27,6 @@ constexpr uint64_t kUsualSamples = 256;
 /// Raised when the path tracer gives other samples, so that states from before are not continued.
 constexpr int kTracer = 1;
 
-std::vector<glm::vec4> pixelsOf(const std::vector<glm::dvec3>& values) {
-  std::vector<glm::vec4> out;
-  out.reserve(values.size());
-  for (const glm::dvec3& v : values) out.emplace_back(glm::vec3(v), 1.0f);
-  return out;
-}
-
-/// The root of the mean over pixels and channels of (standard error)^2 / (value^2 + (mean / 10)^2).
-double relativeError(const TracedLight& light) {
-  const glm::dvec3& m = light.pictureMean;
-  const double mean = (m.x + m.y + m.z) / 3, eps = 0.01 * mean * mean;
-  if (!(mean > 0)) return 0;
-  double sum = 0;
-  for (size_t i = 0; i < light.mean.size(); ++i) {
-    const glm::dvec3 e2 = light.error[i] * light.error[i], v2 = light.mean[i] * light.mean[i];
-    for (int c = 0; c < 3; ++c) sum += e2[c] / (v2[c] + eps);
-  }
-  return std::sqrt(sum / 3 / static_cast<double>(light.mean.size()));
-}
-
 /// All that the samples depend on.
 Json madeOf(const Scene& scene, const Settings& settings, const Camera& camera, const TraceOptions& options) {
   Json made;
@@ -117,7 +97,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
   const auto measure = [&] {
     if (!task.noise || sums.samples < kFewestSamples) return;
     const TracedPicture p = pictureOf(sums);
-    noise = relativeError(layerOf(p, task.layers[0]));
+    noise = relativeNoise(layerOf(p, task.layers[0]));
   };
   measure();
   while (sums.samples < 2 || !goal.reached(sums.samples, noise)) {
@@ -145,7 +125,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
     bounceErrors.push_back(light.pictureError);
   }
   const TracedLight& first = layerOf(picture, task.layers[0]);
-  const double relative = relativeError(first), rate = static_cast<double>(sums.rays) * 1e-6 / sums.seconds;
+  const double relative = relativeNoise(first), rate = static_cast<double>(sums.rays) * 1e-6 / sums.seconds;
   const bool whole = !interrupts.came() || goal.reached(sums.samples, noise);
 
   save();

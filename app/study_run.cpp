@@ -43,12 +43,6 @@ void writePng(const fs::path& stem, glm::uvec2 size, const LinearPixels& linear,
   writeDisplay(stem, size, bytes);
 }
 
-LinearPixels toPixels(const std::vector<glm::dvec3>& light) {
-  LinearPixels out;
-  for (const glm::dvec3& pixel : light) out.emplace_back(glm::vec3(pixel), 1);
-  return out;
-}
-
 /// A third of the picture's width and height, 16 to 128 pixels, where the truth has most contrast.
 void chooseCrop(const Truth& truth, ReportNotes& notes) {
   notes.pictureSize = truth.size;
@@ -168,8 +162,8 @@ void StudyRun::makeTruth() {
     session_.progress("reference", 0);
     if (task_.truth.samples) {
       const TracedPicture picture = trace(*task_.truth.samples, 1);
-      writeLinear(out / "reference.a", task_.size, toPixels(lightOf(picture).half[0]));
-      writeLinear(out / "reference.b", task_.size, toPixels(lightOf(picture).half[1]));
+      writeLinear(out / "reference.a", task_.size, pixelsOf(lightOf(picture).half[0]));
+      writeLinear(out / "reference.b", task_.size, pixelsOf(lightOf(picture).half[1]));
     } else {
       Settings settings = *task_.truth.settings;
       for (const char* half : {"reference.a", "reference.b"}) {
@@ -354,7 +348,7 @@ void StudyRun::measurePeers() {
     const uint32_t samples = task_.peerSamples[i];
     if (folder_->results.hasPeer(kPathTracer, samples)) continue;
     const TracedPicture picture = trace(samples, 1000 + i);  // other samples than the truth's
-    const LinearPixels pixels = toPixels(lightOf(picture).mean);
+    const LinearPixels pixels = pixelsOf(lightOf(picture).mean);
     const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
     folder_->results.peers.push_back({kPathTracer, samples, picture.seconds, m.blockRelMse, m.pixels.rmse,
                                       m.pixels.meanError, m.pixels.psnr, m.flip});

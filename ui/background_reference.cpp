@@ -18,25 +18,6 @@ double secondsSince(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-std::vector<glm::vec4> pixelsOf(const std::vector<glm::dvec3>& light) {
-  std::vector<glm::vec4> out;
-  out.reserve(light.size());
-  for (const glm::dvec3& value : light) out.emplace_back(glm::vec3(value), 1.0f);
-  return out;
-}
-
-/// As `irad reference` has it (docs/accuracy.md): the root of the mean of error^2 / (value^2 + (mean / 10)^2).
-double noiseOf(const TracedLight& light) {
-  const glm::dvec3& m = light.pictureMean;
-  const double epsilon = std::pow(0.1 * (m.x + m.y + m.z) / 3, 2);
-  double sum = 0;
-  for (size_t i = 0; i < light.mean.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      if (light.error[i][c] > 0)
-        sum += light.error[i][c] * light.error[i][c] / (light.mean[i][c] * light.mean[i][c] + epsilon);
-  return std::sqrt(sum / (3.0 * static_cast<double>(light.mean.size())));
-}
-
 }  // namespace
 
 struct BackgroundReference::Shared {
@@ -70,7 +51,7 @@ struct BackgroundReference::Shared {
     made->samples = picture.samples;
     made->mean = pixelsOf(light.mean), made->error = pixelsOf(light.error);
     made->halves = {pixelsOf(light.half[0]), pixelsOf(light.half[1])};
-    made->noise = noiseOf(light);
+    made->noise = relativeNoise(light);
     const std::lock_guard lock(mutex);
     best = std::move(made), taken = false;
   }

@@ -53,4 +53,22 @@ TracedPicture PathTracer::render(const Camera& camera, glm::uvec2 size, const Tr
   return pictureOf(sums);
 }
 
+std::vector<glm::vec4> pixelsOf(const std::vector<glm::dvec3>& light) {
+  std::vector<glm::vec4> out;
+  out.reserve(light.size());
+  for (const glm::dvec3& value : light) out.emplace_back(glm::vec3(value), 1.0f);
+  return out;
+}
+
+double relativeNoise(const TracedLight& light) {
+  const glm::dvec3& m = light.pictureMean;
+  const double mean = (m.x + m.y + m.z) / 3, epsilon = 0.01 * mean * mean;
+  if (!(mean > 0)) return 0;
+  double sum = 0;
+  for (size_t i = 0; i < light.mean.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      sum += light.error[i][c] * light.error[i][c] / (light.mean[i][c] * light.mean[i][c] + epsilon);
+  return std::sqrt(sum / (3.0 * static_cast<double>(light.mean.size())));
+}
+
 }  // namespace irad

@@ -83,6 +83,11 @@ struct TracedSums {
 };
 /// Their means and standard errors; at least two samples.
 TracedPicture pictureOf(const TracedSums& sums);
+/// As pictures are, with w = 1.
+std::vector<glm::vec4> pixelsOf(const std::vector<glm::dvec3>& light);
+/// The root of the mean over pixels and channels of error^2 / (value^2 + (mean / 10)^2): sqrt(relMSE) that the picture
+/// has from its own noise; 0 of a black one.
+double relativeNoise(const TracedLight& light);
 
 class PathTracer {
  public:
