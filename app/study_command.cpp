@@ -1,6 +1,6 @@
-// `irad study`: what accuracy costs. `cost` measures error, time and memory over a grid of settings; `attribution` splits
-// one point's error among the stages; `rq1` to `thesis` are the thesis's experiments; `merge` puts the shards of a study
-// together; `pick` chooses settings by a budget, among points that were measured.
+// `irad study`: what accuracy costs. `cost` measures error, time and memory over a grid of settings; `attribution`
+// splits one point's error among the stages; `rq1` to `thesis` are the thesis's experiments; `merge` puts the shards of
+// a study together; `pick` chooses settings by a budget, among points that were measured.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
