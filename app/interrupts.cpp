@@ -25,6 +25,10 @@ StopOnSignal::~StopOnSignal() {
   stoppedBy = 0;
 }
 
+bool StopOnSignal::came() const {
+  return stoppedBy != 0;
+}
+
 void throwIfStopped() {
   if (stoppedBy != 0) throw WorkError("stopped by a signal; the same command goes on from here");
 }

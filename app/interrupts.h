@@ -12,6 +12,7 @@ class StopOnSignal {
   StopOnSignal();
   ~StopOnSignal();
   StopOnSignal(const StopOnSignal&) = delete;
+  bool came() const;  ///< since it began
 
  private:
   struct sigaction interrupt_ {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/device_session.h"
+#include "app/interrupts.h"
 #include "app/reference_task.h"
 #include "gi/check/exact_solve.h"
 #include "gi/facets.h"
@@ -64,7 +65,7 @@ void solveMatrix(const Arguments& arguments, const Task& task, DeviceSession& se
   if (session.settings.effects.matrix == EffectMode::automatic) session.settings.effects.matrix = EffectMode::on;
   beginFiles(task);
   const auto start = std::chrono::steady_clock::now();
-  const Interrupts interrupts;
+  const StopOnSignal interrupts;
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
   session.prepare(pipeline);
   if (!pipeline.matrix() || !pipeline.lighting())

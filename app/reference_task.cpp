@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +27,6 @@ std::string checked(const char* what, const std::string& name, const std::vector
         fmt::format("{}: unknown '{}'{}; there are {}", what, name, suggestion(name, known), fmt::join(known, ", ")));
   return name;
 }
-
-volatile sig_atomic_t interruptedBy = 0;
 
 }  // namespace
 
@@ -74,30 +71,6 @@ Task taskOf(const Arguments& arguments) {
   task.config = arguments.settings.readConfig();
   task.size = arguments.picture.resolveSize(task.config);
   return task;
-}
-
-struct Interrupts::Before {
-  struct sigaction interrupt {
-  }, terminate{};
-};
-
-Interrupts::Interrupts() : before_(std::make_unique<Before>()) {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { interruptedBy = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigemptyset(&action.sa_mask);
-  interruptedBy = 0;
-  ::sigaction(SIGINT, &action, &before_->interrupt);
-  ::sigaction(SIGTERM, &action, &before_->terminate);
-}
-
-Interrupts::~Interrupts() {
-  ::sigaction(SIGINT, &before_->interrupt, nullptr);
-  ::sigaction(SIGTERM, &before_->terminate, nullptr);
-}
-
-bool Interrupts::came() const {
-  return interruptedBy != 0;
 }
 
 double Goal::elapsed() const {

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -55,19 +54,6 @@ struct Task {
   std::filesystem::path beside(const char* extension) const { return stem.string() + extension; }
 };
 Task taskOf(const Arguments& arguments);
-
-/// Ctrl+C and SIGTERM: the pass in hand is finished, and what there is written. A second one ends the program at once.
-class Interrupts {
- public:
-  Interrupts();
-  ~Interrupts();
-  Interrupts(const Interrupts&) = delete;
-  bool came() const;
-
- private:
-  struct Before;
-  std::unique_ptr<Before> before_;
-};
 
 /// How much of the work is done by what a run may end at, and how long the rest takes.
 class Goal {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/device_session.h"
+#include "app/interrupts.h"
 #include "app/reference_task.h"
 #include "app/version.h"
 #include "gi/check/path_state.h"
@@ -91,7 +92,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
   const auto tracer = makePathTracer(scene, makeSky(settings.sky, skyInputs(scene, scene.lights)));
   const uint64_t most = task.spp || task.seconds || task.noise ? task.spp.value_or(0) : kUsualSamples;
   const auto save = [&] { writeSums(task.beside(".state"), {made.dump(), sums}); };
-  const Interrupts interrupts;
+  const StopOnSignal interrupts;
   const Goal goal(task, most, before);
   double noise = std::numeric_limits<double>::infinity(), saved = 0;
   const auto measure = [&] {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/device_session.h"
+#include "app/interrupts.h"
 #include "app/reference_task.h"
 #include "gi/check/frames_state.h"
 #include "gi/facets.h"
@@ -80,7 +81,7 @@ void traceVoxels(const Arguments& arguments, const Task& task, DeviceSession& se
   beginFiles(task);
 
   Pipeline pipeline(*session.context, std::move(scene), settings);
-  const Interrupts interrupts;
+  const StopOnSignal interrupts;
   const Goal goal(task, frames, before);
   double saved = 0;
   const auto save = [&] {

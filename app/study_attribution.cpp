@@ -440,13 +440,6 @@ void writeDifference(const fs::path& stem, glm::uvec2 size, const LinearPixels& 
   writeDisplay(stem, size, bytes);
 }
 
-void writeAsShown(const fs::path& stem, glm::uvec2 size, const LinearPixels& pixels, float exposure) {
-  std::vector<glm::u8vec4> bytes;
-  for (const glm::vec4& p : pixels)
-    bytes.emplace_back(glm::u8vec3(glm::round(255.0f * encodeSrgb(glm::vec3(p) * exposure))), 255);
-  writeDisplay(stem, size, bytes);
-}
-
 }  // namespace
 
 void AttributionArguments::declare(Options& options) {

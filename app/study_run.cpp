@@ -29,20 +29,6 @@ namespace fs = std::filesystem;
 
 const char* const kPathTracer = "path-tracer";
 
-/// As a screen shows it without a tone curve, which is what FLIP compares.
-void writePng(const fs::path& stem, glm::uvec2 size, const LinearPixels& linear, float exposure) {
-  std::vector<glm::u8vec4> bytes;
-  for (const glm::vec4& pixel : linear) {
-    glm::u8vec4 out(255);
-    for (int c = 0; c < 3; ++c) {
-      const float x = pixel[c] * exposure;
-      out[c] = std::isnan(x) ? 0 : static_cast<uint8_t>(std::lround(255 * encodeSrgb(x)));
-    }
-    bytes.push_back(out);
-  }
-  writeDisplay(stem, size, bytes);
-}
-
 /// A third of the picture's width and height, 16 to 128 pixels, where the truth has most contrast.
 void chooseCrop(const Truth& truth, ReportNotes& notes) {
   notes.pictureSize = truth.size;
@@ -66,6 +52,19 @@ void chooseCrop(const Truth& truth, ReportNotes& notes) {
 }
 
 }  // namespace
+
+void writeAsShown(const fs::path& stem, glm::uvec2 size, const LinearPixels& linear, float exposure) {
+  std::vector<glm::u8vec4> bytes;
+  for (const glm::vec4& pixel : linear) {
+    glm::u8vec4 out(255);
+    for (int c = 0; c < 3; ++c) {
+      const float x = pixel[c] * exposure;
+      out[c] = std::isnan(x) ? 0 : static_cast<uint8_t>(std::lround(255 * encodeSrgb(x)));
+    }
+    bytes.push_back(out);
+  }
+  writeDisplay(stem, size, bytes);
+}
 
 LinearPixels Truth::mean() const {
   LinearPixels out = first;
@@ -103,7 +102,7 @@ StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyT
   bench_.emplace(*session_.context, scene_, grid_.settings(0), task_.size, task_.view.view, task_.camera);
   exposure_ = std::exp2(grid_.base().camera.exposureEv);
   makeTruth();
-  writePng(task_.out / "pictures" / kReferenceName, task_.size, truth_.mean(), exposure_);
+  writeAsShown(task_.out / "pictures" / kReferenceName, task_.size, truth_.mean(), exposure_);
 }
 
 void StudyRun::measure() {
@@ -148,17 +147,13 @@ std::string TruthSource::name() const {
 /// What is computed is two pictures of independent noise, kept in the folder.
 void StudyRun::makeTruth() {
   const fs::path& out = task_.out;
-  const auto fileOf = [&](const char* half) {
-    for (const char* extension : {".exr", ".pfm"})
-      if (const fs::path file = out / (half + std::string(extension)); fs::exists(file)) return file;
-    return fs::path();
-  };
+  const auto fileOf = [&](const char* half) { return out / (half + std::string(linearExtension())); };
   if (task_.truth.file) {
     truth_.first = task_.truth.file->picture.pixels;
     if (task_.truth.secondFile) truth_.second = task_.truth.secondFile->picture.pixels;
     return;
   }
-  if (fileOf("reference.a").empty() || fileOf("reference.b").empty()) {
+  if (!fs::exists(fileOf("reference.a")) || !fs::exists(fileOf("reference.b"))) {
     session_.progress("reference", 0);
     if (task_.truth.samples) {
       const TracedPicture picture = trace(*task_.truth.samples, 1);
@@ -287,7 +282,7 @@ void StudyRun::measureError(size_t point, const Settings& settings, bool keepPic
                                      .entries = matrix ? pipeline.matrix().stats.entries : 0,
                                      .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
                                      .deviceMib = inMebibytes(session_.device->memory().used())});
-  if (keepPicture) writePng(task_.out / "pictures" / pictureName(point), task_.size, pixels, exposure_);
+  if (keepPicture) writeAsShown(task_.out / "pictures" / pictureName(point), task_.size, pixels, exposure_);
 }
 
 /// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
@@ -352,7 +347,7 @@ void StudyRun::measurePeers() {
     const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
     folder_->results.peers.push_back({kPathTracer, samples, picture.seconds, m.blockRelMse, m.pixels.rmse,
                                       m.pixels.meanError, m.pixels.psnr, m.flip});
-    writePng(task_.out / "pictures" / pictureName(kPathTracer, samples), task_.size, pixels, exposure_);
+    writeAsShown(task_.out / "pictures" / pictureName(kPathTracer, samples), task_.size, pixels, exposure_);
     folder_->save();
   }
 }

@@ -102,6 +102,9 @@ class StudyRun {
   std::chrono::steady_clock::time_point stepBegan_;
 };
 
+/// A picture as a screen shows it without a tone curve, which is what FLIP compares.
+void writeAsShown(const std::filesystem::path& stem, glm::uvec2 size, const LinearPixels& linear, float exposure);
+
 /// Writes the report, prints the table and the findings.
 void finishStudy(const std::filesystem::path& out, const SettingGrid& grid, const StudyResults& results,
                  const ReportNotes& notes);
