@@ -1,5 +1,9 @@
 #include "app/reference.h"
 
+#include <fmt/format.h>
+
+#include "renderer/base/error.h"
+
 namespace irad::app {
 namespace fs = std::filesystem;
 
@@ -14,6 +18,14 @@ std::optional<ReferencePicture> ReferenceArgument::read(const Config& config, Pr
   ReferencePicture reference = readReference(path);
   if (!file) warnIfOther(progress, config, path, reference.sha256, config.referenceSha256);
   return reference;
+}
+
+void requireSubject(const ReferencePicture& reference, const Camera& camera, View view) {
+  if (const std::string why = otherCamera(reference.camera, camera); !why.empty())
+    throw UsageError(fmt::format("{}: made from another camera: {}", reference.path.string(), why));
+  if (!reference.picture.subject.view.empty() && reference.of != view)
+    throw UsageError(fmt::format("{}: a picture of {}, not of {}", reference.path.string(),
+                                 reference.picture.subject.view, viewInfo(view)->name));
 }
 
 }  // namespace irad::app

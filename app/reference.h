@@ -11,6 +11,9 @@
 
 namespace irad::app {
 
+/// UsageError where the reference says that it was made from another camera, or is of another view.
+void requireSubject(const ReferencePicture& reference, const Camera& camera, View view);
+
 struct ReferenceArgument {
   std::optional<std::string> file;
   void declare(Options& options);

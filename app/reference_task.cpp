@@ -12,6 +12,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
 #include "renderer/frame/transfer.h"
+#include "renderer/scene/camera_json.h"
 #include "renderer/targets.h"
 
 namespace irad::app::reference {
@@ -138,6 +139,10 @@ Camera cameraOf(const Arguments& arguments, const Task& task, const Scene& scene
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(task.config, scene);
   if (cameras.size() != 1) throw UsageError(fmt::format("--camera: one, not {}", cameras.size()));
   return cameras[0];
+}
+
+PictureSubject subjectOf(const Task& task, const Camera& camera) {
+  return {cameraToJson(camera), task.layers.front()};
 }
 
 std::string bounceName(size_t reflections) {

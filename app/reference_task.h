@@ -89,6 +89,9 @@ void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest
 
 Camera cameraOf(const Arguments& arguments, const Task& task, const Scene& scene);
 
+/// What the picture's header says.
+PictureSubject subjectOf(const Task& task, const Camera& camera);
+
 /// Compares what a state was made of with what is asked for; UsageError names the member that differs.
 void checkMade(const std::filesystem::path& state, const Json& before, const Json& made);
 

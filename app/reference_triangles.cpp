@@ -130,7 +130,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
   const bool whole = !interrupts.came() || goal.reached(sums.samples, noise);
 
   save();
-  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers);
+  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers, subjectOf(task, camera));
   written.push_back(task.beside(".state"));
   Manifest manifest{.program = {versionNumber(), versionCommit()},
                     .subcommand = "reference",

@@ -161,7 +161,11 @@ void run(const RenderArguments& arguments) {
   ExpectedIrradiance expected = expectedIrradiance(scene);
   Pipeline pipeline(*session.context, std::move(scene), session.settings, std::move(expected));
   const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
-  if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
+  if (reference) {
+    pipeline.setReference(reference->picture.size, reference->picture.pixels, reference->of);
+    if (std::ranges::any_of(chosen, [](const ViewInfo& view) { return view.isFrom(FROM_PICTURE); }))
+      for (const Camera& camera : cameras) requireSubject(*reference, camera, reference->of);
+  }
   session.prepare(pipeline);
   if (std::ranges::find(wanted, "all") == wanted.end())
     for (const ViewInfo& view : chosen)

@@ -8,9 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/interrupts.h"
+#include "app/reference.h"
 #include "app/table.h"
 #include "app/version.h"
 #include "gi/facets.h"
+#include "gi/host_facets.h"
+#include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/sky.h"
 #include "gi/watch.h"
@@ -95,11 +98,14 @@ StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyT
     if (*file && (*file)->picture.size != task_.size)
       throw UsageError(fmt::format("{}: {} x {} pixels, --size is {} x {}", (*file)->path.string(),
                                    (*file)->picture.size.x, (*file)->picture.size.y, task_.size.x, task_.size.y));
+  for (const std::optional<ReferencePicture>* file : {&task_.truth.file, &task_.truth.secondFile})
+    if (*file) requireSubject(**file, task_.camera, task_.view.view);
   folder_.emplace(task_.out, identity());
   const GridTexts grids = gridsOf(folder_->identity());
   for (size_t i = grid_.texts().size(); i < grids.size(); ++i) grid_.add(grids[i]);
   makeFolder(task_.out / "pictures");
   bench_.emplace(*session_.context, scene_, grid_.settings(0), task_.size, task_.view.view, task_.camera);
+  if (task_.facetRays) facetTruths_.emplace(session_, *bench_, task_.out / "facets", *task_.facetRays);
   exposure_ = std::exp2(grid_.base().camera.exposureEv);
   makeTruth();
   writeAsShown(task_.out / "pictures" / kReferenceName, task_.size, truth_.mean(), exposure_);
@@ -154,14 +160,14 @@ void StudyRun::makeTruth() {
     return;
   }
   if (!fs::exists(fileOf("reference.a")) || !fs::exists(fileOf("reference.b"))) {
-    session_.progress("reference", 0);
     if (task_.truth.samples) {
-      const TracedPicture picture = trace(*task_.truth.samples, 1);
+      const TracedPicture picture = trace("reference", *task_.truth.samples, 1);
       writeLinear(out / "reference.a", task_.size, pixelsOf(lightOf(picture).half[0]));
       writeLinear(out / "reference.b", task_.size, pixelsOf(lightOf(picture).half[1]));
     } else {
       Settings settings = *task_.truth.settings;
       for (const char* half : {"reference.a", "reference.b"}) {
+        progress("reference", 0, 1);
         settings.matrix.gpu.seed += 1'000'000;  // no seed of a point
         writeLinear(out / half, task_.size, picture(settings));
       }
@@ -185,9 +191,17 @@ LinearPixels StudyRun::picture(const Settings& settings) {
   return out;
 }
 
-TracedPicture StudyRun::trace(uint32_t samples, uint64_t seed) {
+/// In passes, between which a signal ends it; the bits are those of one go.
+TracedPicture StudyRun::trace(const char* what, uint32_t samples, uint64_t seed) {
+  constexpr uint32_t kPass = 16;
   if (!tracer_) tracer_ = makePathTracer(scene_, bench_->pipeline().sky());
-  return tracer_->render(task_.camera, task_.size, {.samples = samples, .seed = seed, .centred = true});
+  TracedSums sums;
+  while (sums.samples < samples) {
+    progress(what, sums.samples, samples);
+    tracer_->add(task_.camera, task_.size,
+                 {.samples = std::min(kPass, samples - sums.samples), .seed = seed, .centred = true}, sums);
+  }
+  return pictureOf(sums);
 }
 
 const TracedLight& StudyRun::lightOf(const TracedPicture& picture) const {
@@ -207,6 +221,7 @@ StudyIdentity StudyRun::identity() const {
   json["size"] = {task_.size.x, task_.size.y};
   json["view"] = task_.view.name;
   json["reference"] = truth_.what;
+  if (task_.facetRays) json["facet_rays"] = *task_.facetRays;
   json["sweeps"] = grid_.texts();
   json["settings"] = nlohmann::ordered_json::parse(settingsToJson(grid_.base()));
   return json.dump(2);
@@ -271,18 +286,42 @@ void StudyRun::measureError(size_t point, const Settings& settings, bool keepPic
   const Pipeline& pipeline = bench_->pipeline();
   const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
   const bool matrix = pipeline.obeyed().solver.method == SolverMethod::matrix;
-  folder_->results.errors.push_back({.point = point,
-                                     .seed = settings.matrix.gpu.seed,
-                                     .relMse = m.blockRelMse,
-                                     .rmse = m.pixels.rmse,
-                                     .meanError = m.pixels.meanError,
-                                     .psnr = m.pixels.psnr,
-                                     .flip = m.flip,
-                                     .facets = pipeline.facets().count,
-                                     .entries = matrix ? pipeline.matrix().stats.entries : 0,
-                                     .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
-                                     .deviceMib = inMebibytes(session_.device->memory().used())});
+  ErrorRow row{.point = point,
+               .seed = settings.matrix.gpu.seed,
+               .relMse = m.blockRelMse,
+               .rmse = m.pixels.rmse,
+               .meanError = m.pixels.meanError,
+               .psnr = m.pixels.psnr,
+               .flip = m.flip,
+               .facets = pipeline.facets().count,
+               .entries = matrix ? pipeline.matrix().stats.entries : 0,
+               .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
+               .deviceMib = inMebibytes(session_.device->memory().used())};
+  if (facetTruths_) {
+    std::vector<glm::vec4> h;
+    for (const glm::vec3& v : perFacet(*session_.context, pipeline.facets(), pipeline.lighting().indirect))
+      h.emplace_back(v, 0.0f);
+    try {
+      measureFacets(settings, h, row);
+    } catch (const DeviceError& error) {  // the picture and its errors are none the worse for it
+      session_.progress.note(fmt::format("{}: no truth of H: {}", grid_.label(point), error.what()));
+      session_.device->waitIdle();
+      session_.timings.reset();
+    }
+  }
+  folder_->results.errors.push_back(row);
   if (keepPicture) writeAsShown(task_.out / "pictures" / pictureName(point), task_.size, pixels, exposure_);
+}
+
+/// The pipeline has other settings afterwards.
+void StudyRun::measureFacets(const Settings& settings, const std::vector<glm::vec4>& h, ErrorRow& row) {
+  const FacetTruth& truth = facetTruths_->of(settings);
+  if (truth.first.empty()) return;  // there is no light to be told apart
+  if (truth.first.size() != h.size())
+    throw InputError(
+        fmt::format("{}: {} facets, the truth of their H has {}", task_.out.string(), h.size(), truth.first.size()));
+  const PairedMetrics m = measurePaired(h, truth.first, truth.second);
+  row.hRelMse = m.relMse, row.hRmse = m.rmse;
 }
 
 /// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
@@ -339,10 +378,9 @@ void StudyRun::measureTimes(const std::vector<size_t>& asked, uint32_t repeats) 
 void StudyRun::measurePeers() {
   if (task_.shard.part != 1) return;
   for (size_t i = 0; i < task_.peerSamples.size(); ++i) {
-    progress("path tracer", i, task_.peerSamples.size());
     const uint32_t samples = task_.peerSamples[i];
     if (folder_->results.hasPeer(kPathTracer, samples)) continue;
-    const TracedPicture picture = trace(samples, 1000 + i);  // other samples than the truth's
+    const TracedPicture picture = trace("path tracer", samples, 1000 + i);  // other samples than the truth's
     const LinearPixels pixels = pixelsOf(lightOf(picture).mean);
     const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
     folder_->results.peers.push_back({kPathTracer, samples, picture.seconds, m.blockRelMse, m.pixels.rmse,
@@ -369,6 +407,11 @@ ReportNotes StudyRun::notes() const {
       fmt::format("Errors: {} seeds from {} on; relMSE of means over {} × {} pixels, ε = (0.1 × mean)²; ± is half of "
                   "a 95 % interval over seeds (Student's t)",
                   task_.seeds, grid_.base().matrix.gpu.seed, kBlockSide, kBlockSide)};
+  if (task_.facetRays)
+    notes.facts.push_back(
+        fmt::format("H of facets: against brute force of {} rays per facet on the same facets, twice, whose noise "
+                    "cancels; means over facets and channels, ε = (0.1 × mean)²",
+                    withThousands(*task_.facetRays)));
   if (!task_.peerSamples.empty())
     notes.facts.push_back(
         "Path tracer: Embree on this machine's CPU, diffuse, one sample through each pixel's middle; "
@@ -380,8 +423,15 @@ ReportNotes StudyRun::notes() const {
 void finishStudy(const fs::path& out, const SettingGrid& grid, const StudyResults& results, const ReportNotes& notes) {
   writeReport(out, grid, results, notes);
   const std::vector<PointSummary> points = summarize(results, grid.labels());
+  const bool ofFacets = std::ranges::any_of(points, [](const PointSummary& p) { return !std::isnan(p.hRelMse.mean); });
   std::vector<std::vector<std::string>> rows{
       {"point", "settings", "relMSE", "±", "FLIP", "build ms", "relight ms", "frame ms", "MiB", ""}};
+  std::vector<bool> right{true, false, true, true, true, true, true, true, true, false};
+  const auto insertFacets = [&](std::vector<std::string>& row, const std::string& mean, const std::string& half) {
+    if (ofFacets) row.insert(row.begin() + 4, {mean, half});
+  };
+  if (ofFacets) right.insert(right.begin() + 4, {true, true});
+  insertFacets(rows[0], "of H", "±");
   for (const PointSummary& p : points) {
     const auto ms = [&](const char* kind) {
       return std::isfinite(p.gpuMs(kind)) ? milliseconds(p.gpuMs(kind)) : std::string("-");
@@ -391,8 +441,11 @@ void finishStudy(const fs::path& out, const SettingGrid& grid, const StudyResult
                     done && std::isfinite(p.relMse.half) ? shortNumber(p.relMse.half) : "-",
                     done ? shortNumber(p.flip.mean) : "-", ms("setup"), ms("relight"), ms("camera"),
                     done ? fmt::format("{:.1f}", p.deviceMib) : "-", p.failure});
+    const MeanInterval& h = p.hRelMse;
+    insertFacets(rows.back(), done && !std::isnan(h.mean) ? shortNumber(h.mean) : "-",
+                 done && std::isfinite(h.half) ? shortNumber(h.half) : "-");
   }
-  print("{}", formatTable(rows, {true, false, true, true, true, true, true, true, true, false}));
+  print("{}", formatTable(rows, right));
   for (const std::string& finding : findings(points, results.peers, grid.find(grid.base()))) print("{}\n", finding);
   print("wrote       {}\n", (out / "report.html").string());
 }

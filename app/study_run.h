@@ -11,6 +11,7 @@
 
 #include "app/bench.h"
 #include "app/device_session.h"
+#include "app/facet_truth.h"
 #include "gi/check/path_tracer.h"
 #include "gi/picture.h"
 #include "gi/study/report.h"
@@ -40,6 +41,7 @@ struct StudyTask {
   uint32_t seeds = 4, repeats = 30;
   Shard shard;
   std::vector<uint32_t> peerSamples;  ///< of the path tracer as a peer, even; empty: none
+  std::optional<uint64_t> facetRays;  ///< of the truth of the facets' H; none: H is not held against one
 };
 
 /// What pictures are held against: one picture, or two with independent noise.
@@ -77,7 +79,7 @@ class StudyRun {
  private:
   void makeTruth();
   LinearPixels picture(const Settings& settings);  ///< of a light solved from the dark
-  TracedPicture trace(uint32_t samples, uint64_t seed);
+  TracedPicture trace(const char* what, uint32_t samples, uint64_t seed);
   const TracedLight& lightOf(const TracedPicture& picture) const;
   StudyIdentity identity() const;
   void progress(const char* what, size_t done, size_t all);  ///< with the time left, as if each took as long
@@ -87,6 +89,7 @@ class StudyRun {
   bool attempt(size_t point, Act&& act);
   void measureErrors(const std::vector<size_t>& points, uint32_t seeds);
   void measureError(size_t point, const Settings& settings, bool keepPicture);
+  void measureFacets(const Settings& settings, const std::vector<glm::vec4>& h, ErrorRow& row);
   void measureTimes(const std::vector<size_t>& points, uint32_t repeats);
   void measurePeers();
 
@@ -99,6 +102,7 @@ class StudyRun {
   std::optional<StudyFolder> folder_;
   std::optional<Bench> bench_;
   std::unique_ptr<PathTracer> tracer_;
+  std::optional<FacetTruths> facetTruths_;
   std::chrono::steady_clock::time_point stepBegan_;
 };
 

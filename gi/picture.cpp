@@ -1,5 +1,9 @@
 #include "gi/picture.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -10,6 +14,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/sha256.h"
 #include "renderer/frame/transfer.h"
+#include "renderer/scene/camera_json.h"
 #include "renderer/targets.h"
 #include "shaders/shared/view.h"
 
@@ -57,7 +62,37 @@ ReferencePicture readReference(const std::filesystem::path& path) {
   LinearPicture picture = readLinear(path);
   std::ifstream in(path, std::ios::binary);
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  return {std::filesystem::absolute(path).lexically_normal(), sha256(bytes), std::move(picture), VIEW_LIT};
+  std::optional<Camera> camera;
+  if (!picture.subject.camera.empty()) try {
+      camera = cameraFromJson(picture.subject.camera, path.string() + ": iradCamera");
+    } catch (const UsageError& error) {
+      throw InputError(error.what());
+    }
+  const View of = findView(picture.subject.view).value_or(VIEW_LIT);
+  return {std::filesystem::absolute(path).lexically_normal(), sha256(bytes), std::move(picture), of, std::move(camera)};
+}
+
+std::string otherCamera(const std::optional<Camera>& made, const Camera& camera) {
+  if (!made) return "";
+  const auto apart = [](double a, double b) { return std::abs(a - b) > 1e-4 * std::max(std::abs(a), std::abs(b)); };
+  // Cameras that have been turned by a window come back with roundings.
+  const double most = 1e-5 * std::max(1.0, glm::length(made->position));
+  if (glm::distance(made->position, camera.position) > most)
+    return fmt::format("it stands at {:.4g} {:.4g} {:.4g}, not {:.4g} {:.4g} {:.4g}", made->position.x,
+                       made->position.y, made->position.z, camera.position.x, camera.position.y, camera.position.z);
+  const glm::quat& q = made->orientation;
+  const glm::quat& r = camera.orientation;
+  if (std::min(glm::length(q - r), glm::length(q + r)) > 1e-4f) {
+    const glm::vec3 there = q * glm::vec3(0, 0, -1), here = r * glm::vec3(0, 0, -1);
+    return fmt::format("it looks along {:.4f} {:.4f} {:.4f}, not {:.4f} {:.4f} {:.4f}{}", there.x, there.y, there.z,
+                       here.x, here.y, here.z, glm::distance(there, here) < 1e-4f ? ", and is rolled" : "");
+  }
+  if (made->orthographic != camera.orthographic) return made->orthographic ? "it is orthographic" : "it is perspective";
+  if (made->orthographic ? apart(made->ymag, camera.ymag) : apart(made->yfov, camera.yfov))
+    return made->orthographic ? fmt::format("it shows {:.4g} m of height, not {:.4g}", 2 * made->ymag, 2 * camera.ymag)
+                              : fmt::format("its vertical angle is {:.2f} degrees, not {:.2f}",
+                                            glm::degrees(made->yfov), glm::degrees(camera.yfov));
+  return "";
 }
 
 }  // namespace irad

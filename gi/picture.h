@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gi/views/views.h"
 #include "renderer/image_io.h"
+#include "renderer/scene/scene.h"
 
 namespace irad {
 
@@ -37,8 +39,12 @@ struct ReferencePicture {
   std::filesystem::path path;  ///< absolute; empty: it was made here, and is in no file
   std::string sha256;          ///< of the file
   LinearPicture picture;
-  View of = VIEW_LIT;  ///< what it is a picture of
+  View of = VIEW_LIT;            ///< what it is a picture of: as the file says, else this
+  std::optional<Camera> camera;  ///< that it was made from, where the file says it
 };
+/// In words, how the camera that a picture was made from differs from another in what is seen; empty: in nothing but
+/// roundings, or it is not known.
+std::string otherCamera(const std::optional<Camera>& made, const Camera& camera);
 /// As readLinear() does; InputError.
 ReferencePicture readReference(const std::filesystem::path& path);
 

@@ -106,6 +106,22 @@ TEST(MetricsOfPictures, IntervalsByTheReferencesNoiseHoldTheTruth) {
   EXPECT_TRUE(std::isnan(measurePicture(size, value, truth).blockRelMseHalf)) << "unknown without standard errors";
 }
 
+TEST(MetricsOfPictures, AgainstTwoReferencesAreWhatHandsMakeOfThem) {
+  // One value: r = 1, s = 3, m = 2, v = 4: (v - r)(v - s) = 3; the other is 2, 2, 2, 3: 1. Mean m = 2, epsilon .04.
+  const Pixels v{{4, 4, 4, 0}, {3, 3, 3, 9}}, r{{1, 1, 1, 0}, {2, 2, 2, 5}}, s{{3, 3, 3, 0}, {2, 2, 2, 7}};
+  const PairedMetrics m = measurePaired(v, r, s);
+  EXPECT_DOUBLE_EQ(m.rmse, std::sqrt(2.0));
+  EXPECT_NEAR(m.relMse, 2 / 4.04, 1e-12);
+  // Between the two: below 0, and no root of it.
+  const PairedMetrics between = measurePaired(Pixels{{2, 2, 2, 0}}, Pixels{{1, 1, 1, 0}}, Pixels{{3, 3, 3, 0}});
+  EXPECT_EQ(between.rmse, 0);
+  EXPECT_NEAR(between.relMse, -1 / 4.04, 1e-12);
+  EXPECT_TRUE(std::isnan(measurePaired(Pixels{}, Pixels{}, Pixels{}).relMse));
+  Pixels nan = v;
+  nan[0].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NEAR(measurePaired(nan, r, s).relMse, 1 / 4.04, 1e-12) << "the other element alone";
+}
+
 TEST(MetricsOfPictures, LeaveOutBlocksThatHoldNoNumber) {
   const glm::uvec2 size(16, 8);
   Pixels values = filled(size, glm::vec3(2)), reference = filled(size, glm::vec3(1));

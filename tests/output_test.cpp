@@ -273,6 +273,19 @@ TEST(ImageIo, ExrKeepsEveryBitAndPngEveryByte) {
   for (size_t i = 0; i < bytes.size(); ++i) ASSERT_EQ(readBytes[i], glm::u8vec3(bytes[i])) << i;
 }
 
+TEST(ImageIo, LayersSayWhatTheyShow) {
+  test::TemporaryFolder folder;
+  const glm::uvec2 size(5, 4);
+  const PictureLayer layers[] = {{"", ramp(size)}, {"error", ramp(size)}};
+  const std::string camera = R"({"name": "a \"b\"", "position": [0.1, 2, 3]})";
+  const LinearPicture with = readLinear(writeLayers(folder.path / "a", size, layers, {camera, "indirect"}).front());
+  EXPECT_EQ(with.subject.camera, camera);
+  EXPECT_EQ(with.subject.view, "indirect");
+  const LinearPicture without = readLinear(writeLayers(folder.path / "b", size, layers).front());
+  EXPECT_EQ(without.subject.camera + without.subject.view, "");
+  EXPECT_EQ(without.pixels, with.pixels);
+}
+
 TEST(ImageIo, TheSamePixelsGiveTheSameFile) {
   test::TemporaryFolder folder;
   const glm::uvec2 size(64, 64);

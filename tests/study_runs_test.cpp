@@ -1,10 +1,13 @@
 // `irad study` from outside: a study that is killed goes on, shards merge to the whole, points without memory are rows,
-// and references that do not fit are refused.
+// and references that do not fit are refused; Ctrl+C ends it with whole files.
+#include <fmt/format.h>
 #include <signal.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -14,6 +17,7 @@
 #include "gi/check/process.h"
 #include "gi/study/results.h"
 #include "gi/study/sweep.h"
+#include "renderer/image_io.h"
 #include "tests/support.h"
 
 namespace irad::test::study_runs_suite {
@@ -150,6 +154,132 @@ TEST_F(StudyRuns, ReferencesThatDoNotFitAreRefused) {
   EXPECT_EQ(runIrad({"study", "cost", "box", "--reference", (folder_.path / "none.exr").string()}).status, 3);
   EXPECT_EQ(
       runIrad({"study", "merge", (folder_.path / "none").string(), "--out", (folder_.path / "m").string()}).status, 3);
+}
+
+TEST_F(StudyRuns, ReferencesOfOtherCamerasAndViewsAreRefused) {
+  if (std::string(linearExtension()) != ".exr") GTEST_SKIP() << "files of this build have no room for a camera";
+  const std::string truth = (folder_.path / "truth.exr").string();
+  const RunResult made =
+      runIrad({"reference", "box", "--of", "matrix", "--size", "32x24", "--set", "voxel.resolution=8", "--set",
+               "matrix.rays=8", "--set", "light.shadow_resolution=64", "--out", truth});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const auto with = [&](const char* command, std::vector<std::string> more) {
+    std::vector<std::string> arguments{command};
+    if (command == std::string("study")) arguments.emplace_back("cost");
+    arguments.insert(arguments.end(),
+                     {"box", "--reference", truth, "--set", "voxel.resolution=8", "--set", "matrix.rays=8", "--set",
+                      "light.shadow_resolution=64", "--size", "32x24", "--out", (folder_.path / "of").string()});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runIrad(arguments);
+  };
+  const std::string elsewhere =
+      R"({"position": [0, 1, 2.5], "target": [0, 1, 0], "yfov": 0.7, "znear": 0.1, "name": "elsewhere"})";
+  const RunResult camera = with("study", {"--camera", elsewhere});
+  EXPECT_EQ(camera.status, 2);
+  EXPECT_TRUE(contains(camera.err, "truth.exr: made from another camera: it stands at ")) << camera.err;
+  const RunResult view = with("study", {"--view", "indirect"});
+  EXPECT_EQ(view.status, 2);
+  EXPECT_TRUE(contains(view.err, "truth.exr: a picture of lit, not of indirect")) << view.err;
+  EXPECT_FALSE(fs::exists(folder_.path / "of"));
+  const RunResult drawn = with("render", {"--camera", elsewhere, "--view", "error"});
+  EXPECT_EQ(drawn.status, 2);
+  EXPECT_TRUE(contains(drawn.err, "made from another camera")) << drawn.err;
+  // Its own, and pictures that do not look at it.
+  const RunResult own = with("study", {"--seeds", "1", "--repeats", "1"});
+  EXPECT_EQ(own.status, 0) << own.err;
+  EXPECT_EQ(with("render", {"--camera", elsewhere, "--view", "lit"}).status, 0);
+}
+
+TEST_F(StudyRuns, TheErrorOfFacetsFallsWithRaysAndGoesOn) {
+  const auto run = [&](const char* out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"study", "cost", "box"};
+    for (const char* setting : {"voxel.resolution=8", "light.shadow_resolution=64", "solver.tolerance=0.0001"})
+      arguments.insert(arguments.end(), {"--set", setting});
+    arguments.insert(arguments.end(), {"--sweep", "matrix.rays=8,128", "--repeats", "1", "--facet-rays", "4000",
+                                       "--reference", reference_.string(), "--out", (folder_.path / out).string()});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runIrad(arguments);
+  };
+  const RunResult first = run("h", {"--seeds", "3"});
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_TRUE(contains(first.out, "of H")) << first.out;
+  const std::vector<PointSummary> points = summarize(readResults(folder_.path / "h"), {"8", "128"});
+  // The matrix has no bias but what its sweeps and its rows of few rays leave: the squared error goes with 1 / rays.
+  EXPECT_NEAR(std::log2(points[0].hRelMse.mean / points[1].hRelMse.mean), 4, 1);
+  EXPECT_NEAR(std::log2(points[0].hRmse.mean / points[1].hRmse.mean), 2, .5);
+  EXPECT_GT(points[1].hRelMse.mean, 0);
+  EXPECT_LT(points[1].hRelMse.half, points[0].hRelMse.mean);
+  size_t truths = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder_.path / "h/facets")) ++truths;
+  EXPECT_EQ(truths, 2u) << "the facets are the same: one truth of two halves";
+
+  // It goes on with the truth that is there, and one made anew has the same bits.
+  const std::string text = file("h", "errors.csv");
+  ASSERT_EQ(run("h", {"--seeds", "4"}).status, 0);
+  EXPECT_EQ(readResults(folder_.path / "h").errors.size(), 8u);
+  ASSERT_EQ(run("other", {"--seeds", "4"}).status, 0);
+  EXPECT_EQ(file("other", "errors.csv"), file("h", "errors.csv"));
+  // H is part of what the study is.
+  const RunResult without = run("h", {"--facet-rays", "5000"});
+  EXPECT_EQ(without.status, 2);
+  EXPECT_TRUE(contains(without.err, "holds another study: facet_rays 4000 instead of 5000")) << without.err;
+}
+
+TEST_F(StudyRuns, EndAtASignalWithWholeFilesAndGoOn) {
+  int runs = 0;
+  const auto stopped = [&](const std::vector<std::string>& arguments, const std::function<bool()>& when) {
+    const fs::path err = folder_.path / fmt::format("err{}", ++runs);
+    Process process(iradProgram(), arguments, "/dev/null", err);
+    for (int i = 0; i < 60'000 && !process.poll() && !when(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_FALSE(process.poll()) << slurp(err);
+    ::kill(process.pid(), SIGINT);
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_TRUE(contains(slurp(err), "stopped by a signal; the same command goes on from here")) << slurp(err);
+  };
+  // Of cost, while it measures times: rows are whole, and the rest comes to the same errors.
+  const std::vector<std::string> cost = study("cost", {"--repeats", "400"});
+  stopped(cost, [&] {
+    return fs::exists(folder_.path / "cost/errors.csv") && std::ranges::count(file("cost", "errors.csv"), '\n') > 1;
+  });
+  const StudyResults part = readResults(folder_.path / "cost");
+  EXPECT_FALSE(fs::exists(folder_.path / "cost/report.html"));
+  const RunResult rest = runIrad(study("cost", {"--repeats", "1"}));
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  const StudyResults whole = readResults(folder_.path / "cost");
+  ASSERT_EQ(whole.errors.size(), 4u);
+  for (size_t i = 0; i < part.errors.size(); ++i) EXPECT_EQ(part.errors[i].relMse, whole.errors[i].relMse);
+
+  // Of a split, while it makes its pictures.
+  std::vector<std::string> split = study("split", {"--repeats", "1"});
+  split[1] = "attribution";
+  for (const char* option : {"--sweep", "--seeds"}) {
+    const auto at = std::ranges::find(split, option);
+    split.erase(at, at + 2);
+  }
+  const fs::path pictures = folder_.path / "split/linear";
+  stopped(split, [&] { return fs::exists(pictures) && !fs::is_empty(pictures); });
+  size_t made = 0;
+  for (const auto& entry : fs::directory_iterator(pictures)) {
+    EXPECT_EQ(readLinear(entry.path()).size, glm::uvec2(32, 24));
+    ++made;
+  }
+  EXPECT_GT(made, 0u);
+  EXPECT_FALSE(fs::exists(folder_.path / "split/attribution.csv"));
+
+  // Of a search, in its first round; the truth that it traces is stopped between two passes.
+  std::vector<std::string> tune = study("tune", {"--budget-mib", "1000", "--repeats", "400"});
+  tune.erase(tune.begin(), tune.begin() + 2);
+  tune.insert(tune.begin(), "tune");
+  stopped(tune, [&] { return std::ranges::count(file("tune", "errors.csv"), '\n') > 1; });
+  EXPECT_FALSE(readResults(folder_.path / "tune").errors.empty());
+  EXPECT_FALSE(fs::exists(folder_.path / "tune/tuned.json"));
+  if (!hasPathTracer()) return;
+  std::vector<std::string> traced = study("traced", {"--view", "indirect", "--size", "32x24"});
+  const auto reference = std::ranges::find(traced, "--reference");
+  *reference = "--reference-samples", *(reference + 1) = "10000000";
+  stopped(traced, [&] { return contains(slurp(folder_.path / "err4"), "reference"); });
+  EXPECT_FALSE(fs::exists(folder_.path / "traced/errors.csv"));
 }
 
 TEST_F(StudyRuns, ThePathTracersErrorFallsWithItsSamples) {
