@@ -39,8 +39,8 @@ struct ReferencePicture {
   std::filesystem::path path;  ///< absolute; empty: it was made here, and is in no file
   std::string sha256;          ///< of the file
   LinearPicture picture;
-  View of = VIEW_LIT;            ///< what it is a picture of: as the file says, else this
-  std::optional<Camera> camera;  ///< that it was made from, where the file says it
+  View of = VIEW_LIT;              ///< what it is a picture of: as the file says, else this
+  std::optional<Camera> camera{};  ///< that it was made from, where the file says it
 };
 /// In words, how the camera that a picture was made from differs from another in what is seen; empty: in nothing but
 /// roundings, or it is not known.

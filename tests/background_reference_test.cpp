@@ -17,9 +17,11 @@
 #include "gi/picture.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/camera_json.h"
-#include "tests/exr.h"
 #include "ui/background_reference.h"
 #include "ui/session.h"
+#ifdef IRAD_OIIO
+#include "tests/exr.h"
+#endif
 
 namespace irad::test::background_reference_suite {
 namespace {
