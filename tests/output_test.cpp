@@ -14,6 +14,7 @@
 #include <iterator>
 #include <random>
 
+#include "gi/picture.h"
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
@@ -284,6 +285,17 @@ TEST(ImageIo, LayersSayWhatTheyShow) {
   const LinearPicture without = readLinear(writeLayers(folder.path / "b", size, layers).front());
   EXPECT_EQ(without.subject.camera + without.subject.view, "");
   EXPECT_EQ(without.pixels, with.pixels);
+  // As a reference: what a file says of its camera has to be one.
+  EXPECT_FALSE(readReference(folder.path / "b.exr").camera);
+  for (const char* broken : {"no JSON", R"({"position": 3})"}) {
+    const fs::path file = writeLayers(folder.path / "c", size, layers, {broken, ""}).front();
+    try {
+      readReference(file);
+      ADD_FAILURE() << broken;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(contains(error.what(), "c.exr: iradCamera")) << error.what();
+    }
+  }
 }
 
 TEST(ImageIo, TheSamePixelsGiveTheSameFile) {
