@@ -179,13 +179,13 @@ void StudyRun::makeTruth() {
   IRAD_CHECK_OP(truth_.second.size(), ==, truth_.first.size());
 }
 
-LinearPixels StudyRun::picture(const Settings& settings) {
+LinearPixels StudyRun::picture(const Settings& settings, const std::function<void()>& whileLit) {
   Pipeline& pipeline = bench_->pipeline();
   pipeline.set(settings);
   bench_->prepare({});
   bench_->forget();
   const View view = task_.view.view;
-  LinearPixels out = bench_->pictures({&view, 1});
+  LinearPixels out = bench_->pictures({&view, 1}, whileLit);
   for (const Finding& finding : pipeline.findings())
     if (finding.severity == Finding::Severity::Error) throw DeviceError(finding.text);  // a row that says so
   return out;
@@ -282,8 +282,13 @@ void StudyRun::measureErrors(const std::vector<size_t>& points, uint32_t seeds) 
 }
 
 void StudyRun::measureError(size_t point, const Settings& settings, bool keepPicture) {
-  const LinearPixels pixels = picture(settings);
   const Pipeline& pipeline = bench_->pipeline();
+  std::vector<glm::vec4> h;
+  const LinearPixels pixels = picture(settings, [&] {
+    if (!facetTruths_) return;
+    for (const glm::vec3& v : perFacet(*session_.context, pipeline.facets(), pipeline.lighting().indirect))
+      h.emplace_back(v, 0.0f);
+  });
   const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
   const bool matrix = pipeline.obeyed().solver.method == SolverMethod::matrix;
   ErrorRow row{.point = point,
@@ -298,9 +303,6 @@ void StudyRun::measureError(size_t point, const Settings& settings, bool keepPic
                .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
                .deviceMib = inMebibytes(session_.device->memory().used())};
   if (facetTruths_) {
-    std::vector<glm::vec4> h;
-    for (const glm::vec3& v : perFacet(*session_.context, pipeline.facets(), pipeline.lighting().indirect))
-      h.emplace_back(v, 0.0f);
     try {
       measureFacets(settings, h, row);
     } catch (const DeviceError& error) {  // the picture and its errors are none the worse for it

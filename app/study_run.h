@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,7 +79,8 @@ class StudyRun {
 
  private:
   void makeTruth();
-  LinearPixels picture(const Settings& settings);  ///< of a light solved from the dark
+  /// Of a light solved from the dark, which `whileLit` may look at.
+  LinearPixels picture(const Settings& settings, const std::function<void()>& whileLit = {});
   TracedPicture trace(const char* what, uint32_t samples, uint64_t seed);
   const TracedLight& lightOf(const TracedPicture& picture) const;
   StudyIdentity identity() const;
