@@ -17,13 +17,15 @@ enum class Action {
   Quit,
   NextCamera,
   Open,
-  Flicker
+  Flicker,
+  Undo,
+  Redo
 };
 
 struct Binding {
   int key;  ///< GLFW key; 0: listed in the help only
   Action action;
-  const char* keys;
+  const char* keys;  ///< null: the help lists it with another row
   const char* does;
   bool shift = false, control = false;  ///< only with it; listed before the row of the same key without
 };

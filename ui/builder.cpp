@@ -64,7 +64,7 @@ void Builder::load(const std::filesystem::path& path) {
     forgetTimes();
     const bool cancelled = session_.work->cancel;
     session_.work.reset();
-    if (session_.pipeline) session_.edited.scene = loaded_;
+    if (session_.pipeline) session_.returned |= std::exchange(session_.edited.scene, loaded_) != loaded_;
     if (!cancelled) throw;
     session_.note(fmt::format("{}: loading was cancelled", path.filename().string()));
   }
@@ -100,6 +100,7 @@ void Builder::applyLights() {
     } catch (const Error& error) {
       forgetTimes();
       session_.edits.lights = before;
+      session_.returned = true;
       session_.error(error.what());
     }
     session_.viewDirty = true;
@@ -195,6 +196,7 @@ void Builder::compare() {
 
 void Builder::rebuild(Side& side, std::string what) {
   begin(std::move(what));
+  session_.work->ofSettings = true;
   try {
     prepare(side, *side.pipeline);
   } catch (const Error& error) {
@@ -203,9 +205,24 @@ void Builder::rebuild(Side& side, std::string what) {
     if (!session_.work->cancel)
       session_.error(error.what());
     else if (!session_.quit)
-      session_.note("The rebuild was cancelled; the picture shows the old state.");
+      giveUp(side);
   }
   session_.work.reset();
+}
+
+/// Cancelled: the settings are those again that were built last. Of these a rebuild of the voxels may have given up the
+/// matrix, which is then made anew. Where it was no setting that called for it, it waits for the next edit, or for
+/// Rebuild.
+void Builder::giveUp(Side& side) {
+  Settings back = side.edited;
+  for (const Setting& setting : settingTable())
+    if (setting.redo < Redo::Shade) setting.set(back, setting.get(side.built->settings));
+  if (back == side.pipeline->settings())
+    return session_.note("The rebuild was cancelled; the picture shows the old state.");
+  session_.returned |= side.edited != back;
+  side.edited = back;
+  session_.halted = false;
+  session_.note("The rebuild was cancelled; the settings are those of the picture again.");
 }
 
 /// `pipeline` may be a new one that is not the side's yet.
@@ -222,7 +239,8 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .edge = facets.grid.edge,
                      .solve = report,
                      .findings = pipeline.findings(),
-                     .noLight = pipeline.plan().noLight};
+                     .noLight = pipeline.plan().noLight,
+                     .settings = pipeline.settings()};
   const float error = report.frames > 0 ? report.standardError : report.bound;
   side.solves.push_back({report.sweeps, report.residual, error});
   if (side.solves.size() > 400) side.solves.pop_front();

@@ -42,6 +42,7 @@ class Builder {
   void applyLights();
   void giveReference(Pipeline& pipeline);
   void rebuild(Side& side, std::string what);
+  void giveUp(Side& side);
   void prepare(Side& side, Pipeline& pipeline);
   void follow();
   void begin(std::string what);

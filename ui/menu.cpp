@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ui/history_list.h"
 #include "ui/imgui.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
@@ -53,6 +54,26 @@ void drawFile(Session& session) {
   if (session.underRenderDoc && ImGui::MenuItem("Capture a frame with RenderDoc")) session.captureFrame = true;
   ImGui::Separator();
   actionItem(session, "Quit", Action::Quit);
+}
+
+/// Undo and redo with the names of their steps, and all of them.
+void drawEdit(Session& session) {
+  const History& history = session.history;
+  const float width = 24 * ImGui::GetFontSize();
+  const auto item = [&](const char* what, Action action, bool can, size_t step) {
+    const std::string label = can ? fmt::format("{}: {}", what, history.steps()[step].name) : what;
+    actionItem(session, fmt::format("{}###{}", clipped(label, width), what).c_str(), action, false, can);
+  };
+  item("Undo", Action::Undo, history.canUndo(), history.at());
+  item("Redo", Action::Redo, history.canRedo(), history.at() + 1);
+  ImGui::Separator();
+  if (ImGui::BeginMenu("History", !history.steps().empty())) {
+    const float rows = std::min(static_cast<float>(history.steps().size()), 16.0f);
+    ImGui::BeginChild("##list", {width, rows * ImGui::GetTextLineHeightWithSpacing()});
+    historyList(session, ImGui::GetContentRegionAvail().x);
+    ImGui::EndChild();
+    ImGui::EndMenu();
+  }
 }
 
 void drawView(Session& session, const Panels& panels) {
@@ -107,6 +128,7 @@ void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
       ImGui::EndMenu();
     };
     menu("File", [&] { drawFile(session); });
+    menu("Edit", [&] { drawEdit(session); });
     menu("View", [&] { drawView(session, panels); });
     menu("Solver", [&] { drawSolver(session); });
     menu("Help", [&] { actionItem(session, "Keys and mouse", Action::Help, session.showHelp); });

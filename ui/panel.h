@@ -27,6 +27,7 @@ class Panel {
   X(Cameras)           \
   X(Settings)          \
   X(Effects)           \
+  X(History)           \
   X(View)              \
   X(Compare)           \
   X(Accuracy)          \

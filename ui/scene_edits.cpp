@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
@@ -25,7 +26,7 @@ void SceneEdits::begin(const Scene& scene, std::filesystem::path file, std::stri
   lights = scene.lights;
   bookmarks = scene.bookmarks;
   again(scene);
-  saved_ = current();
+  saved_ = content();
 }
 
 void SceneEdits::again(const Scene& scene) {
@@ -49,23 +50,9 @@ void SceneEdits::add(Light light) {
 }
 
 void SceneEdits::remove() {
-  const Light* chosen = light();
-  if (chosen == nullptr) return;
-  removed_.emplace_back(selected, *chosen);
+  if (light() == nullptr) return;
   lights.erase(lights.begin() + selected);
   selected = std::min(selected, static_cast<int>(lights.size()) - 1);
-}
-
-const Light* SceneEdits::removed() const {
-  return removed_.empty() ? nullptr : &removed_.back().second;
-}
-
-void SceneEdits::undoRemoval() {
-  if (removed_.empty()) return;
-  const size_t at = std::min(removed_.back().first, lights.size());
-  lights.insert(lights.begin() + static_cast<ptrdiff_t>(at), std::move(removed_.back().second));
-  removed_.pop_back();
-  selected = static_cast<int>(at);
 }
 
 size_t SceneEdits::addBookmark(const Camera& camera, const std::string& name) {
@@ -85,8 +72,7 @@ void SceneEdits::rename(size_t bookmark, const std::string& name) {
   if (!name.empty() && freeName(name, cameraNames()) == name) bookmarks.at(bookmark).name = name;
 }
 
-/// Lights that are the file's own are not saved: the file may yet change.
-Sidecar SceneEdits::current() const {
+Sidecar SceneEdits::content() const {
   Sidecar sidecar;
   if (lights != fileLights_) sidecar.lights = lights;
   sidecar.bookmarks = bookmarks;
@@ -101,31 +87,37 @@ bool SceneEdits::modified() const {
 
 void SceneEdits::save() {
   if (file_.empty()) throw WorkError(reason_);
-  Sidecar sidecar = current();
+  Sidecar sidecar = content();
   writeSidecar(file_, sidecar);
   saved_ = std::move(sidecar);
 }
 
 void SceneEdits::saveAs(const std::filesystem::path& file) {
-  Sidecar sidecar = current();
+  Sidecar sidecar = content();
   if (file.has_parent_path()) makeFolder(file.parent_path());
   writeSidecar(file, sidecar);
   saved_ = std::move(sidecar);
   file_ = file;
 }
 
+void SceneEdits::restore(Sidecar content) {
+  const std::vector<Light> before = std::exchange(lights, content.lights ? std::move(*content.lights) : fileLights_);
+  bookmarks = std::move(content.bookmarks);
+  const auto count = static_cast<int>(lights.size());
+  if (lights.size() == before.size() + 1)
+    selected = static_cast<int>(std::mismatch(before.begin(), before.end(), lights.begin()).first - before.begin());
+  selected = std::min(selected, count - 1);
+}
+
 void SceneEdits::take(Sidecar sidecar) {
-  lights = std::move(sidecar.lights).value_or(fileLights_);
-  bookmarks = std::move(sidecar.bookmarks);
+  restore(std::move(sidecar));
   selected = -1;
-  removed_.clear();
 }
 
 void SceneEdits::revert() {
-  lights = saved_.lights.value_or(fileLights_);
-  bookmarks = saved_.bookmarks;
-  selected = std::min(selected, static_cast<int>(lights.size()) - 1);
-  removed_.clear();
+  Sidecar to = saved_;
+  if (!modified()) to.lights.reset();
+  restore(std::move(to));
 }
 
 }  // namespace irad

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "renderer/scene/sidecar.h"
@@ -30,9 +29,6 @@ class SceneEdits {
   /// Appends under a free name and selects it.
   void add(Light light);
   void remove();  ///< the selected one
-  /// The light that undoRemoval() would bring back; null: none.
-  const Light* removed() const;
-  void undoRemoval();
 
   /// A copy of `camera` under a free name: its index.
   size_t addBookmark(const Camera& camera, const std::string& name);
@@ -47,12 +43,21 @@ class SceneEdits {
   void save();
   /// The same in a place of the user's choice, which is save()'s from then on.
   void saveAs(const std::filesystem::path& file);
-  /// Lights and bookmarks of another sidecar in place of these; nothing is saved.
+  /// All that a user has made of the scene, as it would be saved: what undo goes back to (ui/edit_state.h), what is
+  /// kept against a crash (ui/autosave.h). Lights that are the file's own are not in it: the file may yet change.
+  Sidecar content() const;
+  /// That in place of these; nothing is saved. The chosen light stays chosen where there still is one of that number;
+  /// one that comes back is chosen.
+  void restore(Sidecar content);
+  /// The same of another sidecar: no light is chosen.
   void take(Sidecar sidecar);
-  void revert();  ///< to what was saved
+  /// Whether revert() would change anything: away from what was saved or, from there, from the scene file's own lights.
+  bool canRevert() const { return modified() || !lightsAreTheFiles(); }
+  bool lightsAreTheFiles() const { return lights == fileLights_; }
+  /// To what was saved; where that is what there is, to the scene file's own lights. Bookmarks that were saved stay.
+  void revert();
 
  private:
-  Sidecar current() const;
   std::vector<std::string> cameraNames() const;  ///< of the scene's and the bookmarks
   std::vector<Light> fileLights_;
   std::vector<std::string> fileCameras_;  ///< names
@@ -60,7 +65,6 @@ class SceneEdits {
   Sidecar saved_;
   std::filesystem::path file_;
   std::string reason_;
-  std::vector<std::pair<size_t, Light>> removed_;  ///< and where they were in the list, the last one at the end
 };
 
 }  // namespace irad

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gi/check/check.h"
+#include "gi/stage_keys.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "ui/widgets.h"
@@ -57,6 +58,10 @@ void Session::saveEdits() {
   }
 }
 
+std::filesystem::path lastingPath(const std::filesystem::path& scene) {
+  return isCheckScene(scene) ? scene : std::filesystem::absolute(scene).lexically_normal();
+}
+
 std::string cameraName(const Camera& camera, int index) {
   return camera.name.empty() ? fmt::format("camera {}", index + 1) : camera.name;
 }
@@ -89,6 +94,7 @@ void Session::open(const std::filesystem::path& path) {
 void Session::openSidecar(const std::filesystem::path& path) {
   try {
     edits.take(readSidecar(path));
+    history.call(fmt::format("lights and bookmarks of {}", path.filename().string()));
     note(fmt::format("Lights and bookmarks are those of {}", path.filename().string()));
   } catch (const Error& e) {
     error(e.what());
@@ -131,12 +137,30 @@ void Session::leaveNow(const Leaving& what) {
 void Session::stay() {
   const Leaving stayed = *std::exchange(asking, std::nullopt);
   if (stayed.what == Leaving::What::OpenScene && pipeline && pipeline->scene().path == stayed.path)
-    edited.scene = pipeline->settings().scene;
+    edited.scene = pipeline->settings().scene, returned = true;
+}
+
+void Session::seeEdits(bool held) {
+  if (!pipeline) return;
+  if (std::exchange(returned, false))
+    history.seeReturned(editStateOf(*this));
+  else
+    history.see(editStateOf(*this), held);
+}
+
+void Session::goToStep(size_t step) {
+  seeEdits(/*held=*/false);
+  if (step >= history.steps().size()) return;
+  const Settings before = edited;
+  restore(*this, history.go(step));
+  if (work && work->ofSettings && firstDifference(before, edited) != Redo::Nothing) work->cancel = true;
 }
 
 void Session::closeTopmost() {
   if (asking)
     stay();
+  else if (found)
+    answer = Offer::Later;
   else if (showOpen)
     showOpen = false;
   else if (closePopup())
@@ -184,6 +208,14 @@ void Session::act(Action action) {
         if (showsDifference()) viewDirty = true;  // the difference has a range of its own
         comparison->show = comparison->show == Show::A ? Show::B : Show::A;
       }
+      break;
+    case Action::Undo:
+      seeEdits(/*held=*/false);  // a flight may not have been seen yet
+      if (history.canUndo()) goToStep(history.at() - 1);
+      break;
+    case Action::Redo:
+      seeEdits(/*held=*/false);
+      if (history.canRedo()) goToStep(history.at() + 1);
       break;
     case Action::Open:
       showOpen = true;

@@ -19,8 +19,10 @@
 #include "renderer/targets.h"
 #include "shaders/shared/view.h"
 #include "ui/accuracy.h"
+#include "ui/autosave.h"
 #include "ui/bindings.h"
 #include "ui/fly_camera.h"
+#include "ui/history.h"
 #include "ui/inspection.h"
 #include "ui/preferences.h"
 #include "ui/presets.h"
@@ -41,6 +43,7 @@ struct Work {
   std::string stage = {};
   float fraction = 0;
   bool cancel = false;
+  bool ofSettings = false;  ///< a rebuild: what it was begun for may be undone
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 };
 
@@ -53,6 +56,7 @@ struct Built {
   SolveReport solve;
   std::vector<Finding> findings;     ///< of the numerical watch, errors first
   std::vector<std::string> noLight;  ///< EffectPlan::noLight
+  Settings settings;                 ///< that it was made with
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 
@@ -112,7 +116,9 @@ struct Session : Side {
   Redo next = Redo::Nothing;  ///< first stage that a pending edit will redo
   bool halted = false;        ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
 
-  SceneEdits edits;  ///< lights and bookmarks; the loop hands the lights to the pipeline
+  SceneEdits edits;       ///< lights and bookmarks; the loop hands the lights to the pipeline
+  History history;        ///< of the edits of settings, scene, view and camera (ui/edit_state.h)
+  bool returned = false;  ///< an edit was taken back by the loop: what it was for was cancelled, or failed
 
   View view = 0;
   std::optional<ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it
@@ -130,6 +136,7 @@ struct Session : Side {
   bool underRenderDoc = false;  ///< captureFrame can be served
   bool paused = false, hideUi = false, showHelp = false, showOpen = false;
   std::optional<Leaving> asking;  ///< Save, Discard or Cancel before this
+  std::optional<Autosave> found;  ///< an earlier run's, which is offered
   Preferences preferences;
   Presets presets;
   std::optional<Work> work;
@@ -152,13 +159,19 @@ struct Session : Side {
   // Requests; those that may lose work come from leave().
   std::optional<std::filesystem::path> openScene, openPicture;
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
-  std::optional<bool> compare;        ///< begin or end a comparison
+  std::optional<bool> compare;  ///< begin or end a comparison
+  enum class Offer { Take, Discard, Later };
+  std::optional<Offer> answer;        ///< to what was found
   bool step = false, darken = false;  ///< of the paused solver: a sweep; of any: from H = 0 again
 
   // Shown until dismissed, and printed on standard error.
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void act(Action action);  ///< what its key does
+  /// After a frame: what has changed in it becomes a step of the history, unless the edit is `held` (History::see).
+  void seeEdits(bool held);
+  /// Undo and redo: the state of a step of the history. A rebuild that this makes pointless is given up.
+  void goToStep(size_t step);
   /// After a scene was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
   std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
@@ -172,13 +185,16 @@ struct Session : Side {
   void leave(Leaving what);            ///< at once, or after it was asked what becomes of what is unsaved
   void leaveNow(const Leaving& what);  ///< whatever is unsaved
   void stay();                         ///< the answer was Cancel
-  bool dialogOpen() const { return showOpen || asking; }  ///< one that takes mouse and keys
+  bool dialogOpen() const { return showOpen || asking || found; }  ///< one that takes mouse and keys
 
  private:
   void say(Message::Kind kind, std::string text);
   void closeTopmost();
   void openSidecar(const std::filesystem::path& path);
 };
+
+/// A scene's path as it can be opened from any folder.
+std::filesystem::path lastingPath(const std::filesystem::path& scene);
 
 /// Its name, or its number where it has none.
 std::string cameraName(const Camera& camera, int index);

@@ -12,6 +12,7 @@
 #include "renderer/base/output_file.h"
 #include "renderer/presenter.h"
 #include "renderer/renderdoc.h"
+#include "ui/autosave_dialog.h"
 #include "ui/bindings.h"
 #include "ui/builder.h"
 #include "ui/capture.h"
@@ -32,9 +33,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames while a load or a rebuild runs
-constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
-constexpr double kWatchInterval = 0.2;   ///< seconds between frames while all that goes on is a reference
-constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
+constexpr double kHiddenInterval = 0.1;           ///< seconds between looks whether a window without area has one again
+constexpr double kWatchInterval = 0.2;            ///< seconds between frames while all that goes on is a reference
+constexpr int kFramesPerEvent = 3;                ///< ImGui needs a few to settle after an event
+constexpr std::chrono::seconds kKeepInterval{2};  ///< between two writes of what is unsaved
 
 /// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
 double threadMilliseconds() {
@@ -59,6 +61,10 @@ class Window {
   void captureFrame();
   void readPreferences();
   void savePreferences();
+  void offerFound();
+  void answerOffer(Session::Offer answer);
+  bool take(const Autosave& found);
+  void keepWork();
   void fly();
   void drawFrame();
   bool working() const;
@@ -89,6 +95,12 @@ class Window {
   Preferences saved_;         ///< as the file has them
   bool compiling_ = false;    ///< the context has variants to compile
   bool toldUnsaved_ = false;  ///< the user was told that it cannot be written
+  Autosaves autosaves_;
+  std::optional<EditState> kept_;  ///< what the autosave holds; none: nothing is unsaved
+  bool keepDue_ = false;           ///< it is to be written, at keepNext_
+  Clock::time_point keepNext_;
+  bool toldNotKept_ = false;         ///< the user was told that it cannot be written
+  std::filesystem::path historyOf_;  ///< the scene whose edits session_.history holds
 };
 
 Window::Window(Context& context, const WindowOptions& options)
@@ -99,7 +111,9 @@ Window::Window(Context& context, const WindowOptions& options)
       input_(presenter_.window()),
       layer_(context, presenter_.window()),
       builder_(context, session_, [this] { breathe(); }),
-      unsavedDialog_(options.captures) {
+      unsavedDialog_(options.captures),
+      autosaves_(options.preferences.empty() ? std::filesystem::path()
+                                             : options.preferences.parent_path() / "autosave") {
   presenter_.attach(context);
   context.bridgeVariants(true);
   session_.edited = session_.saved = options.settings;
@@ -136,6 +150,85 @@ void Window::savePreferences() {
   }
 }
 
+void Window::offerFound() {
+  try {
+    session_.found = autosaves_.find();
+  } catch (const Error& error) {
+    session_.error(fmt::format("Unsaved work of an earlier run cannot be offered. {}", error.what()));
+  }
+  framesLeft_ = kFramesPerEvent;
+}
+
+void Window::answerOffer(Session::Offer answer) {
+  if (!session_.found) return;
+  const Autosave found = *std::exchange(session_.found, std::nullopt);
+  if (answer == Session::Offer::Discard) {
+    autosaves_.removeFound();
+    return offerFound();
+  }
+  if (answer == Session::Offer::Take && take(found)) {
+    keepNext_ = {};
+    keepWork();  // first, so that it is in a file at every moment
+    autosaves_.removeFound();
+  }
+  autosaves_.leaveFound();
+}
+
+/// Opens the scene, and makes what was kept of it one step of the history. False, after the reason was shown: it cannot
+/// be opened.
+bool Window::take(const Autosave& found) {
+  const auto shown = [&] { return session_.pipeline && lastingPath(session_.pipeline->scene().path) == found.scene; };
+  if (!shown()) {
+    const Settings before = std::exchange(session_.edited, found.settings);
+    open(found.scene);
+    if (!shown()) session_.edited = before;
+  }
+  if (!shown()) return false;
+  session_.seeEdits(/*held=*/false);
+  if (found.other && !session_.comparison) builder_.compare();
+  EditState state = editStateOf(session_);
+  state.a.settings = found.settings;
+  if (state.b && found.other) state.b->settings = *found.other;
+  state.edits = found.edits;
+  state.view = found.view;
+  state.camera = found.camera;
+  restore(session_, state);
+  session_.history.call(fmt::format("unsaved work of {}", timeInWords(found.time)));
+  session_.seeEdits(/*held=*/false);
+  if (found.edits.sceneSha256 != session_.pipeline->scene().sha256)
+    session_.note(fmt::format("{} has changed since this was kept", found.scene.filename().string()));
+  return true;
+}
+
+/// What is unsaved is in a file soon after an edit, and not there any more once it is saved.
+void Window::keepWork() {
+  if (options_.preferences.empty() || !session_.pipeline || session_.history.steps().empty()) return;
+  if (!unsavedBefore(session_, {Leaving::What::Quit}).any()) {
+    keepDue_ = false;
+    kept_.reset();
+    return autosaves_.removeKept();
+  }
+  const EditState& now = session_.history.steps()[session_.history.at()].state;
+  keepDue_ = !kept_ || !kept_->sameWork(now);
+  if (!keepDue_ || Clock::now() < keepNext_) return;
+  Autosave autosave{.scene = lastingPath(session_.pipeline->scene().path),
+                    .time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()),
+                    .edits = session_.edits.content(),
+                    .settings = now.a.settings,
+                    .view = now.view,
+                    .camera = now.camera};
+  if (now.b) autosave.other = now.b->settings;
+  kept_ = now;  // where it fails, until the next edit
+  keepDue_ = false;
+  keepNext_ = Clock::now() + kKeepInterval;
+  try {
+    autosaves_.keep(autosave);
+  } catch (const Error& error) {
+    if (!std::exchange(toldNotKept_, true))
+      session_.error(fmt::format("Unsaved work is not kept against a crash. {}", error.what()));
+  }
+}
+
 void Window::run() {
   builder_.load(options_.scene);
   sceneOpened();
@@ -149,6 +242,7 @@ void Window::run() {
     session_.useSceneCamera(static_cast<int>(named - cameras.begin()));
   }
   if (options_.inspect && session_.pipeline) session_.inspection.open(session_, *options_.inspect);
+  offerFound();
   while (!session_.quit) {
     wait();
     takeKeys();
@@ -167,6 +261,7 @@ void Window::run() {
     if (options_.exitAfter > 0 && settled() && ++settledFrames_ >= options_.exitAfter) break;
     if (options_.measuredFrames > 0 && measured()) break;
   }
+  if (session_.quit) autosaves_.removeKept();  // saved, or discarded
   if (!options_.screenshot.empty() && image_) saveScreenshot(context_, image_, options_.screenshot);
 }
 
@@ -180,7 +275,7 @@ bool Window::measured() {
 /// There is something to do that needs no frame.
 bool Window::working() const {
   return session_.work || session_.openScene || session_.openPicture || session_.capture || session_.captureAll ||
-         session_.captureFrame || session_.reloadShaders || session_.rebuild || session_.compare ||
+         session_.captureFrame || session_.answer || session_.reloadShaders || session_.rebuild || session_.compare ||
          session_.inspection.wanted() || session_.accuracy.measuring() || builder_.stale() ||
          (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
@@ -207,6 +302,8 @@ void Window::wait() {
     glfwWaitEventsTimeout(kWatchInterval);
   else if (blinks)
     glfwWaitEventsTimeout(0.4);
+  else if (keepDue_)
+    glfwWaitEventsTimeout(std::max(std::chrono::duration<double>(keepNext_ - Clock::now()).count(), 0.01));
   else
     glfwWaitEvents();
   if (input_.takeEvent())
@@ -230,6 +327,9 @@ void Window::takeKeys() {
       return b.key == press.key && (press.shift || !b.shift) && (press.control || !b.control);
     });
     if (session_.dialogOpen() && press.key != GLFW_KEY_ESCAPE) continue;
+    // What the mouse holds would be edited on from where it has been taken back to.
+    const bool steps = binding != all.end() && (binding->action == Action::Undo || binding->action == Action::Redo);
+    if (steps && ImGui::IsAnyItemActive()) continue;
     if (binding != all.end()) session_.act(binding->action);
     const auto number = static_cast<size_t>(press.key - GLFW_KEY_1);
     if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_9 && number < views().size()) {
@@ -241,6 +341,7 @@ void Window::takeKeys() {
 
 void Window::takeRequests() {
   savePreferences();
+  if (const auto answer = std::exchange(session_.answer, std::nullopt)) answerOffer(*answer);
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
   serveRecorder(session_, options_.captures);
   if (session_.openPicture) builder_.openPicture(*std::exchange(session_.openPicture, std::nullopt));
@@ -254,6 +355,7 @@ void Window::takeRequests() {
   }
   if (session_.comparison && !session_.viewDirty) measureComparison(context_, session_);
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
+  keepWork();
 }
 
 /// What the settings call for, and a picture of it.
@@ -311,6 +413,7 @@ void Window::sceneOpened() {
   std::error_code ignored;
   const std::filesystem::path& path = session_.pipeline->scene().path;
   if (std::filesystem::exists(path, ignored)) session_.preferences.opened(path);
+  if (std::exchange(historyOf_, path) != path) session_.history.clear();
   const std::string file = session_.pipeline->scene().path.filename().string();
   glfwSetWindowTitle(presenter_.window(), fmt::format("irad \u2014 {}", file).c_str());
 }
@@ -386,7 +489,10 @@ void Window::drawFrame() {
   drawHelp(session_, where.viewport);
   openDialog_.draw(session_);
   unsavedDialog_.draw(session_);
+  drawAutosaveDialog(session_);
   builder_.announced();
+  session_.seeEdits(/*held=*/ImGui::IsAnyItemActive() || input_.flying());
+  keepWork();
   double uiMs = threadMilliseconds() - uiBegan;
 
   // Frames of the progress bar stay out of the timings, where the rebuild's own passes are being summed.

@@ -63,14 +63,22 @@ Sidecar readSidecar(const fs::path& path) {
   }
 }
 
-void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
+std::string sidecarToJson(const Sidecar& sidecar) {
   OrderedJson json;
   json["format"] = kSidecarFormat;
   if (!sidecar.sceneSha256.empty()) json["scene_sha256"] = sidecar.sceneSha256;
   if (sidecar.lights) json["lights"] = OrderedJson::parse(lightsToJson(*sidecar.lights));
   json["cameras"] = OrderedJson::array();
   for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(OrderedJson::parse(cameraToJson(camera)));
-  writeFile(path, json.dump(2) + "\n");
+  return json.dump(2);
+}
+
+Sidecar sidecarFromJson(std::string_view json, const std::string& label) {
+  return parse(parseJson(json, label), label);
+}
+
+void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
+  writeFile(path, sidecarToJson(sidecar) + "\n");
 }
 
 void takeSidecar(Scene& scene) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -23,6 +24,11 @@ struct Sidecar {
 
 /// The ending of sidecars' names.
 constexpr const char* kSidecarExtension = ".irad.json";
+
+/// As its file holds it.
+std::string sidecarToJson(const Sidecar& sidecar);
+/// UsageError "LABEL: ..." names object and value; also where a newer program wrote it.
+Sidecar sidecarFromJson(std::string_view json, const std::string& label);
 
 /// Beside the scene file.
 std::filesystem::path sidecarPath(const std::filesystem::path& scene);

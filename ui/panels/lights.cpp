@@ -102,16 +102,11 @@ class LightsPanel : public Panel {
   }
 
   static void drawListButtons(SceneEdits& edits) {
-    if (edits.light() != nullptr) {
-      if (ImGui::Button("Duplicate")) edits.add(Light(*edits.light()));
-      ImGui::SameLine();
-      if (ImGui::Button("Remove")) edits.remove();
-      if (edits.removed() != nullptr) ImGui::SameLine();
-    }
-    if (const Light* gone = edits.removed()) {
-      if (ImGui::Button("Undo removal")) return edits.undoRemoval();
-      helpTooltip(fmt::format("Bring back \"{}\"", gone->name));
-    }
+    if (edits.light() == nullptr) return;
+    if (ImGui::Button("Duplicate")) edits.add(Light(*edits.light()));
+    ImGui::SameLine();
+    if (ImGui::Button("Remove")) edits.remove();
+    helpTooltip("Ctrl + Z brings it back");
   }
 
   static void drawFields(Light& light, Session& session) {

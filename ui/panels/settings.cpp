@@ -39,9 +39,13 @@ class SettingsPanel : public Panel {
       if (ImGui::Selectable(name.c_str())) {
         applyPreset(session.edited, name, session.context.device.isCpu);
         session.saved = session.edited;
+        session.history.call("preset " + name);
       }
     ImGui::Separator();
-    if (ImGui::Selectable("defaults of this device")) session.saved = session.edited = session.defaults;
+    if (ImGui::Selectable("defaults of this device")) {
+      session.saved = session.edited = session.defaults;
+      session.history.call("defaults of this device");
+    }
     if (!session.presets.names().empty()) ImGui::Separator();
     for (const std::string& name : session.presets.names())
       if (ImGui::Selectable(name.c_str())) apply(session, name);
@@ -52,6 +56,7 @@ class SettingsPanel : public Panel {
     try {
       session.presets.apply(session.edited, name);
       session.saved = session.edited;
+      session.history.call("preset " + name);
     } catch (const Error& error) {
       session.error(error.what());
     }

@@ -1,0 +1,142 @@
+#include "ui/edit_state.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "ui/session.h"
+
+namespace irad {
+namespace {
+
+std::string quoted(const std::string& name, const char* what) {
+  return name.empty() ? fmt::format("a {}", what) : fmt::format("{} {}", what, name);
+}
+
+/// `side`: "", or "A: ".
+void addSettings(std::vector<std::string>& words, const char* side, const Settings& from, const Settings& to) {
+  const Setting* first = nullptr;
+  size_t more = 0;
+  for (const Setting& setting : settingTable()) {
+    if (setting.get(from) == setting.get(to)) continue;
+    if (first)
+      ++more;
+    else
+      first = &setting;
+  }
+  if (!first) return;
+  std::string text = fmt::format("{}{} {} to {}", side, first->name, first->text(from), first->text(to));
+  if (more > 0) text += fmt::format(" and {} more", more);
+  words.push_back(std::move(text));
+}
+
+/// What became of a list of named things: one more, one less, another one.
+template <class T>
+void addList(std::vector<std::string>& words, const char* one, const char* many, const std::vector<T>& from,
+             const std::vector<T>& to, std::string (*change)(const T&, const T&)) {
+  if (from == to) return;
+  const auto [a, b] = std::mismatch(from.begin(), from.end(), to.begin(), to.end());
+  if (to.size() == from.size() + 1 && std::equal(a, from.end(), b + 1, to.end()))
+    words.push_back("add " + quoted(b->name, one));
+  else if (to.size() + 1 == from.size() && std::equal(a + 1, from.end(), b, to.end()))
+    words.push_back("remove " + quoted(a->name, one));
+  else if (to.size() == from.size() && std::equal(a + 1, from.end(), b + 1, to.end()))
+    words.push_back(fmt::format("{}: {}", quoted(b->name, one), change(*a, *b)));
+  else
+    words.emplace_back(many);
+}
+
+std::string lightChange(const Light& from, const Light& to) {
+  std::vector<const char*> parts;
+  const auto part = [&](bool differs, const char* name) {
+    if (differs) parts.push_back(name);
+  };
+  part(from.name != to.name, "name");
+  part(from.type != to.type, "type");
+  part(from.position != to.position, "position");
+  part(from.direction != to.direction, "direction");
+  part(from.color != to.color, "color");
+  part(from.intensity != to.intensity, "intensity");
+  part(from.range != to.range, "range");
+  part(from.innerCos != to.innerCos || from.outerCos != to.outerCos, "cone");
+  part(from.angle != to.angle || from.radius != to.radius, "size");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string bookmarkChange(const Camera& from, const Camera& to) {
+  return from.name != to.name ? "name" : "place";
+}
+
+void addEdits(std::vector<std::string>& words, const Sidecar& from, const Sidecar& to) {
+  const size_t before = words.size();
+  if (from.lights && to.lights)
+    addList(words, "light", "lights", *from.lights, *to.lights, lightChange);
+  else if (from.lights != to.lights)
+    words.emplace_back(to.lights ? "lights" : "the file's own lights");
+  addList(words, "bookmark", "bookmarks", from.bookmarks, to.bookmarks, bookmarkChange);
+  if (words.size() == before && from != to) words.emplace_back("scene edits");
+}
+
+}  // namespace
+
+bool EditState::onlyFlown(const EditState& other) const {
+  return sameWork(other) && view == other.view && sceneCamera == other.sceneCamera && camera != other.camera;
+}
+
+EditState editStateOf(const Session& session) {
+  const auto of = [](const Side& side) {
+    SideEdits edits{side.edited, side.saved};
+    edits.settings.view.facet = 0;
+    return edits;
+  };
+  EditState state;
+  state.a = of(session);
+  if (session.comparison) {
+    state.b = of(session.comparison->other);
+    // The side that is not edited takes these from the other one (Builder::follow).
+    state.b->settings.view = state.a.settings.view;
+    if (session.comparison->sameSeed) state.b->settings.matrix.gpu.seed = state.a.settings.matrix.gpu.seed;
+    if (session.comparison->editsB) std::swap(state.a, *state.b);
+  }
+  state.edits = session.edits.content();
+  state.edits.sceneSha256.clear();
+  state.view = session.view;
+  state.camera = session.camera.camera();
+  state.sceneCamera = session.sceneCamera;
+  return state;
+}
+
+void restore(Session& session, const EditState& state) {
+  const auto give = [](Side& side, const SideEdits& edits) {
+    const uint32_t facet = side.edited.view.facet;
+    side.edited = edits.settings;
+    side.edited.view.facet = facet;
+    side.saved = edits.saved;
+  };
+  give(session.sideA(), state.a);
+  if (session.comparison && state.b) give(session.sideB(), *state.b);
+  Sidecar edits = session.edits.content();
+  edits.sceneSha256.clear();
+  if (edits != state.edits) session.edits.restore(state.edits);
+  if (session.view != state.view) session.viewDirty = true;
+  session.view = state.view;
+  if (session.camera.camera() != state.camera) session.startAt(state.camera);
+  session.sceneCamera = std::clamp(state.sceneCamera, 0, std::max(static_cast<int>(session.cameras().size()) - 1, 0));
+}
+
+std::string whatChanged(const EditState& from, const EditState& to) {
+  std::vector<std::string> words;
+  addSettings(words, to.b ? "A: " : "", from.a.settings, to.a.settings);
+  if (from.b && to.b) addSettings(words, "B: ", from.b->settings, to.b->settings);
+  addEdits(words, from.edits, to.edits);
+  if (from.view != to.view) words.push_back(fmt::format("view {}", viewInfo(to.view) ? viewInfo(to.view)->label : "?"));
+  // A new bookmark is also the camera that is chosen.
+  if (words.empty() && from.camera != to.camera)
+    words.push_back(from.sceneCamera == to.sceneCamera ? "flight" : "camera " + cameraName(to.camera, to.sceneCamera));
+  if (words.empty() && from.sceneCamera != to.sceneCamera) words.emplace_back("camera");
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace irad
