@@ -1,4 +1,4 @@
-// What the window's user makes of a scene: lights and bookmarks, their names, undo, what is unsaved, where it is kept.
+// What the window's user makes of a scene: lights and bookmarks, their names, what is unsaved, where it is kept.
 #include <gtest/gtest.h>
 
 #if IRAD_UI
@@ -24,7 +24,7 @@ struct SceneEditsTest : ::testing::Test {
   using Names = std::vector<std::string>;
 };
 
-TEST_F(SceneEditsTest, AddsUnderFreeNamesRemovesAndBringsBack) {
+TEST_F(SceneEditsTest, AddsUnderFreeNamesAndRemoves) {
   EXPECT_EQ(names(), (Names{"default sun"}));
   EXPECT_EQ(edits.light(), nullptr);
   EXPECT_FALSE(edits.modified());
@@ -39,12 +39,18 @@ TEST_F(SceneEditsTest, AddsUnderFreeNamesRemovesAndBringsBack) {
   EXPECT_EQ(edits.light()->name, "lamp 2");
   edits.remove();
   EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
-  EXPECT_EQ(edits.removed()->name, "lamp 2");
-  edits.undoRemoval();
-  edits.undoRemoval();
-  EXPECT_EQ(names(), (Names{"default sun", "lamp", "lamp 2", "lamp 3"}));
-  EXPECT_EQ(edits.light()->position, lamp.position);
-  EXPECT_EQ(edits.removed(), nullptr);
+  // What undo does: the light that comes back is chosen.
+  const Sidecar before = edits.content();
+  edits.selected = 0;
+  edits.remove();
+  edits.restore(before);
+  EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
+  EXPECT_EQ(edits.selected, 0);
+  EXPECT_EQ(edits.content(), before);
+  edits.add(lamp);
+  edits.restore(before);
+  EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
+  EXPECT_EQ(edits.selected, 1) << "of those that are left";
   for (int i = 0; i < 5; ++i) edits.selected = 0, edits.remove();
   EXPECT_TRUE(edits.lights.empty());
   EXPECT_EQ(edits.light(), nullptr);
@@ -78,6 +84,16 @@ TEST_F(SceneEditsTest, SavesWhatDiffersFromTheSceneAndReverts) {
   edits.revert();
   EXPECT_EQ(edits.lights.at(0).intensity, 7);
   EXPECT_FALSE(edits.modified());
+  // From what was saved to the file's own lights, and no further.
+  EXPECT_TRUE(edits.canRevert());
+  edits.revert();
+  EXPECT_EQ(edits.lights, scene.lights);
+  EXPECT_TRUE(edits.modified()) << "the sidecar has others";
+  edits.save();
+  EXPECT_FALSE(readSidecar(file).lights);
+  EXPECT_FALSE(edits.canRevert());
+  edits.lights[0].intensity = 7;
+  edits.save();
 
   // Loaded again, edits stay.
   edits.lights[0].intensity = 8;

@@ -57,6 +57,11 @@ class Program {
     wait(5);
   }
 
+  /// At once, as a crash would.
+  void killNow() {
+    kill(process_.pid(), SIGKILL);
+    wait(5);
+  }
   bool running() { return !process_.poll(); }
   /// Exit status, or -1 when it still runs after `seconds`.
   int wait(double seconds) {

@@ -20,11 +20,11 @@ namespace irad {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kAutosaveFormat = 1;
 
-Autosave parse(const OrderedJson& parsed, const std::string& label) {
-  if (!parsed.is_object() || parsed.value("format", OrderedJson()) != kFormat)
-    throw UsageError(fmt::format("{}: format: expected {}, not {}", label, kFormat,
+Autosave autosaveFromJson(const OrderedJson& parsed, const std::string& label) {
+  if (!parsed.is_object() || parsed.value("format", OrderedJson()) != kAutosaveFormat)
+    throw UsageError(fmt::format("{}: format: expected {}, not {}", label, kAutosaveFormat,
                                  parsed.is_object() ? parsed.value("format", OrderedJson()).dump() : "no object"));
   const JsonObject json(parsed, label,
                         {"format", "scene", "time", "view", "camera", "edits", "settings", "other_settings"});
@@ -61,7 +61,7 @@ fs::path lockOf(const fs::path& file) {
 
 void writeAutosave(const fs::path& file, const Autosave& autosave) {
   OrderedJson json;
-  json["format"] = kFormat;
+  json["format"] = kAutosaveFormat;
   json["scene"] = autosave.scene.string();
   json["time"] = autosave.time;
   json["view"] = viewInfo(autosave.view)->name;
@@ -75,7 +75,7 @@ void writeAutosave(const fs::path& file, const Autosave& autosave) {
 
 Autosave readAutosave(const fs::path& file) {
   try {
-    return parse(readJsonFile(file), file.string());
+    return autosaveFromJson(readJsonFile(file), file.string());
   } catch (const InputError&) {
     throw;
   } catch (const UsageError& error) {

@@ -9,18 +9,18 @@
 namespace irad {
 namespace {
 
-constexpr const char* kTitle = "Unsaved work was found";
+constexpr const char* kFoundTitle = "Unsaved work was found";
 
 }  // namespace
 
 void drawAutosaveDialog(Session& session) {
   // Another question comes first: of two at once the second would close the first.
-  if (session.found && !session.asking && !session.showOpen && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+  if (session.found && !session.asking && !session.showOpen && !ImGui::IsPopupOpen(kFoundTitle)) ImGui::OpenPopup(kFoundTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowSizeConstraints({36 * em, 0}, {36 * em, 40 * em});
   if (!ImGui::BeginPopupModal(
-          kTitle, nullptr,
+          kFoundTitle, nullptr,
           ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove))
     return;
   if (session.found) {

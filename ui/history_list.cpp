@@ -20,7 +20,7 @@ void historyList(Session& session, float width) {
       const bool present = step == session.history.at();
       ImGui::PushID(static_cast<int>(step));
       const float start = ImGui::GetCursorPosX();
-      if (ImGui::Selectable("##", present, ImGuiSelectableFlags_DontClosePopups, {width, 0})) wanted = step;
+      if (ImGui::Selectable("##", present, ImGuiSelectableFlags_DontClosePopups)) wanted = step;
       ImGui::SameLine(start);
       ImGui::PushStyleColor(ImGuiCol_Text, step > session.history.at() ? theme::dim : theme::text);
       clippedText(steps[step].name, width);
