@@ -192,7 +192,7 @@ TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
   // The last edit is in the file in time, and then the window sleeps.
   const auto whole = [&] {
     const Autosave autosave = readAutosave(kept().at(0));
-    return autosave.edits.bookmarks.size() == 1 && autosave.settings.sample.gpu.filter == SampleFilter::linear;
+    return autosave.edits.bookmarks.size() == 1 && autosave.settings.sample.gpu.filter_ == SampleFilter::linear;
   };
   for (int i = 0; i < 400 && !whole(); ++i) pause(0.05);
   const Autosave kill = readAutosave(kept().at(0));
