@@ -172,7 +172,7 @@ TEST_F(HistoryTest, StepsSayWhatTheyAre) {
     EXPECT_EQ(last(), name);
   };
   now.edits.lights = {sun};
-  step("lights");
+  step("add light sun");
   now.edits.lights->push_back(lamp);
   step("add light lamp");
   now.edits.lights->at(1).position.x = 3;
@@ -180,8 +180,8 @@ TEST_F(HistoryTest, StepsSayWhatTheyAre) {
   step("light lamp: position, intensity");
   now.edits.lights->erase(now.edits.lights->begin());
   step("remove light sun");
-  now.edits.lights.reset();
-  step("the file's own lights");
+  now.edits.lights = {sun, sun};
+  step("lights");
   // A new bookmark is also the camera that is chosen.
   now.edits.bookmarks.push_back({.name = "door"});
   now.sceneCamera = 1;

@@ -127,21 +127,44 @@ class WindowLoop : public ::testing::Test {
 
 TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
   std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
-  run([&] {
-    // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
-    for (const std::string& place : {std::string("360 510"), placeOfSetting(), std::string("800 620")}) {
-      screen_->xdotool(fmt::format("mousemove {}", place));
-      ASSERT_TRUE(until([&] { return rests(); })) << "mouse at " << place;
-      const Counters before = context_->counters();
-      const double used = processSeconds();
-      constexpr double kSeconds = 5;
-      pause(kSeconds);
-      const Counters asked = context_->counters().since(before);
-      EXPECT_EQ(asked, Counters()) << "mouse at " << place << ": " << asked.dispatches << " dispatches, " << asked.draws
-                                   << " draws, " << asked.submissions << " submissions";
-      EXPECT_LT(processSeconds() - used, 0.02 * kSeconds) << "seconds of processor time in 5 s, mouse at " << place;
-    }
-  });
+  const auto autosave = [this] {
+    std::filesystem::path file;
+    std::error_code none;
+    for (std::filesystem::directory_iterator it(folder_.path / "autosave", none), end; !none && it != end;
+         it.increment(none))
+      if (it->path().extension() == ".json") file = it->path();
+    return file;
+  };
+  run(
+      [&] {
+        const auto idles = [&](const std::string& when, double seconds) {
+          ASSERT_TRUE(until([&] { return rests(); })) << when;
+          const Counters before = context_->counters();
+          const double used = processSeconds();
+          pause(seconds);
+          const Counters asked = context_->counters().since(before);
+          EXPECT_EQ(asked, Counters()) << when << ": " << asked.dispatches << " dispatches, " << asked.draws
+                                       << " draws, " << asked.submissions << " submissions";
+          EXPECT_LT(processSeconds() - used, 0.02 * seconds) << "seconds of processor time, " << when;
+        };
+        // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
+        for (const std::string& place : {std::string("360 510"), placeOfSetting(), std::string("800 620")}) {
+          screen_->xdotool(fmt::format("mousemove {}", place));
+          idles("mouse at " + place, 5);
+        }
+        // With something unsaved: two edits that follow each other are soon in the autosave, and then it is left alone.
+        EXPECT_EQ(autosave(), "");
+        click("Lights/point");
+        click("Lights/sun");
+        screen_->xdotool("mousemove 360 510");
+        EXPECT_TRUE(until([&] { return contains(slurp(autosave()), "\"sun\""); })) << "no autosave of the last edit";
+        EXPECT_TRUE(until([&] { return rests(); }));
+        const auto written = std::filesystem::last_write_time(autosave());
+        idles("with unsaved lights", 3);
+        EXPECT_EQ(std::filesystem::last_write_time(autosave()), written);
+      },
+      /*discards=*/true);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path / "autosave"));
 }
 
 TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {

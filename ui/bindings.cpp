@@ -16,9 +16,10 @@ std::span<const Binding> bindings() {
       {0, Action::None, "Wheel", "flying speed"},
       {0, Action::None, "Drag an edge", "size of the panels; double click: as it was"},
       {0, Action::None, "1 \u2026 9", "the first nine views"},
-      {GLFW_KEY_Z, Action::Redo, "Ctrl + Shift + Z", "redo; so does Ctrl + Y", /*shift=*/true, /*control=*/true},
-      {GLFW_KEY_Z, Action::Undo, "Ctrl + Z", "undo: settings, presets, lights, cameras, view", /*shift=*/false,
+      {GLFW_KEY_Z, Action::Redo, "Ctrl + Shift + Z", nullptr, /*shift=*/true, /*control=*/true},
+      {GLFW_KEY_Z, Action::Undo, "Ctrl + Z", "undo; Ctrl + Shift + Z or Ctrl + Y: redo", /*shift=*/false,
        /*control=*/true},
+      {GLFW_KEY_Y, Action::Redo, "Ctrl + Y", nullptr, /*shift=*/false, /*control=*/true},
       {GLFW_KEY_O, Action::Open, "O", "open a scene"},
       {GLFW_KEY_C, Action::NextCamera, "C", "the next camera or bookmark"},
       {GLFW_KEY_X, Action::Flicker, "X", "of two compared sides, show the other"},
@@ -32,7 +33,6 @@ std::span<const Binding> bindings() {
        "close what is on top: a list or menu, a dialog, the help, work in\n"
        "progress, the inspected facet, the chosen light, the comparison"},
       {GLFW_KEY_Q, Action::Quit, "Ctrl + Q", "quit; what is unsaved is asked for", /*shift=*/false, /*control=*/true},
-      {GLFW_KEY_Y, Action::Redo, nullptr, nullptr, /*shift=*/false, /*control=*/true},
   };
   return table;
 }

@@ -71,12 +71,18 @@ std::string bookmarkChange(const Camera& from, const Camera& to) {
 
 void addEdits(std::vector<std::string>& words, const Sidecar& from, const Sidecar& to) {
   const size_t before = words.size();
-  if (from.lights && to.lights)
-    addList(words, "light", "lights", *from.lights, *to.lights, lightChange);
-  else if (from.lights != to.lights)
-    words.emplace_back(to.lights ? "lights" : "the file's own lights");
+  addList(words, "light", "lights", from.lights.value_or(std::vector<Light>()),
+          to.lights.value_or(std::vector<Light>()), lightChange);
   addList(words, "bookmark", "bookmarks", from.bookmarks, to.bookmarks, bookmarkChange);
   if (words.size() == before && from != to) words.emplace_back("scene edits");
+}
+
+/// With lights that are the file's own, too, so that steps can be named.
+Sidecar editsOf(const Session& session) {
+  Sidecar edits = session.edits.content();
+  edits.lights = session.edits.lights;
+  edits.sceneSha256.clear();
+  return edits;
 }
 
 }  // namespace
@@ -100,8 +106,7 @@ EditState editStateOf(const Session& session) {
     if (session.comparison->sameSeed) state.b->settings.matrix.gpu.seed = state.a.settings.matrix.gpu.seed;
     if (session.comparison->editsB) std::swap(state.a, *state.b);
   }
-  state.edits = session.edits.content();
-  state.edits.sceneSha256.clear();
+  state.edits = editsOf(session);
   state.view = session.view;
   state.camera = session.camera.camera();
   state.sceneCamera = session.sceneCamera;
@@ -117,9 +122,7 @@ void restore(Session& session, const EditState& state) {
   };
   give(session.sideA(), state.a);
   if (session.comparison && state.b) give(session.sideB(), *state.b);
-  Sidecar edits = session.edits.content();
-  edits.sceneSha256.clear();
-  if (edits != state.edits) session.edits.restore(state.edits);
+  if (editsOf(session) != state.edits) session.edits.restore(state.edits);
   if (session.view != state.view) session.viewDirty = true;
   session.view = state.view;
   if (session.camera.camera() != state.camera) session.startAt(state.camera);

@@ -25,7 +25,7 @@ struct SideEdits {
 struct EditState {
   SideEdits a;                 ///< of the one side there is, or A of a comparison
   std::optional<SideEdits> b;  ///< of a comparison
-  Sidecar edits;               ///< of the scene; without its SHA-256
+  Sidecar edits;               ///< of the scene: always with lights, and without its SHA-256
   View view = 0;
   Camera camera;
   int sceneCamera = 0;  ///< Session::sceneCamera

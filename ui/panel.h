@@ -25,9 +25,9 @@ class Panel {
   X(Scene)             \
   X(Lights)            \
   X(Cameras)           \
+  X(History)           \
   X(Settings)          \
   X(Effects)           \
-  X(History)           \
   X(View)              \
   X(Compare)           \
   X(Accuracy)          \
