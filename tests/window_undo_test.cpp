@@ -39,7 +39,7 @@ class WindowUndoTest : public WindowTest {
     choose("Menu/Edit", "History");
     appears(step(0));
     const auto seen = look();
-    for (int i = 0; i < 2; ++i) hold("Escape");
+    hold("Escape");
     return seen;
   }
   static std::string step(int number) { return fmt::format("Menu/Edit/History/{}", number); }
@@ -191,14 +191,23 @@ TEST_F(WindowUndoTest, UndoAndRedoGiveTheSameBits) {
 TEST_F(WindowUndoTest, ACancelledRebuildReturnsTheSettingThatWasBuilt) {
   begin();
   const ScreenPart first = viewport();
-  cancel([&] { enterNumber("Settings/matrix.rays", "4096"); });
+  cancel([&] {
+    // As enterNumber(), which would wait until the rebuild is done.
+    xdotool("mousemove " + placeOf("Settings/matrix.rays"));
+    rests();
+    xdotool("keydown ctrl sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 keyup ctrl");
+    rests();
+    hold("ctrl", "a");
+    type("4096");
+    xdotool("keydown Return sleep 0.3 keyup Return");
+  });
   EXPECT_TRUE(says("the settings are those of the picture again"));
   rests();
   EXPECT_EQ(viewport(), first);
   EXPECT_TRUE(inHistory([&] { return isOn(step(0)); }));
   EXPECT_EQ(steps(), 2) << "it may be redone";
   // Ctrl + Z in the middle of a rebuild gives it up, too.
-  redo();
+  key("ctrl+shift+z");
   ASSERT_TRUE(appears("progress/cancel"));
   key("ctrl+z");
   ASSERT_TRUE(appears("progress/cancel", false, 10)) << "the rebuild goes on";
@@ -276,13 +285,29 @@ TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
   quitDiscarding();
 }
 
-TEST_F(WindowUndoTest, AKilledWindowsWorkIsDiscarded) {
+TEST_F(WindowUndoTest, BothSidesOfAComparisonAreTakenAndTheNextTimeDiscarded) {
   begin();
+  click("Compare");
+  click("Compare/Compare with these settings");
+  ASSERT_TRUE(appears("Compare/edit B"));
   choose("Settings/sample.filter", "linear");
   ASSERT_TRUE(keeps(1));
   window_->killNow();
+  const auto filters = [&] {
+    const Autosave a = readAutosave(kept().at(0));
+    return std::pair(a.settings.sample.gpu.filter_, a.other ? a.other->sample.gpu.filter_ : SampleFilter::nearest);
+  };
+  const auto before = filters();
+  EXPECT_EQ(before.second, SampleFilter::linear);
+  EXPECT_NE(before.first, before.second);
   begin();
-  // Another window of the same user offers it no second time, and its own work is nobody else's.
+  click(kTake);
+  click("Compare");
+  EXPECT_TRUE(appears("Compare/End the comparison")) << "no comparison";
+  ASSERT_TRUE(keeps(1));
+  EXPECT_EQ(filters(), before);
+  window_->killNow();
+  begin();
   ASSERT_TRUE(appears(kTake));
   click("Unsaved work was found/Discard");
   EXPECT_TRUE(keeps(0));
@@ -308,7 +333,11 @@ TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
     hold("Escape");
     EXPECT_TRUE(opened.empty() || !has(opened)) << control << " stays open";
     ASSERT_TRUE(window_->running()) << control;
-    if (!has("Lights/0/name")) click("Lights/0");  // Esc after the field let go of the light
+  };
+  // Esc lets go of the light, too.
+  const auto chooseLight = [&] {
+    shown("Lights/point");
+    if (!isOn("Lights/0")) click("Lights/0");
   };
   for (const char* menu : {"File", "Edit", "View", "Solver", "Help"}) {
     click(std::string("Menu/") + menu);
@@ -316,7 +345,9 @@ TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
     EXPECT_TRUE(has(std::string("Menu/") + menu)) << menu << " stays open";
   }
   closes("Scene/open", "");
+  chooseLight();
   closes("Lights/0/type", "Lights/0/type/sun");
+  chooseLight();
   closes("Lights/0/name", "");
   closes("Cameras/name", "");
   closes("Settings/preset", "Settings/preset/fast");
