@@ -152,9 +152,10 @@ TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
           screen_->xdotool(fmt::format("mousemove {}", place));
           idles("mouse at " + place, 5);
         }
-        // With something unsaved: two edits that follow each other are soon in the autosave, and then it is left alone.
+        // With something unsaved: every edit is soon in the autosave, and then that is left alone.
         EXPECT_EQ(autosave(), "");
         click("Lights/point");
+        EXPECT_TRUE(until([&] { return autosave() != "" && rests(); }));
         click("Lights/sun");
         screen_->xdotool("mousemove 360 510");
         EXPECT_TRUE(until([&] { return contains(slurp(autosave()), "\"sun\""); })) << "no autosave of the last edit";
