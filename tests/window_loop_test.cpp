@@ -157,8 +157,8 @@ TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
         click("Lights/point");
         EXPECT_TRUE(until([&] { return autosave() != "" && rests(); }));
         click("Lights/sun");
-        screen_->xdotool("mousemove 360 510");
         EXPECT_TRUE(until([&] { return contains(slurp(autosave()), "\"sun\""); })) << "no autosave of the last edit";
+        screen_->xdotool("mousemove 360 510");
         EXPECT_TRUE(until([&] { return rests(); }));
         const auto written = std::filesystem::last_write_time(autosave());
         idles("with unsaved lights", 3);
