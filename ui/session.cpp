@@ -136,8 +136,9 @@ void Session::leaveNow(const Leaving& what) {
 /// Where a setting about how the scene is read asked to load it again, it goes back to what it was.
 void Session::stay() {
   const Leaving stayed = *std::exchange(asking, std::nullopt);
-  if (stayed.what == Leaving::What::OpenScene && pipeline && pipeline->scene().path == stayed.path)
-    edited.scene = pipeline->settings().scene, returned = true;
+  if (stayed.what != Leaving::What::OpenScene || !pipeline || pipeline->scene().path != stayed.path) return;
+  edited.scene = pipeline->settings().scene;
+  returned = true;
 }
 
 void Session::seeEdits(bool held) {

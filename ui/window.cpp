@@ -99,6 +99,7 @@ class Window {
   std::optional<EditState> kept_;  ///< what the autosave holds; none: nothing is unsaved
   bool keepDue_ = false;           ///< it is to be written, at keepNext_
   Clock::time_point keepNext_;
+  bool keepFailed_ = false;          ///< the last time
   bool toldNotKept_ = false;         ///< the user was told that it cannot be written
   std::filesystem::path historyOf_;  ///< the scene whose edits session_.history holds
 };
@@ -169,7 +170,7 @@ void Window::answerOffer(Session::Offer answer) {
   if (answer == Session::Offer::Take && take(found)) {
     keepNext_ = {};
     keepWork();  // first, so that it is in a file at every moment
-    autosaves_.removeFound();
+    if (!keepFailed_) autosaves_.removeFound();
   }
   autosaves_.leaveFound();
 }
@@ -221,8 +222,10 @@ void Window::keepWork() {
   kept_ = now;  // where it fails, until the next edit
   keepDue_ = false;
   keepNext_ = Clock::now() + kKeepInterval;
+  keepFailed_ = true;
   try {
     autosaves_.keep(autosave);
+    keepFailed_ = false;
   } catch (const Error& error) {
     if (!std::exchange(toldNotKept_, true))
       session_.error(fmt::format("Unsaved work is not kept against a crash. {}", error.what()));
