@@ -207,6 +207,7 @@ void Window::keepWork() {
   if (!unsavedBefore(session_, {Leaving::What::Quit}).any()) {
     keepDue_ = false;
     kept_.reset();
+    keepNext_ = {};  // there is no file: what is edited, or redone, next goes into one at once
     return autosaves_.removeKept();
   }
   const EditState& now = session_.history.steps()[session_.history.at()].state;
