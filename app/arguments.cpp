@@ -12,6 +12,7 @@
 #include "renderer/base/near_match.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 #include "renderer/scene/sky_image.h"
 
 namespace irad::app {
@@ -129,10 +130,12 @@ std::vector<Camera> PictureArguments::resolveCameras(const Config& config, const
 
 void SceneArguments::declare(Options& options) {
   options.value("--lights", "JSON", lights, "Lights in place of the scene's, an array as manifests hold it");
+  options.value("--materials", "JSON", materials,
+                "Edits of the scene's materials in place of the sidecar's, an array as manifests hold it");
   options.value(
       "--sky", "FILE", sky,
       "Picture of the sky, equirectangular (.hdr, .exr, .pfm), or a built-in one (evening); sky.* turn and scale it");
-  options.flag("--no-sidecar", noSidecar, "Leave lights and cameras of SCENE.irad.json aside");
+  options.flag("--no-sidecar", noSidecar, "Leave lights, materials and cameras of SCENE.irad.json aside");
 }
 
 /// A file that is there, or a built-in one by its name.
@@ -147,6 +150,7 @@ static std::optional<fs::path> findFile(const std::string& wanted, const std::st
 
 void SceneArguments::check() const {
   if (lights) lightsFromJson(*lights, "--lights");
+  if (materials) materialEditsFromJson(*materials, "--materials");
 }
 
 LoadOptions SceneArguments::load(const Config& config, const Settings& settings) const {
@@ -156,6 +160,8 @@ LoadOptions SceneArguments::load(const Config& config, const Settings& settings)
   out.sidecar = !noSidecar && !config.manifest;
   out.lights = config.lights;
   if (lights) out.lights = lightsFromJson(*lights, "--lights");
+  if (config.manifest) out.materials = config.materials;
+  if (materials) out.materials = materialEditsFromJson(*materials, "--materials");
   if (sky || config.sky)
     out.sky = std::make_shared<SkyImage>(readSky(sky ? findFile(*sky, ".pfm").value_or(*sky) : *config.sky));
   return out;

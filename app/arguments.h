@@ -58,14 +58,14 @@ glm::uvec2 parseSize(const std::string& text);
 /// Elements of "a,b,c", empty ones refused.
 std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values);
 
-/// --lights, --no-sidecar, --sky.
+/// --lights, --materials, --no-sidecar, --sky.
 struct SceneArguments {
-  std::optional<std::string> lights, sky;
+  std::optional<std::string> lights, materials, sky;
   bool noSidecar = false;
   void declare(Options& options);
   void check() const;  ///< checks what it can before a scene is loaded
-  /// How to load the scene. A replayed manifest brings its run's lights; the sidecar, which may have changed since,
-  /// does not count.
+  /// How to load the scene. A replayed manifest brings its run's lights and materials; the sidecar, which may have
+  /// changed since, does not count.
   LoadOptions load(const Config& config, const Settings& settings) const;
 };
 /// A sky that was given is shown: sky.source becomes `image` where it is `none`. UsageError where it is `image`, and

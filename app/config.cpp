@@ -14,6 +14,7 @@
 #include "renderer/base/json_reader.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad::app {
 namespace fs = std::filesystem;
@@ -111,6 +112,8 @@ Config readConfigFile(const fs::path& path) {
   config.shaders = member<std::vector<std::string>>(path, json, "shaders").value_or(std::vector<std::string>{});
   if (json.contains("cameras")) config.cameras = readArray(path, json, "cameras", camerasFromJson);
   if (json.contains("lights")) config.lights = readArray(path, json, "lights", lightsFromJson);
+  if (json.contains("materials"))
+    config.materials = readArray(path, json, "materials", materialEditsFromJson).value_or(std::vector<MaterialEdit>{});
   return config;
 }
 

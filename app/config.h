@@ -24,6 +24,7 @@ struct Config {
   std::optional<std::filesystem::path> scene;
   std::optional<std::string> sceneSha256;
   std::optional<std::vector<Light>> lights;
+  std::vector<MaterialEdit> materials;
   std::optional<glm::uvec2> size;
   std::optional<uint32_t> frames;
   std::vector<Camera> cameras;

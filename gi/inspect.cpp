@@ -56,6 +56,10 @@ void Inspector::refresh() {
     const Buffer& rows = pipeline_.matrix().rowInfo;
     rows_ = rows ? downloadAs<glm::uvec2>(context_, rows) : std::vector<glm::uvec2>(list.count);
     build_ = pipeline_.revision().build;
+    materials_ = pipeline_.revision().materials;
+  } else if (materials_ != pipeline_.revision().materials) {
+    facets_ = hostFacets(context_, list);
+    materials_ = pipeline_.revision().materials;
   }
   direct_ = perFacet(context_, list, light.direct);
   irradiance_ = perFacet(context_, list, light.indirect);

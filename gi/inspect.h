@@ -56,6 +56,7 @@ class Inspector {
   Context& context_;
   const Pipeline& pipeline_;
   uint64_t build_ = 0;
+  uint64_t materials_ = 0;  ///< likewise: Revision::materials
   HostFacets facets_;
   oracle::Facets list_;
   std::vector<uint32_t> triangles_;

@@ -9,6 +9,7 @@
 #include "gi/picture.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 #include "renderer/scene/sky_image.h"
 
 namespace irad {
@@ -44,6 +45,8 @@ std::string settingsFile(const Settings& settings) {
 std::string Manifest::commandLine() const {
   std::vector<std::string> words{"irad", subcommand, sceneArgument(*scene), "--no-sidecar"};
   if (scene->lights != scene->fileLights) words.insert(words.end(), {"--lights", lightsToJson(scene->lights)});
+  if (!scene->materialEdits.empty())
+    words.insert(words.end(), {"--materials", materialEditsToJson(scene->materialEdits)});
   if (device) words.insert(words.end(), {"--device", device->name});
   if (size) words.insert(words.end(), {"--size", fmt::format("{}x{}", size->x, size->y)});
   for (const Camera& camera : cameras) words.insert(words.end(), {"--camera", cameraToJson(camera)});
@@ -81,6 +84,7 @@ std::string Manifest::toJson() const {
     for (const Camera& camera : cameras) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
   }
   json["lights"] = Json::parse(lightsToJson(scene->lights));
+  if (!scene->materialEdits.empty()) json["materials"] = Json::parse(materialEditsToJson(scene->materialEdits));
   if (!views.empty()) json["views"] = views;
   if (!viewRanges.empty()) json["view_ranges"] = Json::parse(fmt::format("[{}]", fmt::join(viewRanges, ",")));
   if (reference) json["reference"] = {{"path", reference->path.string()}, {"sha256", reference->sha256}};

@@ -30,6 +30,7 @@
 #include "gi/watch.h"
 #include "gi/writeback.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 
@@ -49,9 +50,11 @@ struct Pipeline::Impl {
         expected(std::move(h)),
         settings(wanted),
         planned(scene, wanted),
-        onDevice(c, scene) {
+        onDevice(c, scene),
+        surfaces(scene) {
     materials = onDevice.materialValues;
-    content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
+    content = {.lights = lightContent(onDevice.lightValues)};
+    lookAtSurfaces(scene.materials, content);
     lookAtSky(scene.lights);
     useSun();
     decide();
@@ -72,6 +75,7 @@ struct Pipeline::Impl {
 
   // What there is to be made, and what was made, by content. Shadow maps are not the product of a stage, but have a key
   // like one.
+  SurfaceContent surfaces;
   SceneContent content;
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
@@ -87,7 +91,7 @@ struct Pipeline::Impl {
 
   // ---- What the plan says ----
 
-  /// The first stage that the next prepare() has to run. Later stages follow it.
+  /// The first stage that the next prepare() has to run. Those that come of it follow.
   Redo due() const { return firstDifference(made, wanted()); }
   StageKeys wanted() const { return stageKeys(content, planned.settings()); }
   bool shadowsDue() const { return shadowsMade != shadowsWanted; }
@@ -120,6 +124,12 @@ struct Pipeline::Impl {
     const auto bytes = [](const auto& v) { return std::as_bytes(std::span(v)); };
     if (!std::ranges::equal(bytes(wanted), bytes(onDevice.materialValues)))
       onDevice.setMaterials(context, std::move(wanted));
+  }
+
+  void lookAtSurfaces(const std::vector<Material>& of, SceneContent& in) const {
+    in.surfaces = surfaces.surfaces(of);
+    in.materials = surfaces.materials(of);
+    in.emission = surfaces.emission(of);
   }
 
   void lookAtLights(std::span<const GpuLight> lights) {
@@ -215,24 +225,55 @@ struct Pipeline::Impl {
       // The new list's products replace the old ones together, once they are lit. Until then the old picture stays.
       Products fresh;
       build(fresh, Redo::Voxels, progress);
-      relight(fresh, Redo::Emission, maxSweeps, progress);
+      relight(fresh, StagesDue::from(Redo::Emission), maxSweeps, progress);
       now = std::move(fresh);
     } else {
+      StagesDue due(made, wanted());
+      const auto done = [this](std::initializer_list<Redo> stages) {
+        const StageKeys keys = wanted();
+        for (const Redo stage : stages) made[stage] = keys[stage];
+      };
       if (first <= Redo::Matrix) {
         build(now, first, progress);
-        std::copy_n(wanted().of.begin(), static_cast<size_t>(Redo::Emission), made.of.begin());
-        first = Redo::Emission;
+        done({Redo::Voxels, Redo::Field, Redo::Matrix});
+        due.add(StagesDue::from(Redo::Emission));
+      }
+      if (due.has(Redo::Materials)) {
+        made.forget(Redo::Materials);
+        shadeFacets(now, progress);
+        done({Redo::Materials});
       }
       fitField(now);
       if (!relights()) return;
       // A mean over frames would begin anew each time; it goes on by itself.
-      if (settings.effects.relight == EffectMode::on && !framewise()) first = std::min(first, Redo::Gather);
-      if (first > Redo::Scatter && now.light->report.settled() && !reflectionsDue()) return;
-      if (first > Redo::Scatter) first = Redo::Solve;
-      made.forget(first);
-      relight(now, first, maxSweeps, progress);
+      if (settings.effects.relight == EffectMode::on && !framewise()) due.add(StagesDue::from(Redo::Gather));
+      if (first > Redo::Scatter && !due.has(Redo::Solve)) {
+        if (now.light->report.settled() && !reflectionsDue()) return;
+        due.add(StagesDue::from(Redo::Solve));
+      }
+      for (const Redo stage : {Redo::Emission, Redo::Gather, Redo::Solve, Redo::Scatter})
+        if (due.has(stage)) made.forget(stage);
+      relight(now, due, maxSweeps, progress);
     }
     made = wanted();
+  }
+
+  /// What materials give the facets of voxels that stay: rho and M, with what is listed of the emitters.
+  void shadeFacets(Products& p, const Progress& progress) {
+    if (progress && !progress("GI Materials", 0)) throw WorkError("cancelled");
+    const Settings& obeyed = planned.settings();
+    if (p.facets->surface && p.facets->count > 0 && !p.parts) {
+      const auto start = std::chrono::steady_clock::now();
+      p.parts = listParts(context, onDevice, obeyed);
+      context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
+    }
+    const auto start = std::chrono::steady_clock::now();
+    ++revision.materials;
+    shadeAnew(context, onDevice, p.gridRecord, obeyed, *p.facets, p.parts);
+    p.emitters = listEmitters(context, *p.facets);
+    p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
+    learn(p);
+    context.timings.endFrame(frameIndex, /*setup=*/false, since(start));
   }
 
   /// Everything from the geometry to the matrix: the thesis's "Init" set. `first`: the stage to start from.
@@ -306,32 +347,35 @@ struct Pipeline::Impl {
 
   /// The thesis's "per-frame" set, with the lights as they are: D, after F M where that is due, then H <- F B and B <-
   /// M + rho (D + H) until the error bound holds, then H to where shading reads it.
-  void relight(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
+  void relight(Products& p, StagesDue due, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     ++revision.light;
     // A new list has no light yet: if it were given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
-    if (first <= Redo::Gather || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
+    if (due.has(Redo::Gather) || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
-    // The other method's light lacks what this one keeps, and has what this one does not need.
-    const bool other = p.light && static_cast<bool>(p.light->frameMean.next) != framewise();
+    // The other method's light lacks what this one keeps, and has what this one does not need; so has that of facets
+    // with an M for those without.
+    const bool other = p.light && (static_cast<bool>(p.light->frameMean.next) != framewise() ||
+                                   static_cast<bool>(p.light->emitted) != p.facets->hasEmission);
     if (!p.light || !*p.light || other) {
       planned.traits.light.noise.reset();
       decide();
       p.light = makeLighting(context, *p.facets, planned.settings());
-      first = Redo::Emission;
+      due.add(StagesDue::from(Redo::Emission));
     }
-    if (first <= Redo::Emission && !framewise())
+    if (due.has(Redo::Emission) && !framewise())
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
-    if (first <= Redo::Gather) {
+    if (due.has(Redo::Gather)) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
       if (!framewise()) gatherSky(frame, *p.matrix, skyOnDevice, *p.light);
       frame.submitAndWait();
     }
-    if (first <= Redo::Solve) {
+    if (due.has(Redo::Solve)) {
       useReflections(*p.light, p.facets->count);
-      solveFor(p, first, maxSweeps, progress);
+      const bool restarts = due.has(Redo::Materials) || due.has(Redo::Emission) || due.has(Redo::Gather);
+      solveFor(p, restarts, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
     showSolved(p);
@@ -345,14 +389,15 @@ struct Pipeline::Impl {
     if (flipsBlur(p.light->report)) scatterInto(p);
   }
 
-  /// `maxSweeps` 0: as many as it takes; else one frame of brute force, which costs as much as a matrix.
-  void solveFor(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
+  /// `restarts`: frames of brute force begin anew. `maxSweeps` 0: as many as it takes; else one frame of brute force,
+  /// which costs as much as a matrix.
+  void solveFor(Products& p, bool restarts, uint32_t maxSweeps, const Progress& progress) {
     const Settings& obeyed = planned.settings();
     if (!framewise()) {
       solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
       return;
     }
-    const bool restarts = first <= Redo::Gather, byFrames = maxSweeps != 0;
+    const bool byFrames = maxSweeps != 0;
     if (restarts && byFrames) hold(*p.light);
     bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, byFrames ? 1 : obeyed.solver.frames,
                restarts, [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
@@ -509,10 +554,51 @@ void Pipeline::setLights(std::vector<Light> lights) {
   p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
 }
 
+void Pipeline::setMaterials(std::vector<MaterialEdit> edits) {
+  Impl& p = *impl_;
+  std::vector<Material> materials = editedMaterials(p.scene, edits);
+  for (const Material& material : materials)
+    if (const std::string problem = unsound(material, p.scene.images.size()); !problem.empty())
+      throw UsageError(problem);
+  const Planned planned = p.planned;
+  const SceneContent content = p.content;
+  const std::vector<GpuMaterial> values = p.materials;
+  if (p.scene.fileMaterials.empty()) p.scene.fileMaterials = p.scene.materials;
+  std::swap(p.scene.materials, materials);
+  try {
+    p.lookAtSurfaces(p.scene.materials, p.content);
+    measureMaterials(p.scene, p.scene.materials, p.planned.traits);
+    p.materials = gpuMaterials(p.scene);
+    p.lookAgain();
+  } catch (...) {
+    p.planned = planned;
+    p.content = content;
+    p.materials = values;
+    std::swap(p.scene.materials, materials);
+    throw;
+  }
+  p.scene.materialEdits = std::move(edits);
+}
+
+Redo Pipeline::due(const std::vector<MaterialEdit>& edits) const {
+  const Impl& p = *impl_;
+  const std::vector<Material> materials = editedMaterials(p.scene, edits);
+  SceneContent content = p.content;
+  p.lookAtSurfaces(materials, content);
+  SceneTraits traits = p.planned.traits;
+  measureMaterials(p.scene, materials, traits);
+  const EffectPlan plan = irad::plan(traits, p.settings, &p.planned.plan());
+  return firstDifference(p.made, stageKeys(content, irad::obeyed(p.settings, plan)));
+}
+
 bool Pipeline::adopt(Scene& scene) {
   Impl& p = *impl_;
-  if (surfaceContent(scene) != p.content.surfaces) return false;
+  const SurfaceContent surfaces(scene);
+  const std::vector<Material>&mine = fileMaterials(p.scene), &its = fileMaterials(scene);
+  if (surfaces.surfaces(its) != p.surfaces.surfaces(mine) || surfaces.materials(its) != p.surfaces.materials(mine))
+    return false;
   setLights(scene.lights);
+  setMaterials(scene.materialEdits);
   p.scene = std::move(scene);  // where p.onDevice looks for it
   p.lookAgain();
   return true;
@@ -536,7 +622,7 @@ void Pipeline::darken() {
   Impl& p = *impl_;
   if (!p.now.light) return;
   if (*p.now.light) p.now.light = makeLighting(p.context, *p.now.facets, p.planned.settings());
-  p.made.forget(Redo::Emission);  // its F M is gone, too
+  for (const Redo gone : {Redo::Emission, Redo::Gather}) p.made.forget(gone);
 }
 
 void Pipeline::invalidate(Redo from) {
@@ -603,7 +689,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
       p.solvedFrame = solvedFrame;
     }
   } before{p};
-  p.relight(p.now, Redo::Gather, /*maxSweeps=*/0, progress);
+  p.relight(p.now, StagesDue::from(Redo::Emission), /*maxSweeps=*/0, progress);
   draw();
 }
 

@@ -189,9 +189,9 @@ class Planner {
     }
     without(Effect::bruteForce, "solver.method = matrix", b_.facets * kFrames);
     decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight + kSolve));
-    // Lights that are there may be turned up again: what was built for them is kept.
+    // Lights that are there, and what has emitted, may be turned up again: what was built for them is kept.
     EffectRow& r = row(Effect::matrix);
-    const bool mayShine = !t_.lights.empty() || !plan_.off(Effect::sky);
+    const bool mayShine = !t_.lights.empty() || t_.emitted || !plan_.off(Effect::sky);
     if (r.state == EffectState::on || s_.effects.matrix != EffectMode::automatic || !mayShine || !b_.matrix) return;
     r.state = EffectState::asleep;
     r.reason += "; kept for the lights that there are";
@@ -280,7 +280,7 @@ class Planner {
     const bool due = l.due <= Redo::Scatter;
     // Light at rest is kept, unless relighting is switched off.
     sleeps(Effect::relight, due || !l.settled || s_.effects.relight == EffectMode::off,
-           due ? fmt::format("{} is due", nameOf(std::max(l.due, Redo::Gather)))
+           due ? fmt::format("{} is due", nameOf(std::max(l.due, Redo::Materials)))
            : plan_.on(Effect::bruteForce)
                ? fmt::format("{} of {} frames, standard error {:.2g} {} {:.2g} W/m^2", l.frames, s_.solver.frames,
                              l.standardError, l.standardError <= l.tolerance ? "<=" : ">", l.tolerance)

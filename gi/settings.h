@@ -34,8 +34,8 @@ namespace irad {
 #define IRAD_EFFECT_MODES(X) X(automatic, "auto") X(on, "on") X(off, "off")
 #define IRAD_SKY_SOURCES(X) X(none, "none") X(constant, "constant") X(image, "image") X(preetham, "preetham")
 #define IRAD_REDOS(X) \
-  X(Voxels, "voxels") X(Field, "field") X(Matrix, "matrix") X(Emission, "emission") X(Gather, "gather") \
-  X(Solve, "solve") X(Scatter, "scatter") X(Shade, "shade") X(Nothing, "nothing")
+  X(Voxels, "voxels") X(Field, "field") X(Matrix, "matrix") X(Materials, "materials") X(Emission, "emission") \
+  X(Gather, "gather") X(Solve, "solve") X(Scatter, "scatter") X(Shade, "shade") X(Nothing, "nothing")
 // clang-format on
 
 IRAD_ENUM(VoxelMethod, IRAD_VOXEL_METHODS)
@@ -55,8 +55,8 @@ IRAD_ENUM(Rasterizer, IRAD_RASTERIZERS)
 IRAD_ENUM(SkySource, IRAD_SKY_SOURCES)
 /// Whether an effect (gi/plan.h) runs. automatic: where the scene calls for it; on: always; off: never.
 IRAD_ENUM(EffectMode, IRAD_EFFECT_MODES)
-/// The first stage that has to run again when a setting changes; later ones follow. Ordered. (Emission: the first
-/// gather from emissive facets, F M of docs/method.md 6.)
+/// The first stage that has to run again when a setting changes; later ones follow. Ordered. (Materials: rho and M of the
+/// facets. Emission: the first gather from emissive facets, F M of docs/method.md 6.)
 IRAD_ENUM(Redo, IRAD_REDOS)
 
 struct VoxelSettings {

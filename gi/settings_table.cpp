@@ -229,7 +229,7 @@ constexpr Setting kTable[] = {
     SETTING(thesis.literal, "thesis.literal",
             "Bring back the thesis's slips (a grid without padding, the sign of 0), to show what they cost.", Voxels),
     SETTING(effects.emission, "effects.emission",
-            "Emissive surfaces: the light that they give, and how they look; auto: where a material emits.", Voxels),
+            "Emissive surfaces: the light that they give, and how they look; auto: where a material emits.", Materials),
     SETTING(effects.sun, "effects.sun", "Suns with their shadow maps; auto: those with an intensity.", Gather),
     SETTING(effects.point, "effects.point",
             "Point lights with their shadow maps; auto: those with an intensity whose range reaches the scene.",
@@ -256,7 +256,7 @@ constexpr Setting kTable[] = {
             "the window; off: the light stays as it is.",
             Nothing),
     SETTING(effects.alphaTest, "effects.alpha_test", "Cut-outs by alpha; auto: where a material has one.", Voxels),
-    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Voxels),
+    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Materials),
     SETTING(effects.blur, "effects.blur",
             "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than "
             "effects.blur_noise.",

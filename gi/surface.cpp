@@ -343,67 +343,23 @@ void makeRecord(Context& context, FacetList& list) {
   s.record = record.make(arrays);
 }
 
-/// Albedo and exitance of the pieces, then of the facets, with normals. Returns how many albedos had to be clamped.
-uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Pieces& pieces,
-               const Points& points, FacetList& list) {
-  const Surface& surface = list.surface;
-  const Device& device = context.device;
-  const Order order =
-      groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces), kColorTextures | MATERIAL_NORMAL_TEXTURE);
-  const Buffer ordered =
-      makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
-  const Buffer clamped = words(device, "clamped albedo", 1);
-  const Buffer albedo = words(device, "pieces' albedo", 3ull * pieces.count),
-               emission = words(device, "pieces' exitance", list.hasEmission ? 3ull * pieces.count : 0);
-  Frame frame = context.begin();
-  frame.pass(kListStage).fill(clamped, 0);
-  dispatchByMaterial(frame, kVoxelizeStage, "gi/piece_shade.comp", scene, order, [&](Pass& pass) {
-    PieceShadePush push{};
-    push.scene = pass.in(scene.record);
-    push.grid = pass.in(gridRecord);
-    push.order = pass.in(ordered);
-    push.pieceVoxel = pass.in(pieces.pieceVoxel);
-    push.solid = pass.in(pieces.voxel);
-    push.surface = pass.in(surface.record);
-    push.albedo = pass.out(albedo);
-    push.emission = pass.out(emission);
-    push.clamped = pass.out(clamped);
-    push.hasEmission = list.hasEmission;
-    return push;
-  });
-  Pass pass = frame.pass(kVoxelizeStage);
-  FacetMeanPush push{};
-  push.surface = pass.in(surface.record);
-  push.voxel = pass.in(list.voxel);
-  push.reverse = pass.in(list.reverse);
-  push.firstPoint = pass.in(pieces.firstPoint);
-  push.classes = pass.in(points.classes);
-  push.points = pass.in(points.at);
-  push.pointArea = pass.in(points.area);
-  push.pieceAlbedo = pass.in(albedo);
-  push.pieceEmission = pass.in(emission);
-  push.shape = pass.out(list.shape);
-  push.albedo = pass.out(list.albedo);
-  push.emission = pass.out(list.emission);
-  push.dims = list.grid.dims;
-  push.count = list.count;
-  push.encoding = list.encoding;
-  push.hasEmission = list.hasEmission;
-  pass.shader("gi/facet_mean.comp").push(push).dispatch(list.count);
-  frame.submitAndWait();
-  return downloadAs<uint32_t>(context, clamped).at(0);
-}
+/// A list that is still to be shaded, and its parts.
+struct Listed {
+  FacetList list;
+  Buffer grid;  ///< one Grid
+  FacetParts parts;
+};
 
-}  // namespace
-
-FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings& settings) {
   const Device& device = context.device;
   const uint32_t triangles = scene.scene.triangleCount();
-  FacetList list;
+  Listed listed;
+  FacetList& list = listed.list;
   list.grid = makeGrid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
   list.encoding = settings.voxel.normals;
   list.hasEmission = keepsEmission(scene, settings);
-  const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
+  listed.grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
+  const Buffer& grid = listed.grid;
   Surface& surface = list.surface;
   surface.corners = words(device, "triangles' corners", 12ull * triangles);
   const std::vector<uint32_t> repeated = repeatedTriangles(scene);
@@ -447,9 +403,80 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
   if (list.count > 0) fillFacets(frame, grid, pieces, points, surface, list);
   frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, points, list);
-  recordFacets(context, list);
-  return list;
+  listed.parts = {.pieces = pieces.count,
+                  .solid = std::move(pieces.voxel),
+                  .pieceVoxel = std::move(pieces.pieceVoxel),
+                  .firstPoint = std::move(pieces.firstPoint),
+                  .points = std::move(points.at),
+                  .classes = std::move(points.classes),
+                  .pointArea = std::move(points.area)};
+  return listed;
+}
+
+}  // namespace
+
+/// Albedo and exitance of the pieces, then of the facets.
+uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& scene, const Buffer& gridRecord,
+                    const FacetParts& parts, const FacetList& list) {
+  const Surface& surface = list.surface;
+  const Device& device = context.device;
+  const Order order =
+      groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces), kColorTextures | MATERIAL_NORMAL_TEXTURE);
+  const Buffer ordered =
+      makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
+  const Buffer clamped = words(device, "clamped albedo", 1);
+  const Buffer albedo = words(device, "pieces' albedo", 3ull * parts.pieces),
+               emission = words(device, "pieces' exitance", list.hasEmission ? 3ull * parts.pieces : 0);
+  Frame frame = context.begin();
+  frame.pass(stage).fill(clamped, 0);
+  dispatchByMaterial(frame, stage, "gi/piece_shade.comp", scene, order, [&](Pass& pass) {
+    PieceShadePush push{};
+    push.scene = pass.in(scene.record);
+    push.grid = pass.in(gridRecord);
+    push.order = pass.in(ordered);
+    push.pieceVoxel = pass.in(parts.pieceVoxel);
+    push.solid = pass.in(parts.solid);
+    push.surface = pass.in(surface.record);
+    push.albedo = pass.out(albedo);
+    push.emission = pass.out(emission);
+    push.clamped = pass.out(clamped);
+    push.hasEmission = list.hasEmission;
+    return push;
+  });
+  Pass pass = frame.pass(stage);
+  FacetMeanPush push{};
+  push.surface = pass.in(surface.record);
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.firstPoint = pass.in(parts.firstPoint);
+  push.classes = pass.in(parts.classes);
+  push.points = pass.in(parts.points);
+  push.pointArea = pass.in(parts.pointArea);
+  push.pieceAlbedo = pass.in(albedo);
+  push.pieceEmission = pass.in(emission);
+  push.shape = pass.out(list.shape);
+  push.albedo = pass.out(list.albedo);
+  push.emission = pass.out(list.emission);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  push.encoding = list.encoding;
+  push.hasEmission = list.hasEmission;
+  pass.shader("gi/facet_mean.comp").push(push).dispatch(list.count);
+  frame.submitAndWait();
+  return downloadAs<uint32_t>(context, clamped).at(0);
+}
+
+FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  Listed listed = listSurface(context, scene, settings);
+  FacetList& facets = listed.list;
+  if (facets.count > 0)
+    facets.clampedAlbedo = shadeParts(context, kVoxelizeStage, scene, listed.grid, listed.parts, facets);
+  recordFacets(context, facets);
+  return std::move(facets);
+}
+
+FacetParts listParts(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  return std::move(listSurface(context, scene, settings).parts);
 }
 
 }  // namespace irad

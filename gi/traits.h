@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "gi/settings.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/texel_range.h"
 #include "shaders/shared/scene_gpu.h"
 
 namespace irad {
@@ -61,6 +63,8 @@ struct LightState {
 
 struct SceneTraits {
   std::vector<MaterialTraits> materials;
+  bool emitted = false;              ///< a material emits, or did before an edit of it
+  std::map<int, TexelRange> texels;  ///< of images that were looked at, by index
   std::vector<LightTraits> lights;
   std::optional<BuildTraits> build;
   LightState light;
@@ -71,6 +75,8 @@ struct SceneTraits {
 
 /// Reads every texel of the images that decide something, once each. `resolution`: voxels along the longest axis.
 SceneTraits measure(const Scene& scene, uint32_t resolution);
+/// `materials` anew, were these the scene's, and `emitted`.
+void measureMaterials(const Scene& scene, const std::vector<Material>& materials, SceneTraits& traits);
 
 /// `light` is in the scene's local space.
 LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution);

@@ -31,7 +31,10 @@ void Builder::load(const std::filesystem::path& path) {
     const bool again = session_.pipeline && session_.pipeline->scene().path == path,
                unsaved = session_.edits.modified();
     LoadOptions load = session_.load;
-    if (again && unsaved) load.lights = session_.edits.lights;
+    if (again && unsaved) {
+      load.lights = session_.edits.lights;
+      load.materials = session_.edits.materials;
+    }
     load.lambertian = session_.edited.scene.lambertian;
     load.doubleSided = session_.edited.scene.doubleSided;
     load.progress = [this](float fraction, const char* step) {
@@ -52,10 +55,11 @@ void Builder::load(const std::filesystem::path& path) {
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
     session_.comparison.reset();
     if (unsaved && !again)
-      session_.note(
-          fmt::format("{}: lights and bookmarks were not saved", session_.pipeline->scene().path.filename().string()));
+      session_.note(fmt::format("{}: lights, materials and bookmarks were not saved",
+                                session_.pipeline->scene().path.filename().string()));
     session_.pipeline = std::move(pipeline);
     session_.load.lights.reset();
+    session_.load.materials.reset();
     session_.beginEdits(again && unsaved);
     loaded_ = session_.pipeline->settings().scene;
     session_.halted = false;
@@ -79,13 +83,18 @@ bool Builder::adopt(const Scene& scene) {
     side->woke();
   }
   session_.load.lights.reset();
+  session_.load.materials.reset();
   session_.halted = false;
   session_.viewDirty = true;
   return true;
 }
 
 bool Builder::stale() const {
-  return stale_ || (session_.pipeline && session_.edits.lights != session_.pipeline->scene().lights);
+  if (stale_ || !session_.pipeline) return stale_;
+  const Scene& scene = session_.pipeline->scene();
+  // Materials that wait for the mouse to be let go wait like settings: session_.next says so.
+  return session_.edits.lights != scene.lights ||
+         (session_.edits.materials != scene.materialEdits && session_.next == Redo::Nothing);
 }
 
 /// Both sides have the same lights. What is wrong with them is reported, and they go back to what they were.
@@ -104,6 +113,39 @@ void Builder::applyLights() {
     }
     session_.viewDirty = true;
   }
+}
+
+/// Both sides have the same materials. An edit that redoes no more than the light is taken at once; what moves an alpha
+/// mask, or has the first light reach the scene, builds it anew, and is announced and waits as a setting does: its
+/// first stage is returned.
+Redo Builder::applyMaterials(bool held) {
+  const std::vector<MaterialEdit> before = session_.pipeline->scene().materialEdits;
+  for (Side* side : session_.sides()) {
+    if (session_.edits.materials == side->pipeline->scene().materialEdits) continue;
+    try {
+      const Redo redo = side->pipeline->due(session_.edits.materials);
+      if (redo <= Redo::Matrix && (shownNext_ != redo || held)) return redo;
+      session_.materialEdit = MaterialTimes{.from = redo};
+      side->pipeline->setMaterials(session_.edits.materials);
+      session_.halted = false;
+      side->woke();
+    } catch (const Error& error) {
+      forgetTimes();
+      session_.edits.materials = before;
+      session_.error(error.what());
+    }
+    session_.viewDirty = true;
+  }
+  return Redo::Nothing;
+}
+
+/// After a prepare().
+void Builder::timeMaterials() {
+  if (!session_.materialEdit || session_.materialEdit->settled > 0 || session_.halted) return;
+  MaterialTimes& times = *session_.materialEdit;
+  const double now = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - times.began).count();
+  if (times.shown == 0) times.shown = now;
+  if (session_.allAsleep()) times.settled = now;
 }
 
 void Builder::giveReference(Pipeline& pipeline) {
@@ -133,6 +175,7 @@ void Builder::openPicture(const std::filesystem::path& path) {
 void Builder::apply(bool held) {
   if (!session_.pipeline) return;
   applyLights();
+  const Redo waits = applyMaterials(held);
   Pipeline& pipeline = *session_.pipeline;
   if (session_.edited != pipeline.settings()) {
     const bool reload = session_.edited.scene != loaded_;
@@ -150,7 +193,8 @@ void Builder::apply(bool held) {
     if (redo < Redo::Scatter) session_.woke();
     if (redo >= Redo::Shade && !session_.asleep() && session_.paused) return;
   } else {
-    session_.next = Redo::Nothing;
+    session_.next = waits;
+    if (waits != Redo::Nothing) return;
     const bool step = std::exchange(session_.step, false);
     if (session_.paused && session_.built && !stale_ && !step) return;
   }
@@ -158,6 +202,7 @@ void Builder::apply(bool held) {
   if (session_.halted) return;
   if (!session_.asleep()) rebuild(session_, "Rebuilding");
   if (session_.comparison && !session_.halted) follow();
+  timeMaterials();
 }
 
 /// The other side of a comparison has settings of its own; seed and lights belong to both.

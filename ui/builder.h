@@ -40,6 +40,8 @@ class Builder {
  private:
   bool adopt(const Scene& scene);
   void applyLights();
+  Redo applyMaterials(bool held);
+  void timeMaterials();
   void giveReference(Pipeline& pipeline);
   void rebuild(Side& side, std::string what);
   void prepare(Side& side, Pipeline& pipeline);

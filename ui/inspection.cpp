@@ -8,6 +8,7 @@
 #include "gi/inspect.h"
 #include "renderer/base/error.h"
 #include "renderer/forward.h"
+#include "renderer/scene/nearest_triangle.h"
 #include "ui/session.h"
 
 namespace irad {
@@ -65,31 +66,68 @@ void Inspection::open(Session& session, const glm::uvec3& at) {
   ++serial;
 }
 
-/// Picks from the picture as it is shown: the cell of a slice, the first cube on the way, or the surface in the pixel.
-std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
-  const Targets& targets = session.targets;
-  const GpuCamera camera = makeGpuCamera(session.pipeline->scene(), session.shown, targets.size);
-  const glm::dmat4 inverse = glm::inverse(glm::dmat4(camera.viewProjection));
-  const glm::dvec2 share = (glm::dvec2(pixel) + 0.5) / glm::dvec2(targets.size);
-  const auto at = [&](double depth) {
-    const glm::dvec4 p = inverse * glm::dvec4(share.x * 2 - 1, 1 - share.y * 2, depth, 1);
-    return glm::dvec3(p) / p.w + session.pipeline->scene().origin;
-  };
-  const auto cell = [&](std::optional<uint32_t> facet) {
-    return facet ? std::optional(SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
-  };
-  const glm::dvec3 start = at(1), direction = glm::normalize(at(0) - start);  // 1: the near plane
-  if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
-    if (*shape != ViewShape::slice) return cell(inspector_->facetAlong(start, direction));
-    const glm::dvec3 forward(session.shown.orientation * glm::vec3(0, 0, -1));
-    return inspector_->inSlice(start, direction, forward, session.edited.view);
+namespace {
+
+/// A pixel of the picture as it is shown, by its depths.
+class PixelRay {
+ public:
+  PixelRay(const Session& session, const glm::uvec2& pixel)
+      : inverse_(glm::inverse(
+            glm::dmat4(makeGpuCamera(session.pipeline->scene(), session.shown, session.targets.size).viewProjection))),
+        share_((glm::dvec2(pixel) + 0.5) / glm::dvec2(session.targets.size)),
+        origin_(session.pipeline->scene().origin) {}
+  /// World; depth 1 is the near plane.
+  glm::dvec3 at(double depth) const {
+    const glm::dvec4 p = inverse_ * glm::dvec4(share_.x * 2 - 1, 1 - share_.y * 2, depth, 1);
+    return glm::dvec3(p) / p.w + origin_;
   }
+
+ private:
+  glm::dmat4 inverse_;
+  glm::dvec2 share_;
+  glm::dvec3 origin_;
+};
+
+}  // namespace
+
+/// None where there is no surface.
+std::optional<Inspection::Surface> Inspection::surfaceUnder(Session& session, const glm::uvec2& pixel) {
+  const Targets& targets = session.targets;
   float depth = 0;
   std::memcpy(&depth, downloadTexel(session.context, targets.depth, pixel).data(), sizeof(depth));
   if (depth <= 0) return std::nullopt;
   uint64_t packed = 0;
   std::memcpy(&packed, downloadTexel(session.context, targets.geometric, pixel).data(), sizeof(packed));
-  return cell(inspector_->facetAt(at(depth), glm::dvec3(glm::unpackHalf4x16(packed))));
+  return Surface{PixelRay(session, pixel).at(depth), glm::dvec3(glm::unpackHalf4x16(packed))};
+}
+
+/// Picks from the picture as it is shown: the cell of a slice, the first cube on the way, or the surface in the pixel.
+std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
+  const auto cell = [&](std::optional<uint32_t> facet) {
+    return facet ? std::optional(SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
+  };
+  if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
+    const PixelRay ray(session, pixel);
+    const glm::dvec3 start = ray.at(1), direction = glm::normalize(ray.at(0) - start);
+    if (*shape != ViewShape::slice) return cell(inspector_->facetAlong(start, direction));
+    const glm::dvec3 forward(session.shown.orientation * glm::vec3(0, 0, -1));
+    return inspector_->inSlice(start, direction, forward, session.edited.view);
+  }
+  const std::optional<Surface> surface = surfaceUnder(session, pixel);
+  return surface ? cell(inspector_->facetAt(surface->position, surface->normal)) : std::nullopt;
+}
+
+/// That of the surface in the pixel; of a view of voxels that of the facet that has just been picked.
+std::optional<uint32_t> Inspection::materialUnder(Session& session, const glm::uvec2& pixel) {
+  const Scene& scene = session.pipeline->scene();
+  if (resolveShape(session.view, session.edited.view.shape)) {
+    if (facet() == nullptr || !facet()->mesh) return std::nullopt;
+    return materialOf(scene, facet()->mesh->triangle);
+  }
+  const std::optional<Surface> surface = surfaceUnder(session, pixel);
+  if (!surface) return std::nullopt;
+  const std::optional<uint32_t> triangle = nearestTriangle(scene, surface->position, surface->normal);
+  return triangle ? std::optional(materialOf(scene, *triangle)) : std::nullopt;
 }
 
 void Inspection::compareWith(uint32_t facet) {
@@ -115,6 +153,7 @@ void Inspection::serveRequests(Session& session) {
         pickFacet(*found->facet);
       else if (found)
         voxel = in.voxel(found->voxel);
+      session.material = materialUnder(session, wanted->pixel);
     }
   }
   if (const auto wanted = std::exchange(follow, std::nullopt)) {

@@ -68,6 +68,11 @@ class Inspection {
   void serveRequests(Session& session);
   bool update(Session& session);
   Inspector& inspector(Session& session);
+  struct Surface {
+    glm::dvec3 position, normal;  ///< world
+  };
+  std::optional<Surface> surfaceUnder(Session& session, const glm::uvec2& pixel);
+  std::optional<uint32_t> materialUnder(Session& session, const glm::uvec2& pixel);
   std::optional<SliceCell> under(Session& session, const glm::uvec2& pixel);
   void pickFacet(uint32_t facet);
   void compareWith(uint32_t facet);

@@ -47,7 +47,8 @@ void drawFile(Session& session) {
   if (ImGui::MenuItem("Load again", nullptr, false, session.pipeline != nullptr))
     session.open(session.pipeline->scene().path);
   ImGui::Separator();
-  if (ImGui::MenuItem("Save lights and bookmarks", nullptr, false, session.edits.modified())) session.saveEdits();
+  if (ImGui::MenuItem("Save lights, materials, bookmarks", nullptr, false, session.edits.modified()))
+    session.saveEdits();
   actionItem(session, "Save this view", Action::Capture, false, session.built.has_value());
   actionItem(session, "Save all views", Action::CaptureAll, false, session.built.has_value());
   if (session.underRenderDoc && ImGui::MenuItem("Capture a frame with RenderDoc")) session.captureFrame = true;

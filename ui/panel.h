@@ -24,6 +24,7 @@ class Panel {
 #define IRAD_PANELS(X) \
   X(Scene)             \
   X(Lights)            \
+  X(Materials)         \
   X(Cameras)           \
   X(Settings)          \
   X(Effects)           \

@@ -6,6 +6,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 
@@ -23,6 +24,7 @@ void SceneEdits::begin(const Scene& scene, std::filesystem::path file, std::stri
   file_ = std::move(file);
   reason_ = std::move(reason);
   lights = scene.lights;
+  materials = scene.materialEdits;
   bookmarks = scene.bookmarks;
   again(scene);
   saved_ = current();
@@ -68,6 +70,23 @@ void SceneEdits::undoRemoval() {
   selected = static_cast<int>(at);
 }
 
+MaterialEdit SceneEdits::material(const std::string& name) const {
+  const auto at = std::ranges::lower_bound(materials, name, {}, &MaterialEdit::material);
+  return at != materials.end() && at->material == name ? *at : MaterialEdit{.material = name};
+}
+
+void SceneEdits::setMaterial(MaterialEdit edit) {
+  const auto at = std::ranges::lower_bound(materials, edit.material, {}, &MaterialEdit::material);
+  const bool there = at != materials.end() && at->material == edit.material;
+  if (isEmpty(edit)) {
+    if (there) materials.erase(at);
+  } else if (there) {
+    *at = std::move(edit);
+  } else {
+    materials.insert(at, std::move(edit));
+  }
+}
+
 size_t SceneEdits::addBookmark(const Camera& camera, const std::string& name) {
   const std::string free = freeName(name, cameraNames());
   bookmarks.push_back(camera);
@@ -89,6 +108,7 @@ void SceneEdits::rename(size_t bookmark, const std::string& name) {
 Sidecar SceneEdits::current() const {
   Sidecar sidecar;
   if (lights != fileLights_) sidecar.lights = lights;
+  sidecar.materials = materials;
   sidecar.bookmarks = bookmarks;
   sidecar.sceneSha256 = sceneSha256_;
   return sidecar;
@@ -96,7 +116,7 @@ Sidecar SceneEdits::current() const {
 
 bool SceneEdits::modified() const {
   const bool changed = lights == fileLights_ ? saved_.lights.has_value() : saved_.lights != lights;
-  return changed || bookmarks != saved_.bookmarks;
+  return changed || materials != saved_.materials || bookmarks != saved_.bookmarks;
 }
 
 void SceneEdits::save() {
@@ -116,6 +136,7 @@ void SceneEdits::saveAs(const std::filesystem::path& file) {
 
 void SceneEdits::take(Sidecar sidecar) {
   lights = std::move(sidecar.lights).value_or(fileLights_);
+  materials = std::move(sidecar.materials);
   bookmarks = std::move(sidecar.bookmarks);
   selected = -1;
   removed_.clear();
@@ -123,6 +144,7 @@ void SceneEdits::take(Sidecar sidecar) {
 
 void SceneEdits::revert() {
   lights = saved_.lights.value_or(fileLights_);
+  materials = saved_.materials;
   bookmarks = saved_.bookmarks;
   selected = std::min(selected, static_cast<int>(lights.size()) - 1);
   removed_.clear();

@@ -1,5 +1,5 @@
-// What the window's user has made of a scene beside its file: lights and camera bookmarks. Panels and handles edit
-// them, the builder hands the lights to the pipeline, the sidecar keeps them.
+// What the window's user has made of a scene beside its file: lights, edits of materials, camera bookmarks. Panels and
+// handles edit them, the builder hands lights and materials to the pipeline, the sidecar keeps them.
 #pragma once
 
 #include <filesystem>
@@ -17,6 +17,7 @@ std::string freeName(const std::string& wanted, const std::vector<std::string>& 
 class SceneEdits {
  public:
   std::vector<Light> lights;
+  std::vector<MaterialEdit> materials;  ///< sorted by name; none that changes nothing
   std::vector<Camera> bookmarks;
   int selected = -1;        ///< the light that has handles and whose fields are shown; -1: none
   bool showHandles = true;  ///< in the picture; of other scenes too
@@ -34,20 +35,26 @@ class SceneEdits {
   const Light* removed() const;
   void undoRemoval();
 
+  /// The edit of a material; one that changes nothing where there is none.
+  MaterialEdit material(const std::string& name) const;
+  /// Puts it in place of the edit of the same material.
+  void setMaterial(MaterialEdit edit);
+
   /// A copy of `camera` under a free name: its index.
   size_t addBookmark(const Camera& camera, const std::string& name);
   /// Nothing happens where the name is empty or taken.
   void rename(size_t bookmark, const std::string& name);
 
-  bool modified() const;                                                    ///< changed since it was loaded or saved
-  bool kept() const { return saved_.lights || !saved_.bookmarks.empty(); }  ///< the file holds something
+  bool modified() const;  ///< changed since it was loaded or saved
+  /// The file holds something.
+  bool kept() const { return saved_.lights || !saved_.materials.empty() || !saved_.bookmarks.empty(); }
   const std::filesystem::path& file() const { return file_; }
   const std::string& whyNowhere() const { return reason_; }
   /// Writes the sidecar; WorkError where that fails or there is nowhere to write: the edits stay as they are.
   void save();
   /// The same in a place of the user's choice, which is save()'s from then on.
   void saveAs(const std::filesystem::path& file);
-  /// Lights and bookmarks of another sidecar in place of these; nothing is saved.
+  /// Lights, materials and bookmarks of another sidecar in place of these; nothing is saved.
   void take(Sidecar sidecar);
   void revert();  ///< to what was saved
 

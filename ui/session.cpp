@@ -9,6 +9,7 @@
 #include "gi/check/check.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/material_edits.h"
 #include "ui/widgets.h"
 
 namespace irad {
@@ -24,16 +25,19 @@ void Session::say(Message::Kind kind, std::string text) {
 void Session::beginEdits(bool kept) {
   const Scene& scene = pipeline->scene();
   if (kept) return edits.again(scene);
+  material.reset();
+  materialEdit.reset();
   const auto isBuiltIn = [&](const std::filesystem::path& folder) {
     std::error_code ignored;
     return std::filesystem::equivalent(std::filesystem::absolute(scene.path).parent_path(), folder, ignored);
   };
   std::string nowhere;
   if (isCheckScene(scene.path))
-    nowhere = "A check scene is no file: lights and bookmarks have nothing to be kept beside.";
+    nowhere = "A check scene is no file: lights, materials and bookmarks have nothing to be kept beside.";
   else if (std::any_of(builtIn.begin(), builtIn.end(), isBuiltIn))
-    nowhere = fmt::format("{} is built in. Copy it to a folder of your own to keep lights and bookmarks beside it.",
-                          scene.path.filename().string());
+    nowhere = fmt::format(
+        "{} is built in. Copy it to a folder of your own to keep lights, materials and bookmarks beside it.",
+        scene.path.filename().string());
   else if (!load.sidecar)
     nowhere =
         fmt::format("{} was opened without its sidecar, which saving would replace.", scene.path.filename().string());
@@ -51,9 +55,9 @@ std::vector<Camera> Session::cameras() const {
 void Session::saveEdits() {
   try {
     edits.save();
-    note(fmt::format("Saved lights and bookmarks to {}", edits.file().string()));
+    note(fmt::format("Saved lights, materials and bookmarks to {}", edits.file().string()));
   } catch (const Error& e) {
-    error(fmt::format("{}\nLights and bookmarks stay in this window, unsaved.", e.what()));
+    error(fmt::format("{}\nLights, materials and bookmarks stay in this window, unsaved.", e.what()));
   }
 }
 
@@ -89,7 +93,9 @@ void Session::open(const std::filesystem::path& path) {
 void Session::openSidecar(const std::filesystem::path& path) {
   try {
     edits.take(readSidecar(path));
-    note(fmt::format("Lights and bookmarks are those of {}", path.filename().string()));
+    for (const std::string& unknown : unknownMaterials(pipeline->scene(), edits.materials))
+      note(fmt::format("{}: {}", path.filename().string(), unknown));
+    note(fmt::format("Lights, materials and bookmarks are those of {}", path.filename().string()));
   } catch (const Error& e) {
     error(e.what());
   }

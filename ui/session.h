@@ -62,6 +62,14 @@ struct SolveSample {
   float residual, bound;  ///< bound: by brute force the standard error
 };
 
+/// What the last edit of a material took.
+struct MaterialTimes {
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+  Redo from = Redo::Materials;  ///< first stage that it redid
+  double shown = 0;             ///< until there was a picture's worth of light, ms; 0: not yet
+  double settled = 0;           ///< until the light was at rest, ms; 0: not yet
+};
+
 /// One set of settings, and what the pipeline made of them.
 struct Side {
   std::unique_ptr<Pipeline> pipeline;  ///< null: no scene yet
@@ -112,7 +120,9 @@ struct Session : Side {
   Redo next = Redo::Nothing;  ///< first stage that a pending edit will redo
   bool halted = false;        ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
 
-  SceneEdits edits;  ///< lights and bookmarks; the loop hands the lights to the pipeline
+  SceneEdits edits;                  ///< lights, materials, bookmarks; the loop hands the former two to the pipeline
+  std::optional<uint32_t> material;  ///< whose fields are shown: an index of the scene's
+  std::optional<MaterialTimes> materialEdit;  ///< of the last one
 
   View view = 0;
   std::optional<ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it

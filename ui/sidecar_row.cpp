@@ -15,10 +15,10 @@ void sidecarRow(Session& session) {
   ImGui::BeginDisabled(!modified);
   if (ImGui::Button("Save")) session.saveEdits();
   helpTooltip(edits.file().empty() ? edits.whyNowhere()
-                                   : fmt::format("Lights and bookmarks, to {}", edits.file().string()));
+                                   : fmt::format("Lights, materials and bookmarks, to {}", edits.file().string()));
   ImGui::SameLine();
   if (ImGui::Button("Revert")) edits.revert();
-  helpTooltip("Back to lights and bookmarks as they were saved");
+  helpTooltip("Back to lights, materials and bookmarks as they were saved");
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();

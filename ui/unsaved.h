@@ -20,7 +20,7 @@ struct Leaving {
 
 /// What is lost by it.
 struct Unsaved {
-  bool edits = false;           ///< lights and bookmarks
+  bool edits = false;           ///< lights, materials and bookmarks
   std::vector<Side*> settings;  ///< sides whose settings are nowhere else
   bool any() const { return edits || !settings.empty(); }
 };

@@ -10,6 +10,7 @@
 #include "gi/check/cases.h"
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 namespace {
@@ -50,6 +51,8 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   scene.path = path;
   scene.fileLights = scene.lights;
   if (options.lights) replaceLights(scene, *options.lights);
+  if (options.materials) replaceMaterialEdits(scene, *options.materials);
+  for (const std::string& unknown : unknownMaterials(scene, scene.materialEdits)) scene.warnings.push_back(unknown);
   scene.sky = options.sky;
   return scene;
 }

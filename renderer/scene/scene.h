@@ -57,6 +57,18 @@ struct Material {
   TextureUse baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
 };
 
+/// What a user has made of a material beside the scene's file; what is absent is the file's.
+struct MaterialEdit {
+  std::string material;                      ///< its name, of materialNames()
+  std::optional<glm::vec3> baseColor;        ///< linear, 0 to 1; alpha stays the file's
+  std::optional<float> metallic, roughness;  ///< 0 to 1; nothing to a Lambertian one
+  std::optional<glm::vec3> emissionColor;    ///< linear, 0 to 1
+  std::optional<float> emissionStrength;     ///< W/(m^2 sr) where the colour is 1: radiance = colour x strength
+  std::optional<float> alphaCutoff;          ///< 0 to 1; nothing to one without an alpha mask
+  uint32_t texturesOff = 0;                  ///< bit i: texture i of kMaterialTextures is left out
+  bool operator==(const MaterialEdit&) const = default;
+};
+
 struct Light {
   std::string name;
   LightType type = LightType::Sun;
@@ -103,7 +115,9 @@ struct Scene {
       indices;              ///< three per triangle, counter-clockwise seen from the front (mirrored nodes rewound)
   std::vector<Draw> draws;  ///< at most one per material, in material order; empty ones left out
 
-  std::vector<Material> materials;  ///< at least one
+  std::vector<Material> materials;          ///< at least one
+  std::vector<Material> fileMaterials;      ///< those of the scene file, where edits changed them; empty: `materials`
+  std::vector<MaterialEdit> materialEdits;  ///< that `materials` are made with, and those of names that none has
   std::vector<SceneImage> images;
   std::vector<Light> lights;
   std::vector<Light> fileLights;  ///< those of the scene file (or the default sun), where others took their place
@@ -111,7 +125,7 @@ struct Scene {
   std::vector<Camera> bookmarks;  ///< further cameras, the sidecar's
   std::shared_ptr<const SkyImage>
       sky;                        ///< a picture of what is around (renderer/scene/sky_image.h), where one was given
-  std::filesystem::path sidecar;  ///< that lights and bookmarks come from; empty: none
+  std::filesystem::path sidecar;  ///< that lights, materials and bookmarks come from; empty: none
 
   std::vector<std::string> warnings;  ///< in words, each once
   bool defaultCamera = false, defaultLight = false;
@@ -127,7 +141,8 @@ struct LoadOptions {
   bool doubleSided = false;
   bool sidecar = false;                      ///< take the sidecar beside the file (scene/sidecar.h), if there is one
   std::optional<std::vector<Light>> lights;  ///< in place of the file's and the sidecar's
-  std::shared_ptr<const SkyImage> sky;       ///< Scene::sky
+  std::optional<std::vector<MaterialEdit>> materials;              ///< in place of the sidecar's
+  std::shared_ptr<const SkyImage> sky;                             ///< Scene::sky
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };
 
@@ -148,6 +163,8 @@ void writeSceneCache(const Scene& scene, const std::filesystem::path& path);
 /// What is wrong with a scene, in words; empty where it is sound, that is: arrays of one length, indices inside them,
 /// numbers finite and in range, directions unit. loadScene returns sound scenes only.
 std::string unsound(const Scene& scene);
+/// The same for a material: "material "wall": emits -1".
+std::string unsound(const Material& material, size_t images);
 /// The same for a light: "light "lamp": its intensity -1 is not from 0 to 1e+12".
 std::string unsound(const Light& light);
 

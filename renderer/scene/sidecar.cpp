@@ -1,6 +1,7 @@
 #include "renderer/scene/sidecar.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "renderer/base/output_file.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 namespace fs = std::filesystem;
@@ -27,10 +29,12 @@ void checkFormat(const OrderedJson& json, const std::string& file) {
 
 Sidecar parse(const OrderedJson& parsed, const std::string& file) {
   checkFormat(parsed, file);
-  const JsonObject json(parsed, file, {"format", "scene_sha256", "lights", "cameras"});
+  const JsonObject json(parsed, file, {"format", "scene_sha256", "lights", "materials", "cameras"});
   Sidecar sidecar;
   if (json.has("scene_sha256")) sidecar.sceneSha256 = json.text("scene_sha256");
   if (json.has("lights")) sidecar.lights = lightsFromJson(json.at("lights").dump(), file + ": lights");
+  if (json.has("materials"))
+    sidecar.materials = materialEditsFromJson(json.at("materials").dump(), file + ": materials");
   if (json.has("cameras")) sidecar.bookmarks = camerasFromJson(json.at("cameras").dump(), file + ": cameras");
   std::set<std::string> names;
   for (size_t i = 0; i < sidecar.bookmarks.size(); ++i) {
@@ -68,6 +72,7 @@ void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
   json["format"] = kSidecarFormat;
   if (!sidecar.sceneSha256.empty()) json["scene_sha256"] = sidecar.sceneSha256;
   if (sidecar.lights) json["lights"] = OrderedJson::parse(lightsToJson(*sidecar.lights));
+  if (!sidecar.materials.empty()) json["materials"] = OrderedJson::parse(materialEditsToJson(sidecar.materials));
   json["cameras"] = OrderedJson::array();
   for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(OrderedJson::parse(cameraToJson(camera)));
   writeFile(path, json.dump(2) + "\n");
@@ -80,6 +85,7 @@ void takeSidecar(Scene& scene) {
   Sidecar sidecar = readSidecar(path);
   scene.sidecar = path;
   if (sidecar.lights) replaceLights(scene, std::move(*sidecar.lights));
+  replaceMaterialEdits(scene, std::move(sidecar.materials));
   scene.bookmarks = std::move(sidecar.bookmarks);
   if (!sidecar.sceneSha256.empty() && sidecar.sceneSha256 != scene.sha256)
     scene.warnings.push_back(
@@ -87,13 +93,12 @@ void takeSidecar(Scene& scene) {
 }
 
 std::string sidecarNote(const Scene& scene) {
-  const bool lights = scene.lights != scene.fileLights, cameras = !scene.bookmarks.empty();
-  return fmt::format("{} of {}",
-                     lights && cameras ? "lights and cameras"
-                     : lights          ? "lights"
-                     : cameras         ? "cameras"
-                                       : "nothing",
-                     scene.sidecar.filename().string());
+  std::vector<std::string> what;
+  if (scene.lights != scene.fileLights) what.emplace_back("lights");
+  if (!scene.materialEdits.empty()) what.emplace_back("materials");
+  if (!scene.bookmarks.empty()) what.emplace_back("cameras");
+  if (what.empty()) what.emplace_back("nothing");
+  return fmt::format("{} of {}", fmt::join(what, " and "), scene.sidecar.filename().string());
 }
 
 }  // namespace irad

@@ -1,5 +1,5 @@
-// X.glb.irad.json, the sidecar of X.glb: what the viewer's user has made of a scene without touching its file, lights
-// and camera bookmarks.
+// X.glb.irad.json, the sidecar of X.glb: what the viewer's user has made of a scene without touching its file: lights,
+// edits of materials, camera bookmarks.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,7 @@ constexpr uint32_t kSidecarFormat = 1;
 
 struct Sidecar {
   std::optional<std::vector<Light>> lights;  ///< in place of all of the scene's; absent: the scene's own
+  std::vector<MaterialEdit> materials;       ///< each of another material, sorted by name
   std::vector<Camera> bookmarks;             ///< each has a name of its own
   std::string sceneSha256;                   ///< of the scene file when this was saved; empty: not known
   bool operator==(const Sidecar&) const = default;

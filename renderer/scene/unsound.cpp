@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 namespace {
@@ -62,19 +63,8 @@ std::string ofDraws(const Scene& s) {
 
 std::string ofMaterials(const Scene& s) {
   if (s.materials.empty()) return "no material";
-  for (const Material& m : s.materials) {
-    const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, 0.0f);
-    if (!within(m.baseColor, 0.0, 1.0)) return fmt::format("material \"{}\": its base colour is out of range", m.name);
-    if (!within(factors, 0.0, 1.0) || !std::isfinite(m.normalScale) || !std::isfinite(m.alphaCutoff))
-      return fmt::format("material \"{}\": a factor is out of range", m.name);
-    for (int c = 0; c < 3; ++c)
-      if (!brightness(m.emission[c])) return fmt::format("material \"{}\": emits {}", m.name, m.emission[c]);
-    for (const TextureUse* use :
-         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
-      if (use->image < -1 || use->image >= static_cast<int>(s.images.size()) || use->uvSet > 1 ||
-          !finite(use->transform[0]) || !finite(use->transform[1]) || !finite(use->transform[2]))
-        return fmt::format("material \"{}\": a texture is out of range", m.name);
-  }
+  for (const Material& m : s.materials)
+    if (const std::string problem = unsound(m, s.images.size()); !problem.empty()) return problem;
   for (const SceneImage& image : s.images)
     if (image.width == 0 || image.height == 0 || image.width > gltf::kMaxImageExtent ||
         image.height > gltf::kMaxImageExtent || image.rgba.size() != uint64_t{image.width} * image.height * 4)
@@ -101,6 +91,20 @@ std::string ofCameras(const Scene& s) {
 }
 
 }  // namespace
+
+std::string unsound(const Material& m, size_t images) {
+  const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, 0.0f);
+  if (!within(m.baseColor, 0.0, 1.0)) return fmt::format("material \"{}\": its base colour is out of range", m.name);
+  if (!within(factors, 0.0, 1.0) || !std::isfinite(m.normalScale) || !std::isfinite(m.alphaCutoff))
+    return fmt::format("material \"{}\": a factor is out of range", m.name);
+  for (int c = 0; c < 3; ++c)
+    if (!brightness(m.emission[c])) return fmt::format("material \"{}\": emits {}", m.name, m.emission[c]);
+  for (const TextureUse* use : texturesOf(m))
+    if (use->image < -1 || use->image >= static_cast<int>(images) || use->uvSet > 1 || !finite(use->transform[0]) ||
+        !finite(use->transform[1]) || !finite(use->transform[2]))
+      return fmt::format("material \"{}\": a texture is out of range", m.name);
+  return "";
+}
 
 std::string unsound(const Light& light) {
   const auto is = [&](const auto& what) { return fmt::format("light \"{}\": {}", light.name, what); };
