@@ -53,7 +53,7 @@ std::pair<std::optional<fs::path>, std::optional<std::string>> readNamedFile(con
   return {file, member<std::string>(path, json[name], "sha256")};
 }
 
-/// Cameras or lights, by `parse`, which names the element and its field.
+/// Cameras, lights or materials, by `parse`, which names the element and its field.
 template <class Parse>
 auto readArray(const fs::path& path, const Json& json, const char* name, Parse&& parse) {
   try {
@@ -112,8 +112,7 @@ Config readConfigFile(const fs::path& path) {
   config.shaders = member<std::vector<std::string>>(path, json, "shaders").value_or(std::vector<std::string>{});
   if (json.contains("cameras")) config.cameras = readArray(path, json, "cameras", camerasFromJson);
   if (json.contains("lights")) config.lights = readArray(path, json, "lights", lightsFromJson);
-  if (json.contains("materials"))
-    config.materials = readArray(path, json, "materials", materialEditsFromJson).value_or(std::vector<MaterialEdit>{});
+  if (json.contains("materials")) config.materials = readArray(path, json, "materials", materialEditsFromJson);
   return config;
 }
 

@@ -8,6 +8,7 @@
 #include "gi/scan.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
+#include "gi/voxel_pass.h"
 #include "gi/voxelize.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/record.h"

@@ -101,6 +101,8 @@ const Case kCases[]{
     {E::matrix, dark, "off: no light at all: H is 0 everywhere"},
     {E::matrix, EDIT(dark(t, s), t.lights = {light(LightType::Point)}), "on: light, and albedos of up to 0.5"},
     {E::matrix, turnedDown, "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
+    {E::matrix, EDIT(unlit(t, s), t.emitted = true),
+     "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
     {E::matrix, EDIT(turnedDown(t, s), t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
     {E::matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
     {E::matrix, thesis, "on: *"},

@@ -1,4 +1,5 @@
-// What the window's user makes of a scene: lights and bookmarks, their names, undo, what is unsaved, where it is kept.
+// What the window's user makes of a scene: lights, materials and bookmarks, their names, undo, what is unsaved, where
+// it is kept.
 #include <gtest/gtest.h>
 
 #if IRAD_UI
@@ -83,6 +84,34 @@ TEST_F(SceneEditsTest, SavesWhatDiffersFromTheSceneAndReverts) {
   edits.lights[0].intensity = 8;
   edits.again(scene);
   EXPECT_EQ(edits.lights[0].intensity, 8);
+  EXPECT_TRUE(edits.modified());
+}
+
+TEST_F(SceneEditsTest, KeepsMaterialsByNameUntilTheyAreTheFilesOwn) {
+  const MaterialEdit wall{.material = "wall", .roughness = 0.25f}, door{.material = "door", .emissionStrength = 2.0f};
+  EXPECT_EQ(edits.material("wall"), MaterialEdit{.material = "wall"});
+  edits.setMaterial(wall);
+  edits.setMaterial(door);
+  EXPECT_EQ(edits.materials, (std::vector<MaterialEdit>{door, wall})) << "sorted: the same whatever came first";
+  EXPECT_EQ(edits.material("wall"), wall);
+  EXPECT_TRUE(edits.modified());
+  edits.save();
+  EXPECT_FALSE(edits.modified());
+  EXPECT_TRUE(edits.kept());
+  EXPECT_EQ(readSidecar(file).materials, edits.materials);
+  EXPECT_FALSE(readSidecar(file).lights);
+
+  edits.setMaterial({.material = "wall", .roughness = 0.75f});
+  EXPECT_EQ(edits.materials.size(), 2u);
+  edits.setMaterial({.material = "door"});
+  EXPECT_EQ(edits.materials, (std::vector<MaterialEdit>{{.material = "wall", .roughness = 0.75f}}));
+  edits.setMaterial({.material = "never edited"});
+  EXPECT_EQ(edits.materials.size(), 1u);
+  EXPECT_TRUE(edits.modified());
+  edits.revert();
+  EXPECT_EQ(edits.materials, (std::vector<MaterialEdit>{door, wall}));
+  edits.take(Sidecar());
+  EXPECT_TRUE(edits.materials.empty());
   EXPECT_TRUE(edits.modified());
 }
 

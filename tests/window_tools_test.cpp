@@ -223,7 +223,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
     away();
   };
   save();
-  ASSERT_TRUE(says("Saved lights and bookmarks to " + sidecar.string()));
+  ASSERT_TRUE(says("Saved lights, materials and bookmarks to " + sidecar.string()));
   const Sidecar kept = readSidecar(sidecar);
   ASSERT_TRUE(kept.lights);
   ASSERT_EQ(kept.lights->size(), 2u);
@@ -244,7 +244,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   std::filesystem::create_directory(sidecar);
   drag(565, 201, 700, 300);
   save();
-  EXPECT_TRUE(says("Lights and bookmarks stay in this window, unsaved"));
+  EXPECT_TRUE(says("Lights, materials and bookmarks stay in this window, unsaved"));
   std::filesystem::remove(sidecar);
   save();
   for (int i = 0; i < 100 && !std::filesystem::exists(sidecar); ++i) pause(0.1);

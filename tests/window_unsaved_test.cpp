@@ -227,7 +227,7 @@ TEST_F(WindowUnsavedTest, LightsOfABuiltInSceneAreSavedWhereTheUserSays) {
   ASSERT_TRUE(drop({file}));
   EXPECT_TRUE(appears(kCancel)) << "unsaved lights are replaced";
   click(kDiscard);
-  EXPECT_TRUE(says("Lights and bookmarks are those of lamps.irad.json"));
+  EXPECT_TRUE(says("Lights, materials and bookmarks are those of lamps.irad.json"));
   quitDiscarding();
 }
 

@@ -303,6 +303,15 @@ void writeTexts(const fs::path& folder) {
   const json sidecar = {{"format", 1},
                         {"scene_sha256", std::string(64, '0')},
                         {"lights", json::parse(lightsToJson(lights))},
+                        {"materials",
+                         {{{"name", "wall"},
+                           {"baseColor", {0.5, 0.25, 0.125}},
+                           {"metallic", 0.5},
+                           {"roughness", 0.25},
+                           {"emissionColor", {1, 0.5, 0}},
+                           {"emissionStrength", 4},
+                           {"alphaCutoff", 0.75},
+                           {"texturesOff", {"normal", "occlusion"}}}}},
                         {"cameras", {camera, named}}};
   write(folder / "sidecar/all.json", sidecar.dump(1));
   write(folder / "sidecar/cameras.json", json{{"format", 1}, {"cameras", {camera}}}.dump());
