@@ -47,7 +47,7 @@ std::vector<std::string> strings(const std::filesystem::path& file, const Json& 
 }  // namespace
 
 std::set<std::string> Preferences::foldedAtFirst() {
-  std::set<std::string> titles{"Accuracy", "Cameras", "Lights"};
+  std::set<std::string> titles{"Accuracy", "Cameras", "Lights", "Materials"};
   for (const std::string& group : settingGroups()) titles.insert("Settings/" + group);
   return titles;
 }

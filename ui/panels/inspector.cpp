@@ -42,7 +42,7 @@ class InspectorPanel : public Panel {
       ImGui::PopTextWrapPos();
       return;
     }
-    drawTop(in);
+    drawTop(session);
     drawPlace(in, *facet);
     drawNormal(*facet);
     const bool hasMatrix = session.pipeline->obeyed().solver.method == SolverMethod::matrix;
@@ -66,7 +66,8 @@ class InspectorPanel : public Panel {
 
  private:
   /// Which of the voxel's facets, back along the trail, and done.
-  static void drawTop(Inspection& in) {
+  static void drawTop(Session& session) {
+    Inspection& in = session.inspection;
     for (size_t f = 0; f < in.voxel->facets.size(); ++f) {
       if (ImGui::RadioButton(fmt::format("facet {}", in.voxel->facets[f].facet).c_str(), in.chosen == f) &&
           in.chosen != f)
@@ -80,6 +81,12 @@ class InspectorPanel : public Panel {
     ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::Button("Clear")) in.clear = true;
+    const Scene& scene = session.pipeline->scene();
+    if (!session.material || *session.material >= scene.materials.size()) return;
+    ImGui::SameLine();
+    if (ImGui::Button("Material")) session.preferences.folded.erase("Materials");
+    helpTooltip(fmt::format("Edit \"{}\", of the surface that was clicked, in the panel Materials",
+                            scene.materials[*session.material].name));
   }
 
   /// A voxel of a slice that holds no facet.

@@ -117,7 +117,7 @@ class MaterialsPanel : public Panel {
     const MaterialEdit before = session.edits.material(names_[index]);
     MaterialEdit edit = before;
     const Material now = edited(file, edit);  // as edited, which the pipeline may yet have to take
-    ImGui::PushID(static_cast<int>(index));
+    ImGui::PushID(names_[index].c_str());
 
     fieldLabel("base color", "As shown on a display; files hold it linear. A texture is multiplied with it.");
     if (glm::vec3 color(now.baseColor); colorField("##base", color)) edit.baseColor = color;
