@@ -41,13 +41,15 @@ bool Accuracy::ofComputed() const {
 Accuracy::Subject Accuracy::subjectOf(const Session& session) {
   const Pipeline& pipeline = *session.pipeline;
   const Scene& scene = pipeline.scene();
-  return {scene.path, scene.sha256, pipeline.settings().scene, scene.lights, pipeline.sky(), session.camera.camera()};
+  return {scene.path,          scene.sha256,   pipeline.settings().scene, scene.lights,
+          scene.materialEdits, pipeline.sky(), session.camera.camera()};
 }
 
 std::string Accuracy::Subject::changedIn(const Session& session) const {
   const Subject now = subjectOf(session);
   if (now.scene != scene || now.sha256 != sha256 || now.settings != settings) return "the scene is another";
   if (now.lights != lights) return "the lights have changed";
+  if (now.materials != materials) return "a material has changed";
   if (now.sky != sky) return "the sky has changed";
   if (now.camera != camera) return "the camera has moved";
   return "";
@@ -63,6 +65,7 @@ void Accuracy::startReference(Session& session) {
   load.lambertian = subject_->settings.lambertian;
   load.doubleSided = subject_->settings.doubleSided;
   load.lights.reset();
+  load.materials = subject_->materials;
   load.progress = {};
   tracer_.start({.scene =
                      [load, subject = *subject_] {

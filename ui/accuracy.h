@@ -65,6 +65,7 @@ class Accuracy {
     std::string sha256;
     SceneSettings settings;
     std::vector<Light> lights;
+    std::vector<MaterialEdit> materials;
     Sky sky;
     Camera camera;
     std::string changedIn(const Session& session) const;  ///< in words; empty: nothing
