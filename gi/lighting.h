@@ -92,5 +92,8 @@ struct Lighting {
 };
 /// All zero, with what solver.method needs. Blurred copies exist where scatter() blurs, which makes and frees them.
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
+/// Makes room for F M, all zero, where facets have come to emit, and frees it where they no longer do. For light of a
+/// matrix; the next gatherEmitters() and scatter() fit the rest.
+void fitEmitted(Context& context, const FacetList& facets, Lighting& light);
 
 }  // namespace irad

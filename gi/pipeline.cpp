@@ -240,7 +240,7 @@ struct Pipeline::Impl {
       }
       if (due.has(Redo::Materials)) {
         made.forget(Redo::Materials);
-        shadeFacets(now, progress);
+        shadeFacets(now, due.has(Redo::Emission), progress);
         done({Redo::Materials});
       }
       fitField(now);
@@ -258,8 +258,9 @@ struct Pipeline::Impl {
     made = wanted();
   }
 
-  /// What materials give the facets of voxels that stay: rho and M, with what is listed of the emitters.
-  void shadeFacets(Products& p, const Progress& progress) {
+  /// What materials give the facets of voxels that stay: rho and M, with what is listed of the emitters where these are
+  /// others.
+  void shadeFacets(Products& p, bool emitters, const Progress& progress) {
     if (progress && !progress("GI Materials", 0)) throw WorkError("cancelled");
     const Settings& obeyed = planned.settings();
     if (p.facets->surface && p.facets->count > 0 && !p.parts) {
@@ -270,8 +271,10 @@ struct Pipeline::Impl {
     const auto start = std::chrono::steady_clock::now();
     ++revision.materials;
     shadeAnew(context, onDevice, p.gridRecord, obeyed, *p.facets, p.parts);
-    p.emitters = listEmitters(context, *p.facets);
-    p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
+    if (emitters) {
+      p.emitters = listEmitters(context, *p.facets);
+      p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
+    }
     learn(p);
     context.timings.endFrame(frameIndex, /*setup=*/false, since(start));
   }
@@ -354,15 +357,19 @@ struct Pipeline::Impl {
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
     if (due.has(Redo::Gather) || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
-    // The other method's light lacks what this one keeps, and has what this one does not need; so has that of facets
-    // with an M for those without.
-    const bool other = p.light && (static_cast<bool>(p.light->frameMean.next) != framewise() ||
-                                   static_cast<bool>(p.light->emitted) != p.facets->hasEmission);
+    // The other method's light lacks what this one keeps, and has what this one does not need. By brute force so has
+    // that of facets with an M for those without, whose rays are traced anew in any case.
+    const auto misfits = [&] { return static_cast<bool>(p.light->emitted) != p.facets->hasEmission; };
+    const bool other =
+        p.light && (static_cast<bool>(p.light->frameMean.next) != framewise() || (framewise() && misfits()));
     if (!p.light || !*p.light || other) {
       planned.traits.light.noise.reset();
       decide();
       p.light = makeLighting(context, *p.facets, planned.settings());
       due.add(StagesDue::from(Redo::Emission));
+    } else if (misfits()) {
+      fitEmitted(context, *p.facets, *p.light);
+      due.add(Redo::Emission);
     }
     if (due.has(Redo::Emission) && !framewise())
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);

@@ -17,7 +17,9 @@ enum class Action {
   Quit,
   NextCamera,
   Open,
-  Flicker
+  Flicker,
+  FrameSelected,
+  FrameAll
 };
 
 struct Binding {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "gi/check/check.h"
@@ -76,6 +77,31 @@ void Session::useSceneCamera(int index) {
   if (all.empty()) return;
   sceneCamera = std::clamp(index, 0, static_cast<int>(all.size()) - 1);
   startAt(all[static_cast<size_t>(sceneCamera)]);
+}
+
+Session::Sphere Session::sceneSphere() const {
+  const Scene& scene = pipeline->scene();
+  const double radius = 0.5 * glm::distance(glm::dvec3(scene.boundsMin), glm::dvec3(scene.boundsMax));
+  return {scene.origin + 0.5 * glm::dvec3(scene.boundsMin + scene.boundsMax), std::max(radius, 1e-6)};
+}
+
+std::optional<Session::Sphere> Session::chosenSphere() const {
+  const Sphere all = sceneSphere();
+  if (const InspectedFacet* facet = inspection.facet())
+    return Sphere{facet->position, std::max(6 * inspection.edge(), 1e-6 * all.radius)};
+  if (edits.selected >= 0 && static_cast<size_t>(edits.selected) < edits.lights.size())
+    return Sphere{edits.lights[static_cast<size_t>(edits.selected)].position, 0.1 * all.radius};
+  if (!material) return std::nullopt;
+  const Scene& scene = pipeline->scene();
+  glm::dvec3 low(std::numeric_limits<double>::max()), high = -low;
+  for (const Draw& draw : scene.draws)
+    for (uint32_t i = draw.firstIndex; draw.material == *material && i < draw.firstIndex + draw.indexCount; ++i) {
+      const glm::dvec3 at(scene.positions[scene.indices[i]]);
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+    }
+  if (low.x > high.x) return std::nullopt;
+  return Sphere{scene.origin + 0.5 * (low + high), std::max(0.5 * glm::distance(low, high), 1e-6 * all.radius)};
 }
 
 void Session::open(const std::filesystem::path& path) {
@@ -183,6 +209,16 @@ void Session::act(Action action) {
       break;
     case Action::NextCamera:
       if (pipeline) useSceneCamera((sceneCamera + 1) % static_cast<int>(cameras().size()));
+      break;
+    case Action::FrameSelected:
+    case Action::FrameAll:
+      if (pipeline && targets.size.y > 0) {
+        const std::optional<Sphere> chosen = action == Action::FrameSelected ? chosenSphere() : std::nullopt;
+        const Sphere sphere = chosen.value_or(sceneSphere());
+        camera.frame(sphere.centre, sphere.radius,
+                     static_cast<float>(targets.size.x) / static_cast<float>(targets.size.y));
+        viewDirty = true;
+      }
       break;
     case Action::Flicker:
       if (comparison) {

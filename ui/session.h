@@ -174,6 +174,13 @@ struct Session : Side {
   std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
   void startAt(const Camera& from);     ///< the window's camera
   void useSceneCamera(int index);       ///< of cameras()
+  /// Around what is chosen: the inspected facet, else the light, else the surfaces of the material; none where none is.
+  struct Sphere {
+    glm::dvec3 centre{0};  ///< world
+    double radius = 1;     ///< > 0
+  };
+  std::optional<Sphere> chosenSphere() const;
+  Sphere sceneSphere() const;
   /// A scene, a sidecar, or a picture (a sky or a reference), by its extension. It may be asked first.
   void open(const std::filesystem::path& path);
   void saveEdits();                        ///< reports what became of it

@@ -180,7 +180,10 @@ void Viewport::draw(Session& session, ImGuiLayer& layer, const Rect& where) {
   if (!active) held_ = nullptr;
 
   if (!taken && active && m.delta != glm::vec2(0)) {
-    session.camera.look(m.delta.x, m.delta.y);
+    if (ImGui::GetIO().KeyAlt && session.built)
+      session.camera.orbit(m.delta.x, m.delta.y, session.chosenSphere().value_or(session.sceneSphere()).centre);
+    else
+      session.camera.look(m.delta.x, m.delta.y);
     session.viewDirty = true;
   }
   const float wheel = ImGui::GetIO().MouseWheel;
