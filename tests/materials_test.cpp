@@ -56,7 +56,8 @@ class Materials : public EffectsTest {
       return buffer ? download(context(), buffer) : std::vector<std::byte>();
     };
     const FacetList& list = pipeline.facets();
-    r.shape = bytes(list.shape), r.albedo = bytes(list.albedo), if (list.hasEmission) r.emission = bytes(list.emission);
+    r.shape = bytes(list.shape), r.albedo = bytes(list.albedo);
+    if (list.hasEmission) r.emission = bytes(list.emission);
     r.hasEmission = list.hasEmission;
     pipeline.solvedAfresh({}, [&] {
       r.lit = draw(pipeline);
