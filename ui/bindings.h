@@ -26,7 +26,7 @@ struct Binding {
   int key;  ///< GLFW key; 0: listed in the help only
   Action action;
   const char* keys;
-  const char* does;
+  const char* does;                     ///< null: another row of the help says so
   bool shift = false, control = false;  ///< only with it; listed before the row of the same key without
 };
 std::span<const Binding> bindings();

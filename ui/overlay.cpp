@@ -123,6 +123,7 @@ void drawHelp(Session& session, const Rect& viewport) {
   ImGui::PopFont();
   if (ImGui::BeginTable("bindings", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const Binding& binding : bindings()) {
+      if (!binding.does) continue;
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::TextColored(theme::accent, "%s", binding.keys);

@@ -280,7 +280,8 @@ class AccuracyPanel : public Panel {
     ImGui::EndDisabled();
     helpTooltip(fmt::format(
         "A path tracer on the triangles, from this camera and at this size, on {} of the processor's threads at the "
-        "lowest priority. It stops where camera, scene, lights or materials change, and pauses while this panel is folded.",
+        "lowest priority. It stops where camera, scene, lights or materials change, and pauses while this panel is "
+        "folded.",
         BackgroundReference::threads()));
     if (!can) paragraph(theme::dim, "This build has no path tracer (IRAD_EMBREE).");
   }

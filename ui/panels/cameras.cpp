@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/imgui.h"
 #include "ui/panel.h"
@@ -57,7 +58,8 @@ class CamerasPanel : public Panel {
       session.viewDirty = true;
     }
     fieldLabel("yaw", "About the vertical, degrees: 0 looks along -Z, 90 along -X");
-    float yaw = camera.yaw(), pitch = camera.pitch();
+    const auto degrees = [](float value) { return std::abs(value) < 0.05f ? 0 : value; };  // no "-0.0"
+    float yaw = degrees(camera.yaw()), pitch = degrees(camera.pitch());
     if (ImGui::DragFloat("##yaw", &yaw, 0.2f, -180, 180, "%.1f\u00B0")) turn(session, yaw, pitch);
     fieldLabel("pitch", "Upwards, degrees");
     if (ImGui::DragFloat("##pitch", &pitch, 0.2f, -88, 88, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp))

@@ -192,10 +192,10 @@ class MaterialsPanel : public Panel {
     const MaterialTimes& times = *session.materialEdit;
     const bool rebuilt = times.from <= Redo::Matrix;
     valueRow("last edit", times.settled > 0
-                              ? fmt::format("{} ms{}", shortNumber(times.settled), rebuilt ? ", rebuilt" : "")
-                          : times.shown > 0 ? fmt::format("{} ms, light goes on", shortNumber(times.shown))
+                              ? fmt::format("{} ms{}", milliseconds(times.settled), rebuilt ? ", rebuilt" : "")
+                          : times.shown > 0 ? fmt::format("{} ms, light goes on", milliseconds(times.shown))
                                             : std::string("waits"));
-    helpTooltip(fmt::format("Until the light was at rest; the first picture after {} ms. {}", shortNumber(times.shown),
+    helpTooltip(fmt::format("Until the light was at rest; the first picture after {} ms. {}", milliseconds(times.shown),
                             rebuilt ? "It moved surfaces or brought the first light: voxels or rays were redone."
                                     : "Facets were shaded anew and the light solved; no ray was traced."));
   }
