@@ -62,6 +62,9 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) {
     return std::abs(p.meanLuminance() - shining) < 0.01 * shining;
   })) << "the sidecar's edit is not shown";
+  const ScreenPart near = viewport();
+  key("Home");  // farther away than the file's camera
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(near) > 0.05; })) << "Home does nothing";
   quit();
 }
 
