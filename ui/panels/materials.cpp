@@ -19,7 +19,7 @@ namespace irad {
 namespace {
 
 /// In the order of kMaterialTextures.
-constexpr const char* kTextureLabels[] = {"base colour", "metalness, roughness", "normals", "occlusion", "emission"};
+constexpr const char* kTextureLabels[] = {"base color", "metalness, roughness", "normals", "occlusion", "emission"};
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -143,8 +143,9 @@ class MaterialsPanel : public Panel {
                  "Where base color and texture have less alpha there is no surface. This moves surfaces: voxels and "
                  "matrix are built again, once you let go.");
       float cutoff = now.alphaCutoff;
-      if (ImGui::SliderFloat("##cutoff", &cutoff, 0, 1, "%.3f rebuilds", ImGuiSliderFlags_AlwaysClamp))
+      if (ImGui::SliderFloat("##cutoff", &cutoff, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp))
         edit.alphaCutoff = std::clamp(cutoff, 0.0f, 1.0f);
+      ImGui::TextColored(theme::dim, "a cutoff rebuilds voxels and matrix");
     }
     drawTextures(file, edit);
     settle(file, edit);
