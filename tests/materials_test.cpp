@@ -118,7 +118,7 @@ TEST_F(Materials, AnEditOfBoxHasTheBitsOfARebuild) {
                           {{.material = lamp, .emissionColor = glm::vec3(1, 0.2f, 0.1f), .emissionStrength = 3.5f},
                            {.material = wall, .metallic = 1.0f, .roughness = 0.1f}},
                           {{.material = lamp, .emissionStrength = 0.0f}, {.material = wall, .emissionStrength = 0.7f}}},
-                         at(16, 32));
+                         small());
 }
 
 TEST_F(Materials, SoHaveTheyWithTexturesMasksAndEmitters) {
