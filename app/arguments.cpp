@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "gi/check/check.h"
 #include "renderer/base/error.h"
@@ -34,11 +35,16 @@ Settings SettingArguments::resolve(const Config& from, bool cpuDevice) const {
   if (from.settings) try {
       settingsFromJson(settings, *from.settings);
     } catch (const UsageError& error) {
-      throw UsageError(fmt::format("{}: {}", from.path.string(), error.what()));
+      throw InputError(fmt::format("{}: {}", from.path.string(), error.what()));
     }
   for (const std::string& assignment : set) applySetting(settings, assignment);
   if (seed) settings.matrix.gpu.seed = static_cast<uint32_t>(parseInteger("--seed", *seed, 0, UINT32_MAX));
   return settings;
+}
+
+bool SettingArguments::names(const Config& from, const std::string& setting) const {
+  const bool here = std::ranges::any_of(set, [&](const std::string& s) { return s.starts_with(setting + "="); });
+  return here || (from.settings && nlohmann::json::parse(*from.settings).contains(setting));
 }
 
 bool SettingArguments::sizesAreDefault() const {
@@ -135,14 +141,15 @@ void SceneArguments::declare(Options& options) {
   options.flag("--no-sidecar", noSidecar, "Leave lights and cameras of SCENE.irad.json aside");
 }
 
-/// A file that is there, or a built-in one by its name.
+/// A file that is there, or a built-in one by its name: a folder "box" does not hide it.
 static std::optional<fs::path> findFile(const std::string& wanted, const std::string& extension) {
   std::error_code ignored;  // a name that is no path at all does not exist either
-  if (fs::exists(wanted, ignored)) return wanted;
+  const bool folder = fs::is_directory(wanted, ignored);
+  if (!folder && fs::exists(wanted, ignored)) return wanted;
   if (fs::path(wanted).filename() == wanted && !fs::path(wanted).has_extension())
-    for (const fs::path& folder : builtInFolders())
-      if (const fs::path path = folder / (wanted + extension); fs::exists(path, ignored)) return path;
-  return std::nullopt;
+    for (const fs::path& built : builtInFolders())
+      if (const fs::path path = built / (wanted + extension); fs::exists(path, ignored)) return path;
+  return folder ? std::optional<fs::path>(wanted) : std::nullopt;  // whose reader says what it is
 }
 
 void SceneArguments::check() const {

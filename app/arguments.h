@@ -20,6 +20,8 @@ struct SettingArguments {
   void declare(Options& options);
   Config readConfig() const;
   Settings resolve(const Config& config, bool cpuDevice) const;
+  /// Whether --set or --config gives a setting.
+  bool names(const Config& config, const std::string& setting) const;
   /// Voxels and rays are the defaults' choice alone, so they may be lowered where memory does not suffice.
   bool sizesAreDefault() const;
 };

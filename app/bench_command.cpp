@@ -160,6 +160,8 @@ void run(const BenchArguments& arguments) {
   };
   const uint64_t warmup = count("--warmup", arguments.warmup, 3), rebuilds = count("--rebuilds", arguments.rebuilds, 3);
   const ViewInfo view = findViews({arguments.view.value_or("lit")}).at(0);
+  if (view.isFrom(FROM_PICTURE | FROM_ORACLE))
+    throw UsageError(fmt::format("--view {}: has nothing to be drawn from here", view.name));
   (void)versusSettings(arguments.versus, defaultSettings(true), /*cpuDevice=*/true);
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const auto scenePath = findScene(arguments.scene, early, "box");

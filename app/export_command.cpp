@@ -118,7 +118,7 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");
-  makeFolder(out);
+  const MadeFolder folder(out);
   // Exports need matrix and field, whether or not a picture calls for them.
   for (EffectMode* asked : {&session.settings.effects.matrix, &session.settings.effects.field})
     if (*asked == EffectMode::automatic) *asked = EffectMode::on;

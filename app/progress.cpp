@@ -10,10 +10,12 @@
 
 namespace irad::app {
 
+constexpr const char* kClearLine = "\r\x1b[K";  // of a terminal
+
 ProgressReport::ProgressReport() : terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressReport::finish() {
-  if (barShown_) tell("\r\x1b[K");
+  if (barShown_) writeStandardError(kClearLine);
   barShown_ = false;
 }
 
@@ -33,7 +35,8 @@ bool ProgressReport::operator()(const char* step, float fraction, const std::str
   remark_ = remark;
   if (terminal_) {
     const int filled = percent * 30 / 100;
-    tell("\r\x1b[K[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step,
+    writeStandardError(kClearLine);
+    tell("[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step,
          remark.empty() ? "" : ", ", remark);
     barShown_ = true;
   } else if (fresh) {

@@ -63,7 +63,7 @@ void solveMatrix(const Arguments& arguments, const Task& task, DeviceSession& se
   if (session.settings.solver.method != SolverMethod::matrix)
     throw UsageError("--of matrix: solver.method = brute_force has no matrix");
   if (session.settings.effects.matrix == EffectMode::automatic) session.settings.effects.matrix = EffectMode::on;
-  beginFiles(task);
+  const auto folder = beginFiles(task);  // goes again where the work fails
   const auto start = std::chrono::steady_clock::now();
   const StopOnSignal interrupts;
   Pipeline pipeline(*session.context, std::move(scene), session.settings);

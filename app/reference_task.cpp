@@ -105,9 +105,10 @@ void addLayer(std::vector<PictureLayer>& layers, const std::string& name, std::v
   if (error) layers.push_back({first ? "error" : name + ".error", std::move(*error)});
 }
 
-void beginFiles(const Task& task) {
-  makeFolder(task.stem.has_parent_path() ? task.stem.parent_path() : fs::path("."));
+std::unique_ptr<MadeFolder> beginFiles(const Task& task) {
+  auto folder = std::make_unique<MadeFolder>(task.stem.has_parent_path() ? task.stem.parent_path() : fs::path("."));
   removeFile(task.beside(".json"));
+  return folder;
 }
 
 void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest, const Camera& camera,

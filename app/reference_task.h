@@ -1,6 +1,7 @@
 // What the truths of `irad reference` have in common: what was asked for, when a run ends, what it writes.
 #pragma once
 
+#include <memory>
 #include <chrono>
 #include <filesystem>
 #include <limits>
@@ -83,7 +84,8 @@ std::string bounceName(size_t reflections);  ///< of the layer
 Json tellBounces(const glm::dvec3& lit, const std::vector<glm::dvec3>& bounces, const std::vector<glm::dvec3>& errors);
 
 /// Checks that the results can be written, and takes the last run's manifest away, which vouches for its files.
-void beginFiles(const Task& task);
+/// The folder goes with what is returned, where nothing was written into it.
+std::unique_ptr<MadeFolder> beginFiles(const Task& task);
 void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest, const Camera& camera,
                  const Json& truth, std::vector<std::filesystem::path> written);
 

@@ -78,7 +78,7 @@ void traceVoxels(const Arguments& arguments, const Task& task, DeviceSession& se
   const uint32_t before = state ? state->frames.frames : 0;
   const double secondsBefore = state ? state->seconds : 0;
   settings.solver.frames = std::max(settings.solver.frames, before);
-  beginFiles(task);
+  const auto folder = beginFiles(task);  // goes again where the work fails
 
   Pipeline pipeline(*session.context, std::move(scene), settings);
   const StopOnSignal interrupts;

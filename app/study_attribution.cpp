@@ -471,6 +471,7 @@ void attributionStudy(const MeasureArguments& measure, const AttributionArgument
   study.out = measure.out.value_or("out/attribution");
   study.seeds = seeds;
   const fs::path out = study.out;
+  const MadeFolder folder(out);
   const glm::uvec2 size = study.size;
   const float exposure = std::exp2(session.settings.camera.exposureEv);
   StudyRun run(session, std::move(loaded), SettingGrid(std::vector<std::string>{}, session.settings), std::move(study));

@@ -47,6 +47,7 @@ void costStudy(const StudyArguments& a) {
   const std::optional<std::string> name = a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt;
   auto [scene, task] = a.measure.open(session, "irad study cost", name);
   const fs::path out = task.out = a.measure.out.value_or("out/study");
+  const MadeFolder folder(out);
   task.shard = shard;
   task.peerSamples = std::move(peerSamples);
   StudyRun run(session, std::move(scene), SettingGrid(a.measure.sweeps, session.settings), std::move(task));
@@ -67,6 +68,7 @@ void mergeShards(const StudyArguments& arguments) {
   if (shards.empty()) throw UsageError("irad study merge: no folders given");
   if (!arguments.measure.out) throw UsageError("irad study merge: no --out DIR");
   const fs::path out = *arguments.measure.out;
+  const MadeFolder folder(out);
   if (isNamedStudy(shards.front())) return mergeNamedStudies(shards, out);
   mergeStudies(shards, out);
   finishStudy(out, gridOf(readIdentity(out)), readResults(out), readNotes(out));

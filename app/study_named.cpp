@@ -217,7 +217,7 @@ void runNamedStudy(const std::string& name, const MeasureArguments& measure, con
                       "--out, or remove it",
                       root.string(), there.name, there.scale, there.device, named.name, named.scale, named.device));
   }
-  makeFolder(root);
+  const MadeFolder folder(root);
   writeFile(root / kNamedFile, named.json());
   session.progress.note(fmt::format("scale {}: {}", scale.name,
                                     arguments.scale ? "as asked for"

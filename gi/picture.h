@@ -21,9 +21,10 @@ struct PictureFiles {
   std::string bad;  ///< what findBadPixels says of it; the files are written all the same, they show where
 };
 /// What is in `targets` after Pipeline::render() of `view`: stem.png as shown, stem.exr linear (renderer/image_io.h).
-/// `legend`: drawn into the PNG.
+/// `legend` and the lines of `notice` are drawn into the PNG.
 PictureFiles writePicture(Context& context, const Targets& targets, const ViewInfo& view,
-                          const std::filesystem::path& stem, const Legend* legend = nullptr);
+                          const std::filesystem::path& stem, const Legend* legend = nullptr,
+                          const std::vector<std::string>& notice = {});
 /// What the display picture of a view with a range was drawn with.
 Legend legendOf(Context& context, const Targets& targets, const ViewInfo& view, const Settings& settings);
 
@@ -38,8 +39,10 @@ struct ReferencePicture {
   std::string sha256;          ///< of the file
   LinearPicture picture;
   View of = VIEW_LIT;  ///< what it is a picture of
+  std::string note{};  ///< what is odd about it, in words; empty: nothing
 };
-/// As readLinear() does; InputError.
+/// As readLinear() does; integers (PNG, JPEG) are what screens show, and are decoded from sRGB, which `note` says.
+/// InputError.
 ReferencePicture readReference(const std::filesystem::path& path);
 
 }  // namespace irad

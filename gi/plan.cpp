@@ -35,6 +35,7 @@ class Planner {
     emission();
     sky();
     if (shines_) plan_.noLight.clear();
+    nothingDiffuse();
     specular();
     matrix();
     writeback();
@@ -152,6 +153,17 @@ class Planner {
     r.state = EffectState::asleep;
     r.reason += "; what was built for it is kept";
     r.bytesNotAllocated = 0;
+  }
+
+  /// Metals show what is around them, which is black without a sky, but for highlights of the lights.
+  void nothingDiffuse() {
+    const bool metal = most(&MaterialTraits::f0) > 0 && most(&MaterialTraits::albedo) == 0;
+    if (!metal || !shines_ || emits_ || plan_.on(Effect::sky)) return;
+    const std::string which = used_.size() == 1 ? "The one material is not diffuse"
+                                                : fmt::format("None of {} materials is diffuse", used_.size());
+    plan_.nothingDiffuse = {
+        which + ": metal shows what is around it, and nothing there gives light.",
+        "A sky would: sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window)."};
   }
 
   void specular() {

@@ -77,6 +77,9 @@ struct EffectPlan {
   bool pixelEmitters = false;  ///< sample.emitters = pixels is obeyed; the row of emission says why not
   /// The reasons of all kinds of light where none lights the scene; else nothing.
   std::vector<std::string> noLight;
+  /// Where there is light, but no material that scatters it and no sky: why surfaces are black all the same, and what
+  /// would mend it, a sentence each; else nothing.
+  std::vector<std::string> nothingDiffuse;
   const EffectRow& row(Effect effect) const { return rows[static_cast<size_t>(effect)]; }
   bool on(Effect effect) const { return row(effect).state == EffectState::on; }
   bool off(Effect effect) const { return row(effect).state == EffectState::off; }

@@ -54,6 +54,15 @@ size_t parseChoice(const Setting& setting, std::string_view given) {
   throw UsageError(message);
 }
 
+/// One of the settings by its name; "auto" as an exposure is camera.auto_exposure.
+void assign(Settings& settings, std::string_view name, std::string_view value) {
+  if (name == "camera.exposure" && value == "auto") {
+    settings.camera.autoExposure = true;
+    return;
+  }
+  findSetting(name).assign(settings, value);
+}
+
 }  // namespace
 
 std::string_view Setting::group() const {
@@ -121,7 +130,7 @@ void requireMatching(const Settings& settings) {
 void applySetting(Settings& settings, std::string_view assignment) {
   const size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) throw UsageError(fmt::format("setting '{}': expected name=value", assignment));
-  findSetting(assignment.substr(0, equals)).assign(settings, assignment.substr(equals + 1));
+  assign(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
 std::string settingsToJson(const Settings& settings, int indent) {
@@ -150,7 +159,7 @@ void settingsFromJson(Settings& settings, std::string_view json) {
   for (const auto& [name, value] : parsed.items()) {
     if (value.is_structured() || value.is_null())
       throw UsageError(fmt::format("{}: expected a number, true, false or a name, not {}", name, value.dump()));
-    findSetting(name).assign(changed, value.is_string() ? value.get<std::string>() : value.dump());
+    assign(changed, name, value.is_string() ? value.get<std::string>() : value.dump());
   }
   settings = changed;
 }

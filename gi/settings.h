@@ -128,6 +128,7 @@ struct SkySettings {
 };
 struct CameraSettings {
   float exposureEv = 0.0f;
+  bool autoExposure = false;
   ShadeParams gpu{1.0f, ToneCurve::neutral, 1.5f, 3, true};
   bool operator==(const CameraSettings&) const = default;
 };
@@ -222,7 +223,7 @@ std::span<const Setting> settingTable();
 /// UsageError names the near matches.
 const Setting& findSetting(std::string_view name);
 
-/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view, the
+/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposures, the tone curve, the view, the
 /// sky, device.rasterizer and scene.*, which are the user's own; UsageError lists the names. `cpuDevice` picks the
 /// sizes by device class (CPU rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
@@ -232,7 +233,7 @@ std::vector<std::string> presetNames();
 /// UsageError where values do not go together: what is the thesis's alone, and its hit rule.
 void requireMatching(const Settings& settings);
 
-/// One "name=value"; UsageError names the near matches of an unknown name, or the range of a bad value.
+/// One "name=value" (or camera.exposure=auto); UsageError names the near matches of an unknown name, or the range of a bad value.
 void applySetting(Settings& settings, std::string_view assignment);
 
 std::string settingsToJson(const Settings& settings, int indent = 2);  ///< {"voxel.resolution": 64, ...}

@@ -194,7 +194,11 @@ constexpr Setting kTable[] = {
         "Diffuse albedo of the ground below the horizon of Preetham's sky, which that sky and its coupled sun light.",
         Gather),
     SETTING(camera.exposureEv, "camera.exposure", {-16, 16, "EV"},
-            "Exposure of the displayed picture; EXR files stay linear.", Nothing),
+            "Exposure of the displayed picture; EXR files stay linear. auto: camera.auto_exposure = true.", Nothing),
+    SETTING(camera.autoExposure, "camera.auto_exposure",
+            "Exposes each picture of light by itself, so that 95 % of it are darker than the tone curve's bend; "
+            "camera.exposure comes on top.",
+            Nothing),
     SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),
     SETTING(camera.gpu.shadowBias, "camera.shadow_bias", {0, 10, "texels"}, "Normal offset of shadow lookups.", Gather),
     SETTING(camera.gpu.pcf, "camera.pcf", {1, 5, "taps", /*logarithmic=*/false, /*step=*/2},

@@ -1,4 +1,5 @@
 // The window itself: keys and mouse, layout, size, scenes opened, what it refuses to show.
+#include "tests/scene_files.h"
 #include "tests/window_fixture.h"
 
 namespace irad::test::window_suite {
@@ -96,6 +97,32 @@ TEST_F(WindowTest, SaysWhyAPictureIsBlack) {
   ASSERT_TRUE(settles(around, [](const ScreenPart& p) { return p.meanLuminance() > 0.05; })) << "no light is added";
   EXPECT_LT(middle().count(background), 270 * 150 / 10) << "the words stay";
   quitDiscarding();  // the light
+}
+
+/// A triangle of rough metal under the default sun: nothing diffuse.
+std::filesystem::path metalScene(const std::filesystem::path& folder) {
+  GltfFile file = triangleFile();
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 1}}}}};
+  file.primitive()["material"] = 0;
+  return file.write(folder, "metal.gltf");
+}
+
+TEST_F(WindowTest, ExposesFilesByThemselvesAndSaysWhyMetalIsBlack) {
+  start({}, metalScene(folder_.path));
+  EXPECT_TRUE(isOn("View/camera.auto_exposure"));
+  // The words in the picture's lower left corner, which go with a view that is not of light.
+  const auto corner = [this] { return screen_->grab(340, 560, 200, 100); };
+  const auto text = [](const ScreenPart& p) { return p.deviation() > 0.05; };
+  EXPECT_TRUE(settles(corner, text)) << "no word in the corner";
+  key("6");
+  EXPECT_TRUE(settles(corner, [&](const ScreenPart& p) { return !text(p); })) << "the words stay";
+  quit();
+  start();
+  EXPECT_FALSE(isOn("View/camera.auto_exposure")) << "a built-in scene is made for 0 EV";
+  quit();
+  start({"--set", "camera.exposure=1"}, metalScene(folder_.path));
+  EXPECT_FALSE(isOn("View/camera.auto_exposure")) << "the user has chosen";
+  quit();
 }
 
 TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {

@@ -5,10 +5,14 @@
 #include <map>
 
 #include "app/arguments.h"
+#include "gi/picture.h"
+#include "renderer/base/console.h"
 #include "renderer/base/json_extent.h"
+#include "renderer/base/output_file.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/image_header.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/srgb.h"
 #include "tests/scene_files.h"
 
 namespace irad::test::wrong_input_suite {
@@ -85,6 +89,36 @@ TEST(Manifest, ASceneWithAnImpossibleNameIsNoSuchFile) {
   app::Config config;
   const std::string text = refusal([&] { app::findScene(std::string(10000, 'x') + ".glb", config, std::nullopt); });
   EXPECT_NE(text.find("no such file"), std::string::npos) << text;
+}
+
+TEST(Printable, QuotesWhatATerminalCannotTake) {
+  EXPECT_EQ(printable("plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1"), "plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1");
+  EXPECT_EQ(printable("a\xFF" "b"), "a\\xFFb");
+  EXPECT_EQ(printable("\x1b[31m\r\x7f"), "\\x1B[31m\\x0D\\x7F");
+  EXPECT_EQ(printable("\xC2\x9B"), "\\xC2\\x9B") << "a control character of two bytes";
+  EXPECT_EQ(printable("\xC3"), "\\xC3") << "a character cut off";
+  EXPECT_EQ(printable("\xC0\xAF \xE0\x80\xAF"), "\\xC0\\xAF \\xE0\\x80\\xAF") << "overlong";
+  EXPECT_EQ(printable("\xED\xA0\x80 \xF4\x90\x80\x80"), "\\xED\\xA0\\x80 \\xF4\\x90\\x80\\x80") << "surrogates, too large";
+}
+
+TEST(MadeFolder, GoesWhereNothingWasWritten) {
+  TemporaryFolder folder;
+  const std::filesystem::path there = folder.path / "there", made = there / "a" / "b";
+  std::filesystem::create_directory(there);
+  {
+    const MadeFolder work(made);
+    std::filesystem::create_directory(made / "pictures");
+  }
+  EXPECT_TRUE(std::filesystem::exists(there));
+  EXPECT_FALSE(std::filesystem::exists(there / "a"));
+  {
+    const MadeFolder work(made);
+    std::ofstream(made / "result") << "x";
+  }
+  EXPECT_TRUE(std::filesystem::exists(made / "result"));
+  { const MadeFolder work(there / "a"); }
+  EXPECT_TRUE(std::filesystem::exists(made / "result"));
+  EXPECT_THROW(MadeFolder(made / "result"), WorkError);
 }
 
 /// A PNG's first 29 bytes.
@@ -236,6 +270,22 @@ TEST(SceneCache, UnsoundScenesAreRefused) {
     expectRefused(path, damage.said);
   }
 }
+
+#ifdef IRAD_OIIO
+TEST(ReferencePicture, IntegersAreDecodedAndSaid) {
+  TemporaryFolder folder;
+  const glm::uvec2 size(4, 1);
+  const std::vector<glm::u8vec4> codes{{0, 0, 0, 255}, {10, 128, 188, 255}, {255, 255, 255, 255}, {1, 2, 3, 255}};
+  const ReferencePicture png = readReference(writeDisplay(folder.path / "shown", size, codes));
+  for (size_t i = 0; i < codes.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(png.picture.pixels[i][c], linearFromSrgb(codes[i][c]), 1e-6);
+  EXPECT_NE(png.note.find("shown.png holds integers and is decoded from sRGB"), std::string::npos) << png.note;
+  const std::vector<glm::vec4> light{{0.5f, 2, 0.25f, 1}, glm::vec4(0), glm::vec4(7), glm::vec4(1)};
+  const ReferencePicture exr = readReference(writeLinear(folder.path / "light", size, light));
+  EXPECT_EQ(exr.note, "");
+  EXPECT_EQ(exr.picture.pixels[0].y, 2.0f);
+}
+#endif
 
 }  // namespace
 }  // namespace irad::test::wrong_input_suite

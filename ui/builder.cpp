@@ -45,6 +45,7 @@ void Builder::load(const std::filesystem::path& path) {
       return session_.note(
           fmt::format("{}: its surfaces are as they were, and so is what was made of them", path.filename().string()));
     }
+    if (!again) session_.expose(path);
     ExpectedIrradiance expected = expectedIrradiance(scene);
     auto pipeline = std::make_unique<Pipeline>(context_, std::move(scene), session_.edited, std::move(expected));
     giveReference(*pipeline);
@@ -222,7 +223,8 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .edge = facets.grid.edge,
                      .solve = report,
                      .findings = pipeline.findings(),
-                     .noLight = pipeline.plan().noLight};
+                     .noLight = pipeline.plan().noLight,
+                     .nothingDiffuse = pipeline.plan().nothingDiffuse};
   const float error = report.frames > 0 ? report.standardError : report.bound;
   side.solves.push_back({report.sweeps, report.residual, error});
   if (side.solves.size() > 400) side.solves.pop_front();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "gi/check/check.h"
@@ -21,17 +22,33 @@ void Session::say(Message::Kind kind, std::string text) {
   if (messages.size() > most) messages.erase(messages.begin());
 }
 
+double Session::exposure() const {
+  const double fixed = std::exp2(double{edited.camera.exposureEv});
+  const ViewInfo* info = viewInfo(view);
+  if (!edited.camera.autoExposure || !range || rangeView != view || info == nullptr || !info->toneMapped()) return fixed;
+  return fixed * double{autoExposure(*range)} * (info->kind == VIEW_KIND_IRRADIANCE ? double{IRAD_PI} : 1);
+}
+
+bool Session::isOurs(const std::filesystem::path& scene) const {
+  const auto isBuiltIn = [&](const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(std::filesystem::absolute(scene).parent_path(), folder, ignored);
+  };
+  return isCheckScene(scene) || std::any_of(builtIn.begin(), builtIn.end(), isBuiltIn);
+}
+
+void Session::expose(const std::filesystem::path& scene) {
+  if (!exposes || edited.camera.autoExposure != saved.camera.autoExposure) return;
+  edited.camera.autoExposure = saved.camera.autoExposure = !isOurs(scene);
+}
+
 void Session::beginEdits(bool kept) {
   const Scene& scene = pipeline->scene();
   if (kept) return edits.again(scene);
-  const auto isBuiltIn = [&](const std::filesystem::path& folder) {
-    std::error_code ignored;
-    return std::filesystem::equivalent(std::filesystem::absolute(scene.path).parent_path(), folder, ignored);
-  };
   std::string nowhere;
   if (isCheckScene(scene.path))
     nowhere = "A check scene is no file: lights and bookmarks have nothing to be kept beside.";
-  else if (std::any_of(builtIn.begin(), builtIn.end(), isBuiltIn))
+  else if (isOurs(scene.path))
     nowhere = fmt::format("{} is built in. Copy it to a folder of your own to keep lights and bookmarks beside it.",
                           scene.path.filename().string());
   else if (!load.sidecar)

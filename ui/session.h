@@ -53,6 +53,7 @@ struct Built {
   SolveReport solve;
   std::vector<Finding> findings;     ///< of the numerical watch, errors first
   std::vector<std::string> noLight;  ///< EffectPlan::noLight
+  std::vector<std::string> nothingDiffuse;  ///< EffectPlan::nothingDiffuse
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 
@@ -147,6 +148,7 @@ struct Session : Side {
 
   LoadOptions load;                            ///< of scenes; `lights` are the first one's
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
+  bool exposes = false;                        ///< WindowOptions::exposes
   Inspection inspection;
 
   // Requests; those that may lose work come from leave().
@@ -159,6 +161,11 @@ struct Session : Side {
   void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void act(Action action);  ///< what its key does
+  /// Linear factor that the light shown is displayed with, camera.auto_exposure's included once its picture is there.
+  double exposure() const;
+  bool isOurs(const std::filesystem::path& scene) const;  ///< built in, or a check's
+  /// Before another scene is shown: camera.auto_exposure as suits it, where the user has not chosen.
+  void expose(const std::filesystem::path& scene);
   /// After a scene was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
   std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks

@@ -108,6 +108,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.reference = options.reference;
   session_.load = options.load;
   session_.builtIn = options.builtIn;
+  session_.exposes = options.exposes;
   session_.underRenderDoc = renderDoc_.has_value();
   session_.presets = options.presets;
   if (!options.controls.empty()) controls_.emplace(options.controls);

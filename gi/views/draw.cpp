@@ -22,6 +22,10 @@ float linearExposure(const Settings& settings) {
   return settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
 }
 
+bool exposesItself(const ViewInfo& info, const Settings& settings) {
+  return info.toneMapped() && settings.camera.autoExposure;
+}
+
 void drawTargets(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
                  Targets& targets) {
   const ViewInfo* info = viewInfo(view);
@@ -31,6 +35,7 @@ void drawTargets(Frame& frame, View view, const ViewInputs& inputs, const Buffer
   push.camera = pass.in(camera);
   if (sky != nullptr) push.sky = pass.in(*sky);
   push.kind = info != nullptr ? info->kind : VIEW_KIND_COLOR;
+  push.linearOnly = info != nullptr && (info->hasRange() || exposesItself(*info, settings)) ? 1 : 0;
   push.exposure = linearExposure(settings);
   push.toneCurve = settings.camera.gpu.toneCurve;
   if (inputs.facets != nullptr) {
@@ -58,6 +63,7 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   if (known == nullptr) return drawTargets(frame, view, inputs, camera, settings, targets);
 
   const ViewInfo& info = *known;
+  const bool needsRange = info.hasRange() || exposesItself(info, settings);
   if (info.shape) {
     drawVoxels(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_PICTURE)) {
@@ -69,9 +75,9 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
     drawPinHoles(frame, inputs, camera, targets);
   } else {
     drawTargets(frame, view, inputs, camera, settings, targets);
-    if (!info.hasRange()) return;  // the display picture is there
+    if (!needsRange) return;  // the display picture is there
   }
-  if (info.hasRange()) {
+  if (needsRange) {
     if (inputs.range != nullptr)
       frame.pass("View range").copy(*inputs.range, targets.viewRange, sizeof(ViewRange));
     else

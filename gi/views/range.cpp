@@ -19,7 +19,10 @@ void findRange(Frame& frame, const ViewInfo& info, const Settings& settings, Tar
   push.low = view.low;
   push.high = view.high;
   push.percentile = view.percentile;
-  if (view.range == RangeMode::standard) {
+  if (!info.hasRange()) {  // luminances, of which camera.auto_exposure wants the upper end
+    push.mode = RangeMode::percentile;
+    push.percentile = AUTO_EXPOSURE_PERCENTILE;
+  } else if (view.range == RangeMode::standard) {
     push.mode = info.rangeMin < info.rangeMax ? RangeMode::manual : RangeMode::automatic;
     push.low = info.rangeMin;
     push.high = info.rangeMax;
@@ -43,6 +46,7 @@ void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, gl
   push.size = targets.size;
   push.kind = info.kind;
   push.colorMap = colorMapOf(info, settings);
+  push.automatic = exposesItself(info, settings) ? 1 : 0;
   push.exposure = linearExposure(settings);
   push.toneCurve = settings.camera.gpu.toneCurve;
   push.dims = dims;

@@ -147,6 +147,36 @@ void makeFolder(const std::filesystem::path& path) {
     throw WorkError(fmt::format("cannot write into {}: {}", path.string(), std::strerror(errno)));
 }
 
+namespace {
+
+/// Removes a folder and those in it as far as they hold no file.
+void removeEmpty(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> inside;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->is_symlink(error) || !entry->is_directory(error)) return;
+    inside.push_back(entry->path());
+  }
+  for (const fs::path& path : inside) removeEmpty(path);
+  fs::remove(folder, error);  // does so where it is empty
+}
+
+}  // namespace
+
+MadeFolder::MadeFolder(const fs::path& path) {
+  std::error_code error;
+  for (fs::path folder = fs::absolute(path, error).lexically_normal(); !error && !fs::exists(folder, error);
+       folder = folder.parent_path()) {
+    if (!folder.has_relative_path()) break;
+    made_ = folder;
+  }
+  makeFolder(path);
+}
+
+MadeFolder::~MadeFolder() {
+  if (!made_.empty()) removeEmpty(made_);
+}
+
 template <class T>
 NpyFile<T>::NpyFile(std::filesystem::path path, std::vector<uint64_t> shape) : file_(std::move(path)) {
   std::string dimensions;

@@ -53,6 +53,20 @@ bool zeroArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   return !(glm::length(glm::cross(e1, e2)) > 1e-12 * longest);
 }
 
+/// What is the matter where nothing is drawn: ": …", as far as the file's structure says it.
+std::string whyNone(const Document& doc, const Flattened& flat, uint64_t triangles) {
+  const tinygltf::Model& model = doc.model;
+  const size_t meshes = model.meshes.size(), scene = static_cast<size_t>(std::max(model.defaultScene, 0));
+  if (meshes == 0) return ": the file has no meshes";
+  if (!flat.instances.empty()) return triangles == 0 ? ": its meshes have none" : "";
+  const std::string none = fmt::format(": none of the file's {} meshes is shown: ", meshes);
+  if (model.nodes.empty()) return none + "it has no nodes";
+  if (!model.scenes.empty() && model.scenes[scene].nodes.empty())
+    return none + fmt::format("scenes[{}] lists no nodes", scene);
+  return none + (model.scenes.empty() ? "no node names one"
+                                      : fmt::format("no node of scenes[{}] names one", scene));
+}
+
 struct Counts {
   uint64_t nonFinite = 0, degenerate = 0, zeroNormals = 0;
 };
@@ -169,7 +183,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
     doc.warn(fmt::format("{} normals of length 0 are replaced by those of the faces", counts.zeroNormals));
   std::erase_if(placed, [](const Placed& p) { return p.kept == 0; });
   if (placed.empty()) {
-    doc.warn("the scene has no triangles");
+    doc.warn("the scene has no triangles" + whyNone(doc, flat, triangles));
     return;
   }
   scene.origin = 0.5 * (lo + hi);

@@ -1,5 +1,6 @@
 // The node tree: world transforms in double precision, mesh instances, lights and cameras.
 #include <cmath>
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
@@ -15,13 +16,22 @@ glm::dmat4 compose(const glm::dvec3& t, const glm::dquat& r, const glm::dvec3& s
   return m;
 }
 
-glm::dquat rotation(double x, double y, double z, double w) {
+/// Unit, from any length; `where` is said of one that has none.
+glm::dquat rotation(Document& doc, const std::function<std::string()>& where, double x, double y, double z, double w) {
   const double length = std::sqrt(x * x + y * y + z * z + w * w);
-  return length > 0.0 && std::isfinite(length) ? glm::dquat(w / length, x / length, y / length, z / length)
-                                               : glm::dquat(1, 0, 0, 0);
+  if (length > 0.0 && std::isfinite(length)) return glm::dquat(w / length, x / length, y / length, z / length);
+  doc.warn(fmt::format("{}: ({:g}, {:g}, {:g}, {:g}) is no rotation; none is taken", where(), x, y, z, w));
+  return glm::dquat(1, 0, 0, 0);
 }
 
-glm::dmat4 localTransform(const tinygltf::Node& node) {
+/// 'nodes[3] "lamp"'
+std::string nameOf(const Document& doc, size_t node) {
+  const std::string& name = doc.model.nodes[node].name;
+  return name.empty() ? fmt::format("nodes[{}]", node) : fmt::format("nodes[{}] \"{}\"", node, name.substr(0, 40));
+}
+
+glm::dmat4 localTransform(Document& doc, size_t index) {
+  const tinygltf::Node& node = doc.model.nodes[index];
   if (node.matrix.size() == 16) {
     glm::dmat4 m;
     for (int c = 0; c < 4; ++c)
@@ -33,7 +43,10 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
   };
   const auto& q = node.rotation;
   return compose(vector(node.translation, 0.0),
-                 q.size() == 4 ? rotation(q[0], q[1], q[2], q[3]) : glm::dquat(1, 0, 0, 0), vector(node.scale, 1.0));
+                 q.size() == 4 ? rotation(
+                                     doc, [&] { return nameOf(doc, index) + ".rotation"; }, q[0], q[1], q[2], q[3])
+                               : glm::dquat(1, 0, 0, 0),
+                 vector(node.scale, 1.0));
 }
 
 bool finite(const glm::dmat4& m) {
@@ -77,7 +90,7 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   Light light;
   light.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("light {}", index);
   const LightKind* kind = findGltfLightKind(in.type);
-  IRAD_CHECK(kind != nullptr, "gltf_precheck has let \"{}\" pass", in.type);
+  if (kind == nullptr) return;  // gltf_precheck has said so
   light.type = kind->type;
   light.position = place(doc, node, world);
   light.direction = glm::vec3(-orthonormal(world)[2]);
@@ -151,7 +164,9 @@ std::vector<glm::dmat4> instanceTransforms(Document& doc, const tinygltf::Node& 
     };
     const glm::dquat q = r.count == 0
                              ? glm::dquat(1, 0, 0, 0)
-                             : rotation(r.values[4 * i], r.values[4 * i + 1], r.values[4 * i + 2], r.values[4 * i + 3]);
+                             : rotation(
+                                   doc, [&] { return fmt::format("{}.ROTATION[{}]", where, i); }, r.values[4 * i],
+                                   r.values[4 * i + 1], r.values[4 * i + 2], r.values[4 * i + 3]);
     out[i] = compose(vector(t, 0.0), q, vector(s, 1.0));
   }
   return out;
@@ -177,20 +192,20 @@ Flattened flattenNodes(Document& doc, Scene& scene) {
   Flattened out;
   out.nodeWorld.assign(doc.model.nodes.size(), glm::dmat4(1.0));
   // World transforms of all nodes (skins may use joints outside the scene); the tree was checked, the stack is ours.
-  std::vector<bool> child(doc.model.nodes.size(), false), shown(doc.model.nodes.size(), false);
+  std::vector<bool> child(doc.model.nodes.size(), false);
   for (const tinygltf::Node& node : doc.model.nodes)
     for (const int c : node.children) child[static_cast<size_t>(c)] = true;
   std::vector<int> stack;
   for (size_t i = child.size(); i-- > 0;)
     if (!child[i]) stack.push_back(static_cast<int>(i));
   for (const int root : stack)
-    out.nodeWorld[static_cast<size_t>(root)] = localTransform(doc.model.nodes[static_cast<size_t>(root)]);
+    out.nodeWorld[static_cast<size_t>(root)] = localTransform(doc, static_cast<size_t>(root));
   while (!stack.empty()) {
     const size_t n = static_cast<size_t>(stack.back());
     stack.pop_back();
     for (const int c : doc.model.nodes[n].children) {
       out.nodeWorld[static_cast<size_t>(c)] =
-          out.nodeWorld[n] * localTransform(doc.model.nodes[static_cast<size_t>(c)]);
+          out.nodeWorld[n] * localTransform(doc, static_cast<size_t>(c));
       stack.push_back(c);
     }
   }

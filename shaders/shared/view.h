@@ -16,7 +16,8 @@ struct ViewPush {
   CameraArray camera;
   SkyRecord sky;  ///< behind the scene, where there is one
   uint kind;
-  float exposure;  ///< linear factor
+  uint linearOnly;  ///< 1: view/finish.comp makes the display picture
+  float exposure;   ///< linear factor
   IRAD_AS(ToneCurve) toneCurve;
   vec3 origin;  ///< these two: of the Grid
   float inverseEdge;
@@ -109,12 +110,24 @@ struct RangePush {
   float percentile;  ///< the upper one, 50..100
 };
 
+/// camera.auto_exposure: the luminance that this share of the picture stays below is shown as bright as this, where the
+/// neutral tone curve begins to bend; of a picture that is black up to there, its brightest.
+IRAD_CONST float AUTO_EXPOSURE_PERCENTILE = 95.0f;
+IRAD_CONST float AUTO_EXPOSURE_LEVEL = 0.76f;
+/// The factor that brings it there; `range`: of luminances.
+IRAD_FN float autoExposure(ViewRange range) {
+  float level = range.high > 0.0f ? range.high : uintBitsToFloat(range.most);
+  if (!(level > 0.0f)) return 1.0f;
+  return clamp(AUTO_EXPOSURE_LEVEL / level, 1e-12f, 1e12f);
+}
+
 /// view/finish.comp: from the linear to the display picture, where that needs the range or the scene around.
 struct FinishPush {
   ViewRangeArray range;
   uvec2 size;
   uint kind;
   IRAD_AS(ColorMap) colorMap;
+  uint automatic;  ///< 1: times autoExposure(range)
   float exposure;
   IRAD_AS(ToneCurve) toneCurve;
   uvec3 dims;  ///< of the grid that sites are of

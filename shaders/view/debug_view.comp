@@ -102,7 +102,7 @@ void main() {
     drawn = true;
   }
   imageStore(linearTarget, pixel, vec4(value, drawn ? 1.0 : 0.0));
-  if (viewHasRange(push.kind)) return;  // view/finish.comp follows
+  if (push.linearOnly != 0u) return;
   vec3 shown = displayColor(value, drawn, push.kind, push.exposure, push.toneCurve);
   imageStore(displayTarget, pixel, vec4(shown, 1.0));
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "gi/thesis/jump_flood.h"
 #include "ui/imgui.h"
@@ -48,6 +49,8 @@ class ViewPanel : public Panel {
       if (info->hasRange()) drawRange(session, *info);
       if (info->toneMapped()) {
         row(session, "camera.exposure");
+        row(session, "camera.auto_exposure");
+        if (session.edited.camera.autoExposure) valueRow("exposed", fmt::format("{:+.2f} EV", std::log2(session.exposure())));
         row(session, "camera.tone_curve");
       }
     }

@@ -1,0 +1,145 @@
+// Where to stand in a scene that has no camera and is seen from within: a room, a church, a cave.
+#include "renderer/scene/viewpoint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace irad {
+namespace {
+
+constexpr int kCells = 40;  ///< along the longest extent
+
+/// The directions to the 26 cells around one, and those between them in the horizontal plane.
+constexpr std::array<std::array<int, 2>, 16> kHeadings{{{0, -1}, {1, -2}, {1, -1}, {2, -1}, {1, 0}, {2, 1}, {1, 1}, {1, 2},
+                                                        {0, 1}, {-1, 2}, {-1, 1}, {-2, 1}, {-1, 0}, {-2, -1}, {-1, -1}, {-1, -2}}};
+
+/// Cells of one edge length over the bounds; those that a triangle may touch are solid.
+struct Cells {
+  glm::ivec3 dims{1};
+  double edge = 0;
+  std::vector<bool> solid;
+
+  size_t at(const glm::ivec3& c) const {
+    return static_cast<size_t>(c.x) +
+           static_cast<size_t>(dims.x) * (static_cast<size_t>(c.y) + static_cast<size_t>(dims.y) * static_cast<size_t>(c.z));
+  }
+  bool inside(const glm::ivec3& c) const {
+    return glm::all(glm::greaterThanEqual(c, glm::ivec3(0))) && glm::all(glm::lessThan(c, dims));
+  }
+};
+
+struct Triangle {
+  glm::dvec3 a, b, c;
+  glm::dvec3 cross() const { return glm::cross(b - a, c - a); }  ///< its normal, twice its area long
+};
+
+Triangle triangle(const Scene& scene, size_t t) {
+  const auto corner = [&](size_t k) { return glm::dvec3(scene.positions[scene.indices[3 * t + k]]); };
+  return {corner(0), corner(1), corner(2)};
+}
+
+/// By its bounds and its plane: a little more than it touches.
+void mark(Cells& cells, const Scene& scene, const Triangle& t) {
+  const glm::dvec3 lo(scene.boundsMin), n = t.cross();
+  const auto cellOf = [&](const glm::dvec3& p) {
+    return glm::clamp(glm::ivec3(glm::floor((p - lo) / cells.edge)), glm::ivec3(0), cells.dims - 1);
+  };
+  const glm::ivec3 first = cellOf(glm::min(t.a, glm::min(t.b, t.c))), last = cellOf(glm::max(t.a, glm::max(t.b, t.c)));
+  const double reach = 0.5 * cells.edge * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  for (int z = first.z; z <= last.z; ++z)
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) {
+        const glm::dvec3 centre = lo + cells.edge * (glm::dvec3(x, y, z) + 0.5);
+        if (std::abs(glm::dot(n, centre - t.a)) <= reach * (1 + 1e-9)) cells.solid[cells.at({x, y, z})] = true;
+      }
+}
+
+/// How far one sees from a cell along a direction of whole cells, in cells; less than 0: out of the bounds.
+double sight(const Cells& cells, const glm::ivec3& from, const glm::ivec3& direction) {
+  const int steps = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+  const double length = glm::length(glm::dvec3(direction)) / steps;
+  for (int i = 1;; ++i) {
+    // Nearest cell, away from 0 in the middle: the same to both sides.
+    const auto along = [&](int d) { return (2 * std::abs(d) * i + steps) / (2 * steps) * (d < 0 ? -1 : 1); };
+    const glm::ivec3 at = from + glm::ivec3(along(direction.x), along(direction.y), along(direction.z));
+    if (!cells.inside(at)) return -1;
+    if (cells.solid[cells.at(at)]) return (i - 1) * length;
+  }
+}
+
+/// What is to be seen from a cell; nothing where it is not enclosed.
+struct Stand {
+  double score = 0, clearance = 0;  ///< clearance: to the nearest wall, in cells
+  std::array<int, 2> heading{};
+};
+Stand look(const Cells& cells, const glm::ivec3& from) {
+  constexpr int kNeeded = 20;  // of 26: an open side, which 9 of them leave by, is too much
+  int met = 0;
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        met += (x != 0 || y != 0 || z != 0) && sight(cells, from, {x, y, z}) >= 0;
+  if (met < kNeeded) return {};
+  Stand out{.clearance = kCells};
+  double farthest = 0;
+  for (const auto& heading : kHeadings) {
+    const double far = sight(cells, from, {heading[0], 0, heading[1]});
+    if (far < 0) continue;
+    out.clearance = std::min(out.clearance, far);
+    if (far > farthest) farthest = far, out.heading = heading;
+  }
+  const double below = sight(cells, from, {0, -1, 0}), above = std::max(sight(cells, from, {0, 1, 0}), below);
+  if (below < 0 || farthest < 2) return {};
+  // The longest view, not from against a wall, and from where eyes are: two fifths of the way up.
+  const double height = (below + 0.5) / (below + above + 1);
+  out.score = farthest * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
+  return out;
+}
+
+}  // namespace
+
+double shareFacingInwards(const Scene& scene) {
+  const glm::dvec3 centre = 0.5 * glm::dvec3(scene.boundsMin + scene.boundsMax);
+  double all = 0, inwards = 0;
+  for (size_t t = 0; t < scene.triangleCount(); ++t) {
+    const Triangle tri = triangle(scene, t);
+    const glm::dvec3 n = tri.cross();
+    const double area = glm::length(n);
+    all += area;
+    if (glm::dot(n, centre - (tri.a + tri.b + tri.c) / 3.0) > 0) inwards += area;
+  }
+  return all > 0 ? inwards / all : 0;
+}
+
+std::optional<Viewpoint> viewpointInside(const Scene& scene) {
+  const glm::dvec3 extent(scene.boundsMax - scene.boundsMin);
+  const double longest = std::max({extent.x, extent.y, extent.z});
+  if (!(longest > 0)) return std::nullopt;
+  Cells cells;
+  cells.edge = longest / kCells;
+  cells.dims = glm::max(glm::ivec3(glm::ceil(extent / cells.edge - 1e-9)), glm::ivec3(1));
+  cells.solid.assign(static_cast<size_t>(cells.dims.x) * static_cast<size_t>(cells.dims.y) * static_cast<size_t>(cells.dims.z),
+                     false);
+  for (size_t t = 0; t < scene.triangleCount(); ++t) mark(cells, scene, triangle(scene, t));
+  Stand best;
+  glm::ivec3 where(0);
+  for (int z = 0; z < cells.dims.z; ++z)
+    for (int y = 0; y < cells.dims.y; ++y)
+      for (int x = 0; x < cells.dims.x; ++x) {
+        if (cells.solid[cells.at({x, y, z})]) continue;
+        const Stand stand = look(cells, {x, y, z});
+        if (stand.score > best.score) best = stand, where = {x, y, z};
+      }
+  if (best.score == 0) return std::nullopt;
+  Viewpoint out;
+  out.position = glm::dvec3(scene.boundsMin) + cells.edge * (glm::dvec3(where) + 0.5);
+  out.forward = glm::normalize(glm::dvec3(best.heading[0], 0, best.heading[1]));
+  out.clearance = cells.edge * (best.clearance + 0.5);
+  return out;
+}
+
+}  // namespace irad
