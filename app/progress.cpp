@@ -36,8 +36,8 @@ bool ProgressReport::operator()(const char* step, float fraction, const std::str
   if (terminal_) {
     const int filled = percent * 30 / 100;
     writeStandardError(kClearLine);
-    tell("[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step,
-         remark.empty() ? "" : ", ", remark);
+    tell("[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step, remark.empty() ? "" : ", ",
+         remark);
     barShown_ = true;
   } else if (fresh) {
     tell("{}\n", step);

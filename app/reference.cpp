@@ -24,11 +24,12 @@ std::optional<ReferencePicture> ReferenceArgument::read(const Config& config, Pr
 
 void requireInput(const ViewInfo& view, bool reference, const fs::path& scene) {
   if (view.isFrom(FROM_PICTURE) && !reference)
-    throw UsageError(fmt::format("--view {}: there is no picture to show or compare with: --reference FILE", view.name));
-  if (view.isFrom(FROM_ORACLE) && !isCheckScene(scene))
     throw UsageError(
-        fmt::format("--view {}: only the scenes of irad check have an oracle (check:NAME; irad check --list), {} has none",
-                    view.name, scene.string()));
+        fmt::format("--view {}: there is no picture to show or compare with: --reference FILE", view.name));
+  if (view.isFrom(FROM_ORACLE) && !isCheckScene(scene))
+    throw UsageError(fmt::format(
+        "--view {}: only the scenes of irad check have an oracle (check:NAME; irad check --list), {} has none",
+        view.name, scene.string()));
 }
 
 void requireSize(const ReferencePicture& reference, glm::uvec2 size) {

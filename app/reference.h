@@ -21,8 +21,8 @@ struct ReferenceArgument {
   std::optional<ReferencePicture> read(const Config& config, ProgressReport& progress) const;
 };
 
-/// UsageError where a view that was asked for has nothing to be drawn from: no reference picture, no oracle of the scene
-/// (its path).
+/// UsageError where a view that was asked for has nothing to be drawn from: no reference picture, no oracle of the
+/// scene (its path).
 void requireInput(const ViewInfo& view, bool reference, const std::filesystem::path& scene);
 /// UsageError where the reference is not of the pictures' size.
 void requireSize(const ReferencePicture& reference, glm::uvec2 size);

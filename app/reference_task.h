@@ -1,10 +1,10 @@
 // What the truths of `irad reference` have in common: what was asked for, when a run ends, what it writes.
 #pragma once
 
-#include <memory>
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>

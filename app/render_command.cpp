@@ -138,8 +138,8 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
         inMebibytes(session.device->memory().used()), static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
-/// Refuses views that have nothing to be drawn from, and leaves them out where it was all views that were `wanted`; a note
-/// that says so, or nothing.
+/// Refuses views that have nothing to be drawn from, and leaves them out where it was all views that were `wanted`; a
+/// note that says so, or nothing.
 std::string takeDrawable(std::vector<ViewInfo>& chosen, const std::vector<std::string>& wanted, bool reference,
                          const fs::path& scene) {
   const bool all = std::ranges::find(wanted, "all") != wanted.end();
@@ -154,8 +154,9 @@ std::string takeDrawable(std::vector<ViewInfo>& chosen, const std::vector<std::s
     }
     return false;
   });
-  return leftOut.empty() ? "" : fmt::format("left out, for want of a reference picture or an oracle: {}",
-                                            fmt::join(leftOut, ", "));
+  return leftOut.empty()
+             ? ""
+             : fmt::format("left out, for want of a reference picture or an oracle: {}", fmt::join(leftOut, ", "));
 }
 
 void run(const RenderArguments& arguments) {
@@ -261,8 +262,10 @@ Command renderCommand() {
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
-            options.flag("--legend", arguments->legend, "Draw the legend into the PNGs of views with a range, and why pictures of light are black where they "
-                         "are");
+            options.flag(
+                "--legend", arguments->legend,
+                "Draw the legend into the PNGs of views with a range, and why pictures of light are black where they "
+                "are");
             options.value("--inspect", "X,Y,Z", arguments->inspect,
                           "Voxel whose first facet's row the view matrix-row shows (sets view.facet)");
             arguments->picture.declare(options);

@@ -96,7 +96,8 @@ std::pair<Scene, StudyTask> MeasureArguments::open(DeviceSession& session, const
   task.truth = truthOf(*this, session, command, otherwise);
   task.view = findViews({view.value_or(task.truth.samples ? "indirect" : "lit")}).at(0);
   if (task.view.isFrom(FROM_PICTURE))
-    throw UsageError(fmt::format("--view {}: a study compares what the program draws with the reference", task.view.name));
+    throw UsageError(
+        fmt::format("--view {}: a study compares what the program draws with the reference", task.view.name));
   if (task.truth.samples) requirePathTracer(task.view, session.settings);
   Scene loaded = session.load(findScene(scene, session.config, std::nullopt), sceneOptions);
   task.camera = picture.resolveCameras(session.config, loaded).at(0);

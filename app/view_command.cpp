@@ -82,8 +82,8 @@ void run(const ViewArguments& arguments) {
   options.program = {versionNumber(), versionCommit()};
   options.scene = findScene(arguments.scene, config, "box");
   options.builtIn = builtInFolders();
-  options.exposes = !arguments.settings.names(config, "camera.exposure") &&
-                    !arguments.settings.names(config, "camera.auto_exposure");
+  options.exposes =
+      !arguments.settings.names(config, "camera.exposure") && !arguments.settings.names(config, "camera.auto_exposure");
   if (arguments.view)
     options.view = findViews({*arguments.view}).front().view;
   else if (!config.views.empty())

@@ -40,8 +40,8 @@ PictureFiles writePicture(Context& context, const Targets& targets, const ViewIn
   if (legend != nullptr) drawLegend(*legend, targets.size, shown);
   constexpr int kMargin = 8, kLine = 14;  // pixels
   for (size_t i = 0; i < notice.size(); ++i)
-    drawText(targets.size, shown, {kMargin, kMargin + static_cast<int>(i) * (kLine + kMargin / 2)}, TextAlign::Left, kLine,
-             notice[i], {230, 230, 230, 255});
+    drawText(targets.size, shown, {kMargin, kMargin + static_cast<int>(i) * (kLine + kMargin / 2)}, TextAlign::Left,
+             kLine, notice[i], {230, 230, 230, 255});
   PictureFiles files;
   files.paths.push_back(writeDisplay(stem, targets.size, shown));
   files.paths.push_back(writeLinear(stem, targets.size, values));

@@ -161,9 +161,9 @@ class Planner {
     if (!metal || !shines_ || emits_ || plan_.on(Effect::sky)) return;
     const std::string which = used_.size() == 1 ? "The one material is not diffuse"
                                                 : fmt::format("None of {} materials is diffuse", used_.size());
-    plan_.nothingDiffuse = {
-        which + ": metal shows what is around it, and nothing there gives light.",
-        "A sky would: sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window)."};
+    plan_.nothingDiffuse = {which + ": metal shows what is around it, and nothing there gives light.",
+                            "A sky would: sky.source = constant or preetham, or a picture of one (--sky FILE, or "
+                            "dropped into the window)."};
   }
 
   void specular() {

@@ -233,7 +233,8 @@ std::vector<std::string> presetNames();
 /// UsageError where values do not go together: what is the thesis's alone, and its hit rule.
 void requireMatching(const Settings& settings);
 
-/// One "name=value" (or camera.exposure=auto); UsageError names the near matches of an unknown name, or the range of a bad value.
+/// One "name=value" (or camera.exposure=auto); UsageError names the near matches of an unknown name, or the range of a
+/// bad value.
 void applySetting(Settings& settings, std::string_view assignment);
 
 std::string settingsToJson(const Settings& settings, int indent = 2);  ///< {"voxel.resolution": 64, ...}

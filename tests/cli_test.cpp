@@ -46,7 +46,8 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"render", "box", "--out", ""}, "irad render: --out is empty"},
       {{"export", "box", "--matrix", "--out="}, "irad export: --out"},
       {{"render", ""}, "irad render: SCENE is empty"},
-      {{"render", "box", "--view", "error"}, "--view error: there is no picture to show or compare with: --reference FILE"},
+      {{"render", "box", "--view", "error"},
+       "--view error: there is no picture to show or compare with: --reference FILE"},
       {{"render", "box", "--view", "lit,reference-picture"}, "--view reference-picture: there is no picture"},
       {{"render", "box", "--view", "all,error"}, "--view error: there is no picture"},
       {{"render", "box", "--view", "reference"}, "--view reference: only the scenes of irad check have an oracle"},
@@ -167,8 +168,9 @@ TEST(Cli, AFailedRunLeavesNoEmptyFolder) {
   test::TemporaryFolder folder;
   const std::filesystem::path out = folder.path / "new" / "out";
   for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"render", "box"}, {"export", "box", "--matrix"}, {"study", "cost", "box", "--size", "64x64",
-                                                                                    "--reference-samples", "2"}}) {
+       {std::vector<std::string>{"render", "box"},
+        {"export", "box", "--matrix"},
+        {"study", "cost", "box", "--size", "64x64", "--reference-samples", "2"}}) {
     std::vector<std::string> arguments = command;
     for (const char* more : {"--set", "voxel.resolution=8", "--inject", "oom=1", "--out"}) arguments.emplace_back(more);
     arguments.push_back(out.string());

@@ -160,8 +160,8 @@ TEST(Render, ReferenceAndRangesAreStatedAndReplayed) {
                   slurp(folder.path / "c" / (std::string(view) + kind)))
           << view << kind;
 
-  const RunResult other = runIrad({"render", "box", "--size", "32x16", "--view", "error", "--reference", reference, "--out",
-                                   (folder.path / "d").string()});
+  const RunResult other = runIrad({"render", "box", "--size", "32x16", "--view", "error", "--reference", reference,
+                                   "--out", (folder.path / "d").string()});
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(contains(other.err, "64 x 48 pixels, the pictures have 32 x 16: --size 64x48")) << other.err;
   EXPECT_FALSE(fs::exists(folder.path / "d"));

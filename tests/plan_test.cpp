@@ -194,14 +194,17 @@ TEST(Plan, SaysThatAllMetalIsBlackWithoutASky) {
     return fmt::format("{}", fmt::join(plan(t, s).nothingDiffuse, " "));
   };
   const std::string one = said([](T&, S&) {});
-  EXPECT_EQ(one,
-            "The one material is not diffuse: metal shows what is around it, and nothing there gives light. A sky would: "
-            "sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window).");
-  EXPECT_TRUE(said([](T& t, S&) { t.materials[1].triangles = 1, t.materials[1].albedo = 0; }).starts_with("None of 2 materials"));
-  for (const auto edit : {+[](T& t, S&) { t.materials[1].triangles = 1; },  // something diffuse
-                          +[](T& t, S&) { t.lights.clear(); },              // no light at all, which noLight says
-                          +[](T& t, S&) { t.materials[0].emission = 1; },
-                          +[](T& t, S& s) { s.sky.source = SkySource::constant, t.sky = 1; }})
+  EXPECT_EQ(
+      one,
+      "The one material is not diffuse: metal shows what is around it, and nothing there gives light. A sky would: "
+      "sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window).");
+  EXPECT_TRUE(said([](T& t, S&) {
+                t.materials[1].triangles = 1, t.materials[1].albedo = 0;
+              }).starts_with("None of 2 materials"));
+  for (const auto edit : {+[](T&t, S&) { t.materials[1].triangles = 1; },  // something diffuse
+                          +[](T&t, S&) { t.lights.clear(); },              // no light at all, which noLight says
+                          +[](T&t, S&) { t.materials[0].emission = 1; },
+                          +[](T&t, S&s) { s.sky.source = SkySource::constant, t.sky = 1; }})
     EXPECT_EQ(said(edit), "");
 }
 

@@ -399,7 +399,8 @@ std::filesystem::path manyNodes(const std::filesystem::path& folder, size_t coun
   file.json["scenes"][0]["nodes"] = json::array();
   file.json["nodes"] = json::array();
   for (size_t i = 0; i < count; ++i) {
-    file.json["nodes"].push_back({{"mesh", 0}, {"name", fmt::format("n{}", i)}, {"translation", {i % 1000, 0, i / 1000}}});
+    file.json["nodes"].push_back(
+        {{"mesh", 0}, {"name", fmt::format("n{}", i)}, {"translation", {i % 1000, 0, i / 1000}}});
     file.json["scenes"][0]["nodes"].push_back(i);
   }
   return file.write(folder, fmt::format("{}.gltf", count));
@@ -465,8 +466,8 @@ TEST_F(SceneLoading, OddLensesLightsAndRotationsAreMendedAndNamed) {
         "degrees",
         "cameras[1].perspective.yfov: 0 is not from", "cameras[2].perspective.yfov: 1000 is not from",
         "lights[0].type: \"area\" is not directional, point or spot; the light \"panel\" is left out",
-        "lights[1].range: 0 is not above 0; the light \"bulb\" reaches without limit", "lights[2].range: -4 is not above 0",
-        "nodes[0] \"flat\".rotation: (0, 0, 0, 0) is no rotation"})
+        "lights[1].range: 0 is not above 0; the light \"bulb\" reaches without limit",
+        "lights[2].range: -4 is not above 0", "nodes[0] \"flat\".rotation: (0, 0, 0, 0) is no rotation"})
     EXPECT_TRUE(warns(s, said)) << said << "\n" << fmt::format("{}", fmt::join(s.warnings, "\n"));
 }
 
@@ -509,7 +510,8 @@ TEST_F(SceneLoading, WhatIsTheMatterWhereNothingIsDrawnIsSaid) {
 TEST_F(SceneLoading, CompressedTexturesAreRefusedInWords) {
   GltfFile file = texturedQuad();
   file.json["extensionsUsed"] = {"KHR_texture_basisu"};
-  EXPECT_TRUE(warns(load(file), "KHR_texture_basisu is ignored: KTX2 images are not decoded here; PNG, JPEG and WebP are"));
+  EXPECT_TRUE(
+      warns(load(file), "KHR_texture_basisu is ignored: KTX2 images are not decoded here; PNG, JPEG and WebP are"));
   file.json["extensionsRequired"] = {"KHR_texture_basisu"};
   refuse(file, "\"KHR_texture_basisu\" is not supported: KTX2 images are not decoded here");
 }
@@ -556,7 +558,8 @@ TEST_F(SceneLoading, TheFittedCameraStandsInsideOfWhatFacesInwards) {
   EXPECT_GT(-forward.z * (p.z > 0 ? 1 : -1), 0.9) << "along the hall, to the other end";
   EXPECT_NEAR(forward.y, 0, 1e-6);
 
-  GltfFile solid = boxFile({4, 3, 10}, /*inwards=*/false), stage = boxFile({4, 3, 4}, /*inwards=*/true, /*closed=*/false);
+  GltfFile solid = boxFile({4, 3, 10}, /*inwards=*/false),
+           stage = boxFile({4, 3, 4}, /*inwards=*/true, /*closed=*/false);
   for (GltfFile* file : {&solid, &stage}) {
     const Scene outside = load(*file);
     EXPECT_FALSE(warns(outside, "stands inside"));

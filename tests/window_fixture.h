@@ -15,6 +15,8 @@ namespace irad::test {
 
 class WindowTest : public ::testing::Test {
  protected:
+  bool exposesFiles_ = false;  ///< as the window does where no exposure is given
+
   void SetUp() override {
     for (const char* program : {"Xvfb", "xdotool"})
       if (!installed(program)) GTEST_SKIP() << program << " is not installed: the window is not tested";
@@ -33,6 +35,7 @@ class WindowTest : public ::testing::Test {
                                      "--set",        "matrix.rays=32",
                                      "--set",        "specular.mode=off",
                                      "--controls",   controlsFile().string()};
+    if (!exposesFiles_) command.insert(command.end(), {"--set", "camera.exposure=0"});
     command.insert(command.end(), more.begin(), more.end());
     std::map<std::string, std::string> environment = screen_->environment();
     environment.insert(environment_.begin(), environment_.end());

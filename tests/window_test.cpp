@@ -108,6 +108,7 @@ std::filesystem::path metalScene(const std::filesystem::path& folder) {
 }
 
 TEST_F(WindowTest, ExposesFilesByThemselvesAndSaysWhyMetalIsBlack) {
+  exposesFiles_ = true;
   start({}, metalScene(folder_.path));
   EXPECT_TRUE(isOn("View/camera.auto_exposure"));
   // The words in the picture's lower left corner, which go with a view that is not of light.

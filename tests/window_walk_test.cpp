@@ -106,14 +106,14 @@ class WindowWalk : public WindowTest {
 
 TEST_F(WindowWalk, EveryViewIsTheHeadlessPicture) {
   fold(R"(["Accuracy", "Scene", "Cameras", "Settings", "Compare", "Inspector", "Solver", "Memory"])");
-  const std::vector<std::string> withReference{"--reference",
-                                               (sourceFolder() / "tests/golden/box.main.lit.exr").string()};
+  const std::vector<std::string> withReference{"--reference", (render("indirect", {}) / "indirect.exr").string()};
   start(settings(withReference));
   const std::filesystem::path headless = render("all", withReference);
   rests();
   click("Lights/handles in the picture");  // none over the picture
   rest();
   for (const ViewInfo& view : views()) {
+    if (view.isFrom(FROM_ORACLE)) continue;  // headless it is refused: box has none
     if (view.view < 9)
       key(std::to_string(view.view + 1));
     else

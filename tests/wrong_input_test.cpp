@@ -92,13 +92,17 @@ TEST(Manifest, ASceneWithAnImpossibleNameIsNoSuchFile) {
 }
 
 TEST(Printable, QuotesWhatATerminalCannotTake) {
-  EXPECT_EQ(printable("plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1"), "plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1");
-  EXPECT_EQ(printable("a\xFF" "b"), "a\\xFFb");
+  EXPECT_EQ(printable("plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1"),
+            "plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1");
+  EXPECT_EQ(printable("a\xFF"
+                      "b"),
+            "a\\xFFb");
   EXPECT_EQ(printable("\x1b[31m\r\x7f"), "\\x1B[31m\\x0D\\x7F");
   EXPECT_EQ(printable("\xC2\x9B"), "\\xC2\\x9B") << "a control character of two bytes";
   EXPECT_EQ(printable("\xC3"), "\\xC3") << "a character cut off";
   EXPECT_EQ(printable("\xC0\xAF \xE0\x80\xAF"), "\\xC0\\xAF \\xE0\\x80\\xAF") << "overlong";
-  EXPECT_EQ(printable("\xED\xA0\x80 \xF4\x90\x80\x80"), "\\xED\\xA0\\x80 \\xF4\\x90\\x80\\x80") << "surrogates, too large";
+  EXPECT_EQ(printable("\xED\xA0\x80 \xF4\x90\x80\x80"), "\\xED\\xA0\\x80 \\xF4\\x90\\x80\\x80")
+      << "surrogates, too large";
 }
 
 TEST(MadeFolder, GoesWhereNothingWasWritten) {

@@ -203,8 +203,7 @@ bool Accuracy::serveMeasurement(Session& session) {
     awaiting_ = false;
     if (session.reference && pixels_->size() == session.reference->picture.pixels.size()) {
       const ReferencePicture& reference = *session.reference;
-      const std::optional<double> exposure =
-          asked_->flip ? std::optional(session.exposure()) : std::nullopt;
+      const std::optional<double> exposure = asked_->flip ? std::optional(session.exposure()) : std::nullopt;
       measuring_ = std::async(
           std::launch::async, [pixels = pixels_, size = reference.picture.size, traced = traced_,
                                given = traced_ ? std::vector<glm::vec4>() : reference.picture.pixels, exposure] {

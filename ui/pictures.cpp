@@ -26,8 +26,7 @@ bool hasRange(const ViewInfo& info, const Session& session) {
 void readRange(Session& session, Frame& frame) {
   const View view = session.view;
   const bool difference = session.showsDifference();
-  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(hasRange(*info, session) || difference))
-    return;
+  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(hasRange(*info, session) || difference)) return;
   const Targets& targets = difference ? session.comparison->difference : session.targets;
   frame.readback(targets.viewRange, 0, sizeof(ViewRange), [&session, view, difference](std::span<const uint8_t> bytes) {
     session.range.emplace();

@@ -25,7 +25,8 @@ void Session::say(Message::Kind kind, std::string text) {
 double Session::exposure() const {
   const double fixed = std::exp2(double{edited.camera.exposureEv});
   const ViewInfo* info = viewInfo(view);
-  if (!edited.camera.autoExposure || !range || rangeView != view || info == nullptr || !info->toneMapped()) return fixed;
+  if (!edited.camera.autoExposure || !range || rangeView != view || info == nullptr || !info->toneMapped())
+    return fixed;
   return fixed * double{autoExposure(*range)} * (info->kind == VIEW_KIND_IRRADIANCE ? double{IRAD_PI} : 1);
 }
 

@@ -51,8 +51,8 @@ struct Built {
   uint32_t facets = 0, solidVoxels = 0, clampedAlbedo = 0;
   double edge = 0;  ///< of a voxel
   SolveReport solve;
-  std::vector<Finding> findings;     ///< of the numerical watch, errors first
-  std::vector<std::string> noLight;  ///< EffectPlan::noLight
+  std::vector<Finding> findings;            ///< of the numerical watch, errors first
+  std::vector<std::string> noLight;         ///< EffectPlan::noLight
   std::vector<std::string> nothingDiffuse;  ///< EffectPlan::nothingDiffuse
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };

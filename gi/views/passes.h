@@ -22,7 +22,8 @@ void drawShadowView(Frame& frame, const ViewInfo& info, const ViewInputs& inputs
 /// The reference picture, or what targets.linear holds against it. Empty without one.
 void drawReference(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, Targets& targets);
 
-/// Finds the range that a view is drawn with, or that of a view of light's luminances (autoExposure()), from targets.linear and settings.view, into targets.viewRange.
+/// Finds the range that a view is drawn with, or that of a view of light's luminances (autoExposure()), from
+/// targets.linear and settings.view, into targets.viewRange.
 void findRange(Frame& frame, const ViewInfo& info, const Settings& settings, Targets& targets);
 /// targets.linear -> targets.display. `dims`: of the grid, for views of its voxels' coordinates.
 void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, glm::uvec3 dims, Targets& targets);

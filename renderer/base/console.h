@@ -13,8 +13,8 @@ namespace irad {
 /// (and with it what is printed), and writing to a pipe without a reader fails like any other write.
 void holdStandardStreams();
 
-/// A text as a terminal can take it, whatever names it quotes from files and command lines: bytes that are no UTF-8, and
-/// control characters other than line feeds and tabs, become "\xNN".
+/// A text as a terminal can take it, whatever names it quotes from files and command lines: bytes that are no UTF-8,
+/// and control characters other than line feeds and tabs, become "\xNN".
 std::string printable(std::string_view text);
 
 void writeStandardError(std::string_view text) noexcept;  ///< as it is; what cannot be written is lost

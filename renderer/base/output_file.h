@@ -54,8 +54,8 @@ void removeFile(const std::filesystem::path& path);
 /// it.
 void makeFolder(const std::filesystem::path& path);
 
-/// makeFolder() for the time of some work. Where that leaves nothing behind, because it failed, the folders that were made
-/// for it go again: those that hold nothing but such folders.
+/// makeFolder() for the time of some work. Where that leaves nothing behind, because it failed, the folders that were
+/// made for it go again: those that hold nothing but such folders.
 class MadeFolder {
  public:
   explicit MadeFolder(const std::filesystem::path& path);
@@ -63,7 +63,7 @@ class MadeFolder {
   MadeFolder(const MadeFolder&) = delete;
 
  private:
-  std::filesystem::path made_;            ///< the uppermost one that was not there; empty: all of them were
+  std::filesystem::path made_;  ///< the uppermost one that was not there; empty: all of them were
 };
 
 /// numpy's type strings of the element types that exports use.

@@ -60,9 +60,9 @@ void addDefaults(Scene& scene) {
     Camera& camera = scene.cameras.emplace_back(inside ? *inside : outsideCamera(scene));
     camera.name = "fitted";
     scene.defaultCamera = true;
-    scene.warnings.push_back(
-        fmt::format("no camera in {}: a fitted one is used{}", file,
-                    inside ? fmt::format(", which stands inside: {:.0f} % of the surface face inwards", 100 * share) : ""));
+    scene.warnings.push_back(fmt::format(
+        "no camera in {}: a fitted one is used{}", file,
+        inside ? fmt::format(", which stands inside: {:.0f} % of the surface face inwards", 100 * share) : ""));
   }
   if (scene.lights.empty() && !emits(scene)) {
     Light sun;

@@ -63,8 +63,7 @@ std::string whyNone(const Document& doc, const Flattened& flat, uint64_t triangl
   if (model.nodes.empty()) return none + "it has no nodes";
   if (!model.scenes.empty() && model.scenes[scene].nodes.empty())
     return none + fmt::format("scenes[{}] lists no nodes", scene);
-  return none + (model.scenes.empty() ? "no node names one"
-                                      : fmt::format("no node of scenes[{}] names one", scene));
+  return none + (model.scenes.empty() ? "no node names one" : fmt::format("no node of scenes[{}] names one", scene));
 }
 
 struct Counts {

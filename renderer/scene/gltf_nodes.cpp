@@ -204,8 +204,7 @@ Flattened flattenNodes(Document& doc, Scene& scene) {
     const size_t n = static_cast<size_t>(stack.back());
     stack.pop_back();
     for (const int c : doc.model.nodes[n].children) {
-      out.nodeWorld[static_cast<size_t>(c)] =
-          out.nodeWorld[n] * localTransform(doc, static_cast<size_t>(c));
+      out.nodeWorld[static_cast<size_t>(c)] = out.nodeWorld[n] * localTransform(doc, static_cast<size_t>(c));
       stack.push_back(c);
     }
   }

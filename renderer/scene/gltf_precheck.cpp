@@ -47,9 +47,8 @@ class Checker {
       at = end + 1;
     }
     const auto pointer = Json::json_pointer("/" + rule.target);
-    targets_ = !rule.target.empty() && root_.contains(pointer) && root_.at(pointer).is_array()
-                   ? root_.at(pointer).size()
-                   : 0;
+    targets_ =
+        !rule.target.empty() && root_.contains(pointer) && root_.at(pointer).is_array() ? root_.at(pointer).size() : 0;
     walk(root_, rule, 0, {});
   }
 
@@ -262,9 +261,8 @@ bool isOldFormat(const Json& root) {
     if (version.is_string()) return version.get<std::string>().starts_with("1.");
     return version.is_number() && version.get<double>() < 2.0;
   }
-  return std::ranges::any_of(std::array{"scenes", "nodes", "meshes", "accessors"}, [&](const char* name) {
-    return root.contains(name) && root.at(name).is_object();
-  });
+  return std::ranges::any_of(std::array{"scenes", "nodes", "meshes", "accessors"},
+                             [&](const char* name) { return root.contains(name) && root.at(name).is_object(); });
 }
 
 /// "2.0" or "2.5"; a file that needs more than 2.0 says so in minVersion.
@@ -319,8 +317,8 @@ void checkExtensions(Document& doc) {
   }
 }
 
-/// Takes a node that the scene shown lists twice, or beside one of those that it lies under, out of the list: it is shown
-/// once, where the tree has it. `parent`: of each node, or -1.
+/// Takes a node that the scene shown lists twice, or beside one of those that it lies under, out of the list: it is
+/// shown once, where the tree has it. `parent`: of each node, or -1.
 void takeOnce(Document& doc, const std::vector<int64_t>& parent) {
   if (!doc.root->contains("scenes") || doc.root->at("scenes").empty()) return;
   const size_t s = doc.root->value("scene", size_t{0});

@@ -11,39 +11,54 @@
 namespace irad {
 namespace {
 
-constexpr int kCells = 40;  ///< along the longest extent
+constexpr int kCellsAcross = 40;  ///< along the longest extent
 
 /// The directions to the 26 cells around one, and those between them in the horizontal plane.
-constexpr std::array<std::array<int, 2>, 16> kHeadings{{{0, -1}, {1, -2}, {1, -1}, {2, -1}, {1, 0}, {2, 1}, {1, 1}, {1, 2},
-                                                        {0, 1}, {-1, 2}, {-1, 1}, {-2, 1}, {-1, 0}, {-2, -1}, {-1, -1}, {-1, -2}}};
+constexpr std::array<std::array<int, 2>, 16> kHeadings{{{0, -1},
+                                                        {1, -2},
+                                                        {1, -1},
+                                                        {2, -1},
+                                                        {1, 0},
+                                                        {2, 1},
+                                                        {1, 1},
+                                                        {1, 2},
+                                                        {0, 1},
+                                                        {-1, 2},
+                                                        {-1, 1},
+                                                        {-2, 1},
+                                                        {-1, 0},
+                                                        {-2, -1},
+                                                        {-1, -1},
+                                                        {-1, -2}}};
 
-/// Cells of one edge length over the bounds; those that a triangle may touch are solid.
-struct Cells {
+/// SolidCells of one edge length over the bounds; those that a triangle may touch are solid.
+struct SolidCells {
   glm::ivec3 dims{1};
   double edge = 0;
   std::vector<bool> solid;
 
   size_t at(const glm::ivec3& c) const {
     return static_cast<size_t>(c.x) +
-           static_cast<size_t>(dims.x) * (static_cast<size_t>(c.y) + static_cast<size_t>(dims.y) * static_cast<size_t>(c.z));
+           static_cast<size_t>(dims.x) *
+               (static_cast<size_t>(c.y) + static_cast<size_t>(dims.y) * static_cast<size_t>(c.z));
   }
   bool inside(const glm::ivec3& c) const {
     return glm::all(glm::greaterThanEqual(c, glm::ivec3(0))) && glm::all(glm::lessThan(c, dims));
   }
 };
 
-struct Triangle {
+struct Corners {
   glm::dvec3 a, b, c;
   glm::dvec3 cross() const { return glm::cross(b - a, c - a); }  ///< its normal, twice its area long
 };
 
-Triangle triangle(const Scene& scene, size_t t) {
+Corners cornersOf(const Scene& scene, size_t t) {
   const auto corner = [&](size_t k) { return glm::dvec3(scene.positions[scene.indices[3 * t + k]]); };
   return {corner(0), corner(1), corner(2)};
 }
 
 /// By its bounds and its plane: a little more than it touches.
-void mark(Cells& cells, const Scene& scene, const Triangle& t) {
+void markSolid(SolidCells& cells, const Scene& scene, const Corners& t) {
   const glm::dvec3 lo(scene.boundsMin), n = t.cross();
   const auto cellOf = [&](const glm::dvec3& p) {
     return glm::clamp(glm::ivec3(glm::floor((p - lo) / cells.edge)), glm::ivec3(0), cells.dims - 1);
@@ -59,7 +74,7 @@ void mark(Cells& cells, const Scene& scene, const Triangle& t) {
 }
 
 /// How far one sees from a cell along a direction of whole cells, in cells; less than 0: out of the bounds.
-double sight(const Cells& cells, const glm::ivec3& from, const glm::ivec3& direction) {
+double sight(const SolidCells& cells, const glm::ivec3& from, const glm::ivec3& direction) {
   const int steps = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
   const double length = glm::length(glm::dvec3(direction)) / steps;
   for (int i = 1;; ++i) {
@@ -76,15 +91,14 @@ struct Stand {
   double score = 0, clearance = 0;  ///< clearance: to the nearest wall, in cells
   std::array<int, 2> heading{};
 };
-Stand look(const Cells& cells, const glm::ivec3& from) {
+Stand lookAround(const SolidCells& cells, const glm::ivec3& from) {
   constexpr int kNeeded = 20;  // of 26: an open side, which 9 of them leave by, is too much
   int met = 0;
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        met += (x != 0 || y != 0 || z != 0) && sight(cells, from, {x, y, z}) >= 0;
+      for (int x = -1; x <= 1; ++x) met += (x != 0 || y != 0 || z != 0) && sight(cells, from, {x, y, z}) >= 0;
   if (met < kNeeded) return {};
-  Stand out{.clearance = kCells};
+  Stand out{.clearance = kCellsAcross};
   double farthest = 0;
   for (const auto& heading : kHeadings) {
     const double far = sight(cells, from, {heading[0], 0, heading[1]});
@@ -106,7 +120,7 @@ double shareFacingInwards(const Scene& scene) {
   const glm::dvec3 centre = 0.5 * glm::dvec3(scene.boundsMin + scene.boundsMax);
   double all = 0, inwards = 0;
   for (size_t t = 0; t < scene.triangleCount(); ++t) {
-    const Triangle tri = triangle(scene, t);
+    const Corners tri = cornersOf(scene, t);
     const glm::dvec3 n = tri.cross();
     const double area = glm::length(n);
     all += area;
@@ -119,19 +133,19 @@ std::optional<Viewpoint> viewpointInside(const Scene& scene) {
   const glm::dvec3 extent(scene.boundsMax - scene.boundsMin);
   const double longest = std::max({extent.x, extent.y, extent.z});
   if (!(longest > 0)) return std::nullopt;
-  Cells cells;
-  cells.edge = longest / kCells;
+  SolidCells cells;
+  cells.edge = longest / kCellsAcross;
   cells.dims = glm::max(glm::ivec3(glm::ceil(extent / cells.edge - 1e-9)), glm::ivec3(1));
-  cells.solid.assign(static_cast<size_t>(cells.dims.x) * static_cast<size_t>(cells.dims.y) * static_cast<size_t>(cells.dims.z),
-                     false);
-  for (size_t t = 0; t < scene.triangleCount(); ++t) mark(cells, scene, triangle(scene, t));
+  cells.solid.assign(
+      static_cast<size_t>(cells.dims.x) * static_cast<size_t>(cells.dims.y) * static_cast<size_t>(cells.dims.z), false);
+  for (size_t t = 0; t < scene.triangleCount(); ++t) markSolid(cells, scene, cornersOf(scene, t));
   Stand best;
   glm::ivec3 where(0);
   for (int z = 0; z < cells.dims.z; ++z)
     for (int y = 0; y < cells.dims.y; ++y)
       for (int x = 0; x < cells.dims.x; ++x) {
         if (cells.solid[cells.at({x, y, z})]) continue;
-        const Stand stand = look(cells, {x, y, z});
+        const Stand stand = lookAround(cells, {x, y, z});
         if (stand.score > best.score) best = stand, where = {x, y, z};
       }
   if (best.score == 0) return std::nullopt;

@@ -48,7 +48,8 @@ class NoLightOverlay : public Overlay {
     width = std::max(width, ImGui::CalcTextSize(notice.remedy.c_str()).x) + 2 * margin;
     const float height = static_cast<float>(notice.lines.size() + 2) * line + 2 * margin;
     const glm::vec2 free = where.size - glm::vec2(width, height);
-    const glm::vec2 corner = where.position + (notice.corner ? glm::vec2(margin, free.y - margin) : glm::floor(0.5f * free));
+    const glm::vec2 corner =
+        where.position + (notice.corner ? glm::vec2(margin, free.y - margin) : glm::floor(0.5f * free));
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({corner.x, corner.y}, {corner.x + width, corner.y + height},

@@ -50,7 +50,8 @@ class ViewPanel : public Panel {
       if (info->toneMapped()) {
         row(session, "camera.exposure");
         row(session, "camera.auto_exposure");
-        if (session.edited.camera.autoExposure) valueRow("exposed", fmt::format("{:+.2f} EV", std::log2(session.exposure())));
+        if (session.edited.camera.autoExposure)
+          valueRow("exposed", fmt::format("{:+.2f} EV", std::log2(session.exposure())));
         row(session, "camera.tone_curve");
       }
     }
