@@ -12,7 +12,8 @@ namespace irad::gltf {
 namespace {
 
 constexpr uint64_t kMaxJsonBytes = 64ull << 20;
-constexpr uint64_t kMaxJsonElements = 2'500'000;
+constexpr uint64_t kMaxJsonElements = 8'000'000;  // 300,000 nodes have up to 7 million
+constexpr uint64_t kJsonElementBytes = 48;        // about what one takes as a value
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
 uint32_t readU32(ByteSpan bytes, size_t at) {
@@ -78,13 +79,14 @@ struct KeyWatch : nlohmann::json::json_sax_t {
 };
 
 /// Depth and size of the JSON before any parser sees it.
-void checkJson(const Document& doc) {
+void checkJson(Document& doc) {
   if (doc.json.size() > kMaxJsonBytes)
     doc.fail("JSON", fmt::format("{} bytes, at most {} are accepted", doc.json.size(), kMaxJsonBytes));
   const JsonExtent extent = jsonExtent({reinterpret_cast<const char*>(doc.json.data()), doc.json.size()});
   if (extent.depth > kMaxJsonDepth)
     doc.fail("JSON", fmt::format("nested deeper than {} levels ({})", kMaxJsonDepth, extent.depth));
   if (extent.elements > kMaxJsonElements) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonElements));
+  doc.take(extent.elements * kJsonElementBytes, "JSON");
 }
 
 }  // namespace
