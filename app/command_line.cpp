@@ -113,6 +113,13 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
   } catch (const CLI::CallForHelp&) {
     print("{}", app.help());  // the help of the subcommand, where one was named
     return {nullptr, true};
+  } catch (const CLI::ArgumentMismatch& error) {
+    // "--out: 1 required DIR missing"
+    const std::string text = error.what();
+    const size_t colon = text.find(": "), wanted = text.find(" required "), end = text.rfind(" missing");
+    if (colon == text.npos || wanted == text.npos || end == text.npos || end < wanted + 10) throw UsageError(text);
+    throw UsageError(fmt::format("{}: its value is missing: {}", text.substr(0, colon),
+                                 text.substr(wanted + 10, end - wanted - 10)));
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }

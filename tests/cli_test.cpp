@@ -44,7 +44,7 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"export", "box", "--out", "a", "--matrix", "--out", "b", "--out", "c"},
        "irad export: --out is given 3 times; it may be given once"},
       {{"render", "box", "--out", ""}, "irad render: --out is empty"},
-      {{"export", "box", "--matrix", "--out="}, "irad export: --out"},
+      {{"export", "box", "--matrix", "--out="}, "--out: its value is missing: DIR"},
       {{"render", ""}, "irad render: SCENE is empty"},
       {{"render", "box", "--view", "error"},
        "--view error: there is no picture to show or compare with: --reference FILE"},

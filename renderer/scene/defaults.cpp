@@ -23,17 +23,12 @@ glm::quat facing(const glm::dvec3& forward) {
   return glm::quat(glm::quat_cast(glm::dmat3(right, glm::cross(-forward, right), -forward)));
 }
 
-/// Inside, where most surface faces inwards and there is a place to stand; `share`: what faces there.
-std::optional<Camera> insideCamera(const Scene& scene, double& share) {
-  share = shareFacingInwards(scene);
-  if (share <= 0.5) return std::nullopt;
-  const std::optional<Viewpoint> stand = viewpointInside(scene);
-  if (!stand) return std::nullopt;
+Camera insideCamera(const Scene& scene, const Viewpoint& stand) {
   Camera camera;
   camera.yfov = static_cast<float>(std::numbers::pi / 3.0);
-  camera.position = scene.origin + stand->position;
-  camera.orientation = facing(stand->forward);
-  camera.znear = static_cast<float>(0.02 * stand->clearance);
+  camera.position = scene.origin + stand.position;
+  camera.orientation = facing(stand.forward);
+  camera.znear = static_cast<float>(0.02 * stand.clearance);
   return camera;
 }
 
@@ -55,14 +50,14 @@ Camera outsideCamera(const Scene& scene) {
 void addDefaults(Scene& scene) {
   const std::string file = scene.path.filename().string();
   if (scene.cameras.empty()) {
-    double share = 0;
-    const std::optional<Camera> inside = insideCamera(scene, share);
-    Camera& camera = scene.cameras.emplace_back(inside ? *inside : outsideCamera(scene));
+    const std::optional<Viewpoint> inside = viewpointInside(scene);
+    Camera& camera = scene.cameras.emplace_back(inside ? insideCamera(scene, *inside) : outsideCamera(scene));
     camera.name = "fitted";
     scene.defaultCamera = true;
     scene.warnings.push_back(fmt::format(
         "no camera in {}: a fitted one is used{}", file,
-        inside ? fmt::format(", which stands inside: {:.0f} % of the surface face inwards", 100 * share) : ""));
+        inside ? fmt::format(", which stands inside: {:.0f} % of the surface face inwards", 100 * inside->facing)
+               : ""));
   }
   if (scene.lights.empty() && !emits(scene)) {
     Light sun;

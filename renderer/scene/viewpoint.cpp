@@ -114,20 +114,31 @@ Stand lookAround(const SolidCells& cells, const glm::ivec3& from) {
   return out;
 }
 
-}  // namespace
-
-double shareFacingInwards(const Scene& scene) {
-  const glm::dvec3 centre = 0.5 * glm::dvec3(scene.boundsMin + scene.boundsMax);
+/// Of all surface, by area, what has other surface before it, straight ahead from the middle of each triangle.
+double shareFacingInwards(const SolidCells& cells, const Scene& scene) {
+  constexpr size_t kMost = 500'000;  // triangles that are looked at
+  const size_t stride = 1 + scene.triangleCount() / kMost;
   double all = 0, inwards = 0;
-  for (size_t t = 0; t < scene.triangleCount(); ++t) {
-    const Corners tri = cornersOf(scene, t);
-    const glm::dvec3 n = tri.cross();
-    const double area = glm::length(n);
+  for (size_t t = 0; t < scene.triangleCount(); t += stride) {
+    const Corners c = cornersOf(scene, t);
+    const glm::dvec3 cross = c.cross();
+    const double area = glm::length(cross);
+    if (!(area > 0)) continue;
     all += area;
-    if (glm::dot(n, centre - (tri.a + tri.b + tri.c) / 3.0) > 0) inwards += area;
+    const glm::dvec3 ahead = cross / area;
+    const glm::dvec3 from = ((c.a + c.b + c.c) / 3.0 - glm::dvec3(scene.boundsMin)) / cells.edge;
+    for (double far = 1.5;; far += 0.5) {  // cells; its own is solid
+      const glm::ivec3 at(glm::floor(from + far * ahead));
+      if (!cells.inside(at)) break;
+      if (!cells.solid[cells.at(at)]) continue;
+      inwards += area;
+      break;
+    }
   }
   return all > 0 ? inwards / all : 0;
 }
+
+}  // namespace
 
 std::optional<Viewpoint> viewpointInside(const Scene& scene) {
   const glm::dvec3 extent(scene.boundsMax - scene.boundsMin);
@@ -139,6 +150,9 @@ std::optional<Viewpoint> viewpointInside(const Scene& scene) {
   cells.solid.assign(
       static_cast<size_t>(cells.dims.x) * static_cast<size_t>(cells.dims.y) * static_cast<size_t>(cells.dims.z), false);
   for (size_t t = 0; t < scene.triangleCount(); ++t) markSolid(cells, scene, cornersOf(scene, t));
+  Viewpoint out;
+  out.facing = shareFacingInwards(cells, scene);
+  if (out.facing <= 0.5) return std::nullopt;
   Stand best;
   glm::ivec3 where(0);
   for (int z = 0; z < cells.dims.z; ++z)
@@ -149,7 +163,6 @@ std::optional<Viewpoint> viewpointInside(const Scene& scene) {
         if (stand.score > best.score) best = stand, where = {x, y, z};
       }
   if (best.score == 0) return std::nullopt;
-  Viewpoint out;
   out.position = glm::dvec3(scene.boundsMin) + cells.edge * (glm::dvec3(where) + 0.5);
   out.forward = glm::normalize(glm::dvec3(best.heading[0], 0, best.heading[1]));
   out.clearance = cells.edge * (best.clearance + 0.5);
