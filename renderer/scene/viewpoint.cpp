@@ -99,18 +99,21 @@ Stand lookAround(const SolidCells& cells, const glm::ivec3& from) {
       for (int x = -1; x <= 1; ++x) met += (x != 0 || y != 0 || z != 0) && sight(cells, from, {x, y, z}) >= 0;
   if (met < kNeeded) return {};
   Stand out{.clearance = kCellsAcross};
-  double farthest = 0;
+  double farthest = 0, sum = 0;
   for (const auto& heading : kHeadings) {
     const double far = sight(cells, from, {heading[0], 0, heading[1]});
     if (far < 0) continue;
+    sum += far;
     out.clearance = std::min(out.clearance, far);
     if (far > farthest) farthest = far, out.heading = heading;
   }
-  const double below = sight(cells, from, {0, -1, 0}), above = std::max(sight(cells, from, {0, 1, 0}), below);
+  const double below = sight(cells, from, {0, -1, 0}), roof = sight(cells, from, {0, 1, 0});
+  const double above = roof < 0 ? cells.dims.y - 1 - from.y : roof;  // or up to the open top
   if (below < 0 || farthest < 2) return {};
-  // The longest view, not from against a wall, and from where eyes are: two fifths of the way up.
+  // The longest view, where there is room to all sides, not from against a wall, and from where eyes are: two fifths of
+  // the way up.
   const double height = (below + 0.5) / (below + above + 1);
-  out.score = farthest * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
+  out.score = farthest * sum * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
   return out;
 }
 
