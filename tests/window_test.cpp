@@ -112,7 +112,7 @@ TEST_F(WindowTest, ExposesFilesByThemselvesAndSaysWhyMetalIsBlack) {
   start({}, metalScene(folder_.path));
   EXPECT_TRUE(isOn("View/camera.auto_exposure"));
   // The words in the picture's lower left corner, which go with a view that is not of light.
-  const auto corner = [this] { return screen_->grab(340, 560, 200, 100); };
+  const auto corner = [this] { return screen_->grab(350, 440, 200, 60); };
   const auto text = [](const ScreenPart& p) { return p.deviation() > 0.05; };
   EXPECT_TRUE(settles(corner, text)) << "no word in the corner";
   key("6");
