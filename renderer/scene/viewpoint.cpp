@@ -92,18 +92,19 @@ struct Stand {
   std::array<int, 2> heading{};
 };
 Stand lookAround(const SolidCells& cells, const glm::ivec3& from) {
-  constexpr int kNeeded = 20;  // of 26: an open side, which 9 of them leave by, is too much
+  constexpr double kRoom = kCellsAcross / 5.0;  // as far as this is room; a corridor has it to two sides
+  constexpr int kNeeded = 20;                   // of 26: an open side, which 9 of them leave by, is too much
   int met = 0;
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) met += (x != 0 || y != 0 || z != 0) && sight(cells, from, {x, y, z}) >= 0;
   if (met < kNeeded) return {};
   Stand out{.clearance = kCellsAcross};
-  double farthest = 0, sum = 0;
+  double farthest = 0, room = 0;
   for (const auto& heading : kHeadings) {
     const double far = sight(cells, from, {heading[0], 0, heading[1]});
     if (far < 0) continue;
-    sum += far;
+    room += std::min(far, kRoom);
     out.clearance = std::min(out.clearance, far);
     if (far > farthest) farthest = far, out.heading = heading;
   }
@@ -113,7 +114,7 @@ Stand lookAround(const SolidCells& cells, const glm::ivec3& from) {
   // The longest view, where there is room to all sides, not from against a wall, and from where eyes are: two fifths of
   // the way up.
   const double height = (below + 0.5) / (below + above + 1);
-  out.score = farthest * sum * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
+  out.score = farthest * room * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
   return out;
 }
 
