@@ -111,10 +111,10 @@ Stand lookAround(const SolidCells& cells, const glm::ivec3& from) {
   const double below = sight(cells, from, {0, -1, 0}), roof = sight(cells, from, {0, 1, 0});
   const double above = roof < 0 ? cells.dims.y - 1 - from.y : roof;  // or up to the open top
   if (below < 0 || farthest < 2) return {};
-  // The longest view, where there is room to all sides, not from against a wall, and from where eyes are: two fifths of
+  // A long view, but rather room to all sides, not from against a wall, and from where eyes are: two fifths of
   // the way up.
   const double height = (below + 0.5) / (below + above + 1);
-  out.score = farthest * room * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
+  out.score = std::sqrt(farthest) * room * std::min(1.0, (out.clearance + 0.5) / 2) * (1 - std::abs(height - 0.4));
   return out;
 }
 

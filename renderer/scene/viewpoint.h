@@ -15,8 +15,8 @@ struct Viewpoint {
   double facing = 0;                   ///< share of all surface, by area, that has other surface straight before it
 };
 /// Where more than half of the surface faces inwards, that is, has other surface straight before it: the place with the
-/// longest view among those that surfaces are around on nearly all sides; none where there is none, as on a plane.
-/// Looks at every triangle; some tenths of a second at most.
+/// most room and the longest view among those that surfaces are around on nearly all sides; none where there is none,
+/// as on a plane. Looks at every triangle; some tenths of a second at most.
 std::optional<Viewpoint> viewpointInside(const Scene& scene);
 
 }  // namespace irad
