@@ -110,6 +110,7 @@ std::filesystem::path metalScene(const std::filesystem::path& folder) {
 TEST_F(WindowTest, ExposesFilesByThemselvesAndSaysWhyMetalIsBlack) {
   exposesFiles_ = true;
   start({}, metalScene(folder_.path));
+  away();  // keys go to the window under the mouse
   EXPECT_TRUE(isOn("View/camera.auto_exposure"));
   // The words in the picture's lower left corner, which go with a view that is not of light.
   const auto corner = [this] { return screen_->grab(350, 440, 200, 60); };
@@ -119,9 +120,11 @@ TEST_F(WindowTest, ExposesFilesByThemselvesAndSaysWhyMetalIsBlack) {
   EXPECT_TRUE(settles(corner, [&](const ScreenPart& p) { return !text(p); })) << "the words stay";
   quit();
   start();
+  away();
   EXPECT_FALSE(isOn("View/camera.auto_exposure")) << "a built-in scene is made for 0 EV";
   quit();
   start({"--set", "camera.exposure=1"}, metalScene(folder_.path));
+  away();
   EXPECT_FALSE(isOn("View/camera.auto_exposure")) << "the user has chosen";
   quit();
 }
