@@ -69,7 +69,6 @@ void allocateFacets(const Device& device, FacetList& list) {
   list.shape = Buffer(device, "facet shape", Subsystem::Facets, 4 * n);
   list.albedo = Buffer(device, "facet albedo", Subsystem::Facets, 8 * n);
   list.emission = Buffer(device, "facet emission", Subsystem::Facets, list.hasEmission ? 12 * n : 0);
-  list.triangle = Buffer(device, "facet triangles", Subsystem::Facets, 4 * n);
   list.area = Buffer(device, "facet areas", Subsystem::Facets, 4 * n);
   list.reverse = Buffer(device, "facet reverse map", Subsystem::Facets, 4ull * list.grid.voxels);
 }
@@ -123,6 +122,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   list.count = list.solidVoxels = downloadAs<uint32_t>(context, total).at(0);
 
   allocateFacets(context.device, list);
+  list.triangle = Buffer(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
   Frame frame = context.begin();
   Pass pass = frame.pass(kFacetsStage);
   push.grid = pass.in(voxels.gridRecord);

@@ -24,7 +24,7 @@ struct FacetList {
   uint32_t solidVoxels = 0;
   uint32_t clampedAlbedo = 0;  ///< facets, of a Surface pieces, whose albedo was outside [0, .98] or no number
   Buffer voxel, shape, albedo, emission, reverse;
-  Buffer triangle;  ///< one that it stands for, | SURFEL_BACK for its back, for the inspector; none of uploaded lists
+  Buffer triangle;  ///< that has won its voxel; of lists that compactFacets makes alone
   Buffer area;      ///< voxel faces: of the surface that the facet stands for
   Buffer record;    ///< one FacetArrays
   Surface surface;  ///< what the facets are classes of, where the hit rule is `triangles`

@@ -42,6 +42,8 @@ void Inspector::refresh() {
     facets_ = hostFacets(context_, list);
     list_ = oracleFacets(context_, list);
     triangles_ = list.triangle ? downloadAs<uint32_t>(context_, list.triangle) : std::vector<uint32_t>{};
+    for (size_t k = FACET_SURFELS / 2; k < list_.surfels.size(); k += FACET_SURFELS)
+      triangles_.push_back(list_.surfels[k].triangle);
     // A pipeline in which no ray reads a field has none.
     madeField_.reset();
     if (!pipeline_.field()) madeField_ = buildField(context_, list, pipeline_.settings());

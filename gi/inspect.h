@@ -58,7 +58,7 @@ class Inspector {
   uint64_t build_ = 0;
   HostFacets facets_;
   oracle::Facets list_;
-  std::vector<uint32_t> triangles_;
+  std::vector<uint32_t> triangles_;  ///< per facet, | SURFEL_BACK; or none
   std::optional<Field> madeField_;  ///< where the pipeline has none
   oracle::DistanceField field_;
   std::vector<uint32_t> seeds_;   ///< packVoxel, with jump flooding

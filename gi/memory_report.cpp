@@ -37,8 +37,8 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   const auto image = [&](const Image& i, uint64_t bytes) {
     if (i) out.emplace_back(i.desc.name, bytes);
   };
-  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission, a triangle, area; reverse map one
-  // word per voxel. Of the true surface what there is per facet: surfels, links, first piece.
+  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission, area, with rule `thesis` a triangle;
+  // reverse map one word per voxel. Of the true surface what there is per facet: surfels, masks of links, first piece.
   buffer(facets.voxel, 4 * s);
   buffer(facets.shape, 4 * s);
   buffer(facets.albedo, 8 * s);
@@ -46,12 +46,14 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.reverse, 4 * V);
   buffer(facets.triangle, 4 * s);
   buffer(facets.area, 4 * s);
-  buffer(facets.surface.surfels, sizeof(Surfel) * FACET_SURFELS * s);
-  buffer(facets.surface.links, FACET_LINKS * s);
+  buffer(facets.surface.surfels, 4 * SURFEL_WORDS * s);
+  buffer(facets.surface.linkMasks, 4 * s);
+  buffer(facets.surface.firstLinks, 4 * (s + 1));
   buffer(facets.surface.firstPiece, 4 * (s + 1));
-  // Nothing but these arrays knows how many triangles, pieces and cuts there are: what was asked for.
+  // Nothing but these arrays knows how many triangles, pieces, cuts and links there are: what was asked for.
   for (const Buffer* b : {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes,
-                          &facets.surface.groups, &facets.surface.sides, &facets.surface.cuts})
+                          &facets.surface.groups, &facets.surface.sides, &facets.surface.cuts,
+                          &facets.surface.wideSides, &facets.surface.links})
     buffer(*b, b->bytes);
   buffer(facets.surface.record, sizeof(SurfaceArrays));
   buffer(facets.record, sizeof(FacetArrays));

@@ -48,6 +48,8 @@ struct Points {
   Buffer classes;     ///< per point
   Buffer area;        ///< per point: for how much it stands, voxel faces
   Buffer facetStart;  ///< per solid voxel, and the end
+  Buffer wideStart;   ///< likewise, of the facets whose surfels' sides take more than a byte
+  uint32_t wide = 0;  ///< of these
 };
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
@@ -225,9 +227,9 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   p.classes = words(device, "points' facets", pieces.points);
   p.area = words(device, "points' areas", pieces.points);
   p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
-  const Buffer total = words(device, "facets", 1);
+  p.wideStart = words(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
+  const Buffer total = words(device, "facets", 1), wide = words(device, "wide facets", 1);
   Frame frame = context.begin();
-  frame.pass(kListStage).fill(surface.sides, 0);
   {
     Pass pass = frame.pass(kListStage);
     PiecePointsPush push{};
@@ -256,6 +258,7 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
     push.points = pass.in(p.at);
     push.classes = pass.accumulate(p.classes);
     push.facets = pass.accumulate(p.facetStart);
+    push.wide = pass.accumulate(p.wideStart);
     push.count = pieces.solid;
     pass.shader(shader).push(push);
     return pass;
@@ -263,13 +266,17 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   classify("gi/class_points.comp").dispatch(pieces.solid);
   classify("gi/class_crowd.comp").dispatchWorkgroups(pieces.solid);
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
+  scanToEnd(frame, p.wideStart, pieces.solid, wide, p.wide);
   frame.submitAndWait();
   return p;
 }
 
 /// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels.
-void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
-                const Surface& surface, const FacetList& list) {
+void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
+                const FacetList& list, const Buffer& facings) {
+  const Surface& surface = list.surface;
+  Frame frame = context.begin();
+  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
   {
     Pass pass = frame.pass(kListStage);
     PieceSidesPush push{};
@@ -287,7 +294,6 @@ void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
     pass.out(surface.sides);
     pass.out(surface.cuts);
     push.voxel = pass.out(list.voxel);
-    push.triangle = pass.out(list.triangle);
     push.reverse = pass.out(list.reverse);
     push.facetPiece = pass.out(surface.firstPiece);
     push.count = pieces.count;
@@ -303,21 +309,54 @@ void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
     push.classes = pass.in(points.classes);
     push.points = pass.in(points.at);
     push.pointArea = pass.in(points.area);
+    push.pieceVoxel = pass.in(pieces.pieceVoxel);
+    push.wideStart = pass.in(points.wideStart);
     push.surfels = pass.out(surface.surfels);
+    push.wideSides = pass.out(surface.wideSides);
+    push.facings = pass.out(facings);
     push.area = pass.out(list.area);
     push.dims = list.grid.dims;
     push.count = list.count;
     pass.shader("gi/facet_surfels.comp").push(push).dispatch(list.count);
   }
+  frame.submitAndWait();
+}
+
+/// Which facets continue the surface of which: masks and, where `list` says that each facet's begin, links.
+void linkFacets(Context& context, FacetList& list, const Buffer& facings) {
+  Surface& surface = list.surface;
+  const Device& device = context.device;
+  const Buffer found(device, "links as found", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
+  const Buffer total = words(device, "links", 1);
+  uint32_t links = 0;
+  {
+    Frame frame = context.begin();
+    Pass pass = frame.pass(kListStage);
+    LinkFacetsPush push{};
+    push.surface = pass.in(surface.record);
+    push.voxel = pass.in(list.voxel);
+    push.reverse = pass.in(list.reverse);
+    push.facings = pass.in(facings);
+    push.found = pass.out(found);
+    push.masks = pass.out(surface.linkMasks);
+    push.counts = pass.out(surface.firstLinks);
+    push.dims = list.grid.dims;
+    push.count = list.count;
+    pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
+    scanToEnd(frame, surface.firstLinks, list.count, total, links);
+    frame.submitAndWait();
+  }
+  surface.links = Buffer(device, "links of facets", Subsystem::Facets, links);
+  Frame frame = context.begin();
   Pass pass = frame.pass(kListStage);
-  LinkFacetsPush push{};
-  push.surface = pass.in(surface.record);
-  push.voxel = pass.in(list.voxel);
-  push.reverse = pass.in(list.reverse);
+  PackLinksPush push{};
+  push.found = pass.in(found);
+  push.masks = pass.in(surface.linkMasks);
+  push.firstLinks = pass.in(surface.firstLinks);
   push.links = pass.out(surface.links);
-  push.dims = list.grid.dims;
   push.count = list.count;
-  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
+  pass.shader("gi/pack_links.comp").push(push).dispatch(list.count);
+  frame.submitAndWait();
 }
 
 void makeRecord(Context& context, FacetList& list) {
@@ -337,7 +376,12 @@ void makeRecord(Context& context, FacetList& list) {
     arrays.firstPiece = record.of(s.firstPiece);
     arrays.voxel = record.of(list.voxel);
     arrays.surfels = record.of(s.surfels);
+    arrays.wideSides = record.of(s.wideSides);
     arrays.area = record.of(list.area);
+  }
+  if (s.links) {
+    arrays.linkMasks = record.of(s.linkMasks);
+    arrays.firstLinks = record.of(s.firstLinks);
     arrays.links = record.of(s.links);
   }
   s.record = record.make(arrays);
@@ -437,17 +481,23 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
   allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
-  surface.surfels = Buffer(device, "surfels", Subsystem::Facets, sizeof(Surfel) * FACET_SURFELS * uint64_t{list.count});
-  surface.links = Buffer(device, "links of facets", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
+  surface.surfels = words(device, "surfels", uint64_t{SURFEL_WORDS} * list.count);
+  surface.wideSides = words(device, "wide sides of surfels", uint64_t{WIDE_WORDS} * points.wide);
+  surface.linkMasks = words(device, "masks of links", list.count);
+  surface.firstLinks = words(device, "first links of facets", uint64_t{list.count} + 1);
   makeRecord(context, list);
-  Frame frame = context.begin();
-  frame.pass(kListStage).fill(list.reverse, NO_FACET);
-  // A kernel that Mesa's CPU driver cuts short in a crowd leaves points of the first triangle, not of none.
-  frame.pass(kListStage).fill(surface.surfels, 0);
-  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
-  if (list.count > 0) fillFacets(frame, grid, pieces, points, surface, list);
-  frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, points, list);
+  {
+    Frame frame = context.begin();
+    frame.pass(kListStage).fill(list.reverse, NO_FACET);
+    frame.submit();
+  }
+  if (list.count > 0) {
+    const Buffer facings = words(device, "facings of facets", 3ull * list.count);
+    fillFacets(context, grid, pieces, points, list, facings);
+    linkFacets(context, list, facings);
+    makeRecord(context, list);
+    list.clampedAlbedo = shade(context, scene, grid, pieces, points, list);
+  }
   recordFacets(context, list);
   return list;
 }

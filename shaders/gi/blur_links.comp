@@ -18,10 +18,9 @@ void main() {
   vec3 sumH = vec3(0.0), sumE = vec3(0.0);
   float total = 0.0;
   for (uint i = 0u; i < 27u; ++i) {
-    uint link = facetLink(surface, facet, i);
-    if (link == NO_LINK) continue;
+    uint other = linkedFacet(surface, p.reverse, p.dims, facet, voxel, i);
+    if (other == NO_FACET) continue;
     ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-    uint other = firstFacet(p.reverse.at[voxelIndex(uvec3(voxel + step_), p.dims)]) + link;
     float weight = (step_.x == 0 ? 2.0 : 1.0) * (step_.y == 0 ? 2.0 : 1.0) * (step_.z == 0 ? 2.0 : 1.0) *
                    max(surface.area.at[other], 1e-6);
     sumH += weight * p.indirect.at[other].xyz;

@@ -13,6 +13,5 @@ ClassPoint classPoint(SurfaceArrays surface, uint i) {
   PiecePoint p = push.points.at[i];
   uint piece = p.side & ~SURFEL_BACK;
   uint triangle = triangleOf(surface.pieces, piece);
-  vec3 facing = facingOf(triangleAt(surface.corners, triangle), (p.side & SURFEL_BACK) != 0u);
-  return ClassPoint(SidePoint(SurfelPoint(p.position, facing, triangle), p.lift), push.area.at[piece]);
+  return ClassPoint(SidePoint(SurfelPoint(p.position, p.facing, triangle), p.lift), push.area.at[piece]);
 }

@@ -34,5 +34,5 @@ void main() {
   uint maskWords = hasHoles(push.corners, triangle) ? 2u : 0u;
   bool cut = cuts > 0u || maskWords > 0u;
   push.points.at[piece] = (cut ? CUT_POINTS : 1u) * (back ? 2u : 1u);
-  push.cuts.at[piece] = cut ? 1u + maskWords + cuts + CUT_POINTS : 0u;
+  push.cuts.at[piece] = cut ? 1u + maskWords + cuts + mostParts(cuts) : 0u;
 }

@@ -26,21 +26,18 @@ void main() {
   if (perSide == 1u) {
     surface.sides.at[piece] = facetOfPoint(first) | (back ? facetOfPoint(first + 1u) : PIECE_BLACK) << 8;
   } else {
-    uint place = cutsOf(surface.cuts, sides).points;
-    for (uint k = 0u; k < CUT_POINTS; ++k) {
-      uint part = surface.cuts.at[place + k] >> 16;
-      for (uint s = first + k; s < first + points; s += CUT_POINTS) {
-        if (push.classes.at[s] != CLASS_OF_PART) continue;
-        uint found = NO_CLASS;
-        for (uint j = 0u; j < k && part != NO_PART; ++j)
-          if (surface.cuts.at[place + j] >> 16 == part) {
-            found = push.classes.at[s - k + j] & ~CLASS_LEADER;
-            break;
-          }
-        push.classes.at[s] = found;
-      }
-      surface.cuts.at[place + k] |=
-          facetOfPoint(first + k) | (back ? facetOfPoint(first + CUT_POINTS + k) : PIECE_BLACK) << 8;
+    PieceCuts cuts = cutsOf(surface.cuts, sides);
+    for (uint s = first; s < first + points; ++s) {
+      uint class_ = push.classes.at[s];
+      if (!isOfPart(class_)) continue;
+      uint k = class_ & 31u;
+      push.classes.at[s] =
+          k < CUT_POINTS ? push.classes.at[s - (s - first) % CUT_POINTS + k] & ~CLASS_LEADER : NO_CLASS;
+    }
+    for (uint i = cuts.parts; i < cuts.endParts; ++i) {
+      uint part = surface.cuts.at[i], point = first + (part & 0xFFFFu);
+      surface.cuts.at[i] = (part & 0xFFFF0000u) | facetOfPoint(point) |
+                           (back ? facetOfPoint(point + CUT_POINTS) : PIECE_BLACK) << 8;
     }
   }
   // A side's area is that of its points which have a facet; where a mask leaves nothing there is none.
@@ -56,7 +53,6 @@ void main() {
     if ((class_ & CLASS_LEADER) == 0u) continue;
     uint facet = base + (class_ & ~CLASS_LEADER);
     push.voxel.at[facet] = packedVoxel;
-    push.triangle.at[facet] = triangleOf(surface.pieces, piece) | (push.points.at[i].side & SURFEL_BACK);
     push.facetPiece.at[facet] = push.firstPiece.at[voxel];
     if (facet == base)
       push.reverse.at[voxelIndex(unpackVoxel(packedVoxel), push.grid.at[0].dims)] = facetEntryOf(base, end - base);
