@@ -59,7 +59,7 @@ class Inspector {
   HostFacets facets_;
   oracle::Facets list_;
   std::vector<uint32_t> triangles_;  ///< per facet, | SURFEL_BACK; or none
-  std::optional<Field> madeField_;  ///< where the pipeline has none
+  std::optional<Field> madeField_;   ///< where the pipeline has none
   oracle::DistanceField field_;
   std::vector<uint32_t> seeds_;   ///< packVoxel, with jump flooding
   std::vector<glm::uvec2> rows_;  ///< MatrixArrays::rowInfo

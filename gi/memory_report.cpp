@@ -51,9 +51,9 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.surface.firstLinks, 4 * (s + 1));
   buffer(facets.surface.firstPiece, 4 * (s + 1));
   // Nothing but these arrays knows how many triangles, pieces, cuts and links there are: what was asked for.
-  for (const Buffer* b : {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes,
-                          &facets.surface.groups, &facets.surface.sides, &facets.surface.cuts,
-                          &facets.surface.wideSides, &facets.surface.links})
+  for (const Buffer* b :
+       {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes, &facets.surface.groups,
+        &facets.surface.sides, &facets.surface.cuts, &facets.surface.wideSides, &facets.surface.links})
     buffer(*b, b->bytes);
   buffer(facets.surface.record, sizeof(SurfaceArrays));
   buffer(facets.record, sizeof(FacetArrays));

@@ -40,8 +40,8 @@ uint32_t traceMethod(const Settings& settings, const Field& field) {
   return bytes ? TRACE_SKIP : TRACE_DDA_REVERSE;
 }
 
-/// Invocations that share a pixel's rays. On a CPU those that have none, as all but one of a mirror, are work for all; but
-/// no more than eight rays go to one, or Mesa's CPU driver may end its loops, after 65,535 rounds, in a crowd.
+/// Invocations that share a pixel's rays. On a CPU those that have none, as all but one of a mirror, are work for all;
+/// but no more than eight rays go to one, or Mesa's CPU driver may end its loops, after 65,535 rounds, in a crowd.
 uint32_t lobeLanes(const Device& device, uint32_t rays) {
   if (!device.isCpu) return 4;
   uint32_t lanes = 2;

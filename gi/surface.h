@@ -13,7 +13,7 @@ struct Settings;
 /// What rays meet: the triangles that have a piece in a voxel, which facet each side of a piece belongs to, and points
 /// of every facet. Empty where facets are planes (matrix.hit_rule is not triangles).
 struct Surface {
-  Buffer corners, firstPiece, pieces, boxes, groups, sides, cuts;       ///< of SurfaceArrays
+  Buffer corners, firstPiece, pieces, boxes, groups, sides, cuts;  ///< of SurfaceArrays
   Buffer surfels, wideSides, linkMasks, firstLinks, links;
   Buffer record;  ///< one SurfaceArrays
   explicit operator bool() const { return static_cast<bool>(record); }

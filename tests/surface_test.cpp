@@ -412,8 +412,8 @@ TEST_F(SurfaceTest, SurfelsLieOnTrianglesOfTheirVoxelThatFaceAsTheFacetDoes) {
   for (uint32_t i = 0; i < w.facets.count; ++i) {
     const glm::uvec3 voxel = unpackVoxel(f.voxel[i]);
     const uint32_t entry = f.reverse[voxelIndex(voxel, f.grid.dims)], first = firstFacet(entry);
-    const auto pieces = std::span(f.pieces).subspan(
-        f.firstPiece[first], f.firstPiece[first + facetsOf(entry)] - f.firstPiece[first]);
+    const auto pieces =
+        std::span(f.pieces).subspan(f.firstPiece[first], f.firstPiece[first + facetsOf(entry)] - f.firstPiece[first]);
     wide += pieces.size() > MOST_NARROW;
     for (uint32_t k = FACET_SURFELS * i; k < FACET_SURFELS * (i + 1); ++k) {
       const uint32_t triangle = f.surfels[k].triangle & ~SURFEL_BACK;

@@ -6,8 +6,8 @@ layout(local_size_x = 64) in;
 
 shared uint next;
 shared uint leaders[LAST_CLASS + 1u];
-/// By blocks of the voxel's points those that belong to no class yet, and of these those that may belong to the leader's:
-/// far fewer, so that all invocations take turns at them.
+/// By blocks of the voxel's points those that belong to no class yet, and of these those that may belong to the
+/// leader's: far fewer, so that all invocations take turns at them.
 const uint BLOCK = 16u * gl_WorkGroupSize.x;
 shared uint open[BLOCK], likely[BLOCK];
 shared uint opened, likelies;

@@ -20,7 +20,7 @@ shared uint link[PLACES], next[PLACES];           ///< best so far, and the face
 shared float best[PLACES];
 shared uint queue[PLACES];                        ///< places with a facet to look at in this round
 shared uint likely[PLACES];                       ///< of these, those whose facet may continue the surface
-shared uint pairs[PLACES];                        ///< the surfels of either facet that are nearest, own + FACET_SURFELS * other
+shared uint pairs[PLACES];                        ///< of both facets the nearest surfels, own + FACET_SURFELS * other
 shared float apart[PLACES];                       ///< the square of their distance
 shared uint queued[2], likelies[2];
 
