@@ -3,11 +3,11 @@
 
 #if IRAD_UI
 
+#include <sys/resource.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <atomic>
+#include <memory>
 
 #include "gi/check/check.h"
 #include "renderer/base/error.h"
@@ -59,22 +59,15 @@ TEST_F(TracedBeside, IsThePictureOfOneGoToTheBit) {
   }
 }
 
-/// The lowest priority of any thread of this process: their field `nice`.
-int nicest() {
-  int most = -20;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
-    const std::string stat = slurp(entry.path() / "stat");
-    std::istringstream fields(stat.substr(stat.rfind(')') + 2));
-    std::string field;
-    for (int i = 3; i <= 19; ++i) fields >> field;
-    if (!field.empty()) most = std::max(most, std::stoi(field));
-  }
-  return most;
-}
-
 TEST_F(TracedBeside, GetsBetterAtTheLowestPriorityUntilItIsCancelled) {
   BackgroundReference reference;
-  reference.start(task(10'000'000));
+  BackgroundReference::Task wanted = task(10'000'000);
+  const auto priority = std::make_shared<std::atomic<int>>(0);  // the thread owns one of it with its task
+  wanted.scene = [priority, scene = wanted.scene] {
+    *priority = getpriority(PRIO_PROCESS, 0);
+    return scene();
+  };
+  reference.start(std::move(wanted));
   uint32_t samples = 0;
   for (int pictures = 0; pictures < 3; ++pictures) {
     std::shared_ptr<const TracedReference> better;
@@ -84,11 +77,12 @@ TEST_F(TracedBeside, GetsBetterAtTheLowestPriorityUntilItIsCancelled) {
   }
   EXPECT_TRUE(reference.atWork());
   EXPECT_GT(reference.state().secondsLeft, 0);
-  EXPECT_EQ(nicest(), 19);
+  EXPECT_EQ(*priority, 19);
+  EXPECT_GT(priority.use_count(), 1);
   reference.cancel();
   EXPECT_EQ(reference.state().what, What::Idle);
   EXPECT_FALSE(reference.take());
-  EXPECT_TRUE(until([&] { return nicest() < 19; })) << "the thread does not end";
+  EXPECT_TRUE(until([&] { return priority.use_count() == 1; })) << "the thread does not end";
 }
 
 TEST_F(TracedBeside, IsHeldAndGoesOn) {
