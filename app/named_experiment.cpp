@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <numeric>
 
 #include "app/blender_pictures.h"
@@ -45,11 +44,6 @@ fs::path cyclesPicture() {
 }
 fs::path secondCyclesPicture() {
   return sharedFolder() / "scenes/references/sponza_lit_diffuse_seed1.exr";
-}
-
-std::string textOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void writeFigures(const fs::path& folder, const std::map<std::string, double>& figures) {
@@ -302,7 +296,7 @@ void ExperimentRunner::measureTables(const Scene& scene, const Settings& setting
 // ---- Folders ----
 
 std::string readSkipped(const fs::path& folder) {
-  return textOf(folder / kSkipped);
+  return readFile(folder / kSkipped);
 }
 
 std::map<std::string, double> readFigures(const fs::path& folder) {
@@ -350,7 +344,7 @@ void mergeExperiment(const std::vector<fs::path>& shards, const fs::path& out) {
   std::map<std::string, double> figures = readFigures(out);
   for (const fs::path& shard : measured) {
     for (const auto& [name, value] : readFigures(shard)) figures[name] = value;
-    if (const std::string memory = textOf(shard / kMemory); !memory.empty()) writeFile(out / kMemory, memory);
+    if (const std::string memory = readFile(shard / kMemory); !memory.empty()) writeFile(out / kMemory, memory);
   }
   writeFigures(out, figures);
   writeReport(out, irad::gridOf(readIdentity(out)), readResults(out), readNotes(out));

@@ -1,7 +1,5 @@
 #include "gi/picture.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "gi/legend.h"
@@ -55,9 +53,7 @@ std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& 
 
 ReferencePicture readReference(const std::filesystem::path& path) {
   LinearPicture picture = readLinear(path);
-  std::ifstream in(path, std::ios::binary);
-  const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  return {std::filesystem::absolute(path).lexically_normal(), sha256(bytes), std::move(picture), VIEW_LIT};
+  return {std::filesystem::absolute(path).lexically_normal(), sha256File(path), std::move(picture), VIEW_LIT};
 }
 
 }  // namespace irad

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/views/views.h"
+#include "renderer/base/sha256.h"
 #include "renderer/scene/sidecar.h"
 #include "tests/window_fixture.h"
 

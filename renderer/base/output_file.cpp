@@ -9,6 +9,8 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -127,6 +129,11 @@ void writeFile(const std::filesystem::path& path, std::span<const std::byte> byt
   file.write(bytes);
   file.commit();
 }
+std::string readFile(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void writeFile(const std::filesystem::path& path, std::string_view text) {
   writeFile(path, std::as_bytes(std::span(text)));
 }

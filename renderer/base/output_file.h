@@ -48,6 +48,8 @@ class OutputFolder {
 
 void writeFile(const std::filesystem::path& path, std::string_view text);
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// A file's bytes; none where it cannot be read.
+std::string readFile(const std::filesystem::path& path);
 /// Removes a file if there is one.
 void removeFile(const std::filesystem::path& path);
 /// Makes a folder and its parents, and checks that it can be written into: better to know before the work than after

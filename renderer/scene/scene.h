@@ -151,7 +151,4 @@ std::string unsound(const Scene& scene);
 /// The same for a light: "light "lamp": its intensity -1 is not from 0 to 1e+12".
 std::string unsound(const Light& light);
 
-/// SHA-256 of a file as 64 hex digits; throws InputError when it cannot be read.
-std::string sha256File(const std::filesystem::path& path);
-
 }  // namespace irad
