@@ -400,8 +400,8 @@ struct Pipeline::Impl {
     Frame frame = context.begin(frameIndex);
     const bool mayBlur =
         settings.effects.blur == EffectMode::automatic && settings.sample.gpu.filter_ == SampleFilter::blur;
-    scatter(frame, *p.facets, *p.light, planned.settings(), /*watchBlur=*/mayBlur);
-    frame.submitAndWait();
+    scatter(frame, *p.facets, *p.light, planned.settings(), &*p.matrix, /*watchBlur=*/mayBlur);
+    if (!p.light->blurChange) frame.submitAndWait();
   }
 
   /// Decides by how much the blur changes the light as it is: where that does not show, H is shown without it. Returns

@@ -2,6 +2,9 @@
 #include "gi/scatter.h"
 
 #include "gi/facets.h"
+#include <cstdlib>
+#include "gi/matrix.h"
+#include "gi/sweep.h"
 #include "gi/lighting.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
@@ -22,7 +25,22 @@ void fit(const Device& device, const char* name, uint64_t bytes, bool wanted, Bu
 }
 
 /// Blurs into the copies, where there are any, and measures the change.
-void blur(Frame& frame, const FacetList& facets, Lighting& light) {
+void blur(Frame& frame, const FacetList& facets, Lighting& light, const FormFactors* matrix, const Settings& settings) {
+  static const float kC = std::getenv("BLUR_C") ? std::atof(std::getenv("BLUR_C")) : 1;
+  const Buffer squares(frame.context().device, "squares", Subsystem::Solver, 16ull * facets.count);
+  const float emissionGain = light.correction ? light.gain.indirect : 0;
+  {
+    Pass pass = frame.pass(kScatterStage);
+    LightSquaresPush push{};
+    push.facets = pass.in(facets.record);
+    push.radiosity = pass.in(light.radiosity);
+    push.output_ = pass.out(light.radiosityNext);
+    push.emissionGain = light.correction ? light.gain.radiosity : 0;
+    pass.shader("gi/light_squares.comp").push(push).dispatch(facets.count);
+  }
+  Sweep sweep(frame.context(), facets, *matrix, settings.solver);
+  sweep.begin(frame, kScatterStage, light.radiosityNext);
+  sweep.record(frame, kScatterStage, SOLVE_PRODUCT, light.radiosityNext, squares, light);
   const bool stores = static_cast<bool>(light.blurred), emitted = stores && light.emitted;
   frame.pass(kScatterStage).fill(light.blurChange, 0);
   Pass pass = frame.pass(kScatterStage);
@@ -37,6 +55,10 @@ void blur(Frame& frame, const FacetList& facets, Lighting& light) {
     push.blurredEmitted = pass.out(light.blurredEmitted);
   }
   push.change = pass.out(light.blurChange);
+  push.squares = pass.in(squares);
+  push.sky = pass.inIfAny(light.sky);
+  push.emissionGain = emissionGain;
+  push.noise = kC / float(matrix->rays);
   push.dims = facets.grid.dims;
   push.count = facets.count;
   pass.shader("gi/blur_links.comp")
@@ -47,11 +69,12 @@ void blur(Frame& frame, const FacetList& facets, Lighting& light) {
   frame.readback(light.blurChange, 0, sizeof(float), [&change = light.report.blurChange](std::span<const uint8_t> b) {
     std::memcpy(&change.emplace(), b.data(), sizeof(float));
   });
+  frame.submitAndWait();
 }
 
 }  // namespace
 
-void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings, bool watchBlur) {
+void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Settings& settings, const FormFactors* matrix, bool watchBlur) {
   const SampleParams& sample = settings.sample.gpu;
   const bool may = facets.surface && facets.count > 0;
   const bool blurs = may && sample.filter_ == SampleFilter::blur, watches = may && (blurs || watchBlur);
@@ -60,7 +83,7 @@ void scatter(Frame& frame, const FacetList& facets, Lighting& light, const Setti
   fit(device, "blurred H", bytes, blurs, light.blurred);
   fit(device, "blurred F M", bytes, blurs && light.emitted, light.blurredEmitted);
   fit(device, "change by the blur", sizeof(uint32_t), watches, light.blurChange);
-  if (watches) blur(frame, facets, light);
+  if (watches) blur(frame, facets, light, matrix, settings);
   if (light.volume) scatterVolume(frame, facets, light, settings);
 }
 

@@ -15,7 +15,7 @@ void main() {
   SurfaceArrays surface = p.surface.at[0];
   ivec3 voxel = ivec3(unpackVoxel(p.voxel.at[facet]));
   vec3 unblurred = p.indirect.at[facet].xyz;
-  vec3 sumH = vec3(0.0), sumE = vec3(0.0);
+  vec3 sumH = vec3(0.0), sumE = vec3(0.0), sumV = vec3(0.0), sumN = vec3(0.0);
   float total = 0.0;
   for (uint i = 0u; i < 27u; ++i) {
     uint link = facetLink(surface, facet, i);
@@ -24,13 +24,25 @@ void main() {
     uint other = firstFacet(p.reverse.at[voxelIndex(uvec3(voxel + step_), p.dims)]) + link;
     float weight = (step_.x == 0 ? 2.0 : 1.0) * (step_.y == 0 ? 2.0 : 1.0) * (step_.z == 0 ? 2.0 : 1.0) *
                    max(surface.area.at[other], 1e-6);
-    sumH += weight * p.indirect.at[other].xyz;
+    vec3 hh = p.indirect.at[other].xyz;
+    sumH += weight * hh;
+    vec3 m1 = hh;
+    if (p.emissionGain != 0.0) m1 -= p.emissionGain * p.emitted.at[other].xyz;
+    if (uint64_t(p.sky) != 0ul) m1 -= p.sky.at[other].xyz;
+    sumN += weight * max(p.squares.at[other].xyz - m1 * m1, vec3(0.0));
+    vec3 d = hh - unblurred;
+    sumV += weight * d * d;
     if (EMITTED) sumE += weight * p.emitted.at[other].xyz;
     total += weight;
   }
   vec3 h = sumH / total;  // the facet itself is always linked
+  vec3 own = h - unblurred;
+  vec3 var_ = sumV / total - own * own;
+  float V = var_.x + var_.y + var_.z, S = p.noise * (sumN.x + sumN.y + sumN.z) / total;
+  float keep = V > S ? 1.0 - S / V : 0.0;
+  h = mix(h, unblurred, keep);
   if (STORES) p.blurred.at[facet] = vec4(h, 0.0);
-  if (STORES && EMITTED) p.blurredEmitted.at[facet] = vec4(sumE / total, 0.0);
+  if (STORES && EMITTED) p.blurredEmitted.at[facet] = vec4(mix(sumE / total, p.emitted.at[facet].xyz, keep), 0.0);
   vec3 change = abs(h - unblurred);
   uint bits = floatBitsToUint(max(change.r, max(change.g, change.b)));
   if (bits > p.change.at[0]) atomicMax(p.change.at[0], bits);

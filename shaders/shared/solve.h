@@ -118,6 +118,14 @@ struct EmissionPush {
   Vec4Array output_;
 };
 
+/// gi/light_squares.comp
+struct LightSquaresPush {
+  FacetRecord facets;
+  Vec4Array radiosity, output_;
+  float emissionGain;  ///< of M, which is left out; 0: it is not
+  uint unused;
+};
+
 /// gi/sample_emitters.comp: F M by samples of the emitters.
 struct SampleEmittersPush {
   MatrixRecord matrix;

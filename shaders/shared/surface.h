@@ -221,8 +221,10 @@ struct BlurLinksPush {
   Vec4Array indirect, emitted;
   Vec4Array blurred, blurredEmitted;
   UintArray change;  ///< [0]: float bits of the largest |blurred - H|, W/m^2
+  Vec4Array squares, sky;
   uvec3 dims;
   uint count;
+  float emissionGain, noise;
 };
 
 /// gi/surface_corners.comp.
