@@ -138,22 +138,24 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
         inMebibytes(session.device->memory().used()), static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
-/// Refuses views that have nothing to be drawn from, and leaves them out where it was all views that were `wanted`; a
-/// note that says so, or nothing.
-std::string takeDrawable(std::vector<ViewInfo>& chosen, const std::vector<std::string>& wanted, bool reference,
+/// Refuses views that were `asked` for by name and have nothing to be drawn from, and leaves out such of the others,
+/// which `all` or a manifest brings; a note that says so, or nothing. UsageError where none is left.
+std::string takeDrawable(std::vector<ViewInfo>& chosen, const std::vector<std::string>& asked, bool reference,
                          const fs::path& scene) {
-  const bool all = std::ranges::find(wanted, "all") != wanted.end();
   std::vector<std::string> leftOut;
+  std::string why;
   std::erase_if(chosen, [&](const ViewInfo& view) {
     try {
       requireInput(view, reference, scene);
-    } catch (const UsageError&) {
-      if (!all || std::ranges::find(wanted, view.name) != wanted.end()) throw;
+    } catch (const UsageError& error) {
+      if (std::ranges::find(asked, view.name) != asked.end()) throw;
       leftOut.emplace_back(view.name);
+      why = error.what();
       return true;
     }
     return false;
   });
+  if (chosen.empty()) throw UsageError(why);
   return leftOut.empty()
              ? ""
              : fmt::format("left out, for want of a reference picture or an oracle: {}", fmt::join(leftOut, ", "));
@@ -174,12 +176,13 @@ void run(const RenderArguments& arguments) {
   std::optional<glm::uvec3> inspected;
   if (arguments.inspect) inspected = parseVoxel("--inspect", *arguments.inspect);
   const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
-  const std::string leftOut = takeDrawable(chosen, wanted, arguments.reference.given(early), scenePath);
+  const std::string leftOut = takeDrawable(chosen, arguments.views.empty() ? std::vector<std::string>{} : wanted,
+                                           arguments.reference.given(early), scenePath);
 
   DeviceSession session(arguments.settings, arguments.device);
   if (!leftOut.empty()) session.progress.note(leftOut);
   const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
-  if (reference) requireSize(*reference, size);
+  if (reference && arguments.reference.file) requireSize(*reference, size);  // a manifest's was scaled by the window
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");

@@ -69,8 +69,12 @@ void saveCapture(Session& session, bool allViews, const std::filesystem::path& p
                  const Progress& progress) {
   if (!session.built) return;
   std::vector<ViewInfo> chosen;
+  const auto drawable = [&](const ViewInfo& view) {
+    return (!view.isFrom(FROM_PICTURE) || session.pipeline->hasReference()) &&
+           (!view.isFrom(FROM_ORACLE) || session.pipeline->knowsIrradiance());
+  };
   for (const ViewInfo& view : views())
-    if (allViews || view.view == session.view) chosen.push_back(view);
+    if (view.view == session.view || (allViews && drawable(view))) chosen.push_back(view);
   try {
     const std::filesystem::path folder = save(session, chosen, parent, program, progress);
     for (const Side* side : session.sides()) session.settingsSaved(side->pipeline->settings());  // the manifest's
