@@ -37,6 +37,7 @@ struct Pieces {
   Buffer triangle;                ///< per piece, ascending within a voxel
   Buffer pieceVoxel;              ///< which solid voxel
   Buffer area;                    ///< float, voxel faces
+  Buffer facings;                 ///< the triangles' unit normals, until points have their facets
   Buffer boxes, groups;           ///< packBox; and around groups of them
   Buffer firstPoint, firstCut;    ///< per piece, and the end: its PiecePoints, and its words of SurfaceArrays::cuts
   uint32_t points = 0, cuts = 0;
@@ -127,6 +128,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   p.triangle = words(device, "pieces' triangles", p.count);
   p.pieceVoxel = words(device, "pieces' voxels", p.count);
   p.area = words(device, "pieces' areas", p.count);
+  p.facings = words(device, "pieces' facings", 3ull * p.count);
   p.boxes = words(device, "pieces' boxes", p.count);
   p.groups = words(device, "boxes of groups", groupPlaces(p.count));
   Buffer unsorted = words(device, "unsorted pieces", p.count);
@@ -167,6 +169,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     shape.firstPiece = pass.in(p.first);
     shape.corners = pass.in(corners);
     shape.area = pass.out(p.area);
+    shape.facings = pass.out(p.facings);
     shape.boxes = pass.out(p.boxes);
     shape.points = pass.out(p.firstPoint);
     shape.cuts = pass.out(p.firstCut);
@@ -254,6 +257,7 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
     push.firstPiece = pass.in(pieces.first);
     push.surface = pass.in(surface.record);
     push.area = pass.in(pieces.area);
+    push.facings = pass.in(pieces.facings);
     push.firstPoint = pass.in(pieces.firstPoint);
     push.points = pass.in(p.at);
     push.classes = pass.accumulate(p.classes);
@@ -479,6 +483,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   Points points;
   findMasks(context, scene, grid, pieces, surface);
   if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
+  pieces.facings = Buffer();
   allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
   surface.surfels = words(device, "surfels", uint64_t{SURFEL_WORDS} * list.count);

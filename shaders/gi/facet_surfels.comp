@@ -80,7 +80,7 @@ void main() {
     uint triangle = triangleOf(surface.pieces, piece);
     Triangle t = triangleAt(surface.corners, triangle);
     uint axis = seenAlong(cross(t.b - t.a, t.c - t.a));
-    if (k <= FACET_SURFELS / 2u) push.facings.at[facet] = p.facing;
+    if (k <= FACET_SURFELS / 2u) push.facings.at[facet] = facingOf(t, (p.side & SURFEL_BACK) != 0u);
     bool whole = (surface.sides.at[piece] & PIECE_CUT) == 0u;
     uint from = 0u, n = 0u;
     if (whole) n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);

@@ -8,12 +8,6 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PiecePointsPush push; };
 
-/// On side 0 or 1, the back; `facing`: of the front.
-PiecePoint pointOn(uint piece, uint side, vec3 position, vec3 facing, float lift) {
-  return side == 0u ? PiecePoint(position, piece, facing, lift)
-                    : PiecePoint(position, piece | SURFEL_BACK, -facing, lift);
-}
-
 void main() {
   uint piece = irad_index();
   if (piece >= push.count) return;
@@ -38,7 +32,7 @@ void main() {
     middle += cell;
     for (uint side = 0u; side < (back ? 2u : 1u); ++side) {
       float lift = clearAbove(others, middle, side == 0u ? facing : -facing, triangle);
-      push.points.at[place + side] = pointOn(piece, side, middle, facing, lift);
+      push.points.at[place + side] = PiecePoint(middle, piece | (side == 0u ? 0u : SURFEL_BACK), lift);
       push.classes.at[place + side] = NO_CLASS;
     }
     return;
@@ -68,7 +62,7 @@ void main() {
     for (uint side = 0u; side < (back ? 2u : 1u); ++side) {
       uint i = place + side * CUT_POINTS + k;
       float lift = first == k ? clearAbove(others, at, side == 0u ? facing : -facing, triangle) : 0.0;
-      push.points.at[i] = pointOn(piece, side, at, facing, lift);
+      push.points.at[i] = PiecePoint(at, piece | (side == 0u ? 0u : SURFEL_BACK), lift);
       push.classes.at[i] = first == k ? NO_CLASS : CLASS_OF_PART | first;
     }
   }

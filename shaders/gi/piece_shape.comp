@@ -17,6 +17,7 @@ void main() {
   uint from;
   uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
   vec3 centre, low = vec3(1.0), high = vec3(0.0);
+  push.facings.at[piece] = facingOf(t, false);
   push.area.at[piece] = n > 0u ? polygonArea(from, n, centre) : 0.0;
   for (uint i = 0u; i < n; ++i) {
     vec3 corner = clipCorners[clipPlace(from, i)];

@@ -173,7 +173,6 @@ IRAD_CONST uint LAST_CLASS = 61u;
 struct PiecePoint {
   vec3 position;  ///< voxel units
   uint side;      ///< the piece, | SURFEL_BACK
-  vec3 facing;    ///< of that side, unit
   float lift;     ///< clearAbove, of those that are compared with others
 };
 IRAD_ARRAY(PiecePointArray, PiecePoint, 4)
@@ -301,6 +300,7 @@ struct PieceShapePush {
   UintArray solid, firstPiece;
   Vec4Array corners;
   FloatArray area;    ///< per piece, voxel faces
+  Vec3Array facings;  ///< per piece: the triangle's unit normal
   UintArray boxes;    ///< of SurfaceArrays
   UintArray points;   ///< per piece: PiecePoints
   UintArray cuts;     ///< per piece: words of SurfaceArrays::cuts
@@ -336,6 +336,7 @@ struct ClassPointsPush {
   UintArray firstPiece;  ///< per solid voxel; and the end
   SurfaceRecord surface;
   FloatArray area;
+  Vec3Array facings;     ///< per piece
   UintArray firstPoint;  ///< per piece; and the end
   PiecePointArray points;
   UintArray classes;     ///< per point
