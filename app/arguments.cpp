@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "gi/check/check.h"
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 #include "renderer/scene/sky_image.h"
 
 namespace irad::app {
@@ -34,11 +36,16 @@ Settings SettingArguments::resolve(const Config& from, bool cpuDevice) const {
   if (from.settings) try {
       settingsFromJson(settings, *from.settings);
     } catch (const UsageError& error) {
-      throw UsageError(fmt::format("{}: {}", from.path.string(), error.what()));
+      throw InputError(fmt::format("{}: {}", from.path.string(), error.what()));
     }
   for (const std::string& assignment : set) applySetting(settings, assignment);
   if (seed) settings.matrix.gpu.seed = static_cast<uint32_t>(parseInteger("--seed", *seed, 0, UINT32_MAX));
   return settings;
+}
+
+bool SettingArguments::names(const Config& from, const std::string& setting) const {
+  const bool here = std::ranges::any_of(set, [&](const std::string& s) { return s.starts_with(setting + "="); });
+  return here || (from.settings && nlohmann::json::parse(*from.settings).contains(setting));
 }
 
 bool SettingArguments::sizesAreDefault() const {
@@ -129,24 +136,32 @@ std::vector<Camera> PictureArguments::resolveCameras(const Config& config, const
 
 void SceneArguments::declare(Options& options) {
   options.value("--lights", "JSON", lights, "Lights in place of the scene's, an array as manifests hold it");
+  options.value("--materials", "JSON", materials,
+                "Edits of the scene's materials in place of the sidecar's, an array as manifests hold it");
+  options.values("--hide", "NODE", hidden,
+                 "Leave out a node and all under it, by its path (hall/lamp) or its name; in place of what the sidecar "
+                 "hides (repeatable)");
+  options.value("--isolate", "NODE", isolated, "Show this node and what is under it alone");
   options.value(
       "--sky", "FILE", sky,
       "Picture of the sky, equirectangular (.hdr, .exr, .pfm), or a built-in one (evening); sky.* turn and scale it");
-  options.flag("--no-sidecar", noSidecar, "Leave lights and cameras of SCENE.irad.json aside");
+  options.flag("--no-sidecar", noSidecar, "Leave lights, materials, hidden nodes and cameras of SCENE.irad.json aside");
 }
 
-/// A file that is there, or a built-in one by its name.
+/// A file that is there, or a built-in one by its name: a folder "box" does not hide it.
 static std::optional<fs::path> findFile(const std::string& wanted, const std::string& extension) {
   std::error_code ignored;  // a name that is no path at all does not exist either
-  if (fs::exists(wanted, ignored)) return wanted;
+  const bool folder = fs::is_directory(wanted, ignored);
+  if (!folder && fs::exists(wanted, ignored)) return wanted;
   if (fs::path(wanted).filename() == wanted && !fs::path(wanted).has_extension())
-    for (const fs::path& folder : builtInFolders())
-      if (const fs::path path = folder / (wanted + extension); fs::exists(path, ignored)) return path;
-  return std::nullopt;
+    for (const fs::path& built : builtInFolders())
+      if (const fs::path path = built / (wanted + extension); fs::exists(path, ignored)) return path;
+  return folder ? std::optional<fs::path>(wanted) : std::nullopt;  // whose reader says what it is
 }
 
 void SceneArguments::check() const {
   if (lights) lightsFromJson(*lights, "--lights");
+  if (materials) materialEditsFromJson(*materials, "--materials");
 }
 
 LoadOptions SceneArguments::load(const Config& config, const Settings& settings) const {
@@ -156,6 +171,10 @@ LoadOptions SceneArguments::load(const Config& config, const Settings& settings)
   out.sidecar = !noSidecar && !config.manifest;
   out.lights = config.lights;
   if (lights) out.lights = lightsFromJson(*lights, "--lights");
+  if (config.manifest) out.materials = config.materials;
+  if (materials) out.materials = materialEditsFromJson(*materials, "--materials");
+  if (config.manifest) out.hidden = config.hidden;
+  if (!hidden.empty() || isolated) out.hidden = HiddenNodes{hidden, isolated.value_or("")};
   if (sky || config.sky)
     out.sky = std::make_shared<SkyImage>(readSky(sky ? findFile(*sky, ".pfm").value_or(*sky) : *config.sky));
   return out;
@@ -227,7 +246,8 @@ static std::vector<std::string> listScenes() {
   for (const fs::path& folder : builtInFolders()) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
-      if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
+      if (const fs::path extension = entry.path().extension(); extension == ".glb" || extension == ".irscene")
+        names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -255,7 +275,8 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
     (void)findCheckCase(wanted->substr(wanted->find(':') + 1));
     return *wanted;
   }
-  if (const std::optional<fs::path> path = findFile(*wanted, ".glb")) return *path;
+  for (const char* extension : {".glb", ".irscene"})  // a build without image decoders comes with the latter
+    if (const std::optional<fs::path> path = findFile(*wanted, extension)) return *path;
   throw InputError(fmt::format("{}: no such file; built-in scenes{}", *wanted,
                                builtInScenes().empty() ? ": none found" : suggestion(*wanted, builtInScenes())));
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "app/config.h"
+#include "gi/config.h"
 #include "gi/settings.h"
 #include "renderer/device.h"
 #include "renderer/scene/scene.h"
@@ -20,6 +20,8 @@ struct SettingArguments {
   void declare(Options& options);
   Config readConfig() const;
   Settings resolve(const Config& config, bool cpuDevice) const;
+  /// Whether --set or --config gives a setting.
+  bool names(const Config& config, const std::string& setting) const;
   /// Voxels and rays are the defaults' choice alone, so they may be lowered where memory does not suffice.
   bool sizesAreDefault() const;
 };
@@ -58,14 +60,15 @@ glm::uvec2 parseSize(const std::string& text);
 /// Elements of "a,b,c", empty ones refused.
 std::vector<std::string> splitList(const std::string& option, const std::vector<std::string>& values);
 
-/// --lights, --no-sidecar, --sky.
+/// --lights, --materials, --hide, --isolate, --no-sidecar, --sky.
 struct SceneArguments {
-  std::optional<std::string> lights, sky;
+  std::optional<std::string> lights, materials, isolated, sky;
+  std::vector<std::string> hidden;
   bool noSidecar = false;
   void declare(Options& options);
   void check() const;  ///< checks what it can before a scene is loaded
-  /// How to load the scene. A replayed manifest brings its run's lights; the sidecar, which may have changed since,
-  /// does not count.
+  /// How to load the scene. A replayed manifest brings its run's lights, materials and hidden nodes; the sidecar, which
+  /// may have changed since, does not count.
   LoadOptions load(const Config& config, const Settings& settings) const;
 };
 /// A sky that was given is shown: sky.source becomes `image` where it is `none`. UsageError where it is `image`, and

@@ -134,11 +134,12 @@ TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
   return out;
 }
 
-std::vector<glm::vec4> Bench::pictures(std::span<const View> views) {
+std::vector<glm::vec4> Bench::pictures(std::span<const View> views, const std::function<void()>& whileLit) {
   std::vector<glm::vec4> pixels;
   pipeline_.solvedAfresh({}, [&] {
     pipeline_.settleReflections(camera_, targets_);
     pixels = picturesAsLit(views);
+    if (whileLit) whileLit();
   });
   context_.timings.reset();
   return pixels;

@@ -1,6 +1,7 @@
 // Measuring: one pipeline's stages, several times over, and the machine's copy bandwidth beside it.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -38,7 +39,8 @@ class Bench {
   /// anything has changed (`redraws`: in any case). Leaves camera and lights as they were.
   TickWork ticks(Moving moving, uint32_t count, bool redraws);
   /// Pixels of these views, one view after the other, bottom rows last, of the light that a solve from the dark gives.
-  std::vector<glm::vec4> pictures(std::span<const View> views);
+  /// `whileLit` looks at that light; afterwards it is as it was before.
+  std::vector<glm::vec4> pictures(std::span<const View> views, const std::function<void()>& whileLit = {});
   /// The same of the light as it is.
   std::vector<glm::vec4> picturesAsLit(std::span<const View> views);
 

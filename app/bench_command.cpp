@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "app/bench.h"
@@ -11,6 +12,7 @@
 #include "app/devices.h"
 #include "app/table.h"
 #include "gi/facets.h"
+#include "gi/manifest.h"
 #include "gi/matrix.h"
 #include "renderer/base/compare_timings.h"
 #include "renderer/base/console.h"
@@ -139,10 +141,15 @@ void printComparison(const fs::path& before, const fs::path& after) {
 }
 
 /// --record: the set's calls as a recording (renderer/recording.h).
-void record(const fs::path& folder, const DeviceSession& session, const Bench& bench) {
+void record(const fs::path& folder, const DeviceSession& session, const Bench& bench, Manifest manifest) {
+  manifest.settings = &bench.pipeline().settings();
+  manifest.time = std::time(nullptr);
+  manifest.arguments.insert(manifest.arguments.end(), {"--record", folder.string()});
+  manifest.files = {"frames.csv", "summary.csv", "trace.json"};
   writeRecording(folder, {.device = session.device->info.name,
                           .scene = bench.pipeline().scene().path.filename().string(),
-                          .frames = bench.frames()});
+                          .frames = bench.frames(),
+                          .manifest = manifest.toJson()});
 }
 
 void run(const BenchArguments& arguments) {
@@ -160,6 +167,8 @@ void run(const BenchArguments& arguments) {
   };
   const uint64_t warmup = count("--warmup", arguments.warmup, 3), rebuilds = count("--rebuilds", arguments.rebuilds, 3);
   const ViewInfo view = findViews({arguments.view.value_or("lit")}).at(0);
+  if (view.isFrom(FROM_PICTURE | FROM_ORACLE))
+    throw UsageError(fmt::format("--view {}: has nothing to be drawn from here", view.name));
   (void)versusSettings(arguments.versus, defaultSettings(true), /*cpuDevice=*/true);
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const auto scenePath = findScene(arguments.scene, early, "box");
@@ -220,8 +229,14 @@ void run(const BenchArguments& arguments) {
   }
   if (arguments.record) {
     const fs::path folder = *arguments.record;
+    Manifest manifest = session.manifest("bench", sets[0]->pipeline());
+    manifest.size = size;
+    manifest.frames = frames;
+    manifest.cameras = {camera};
+    manifest.views = {view.name};
+    manifest.arguments = {"--warmup", std::to_string(warmup), "--rebuilds", std::to_string(rebuilds)};
     for (size_t i = 0; i < sets.size(); ++i)
-      record(sets.size() == 1 ? folder : folder / (i == 0 ? "settings" : "versus"), session, *sets[i]);
+      record(sets.size() == 1 ? folder : folder / (i == 0 ? "settings" : "versus"), session, *sets[i], manifest);
   }
   session.checkValidation();
 }
@@ -235,9 +250,10 @@ Command benchCommand() {
       [arguments](Options& options) {
         options.argument("SCENE", arguments->scene, sceneHelp() + "; default: box");
         options.value("--csv", "FILE", arguments->csv, "Write the table as CSV too");
-        options.value("--record", "DIR", arguments->record,
-                      "Write a recording: frames.csv, summary.csv and trace.json, which Perfetto opens (with --versus "
-                      "into DIR/settings and DIR/versus)");
+        options.value(
+            "--record", "DIR", arguments->record,
+            "Write a recording: frames.csv, summary.csv, manifest.json and trace.json, which Perfetto opens (with "
+            "--versus into DIR/settings and DIR/versus)");
         options.pair("--compare", "DIR DIR", arguments->compare,
                      "Measure nothing: compare two recordings stage by stage, the second's times over the first's");
         options.flag("--ui", arguments->ui,

@@ -1,10 +1,8 @@
 #include "app/blender_pictures.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include "app/named_experiment.h"
@@ -21,17 +19,8 @@ fs::path script() {
   return sharedFolder() / "tools/cycles_reference.py";
 }
 
-/// As a shell finds it; empty: it does not.
 fs::path blender() {
-  const char* const path = std::getenv("PATH");
-  std::string_view rest = path ? path : "";
-  while (!rest.empty()) {
-    const size_t colon = std::min(rest.find(':'), rest.size());
-    const fs::path candidate = fs::path(rest.substr(0, colon)) / "blender";
-    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
-    rest.remove_prefix(std::min(colon + 1, rest.size()));
-  }
-  return {};
+  return findProgram("blender");
 }
 
 struct Parts {

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/arguments.h"
@@ -138,8 +136,7 @@ std::string toMarkdown(const std::vector<Result>& results) {
 
 /// Writes the table in place of the one that the file holds; into a new file otherwise.
 void writeMarkdown(const std::string& path, const std::string& table) {
-  std::ifstream in(path);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = readFile(path);
   const size_t start = text.find(kTableHead);
   if (!text.empty() && start == std::string::npos)
     throw UsageError(fmt::format("--markdown: {} exists and holds no table of hard cases", path));

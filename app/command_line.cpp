@@ -16,6 +16,9 @@
 namespace irad::app {
 namespace {
 
+/// Of options that are given at most once; checkValues() refuses the others.
+constexpr auto kOnce = CLI::MultiOptionPolicy::TakeLast;
+
 class CliOptions : public Options {
  public:
   explicit CliOptions(CLI::App& app) : app_(app) {}
@@ -25,8 +28,7 @@ class CliOptions : public Options {
   }
   void value(const std::string& name, const std::string& placeholder, std::optional<std::string>& value,
              const std::string& help) override {
-    // Options given twice are an error; neither value is chosen silently.
-    app_.add_option(name, value, help)->type_name(placeholder)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    app_.add_option(name, value, help)->type_name(placeholder)->multi_option_policy(kOnce);
   }
   void values(const std::string& name, const std::string& placeholder, std::vector<std::string>& values,
               const std::string& help) override {
@@ -34,7 +36,7 @@ class CliOptions : public Options {
   }
   void pair(const std::string& name, const std::string& placeholder,
             std::optional<std::pair<std::string, std::string>>& value, const std::string& help) override {
-    app_.add_option(name, value, help)->type_name(placeholder)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    app_.add_option(name, value, help)->type_name(placeholder)->multi_option_policy(kOnce);
   }
   void argument(const std::string& name, std::optional<std::string>& value, const std::string& help) override {
     app_.add_option(name, value, help)->type_name("");
@@ -69,6 +71,21 @@ void refuseExtras(const CLI::App& app, const std::string& where) {
   throw UsageError(fmt::format("{}: unexpected argument '{}'", where, extras.front()));
 }
 
+/// An option given twice is an error, neither value is chosen silently; so is an empty value, which a script's unset
+/// variable makes.
+void checkValues(const CLI::App& app, const std::string& where) {
+  for (const CLI::Option* option : app.get_options()) {
+    const auto expected = static_cast<size_t>(std::max(option->get_items_expected_max(), 0));
+    if (option->count() == 0 || expected == 0) continue;
+    const std::string name = option->get_name();
+    if (option->get_multi_option_policy() == kOnce && option->count() > expected)
+      throw UsageError(
+          fmt::format("{}: {} is given {} times; it may be given once", where, name, option->count() / expected));
+    for (const std::string& value : option->results())
+      if (value.empty()) throw UsageError(fmt::format("{}: {} is empty", where, name));
+  }
+}
+
 struct Parsed {
   const Command* command = nullptr;
   bool done = false;  ///< --help, --version and the like have been answered
@@ -96,6 +113,13 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
   } catch (const CLI::CallForHelp&) {
     print("{}", app.help());  // the help of the subcommand, where one was named
     return {nullptr, true};
+  } catch (const CLI::ArgumentMismatch& error) {
+    // "--out: 1 required DIR missing"
+    const std::string text = error.what();
+    const size_t colon = text.find(": "), wanted = text.find(" required "), end = text.rfind(" missing");
+    if (colon == text.npos || wanted == text.npos || end == text.npos || end < wanted + 10) throw UsageError(text);
+    throw UsageError(fmt::format("{}: its value is missing: {}", text.substr(0, colon),
+                                 text.substr(wanted + 10, end - wanted - 10)));
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
@@ -110,6 +134,7 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
   for (size_t i = 0; i < commands.size(); ++i) {
     if (!subcommands[i]->parsed()) continue;
     refuseExtras(*subcommands[i], "irad " + commands[i].name);
+    checkValues(*subcommands[i], "irad " + commands[i].name);
     return {&commands[i], false};
   }
   std::vector<std::string> names;

@@ -101,7 +101,7 @@ std::string gridJson(const Scene& scene, const Grid& grid) {
 fs::path exportRecord(DeviceSession& session, const Pipeline& pipeline, const Inspector& inspector,
                       const glm::uvec3& voxel, const fs::path& folder) {
   const SolveHistory history =
-      replaySolve(*session.context, pipeline, inspector.facetsOf(voxel),
+      replaySolve(*session.context, pipeline, inspector.places().facetsOf(voxel),
                   [&](const char* stage, float fraction) { return session.progress(stage, fraction); });
   const fs::path path = folder / "inspect.json";
   writeFile(path, inspectJson(inspector.voxel(voxel), inspector.grid(), pipeline.facets().encoding, history));
@@ -118,7 +118,7 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
   const fs::path out = arguments.out.value_or("out");
-  makeFolder(out);
+  const MadeFolder folder(out);
   // Exports need matrix and field, whether or not a picture calls for them.
   for (EffectMode* asked : {&session.settings.effects.matrix, &session.settings.effects.field})
     if (*asked == EffectMode::automatic) *asked = EffectMode::on;

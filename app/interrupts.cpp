@@ -29,8 +29,12 @@ bool StopOnSignal::came() const {
   return stoppedBy != 0;
 }
 
+bool isStopped() {
+  return stoppedBy != 0;
+}
+
 void throwIfStopped() {
-  if (stoppedBy != 0) throw WorkError("stopped by a signal; the same command goes on from here");
+  if (isStopped()) throw WorkError("stopped by a signal; the same command goes on from here");
 }
 
 }  // namespace irad::app

@@ -18,7 +18,9 @@ class StopOnSignal {
   struct sigaction interrupt_ {
   }, terminate_{};
 };
-/// WorkError where a signal was noted.
+/// Whether a signal was noted.
+bool isStopped();
+/// WorkError where one was.
 void throwIfStopped();
 
 }  // namespace irad::app

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <numeric>
+#include <set>
 
 #include "app/blender_pictures.h"
 #include "app/interrupts.h"
@@ -30,6 +30,7 @@
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
+#include "renderer/scene/scene_content.h"
 
 namespace irad::app {
 namespace {
@@ -45,11 +46,6 @@ fs::path cyclesPicture() {
 }
 fs::path secondCyclesPicture() {
   return sharedFolder() / "scenes/references/sponza_lit_diffuse_seed1.exr";
-}
-
-std::string textOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void writeFigures(const fs::path& folder, const std::map<std::string, double>& figures) {
@@ -112,14 +108,16 @@ std::optional<fs::path> findSponza(const std::optional<std::string>& given) {
 }
 
 ExperimentRunner::ExperimentRunner(DeviceSession& session, const MeasureArguments& measure, const StudyScale& scale,
-                                   std::optional<fs::path> sponza, Shard shard, uint32_t seeds, uint32_t repeats)
+                                   std::optional<fs::path> sponza, Shard shard, uint32_t seeds, uint32_t repeats,
+                                   fs::path truths)
     : session_(session),
       measure_(measure),
       scale_(scale),
       sponza_(std::move(sponza)),
       shard_(shard),
       seeds_(seeds),
-      repeats_(repeats) {}
+      repeats_(repeats),
+      truths_{.folder = std::move(truths), .user = {}, .users = {}} {}
 
 /// Presets, then the scale, then the experiment's own, then --set.
 Settings ExperimentRunner::base(const Experiment& e) const {
@@ -167,7 +165,10 @@ const Scene& ExperimentRunner::sceneOf(const Experiment& e) {
     const fs::path path = e.scene == "sponza" ? *sponza_ : findScene(e.scene, session_.config, std::nullopt);
     SceneArguments options = measure_.sceneOptions;
     options.noSidecar = true;
+    const Settings before = session_.settings;
     scene_ = session_.load(path, options);
+    session_.settings = before;  // the experiment's, whether or not its scene was there already
+    sceneContent_ = sceneContent(*scene_);
     loaded_ = wanted;
   }
   return *scene_;
@@ -183,6 +184,7 @@ StudyTask ExperimentRunner::taskOf(const Experiment& e, const Scene& scene, cons
   task.camera = camera.resolveCameras({}, scene).at(0);
   task.size = measure_.picture.size ? parseSize(*measure_.picture.size) : glm::uvec2(scale_.width, scale_.height);
   task.seeds = seeds_, task.repeats = repeatsOf(e), task.shard = shard_;
+  task.sharedTruths = &truths_;
   switch (e.truth) {
     case TruthKind::PathTracer:
       task.truth.samples =
@@ -216,7 +218,57 @@ StudyTask ExperimentRunner::taskOf(const Experiment& e, const Scene& scene, cons
   return task;
 }
 
-void ExperimentRunner::run(const Experiment& e, const fs::path& folder) {
+ExperimentsAhead ExperimentRunner::ahead(std::vector<std::pair<Experiment, fs::path>> experiments) {
+  // Scene after scene, so that each is loaded once.
+  std::ranges::stable_sort(experiments, {}, [](const auto& e) { return e.first.scene; });
+  ExperimentsAhead out;
+  std::set<std::string> truths;
+  std::map<std::string, double> ofPicture;  // seconds, by scene
+  for (const auto& [e, folder] : experiments) {
+    throwIfStopped();
+    if (!whyNot(e).empty()) continue;
+    const SettingGrid grid = gridOf(e);
+    std::vector<size_t> points;
+    for (size_t point = 0; point < grid.size(); ++point)
+      if (shard_.has(point)) points.push_back(point);
+    if (points.empty()) continue;
+    ++out.experiments, out.points += points.size();
+    session_.settings = grid.base();
+    const Scene& scene = sceneOf(e);
+    const bool computed = e.truth != TruthKind::Cycles && e.truth != TruthKind::Blender;
+    StudyTask task =
+        computed ? taskOf(e, scene, folder) : taskOf({.scene = e.scene, .camera = e.camera}, scene, folder);
+    task.repeats = repeatsOf(e);
+    std::error_code ignored;
+    const bool begun = fs::exists(folder / "study.json", ignored);
+    double pictures =
+        picturesMissing(begun ? readResults(folder) : StudyResults{}, points, grid.base().matrix.gpu.seed, task);
+    out.pictures += pictures;
+    bool trace = false;
+    if (computed) {
+      ++out.asking;
+      const TruthRecipe recipe = *truthRecipe(session_, task, scene, sceneContent_, grid.settings(0).sky);
+      if (truths.insert(recipe.name()).second && !TruthStore(truths_.folder).has(recipe)) {
+        ++out.missing;
+        trace = task.truth.samples.has_value();
+        if (!trace) pictures += 2;
+      }
+    }
+    if (trace) out.seconds += secondsOfTruth(scene, grid.settings(0).sky, task);
+    if (pictures == 0) continue;
+    const auto [one, first] = ofPicture.try_emplace(e.scene, 0);
+    if (first) {
+      session_.progress("trial", 0);
+      one->second = secondsOfPicture(session_, scene, grid.settings(points.front()), task);
+    }
+    out.seconds += pictures * one->second;
+  }
+  out.truths = truths.size();
+  return out;
+}
+
+void ExperimentRunner::run(const Experiment& e, const fs::path& folder, const std::string& who) {
+  truths_.user = who;
   makeFolder(folder);
   if (const std::string why = whyNot(e); !why.empty()) {
     session_.progress.note("  skipped: " + why);
@@ -225,6 +277,10 @@ void ExperimentRunner::run(const Experiment& e, const fs::path& folder) {
   }
   removeFile(folder / kSkipped);
   const SettingGrid grid = gridOf(e);
+  if (shard_.part > grid.size()) {
+    session_.progress.note("  no point of this shard");
+    return;
+  }
   session_.settings = grid.base();
   try {
     const Scene& scene = sceneOf(e);
@@ -302,7 +358,7 @@ void ExperimentRunner::measureTables(const Scene& scene, const Settings& setting
 // ---- Folders ----
 
 std::string readSkipped(const fs::path& folder) {
-  return textOf(folder / kSkipped);
+  return readFile(folder / kSkipped);
 }
 
 std::map<std::string, double> readFigures(const fs::path& folder) {
@@ -350,7 +406,7 @@ void mergeExperiment(const std::vector<fs::path>& shards, const fs::path& out) {
   std::map<std::string, double> figures = readFigures(out);
   for (const fs::path& shard : measured) {
     for (const auto& [name, value] : readFigures(shard)) figures[name] = value;
-    if (const std::string memory = textOf(shard / kMemory); !memory.empty()) writeFile(out / kMemory, memory);
+    if (const std::string memory = readFile(shard / kMemory); !memory.empty()) writeFile(out / kMemory, memory);
   }
   writeFigures(out, figures);
   writeReport(out, irad::gridOf(readIdentity(out)), readResults(out), readNotes(out));

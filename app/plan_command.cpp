@@ -101,6 +101,7 @@ std::string proofTables(const Proof& proof, Format format) {
 void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, const DeviceInfo& device) {
   nlohmann::ordered_json out{{"scene", scene.path.string()}, {"device", device.name}};
   out["effects"] = nlohmann::ordered_json::parse(planJson(plan));
+  if (!plan.nothingDiffuse.empty()) out["nothing_diffuse"] = plan.nothingDiffuse;
   for (size_t i = 0; i < rows.size(); ++i)
     for (const auto& [name, ms] : rows[i].figures)
       out["effects"][i]["ms_not_spent"][name.substr(0, name.find('_'))] = ms;
@@ -120,6 +121,7 @@ void show(const Subject& subject, const PlanArguments& arguments) {
   } else {
     constexpr const char* kColumns = "effect state skip epsilon epsilon_of mib_not_allocated {} reason";
     print("{}", aligned(table(rows, fmt::format(kColumns, arguments.measure ? kTimes : ""))));
+    for (const std::string& line : plan.nothingDiffuse) print("{}\n", line);
     print("{} MiB not allocated in all{}\n", numberText(inMebibytes(plan.bytesNotAllocated())),
           arguments.measure ? "; milliseconds that the effect would take, by the median" : "");
   }

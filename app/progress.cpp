@@ -6,22 +6,36 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "gi/config.h"
 #include "renderer/base/console.h"
 
 namespace irad::app {
 
+constexpr const char* kClearLine = "\r\x1b[K";  // of a terminal
+
 ProgressReport::ProgressReport() : terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressReport::finish() {
-  if (barShown_) tell("\r\x1b[K");
+  if (barShown_) writeStandardError(kClearLine);
   barShown_ = false;
 }
 
-std::string timeLeft(double seconds) {
+void warnIfOther(ProgressReport& progress, const Config& config, const std::filesystem::path& path,
+                 const std::string& sha256, const std::optional<std::string>& named) {
+  if (named && *named != sha256)
+    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
+                              config.path.string(), sha256, *named));
+}
+
+std::string duration(double seconds) {
   const auto s = static_cast<int64_t>(std::clamp(seconds, 0.0, 1e12) + 0.5);
-  if (s < 60) return fmt::format("{} s left", s);
-  if (s < 3600) return fmt::format("{} min {:02} s left", s / 60, s % 60);
-  return fmt::format("{} h {:02} min left", s / 3600, s / 60 % 60);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+}
+
+std::string timeLeft(double seconds) {
+  return duration(seconds) + " left";
 }
 
 bool ProgressReport::operator()(const char* step, float fraction, const std::string& remark) {
@@ -33,8 +47,9 @@ bool ProgressReport::operator()(const char* step, float fraction, const std::str
   remark_ = remark;
   if (terminal_) {
     const int filled = percent * 30 / 100;
-    tell("\r\x1b[K[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step,
-         remark.empty() ? "" : ", ", remark);
+    writeStandardError(kClearLine);
+    tell("[{:#<{}}{:.<{}}] {:3} % {}{}{}", "", filled, "", 30 - filled, percent, step, remark.empty() ? "" : ", ",
+         remark);
     barShown_ = true;
   } else if (fresh) {
     tell("{}\n", step);

@@ -1,7 +1,13 @@
 // Progress on standard error: a bar on a terminal, a plain line per step otherwise.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
+
+namespace irad {
+struct Config;
+}
 
 namespace irad::app {
 
@@ -22,7 +28,11 @@ class ProgressReport {
   bool barShown_ = false;
 };
 
-/// "2 h 05 min left"
-std::string timeLeft(double seconds);
+/// Warns where a file is not the one that the config `named` by its SHA-256.
+void warnIfOther(ProgressReport& progress, const Config& config, const std::filesystem::path& path,
+                 const std::string& sha256, const std::optional<std::string>& named);
+
+std::string duration(double seconds);  ///< "45 s", "3 min 07 s", "2 h 05 min"
+std::string timeLeft(double seconds);  ///< "2 h 05 min left"
 
 }  // namespace irad::app

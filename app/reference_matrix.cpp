@@ -63,7 +63,7 @@ void solveMatrix(const Arguments& arguments, const Task& task, DeviceSession& se
   if (session.settings.solver.method != SolverMethod::matrix)
     throw UsageError("--of matrix: solver.method = brute_force has no matrix");
   if (session.settings.effects.matrix == EffectMode::automatic) session.settings.effects.matrix = EffectMode::on;
-  beginFiles(task);
+  const auto folder = beginFiles(task);  // goes again where the work fails
   const auto start = std::chrono::steady_clock::now();
   const StopOnSignal interrupts;
   Pipeline pipeline(*session.context, std::move(scene), session.settings);
@@ -91,7 +91,7 @@ void solveMatrix(const Arguments& arguments, const Task& task, DeviceSession& se
     addLayer(layers, name, drawn(session, pipeline, camera, viewOf(name), targets), std::nullopt);
   Json bounces;
   if (task.bounces > 0) bounces = drawBounces(task, session, pipeline, camera, exact, targets, layers);
-  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers);
+  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers, subjectOf(task, camera));
   if (arguments.facets) written.push_back(writePerFacet<double>(task.beside(".irradiance.npy"), exact.indirect));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Json truth{{"of", task.of},        {"layers", task.layers},

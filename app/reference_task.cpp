@@ -12,6 +12,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
 #include "renderer/frame/transfer.h"
+#include "renderer/scene/camera_json.h"
 #include "renderer/targets.h"
 
 namespace irad::app::reference {
@@ -105,9 +106,10 @@ void addLayer(std::vector<PictureLayer>& layers, const std::string& name, std::v
   if (error) layers.push_back({first ? "error" : name + ".error", std::move(*error)});
 }
 
-void beginFiles(const Task& task) {
-  makeFolder(task.stem.has_parent_path() ? task.stem.parent_path() : fs::path("."));
+std::unique_ptr<MadeFolder> beginFiles(const Task& task) {
+  auto folder = std::make_unique<MadeFolder>(task.stem.has_parent_path() ? task.stem.parent_path() : fs::path("."));
   removeFile(task.beside(".json"));
+  return folder;
 }
 
 void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest, const Camera& camera,
@@ -138,6 +140,10 @@ Camera cameraOf(const Arguments& arguments, const Task& task, const Scene& scene
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(task.config, scene);
   if (cameras.size() != 1) throw UsageError(fmt::format("--camera: one, not {}", cameras.size()));
   return cameras[0];
+}
+
+PictureSubject subjectOf(const Task& task, const Camera& camera) {
+  return {cameraToJson(camera), task.layers.front()};
 }
 
 std::string bounceName(size_t reflections) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -83,11 +84,15 @@ std::string bounceName(size_t reflections);  ///< of the layer
 Json tellBounces(const glm::dvec3& lit, const std::vector<glm::dvec3>& bounces, const std::vector<glm::dvec3>& errors);
 
 /// Checks that the results can be written, and takes the last run's manifest away, which vouches for its files.
-void beginFiles(const Task& task);
+/// The folder goes with what is returned, where nothing was written into it.
+std::unique_ptr<MadeFolder> beginFiles(const Task& task);
 void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest, const Camera& camera,
                  const Json& truth, std::vector<std::filesystem::path> written);
 
 Camera cameraOf(const Arguments& arguments, const Task& task, const Scene& scene);
+
+/// What the picture's header says.
+PictureSubject subjectOf(const Task& task, const Camera& camera);
 
 /// Compares what a state was made of with what is asked for; UsageError names the member that differs.
 void checkMade(const std::filesystem::path& state, const Json& before, const Json& made);

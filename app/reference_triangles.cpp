@@ -87,7 +87,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
   const Json made = madeOf(scene, settings, camera, options);
   TracedSums sums = resumed(task, arguments.resume, made);
   const uint32_t before = sums.samples;
-  beginFiles(task);
+  const auto folder = beginFiles(task);  // goes again where the work fails
 
   const auto tracer = makePathTracer(scene, makeSky(settings.sky, skyInputs(scene, scene.lights)));
   const uint64_t most = task.spp || task.seconds || task.noise ? task.spp.value_or(0) : kUsualSamples;
@@ -130,7 +130,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
   const bool whole = !interrupts.came() || goal.reached(sums.samples, noise);
 
   save();
-  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers);
+  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers, subjectOf(task, camera));
   written.push_back(task.beside(".state"));
   Manifest manifest{.program = {versionNumber(), versionCommit()},
                     .subcommand = "reference",

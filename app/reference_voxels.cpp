@@ -78,7 +78,7 @@ void traceVoxels(const Arguments& arguments, const Task& task, DeviceSession& se
   const uint32_t before = state ? state->frames.frames : 0;
   const double secondsBefore = state ? state->seconds : 0;
   settings.solver.frames = std::max(settings.solver.frames, before);
-  beginFiles(task);
+  const auto folder = beginFiles(task);  // goes again where the work fails
 
   Pipeline pipeline(*session.context, std::move(scene), settings);
   const StopOnSignal interrupts;
@@ -134,7 +134,7 @@ void traceVoxels(const Arguments& arguments, const Task& task, DeviceSession& se
   }
   for (size_t l = 0; l < values.size(); ++l) addLayer(layers, task.layers[l], std::move(values[l]), error);
 
-  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers);
+  std::vector<fs::path> written = writeLayers(task.stem, task.size, layers, subjectOf(task, camera));
   std::error_code ignored;
   if (fs::exists(task.beside(".state"), ignored)) written.push_back(task.beside(".state"));
   if (arguments.facets) {

@@ -69,6 +69,8 @@ PictureFiles renderPicture(DeviceSession& session, Pipeline& pipeline, const Cam
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     session.timings.endFrame(i, /*setup=*/false, elapsed.count());
   }
+  if (withLegend && view.toneMapped() && !view.isFrom(FROM_PICTURE))
+    return writePicture(*session.context, targets, view, stem, nullptr, pipeline.plan().nothingDiffuse);
   if (!withLegend || !view.hasRange()) return writePicture(*session.context, targets, view, stem);
   const Legend legend = legendOf(*session.context, targets, view, session.settings);
   return writePicture(*session.context, targets, view, stem, &legend);
@@ -136,6 +138,29 @@ void summarize(const DeviceSession& session, const Pipeline& pipeline) {
         inMebibytes(session.device->memory().used()), static_cast<double>(usage.ru_maxrss) / 1024);
 }
 
+/// Refuses views that were `asked` for by name and have nothing to be drawn from, and leaves out such of the others,
+/// which `all` or a manifest brings; a note that says so, or nothing. UsageError where none is left.
+std::string takeDrawable(std::vector<ViewInfo>& chosen, const std::vector<std::string>& asked, bool reference,
+                         const fs::path& scene) {
+  std::vector<std::string> leftOut;
+  std::string why;
+  std::erase_if(chosen, [&](const ViewInfo& view) {
+    try {
+      requireInput(view, reference, scene);
+    } catch (const UsageError& error) {
+      if (std::ranges::find(asked, view.name) != asked.end()) throw;
+      leftOut.emplace_back(view.name);
+      why = error.what();
+      return true;
+    }
+    return false;
+  });
+  if (chosen.empty()) throw UsageError(why);
+  return leftOut.empty()
+             ? ""
+             : fmt::format("left out, for want of a reference picture or an oracle: {}", fmt::join(leftOut, ", "));
+}
+
 void run(const RenderArguments& arguments) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
@@ -145,24 +170,31 @@ void run(const RenderArguments& arguments) {
   const std::vector<std::string> wanted = !arguments.views.empty() ? splitList("--view", arguments.views)
                                           : !early.views.empty()   ? early.views
                                                                    : std::vector<std::string>{"lit"};
-  const std::vector<ViewInfo> chosen = findViews(wanted);
+  std::vector<ViewInfo> chosen = findViews(wanted);
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const uint32_t frames = arguments.picture.resolveFrames(early, 1);
   std::optional<glm::uvec3> inspected;
   if (arguments.inspect) inspected = parseVoxel("--inspect", *arguments.inspect);
   const fs::path scenePath = findScene(arguments.scene, early, std::nullopt);
+  const std::string leftOut = takeDrawable(chosen, arguments.views.empty() ? std::vector<std::string>{} : wanted,
+                                           arguments.reference.given(early), scenePath);
 
   DeviceSession session(arguments.settings, arguments.device);
+  if (!leftOut.empty()) session.progress.note(leftOut);
+  const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
+  if (reference && arguments.reference.file) requireSize(*reference, size);  // a manifest's was scaled by the window
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const std::vector<Camera> cameras = arguments.picture.resolveCameras(session.config, scene);
+  if (reference && std::ranges::any_of(chosen, [](const ViewInfo& view) { return view.isFrom(FROM_PICTURE); }))
+    for (const Camera& camera : cameras) requireSubject(*reference, camera, reference->of);
   const fs::path out = arguments.out.value_or("out");
-  makeFolder(out);
+  const MadeFolder folder(out);
 
   ExpectedIrradiance expected = expectedIrradiance(scene);
   Pipeline pipeline(*session.context, std::move(scene), session.settings, std::move(expected));
-  const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
-  if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels);
+  if (reference) pipeline.setReference(reference->picture.size, reference->picture.pixels, reference->of);
   session.prepare(pipeline);
+  for (const std::string& line : pipeline.plan().nothingDiffuse) session.progress.note("note: " + line);
   if (std::ranges::find(wanted, "all") == wanted.end())
     for (const ViewInfo& view : chosen)
       if (const std::string missing = whatIsMissing(view, pipeline.obeyed()); !missing.empty())
@@ -170,7 +202,7 @@ void run(const RenderArguments& arguments) {
   if (inspected) {
     const Inspector inspector(*session.context, pipeline);
     inspector.requireFacets(*inspected);
-    session.settings.view.facet = inspector.facetsOf(*inspected).front();
+    session.settings.view.facet = inspector.places().facetsOf(*inspected).front();
     pipeline.set(session.settings);
     session.prepare(pipeline);
   }
@@ -235,7 +267,10 @@ Command renderCommand() {
             options.value("--out", "DIR", arguments->out, "Folder for the results (default: out)");
             options.values("--view", "NAME[,NAME...]", arguments->views,
                            "Views to render, or `all` (repeatable; default: lit); `irad views` lists them");
-            options.flag("--legend", arguments->legend, "Draw the legend into the PNGs of views with a range");
+            options.flag(
+                "--legend", arguments->legend,
+                "Draw the legend into the PNGs of views with a range, and why pictures of light are black where they "
+                "are");
             options.value("--inspect", "X,Y,Z", arguments->inspect,
                           "Voxel whose first facet's row the view matrix-row shows (sets view.facet)");
             arguments->picture.declare(options);

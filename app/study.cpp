@@ -40,7 +40,10 @@ TruthSource truthOf(const MeasureArguments& a, DeviceSession& session, const std
     return out;
   }
   out.file = *a.reference.read(session.config, session.progress);
-  if (a.secondReference) out.secondFile = readReference(*a.secondReference);
+  if (a.secondReference) {
+    out.secondFile = readReference(*a.secondReference);
+    if (!out.secondFile->note.empty()) session.progress.note("warning: " + out.secondFile->note);
+  }
   return out;
 }
 
@@ -92,6 +95,9 @@ std::pair<Scene, StudyTask> MeasureArguments::open(DeviceSession& session, const
   task.repeats = static_cast<uint32_t>(parseInteger("--repeats", repeats.value_or(few), 1, 100'000));
   task.truth = truthOf(*this, session, command, otherwise);
   task.view = findViews({view.value_or(task.truth.samples ? "indirect" : "lit")}).at(0);
+  if (task.view.isFrom(FROM_PICTURE))
+    throw UsageError(
+        fmt::format("--view {}: a study compares what the program draws with the reference", task.view.name));
   if (task.truth.samples) requirePathTracer(task.view, session.settings);
   Scene loaded = session.load(findScene(scene, session.config, std::nullopt), sceneOptions);
   task.camera = picture.resolveCameras(session.config, loaded).at(0);

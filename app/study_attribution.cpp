@@ -9,6 +9,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "app/devices.h"
+#include "app/interrupts.h"
 #include "app/table.h"
 #include "gi/check/exact_solve.h"
 #include "gi/facets.h"
@@ -267,6 +268,7 @@ class StagePictures {
       }
     double done = 0;
     for (const auto& [seed, ideals] : due) {
+      throwIfStopped();
       const std::chrono::duration<double> elapsed = Clock::now() - started_;
       session_.progress("pictures", static_cast<float>((all - left) / all),
                         done > 0 ? timeLeft(elapsed.count() / done * left) : "");
@@ -471,8 +473,10 @@ void attributionStudy(const MeasureArguments& measure, const AttributionArgument
   study.out = measure.out.value_or("out/attribution");
   study.seeds = seeds;
   const fs::path out = study.out;
+  const MadeFolder folder(out);
   const glm::uvec2 size = study.size;
   const float exposure = std::exp2(session.settings.camera.exposureEv);
+  const StopOnSignal stop;
   StudyRun run(session, std::move(loaded), SettingGrid(std::vector<std::string>{}, session.settings), std::move(study));
   StagePictures pictures(session, run, task);
   pictures.measure();

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "app/devices.h"
+#include "app/interrupts.h"
 #include "app/study.h"
 #include "app/study_attribution.h"
 #include "app/study_merge.h"
@@ -27,7 +28,7 @@ struct StudyArguments {
   AttributionArguments attribution;
   BudgetArguments budget;  ///< of pick
   std::vector<std::string> peers;
-  std::optional<std::string> shard, peerSamples;
+  std::optional<std::string> shard, peerSamples, facetRays;
   NamedArguments named;
 };
 
@@ -43,12 +44,18 @@ void costStudy(const StudyArguments& a) {
   for (const std::string& samples : splitList("--peer-samples", {a.peerSamples.value_or("2,8,32,128")}))
     if (const uint32_t n = evenSamples("--peer-samples", samples); !a.peers.empty()) peerSamples.push_back(n);
 
+  std::optional<uint64_t> facetRays;
+  if (a.facetRays) facetRays = parseInteger("--facet-rays", *a.facetRays, kFewestFacetRays, kMostFacetRays);
+
   DeviceSession session(a.measure.settings, a.measure.device);
   const std::optional<std::string> name = a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt;
   auto [scene, task] = a.measure.open(session, "irad study cost", name);
   const fs::path out = task.out = a.measure.out.value_or("out/study");
+  const MadeFolder folder(out);
   task.shard = shard;
   task.peerSamples = std::move(peerSamples);
+  task.facetRays = facetRays;
+  const StopOnSignal stop;
   StudyRun run(session, std::move(scene), SettingGrid(a.measure.sweeps, session.settings), std::move(task));
   run.measure();
   finishStudy(out, run.grid(), run.results(), run.notes());
@@ -67,6 +74,7 @@ void mergeShards(const StudyArguments& arguments) {
   if (shards.empty()) throw UsageError("irad study merge: no folders given");
   if (!arguments.measure.out) throw UsageError("irad study merge: no --out DIR");
   const fs::path out = *arguments.measure.out;
+  const MadeFolder folder(out);
   if (isNamedStudy(shards.front())) return mergeNamedStudies(shards, out);
   mergeStudies(shards, out);
   finishStudy(out, gridOf(readIdentity(out)), readResults(out), readNotes(out));
@@ -138,6 +146,11 @@ Command studyCommand() {
             options.values("--peer", "NAME", arguments->peers, "Measure another renderer too: path-tracer");
             options.value("--peer-samples", "N[,N...]", arguments->peerSamples,
                           "Its samples per pixel, even (default 2,8,32,128)");
+            options.value("--facet-rays", "N", arguments->facetRays,
+                          "cost: hold the facets' H, too, against a truth of its own: brute force on each point's "
+                          "facets, twice, of N rays per facet each, 1000 to 7000000. Of H h against the two, r and s, "
+                          "m their mean, over facets and channels: relMSE = mean (h - r)(h - s) / (m^2 + (0.1 mean "
+                          "m)^2), RMSE = sqrt mean (h - r)(h - s)");
             arguments->attribution.declare(options);
             arguments->budget.declare(options, "pick: ");
             arguments->named.declare(options);

@@ -20,6 +20,7 @@
 #include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
+#include "renderer/image_io.h"
 
 namespace irad::app {
 namespace {
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-const char *const kAll = "thesis", *const kNamedFile = "named.json";
+const char *const kAll = "thesis", *const kNamedFile = "named.json", *const kTruths = "truths";
 
 /// What a folder holds: named.json.
 struct NamedFolder {
@@ -115,8 +116,8 @@ void printFindings(const NamedReport& report) {
   }
 }
 
-/// All that is made of what lies in the folders.
-void report(const fs::path& root, const NamedFolder& named) {
+/// All that is made of what lies in the folders; `asked`: the study whose findings are printed, or all of them.
+void report(const fs::path& root, const NamedFolder& named, const std::string& asked) {
   const StudyScale& scale = findScale(named.scale);
   std::vector<NamedReport> reports;
   for (const NamedStudy* study : named.studies()) {
@@ -132,8 +133,9 @@ void report(const fs::path& root, const NamedFolder& named) {
         fmt::format("Device: {}{}", named.device, named.cpu ? "; the thesis's was a GPU (AMD Radeon RX 7700 XT)" : ""),
         "Every sentence and verdict under \"measured here\" is computed from the figures below it"};
     if (std::string_view(study->name) == "tables") r.tables = thesisTables(folder, r.results);
-    writeNamedReport(folder, r);
-    printFindings(r);
+    std::error_code ignored;
+    if (fs::exists(folder, ignored)) writeNamedReport(folder, r);  // a thesis may have some of its questions
+    if (asked == named.name || asked == study->name) printFindings(r);
     reports.push_back(std::move(r));
   }
   if (named.name == kAll) writeThesisReport(root, reports);
@@ -155,6 +157,20 @@ void refuseOthers(const std::string& name, const MeasureArguments& m) {
     if (given)
       throw UsageError(fmt::format("irad study {}: {} is the experiments' own; --set changes settings of all of them",
                                    name, option));
+}
+
+/// So that a merged study can be gone on with. What a truth is vouched for by comes last.
+void mergeTruths(const std::vector<fs::path>& shards, const fs::path& out) {
+  for (const fs::path& shard : shards) {
+    std::error_code ignored;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(shard / kTruths, ignored)) files.push_back(entry.path());
+    if (!files.empty()) makeFolder(out / kTruths);
+    std::stable_partition(files.begin(), files.end(), [](const fs::path& file) { return file.extension() != ".json"; });
+    for (const fs::path& file : files)
+      if (file.extension() == ".json" || file.extension() == linearExtension())
+        fs::copy_file(file, out / kTruths / file.filename(), fs::copy_options::skip_existing, ignored);
+  }
 }
 
 struct Work {
@@ -211,13 +227,14 @@ void runNamedStudy(const std::string& name, const MeasureArguments& measure, con
   std::error_code ignored;
   if (fs::exists(root / kNamedFile, ignored)) {
     const NamedFolder there = readNamed(root);
+    if (there.name == kAll) named.name = kAll;  // one of its questions
     if (there.name != named.name || there.scale != named.scale || there.device != named.device)
       throw UsageError(
           fmt::format("{} holds another study: {} ({}, {}) instead of {} ({}, {}); name another folder with "
                       "--out, or remove it",
                       root.string(), there.name, there.scale, there.device, named.name, named.scale, named.device));
   }
-  makeFolder(root);
+  const MadeFolder folder(root);
   writeFile(root / kNamedFile, named.json());
   session.progress.note(fmt::format("scale {}: {}", scale.name,
                                     arguments.scale ? "as asked for"
@@ -225,14 +242,24 @@ void runNamedStudy(const std::string& name, const MeasureArguments& measure, con
                                                     : "the default of GPUs (--scale small: minutes)"));
 
   const StopOnSignal stop;
-  ExperimentRunner runner(session, measure, scale, sponza, shard, named.seeds, named.repeats);
+  ExperimentRunner runner(session, measure, scale, sponza, shard, named.seeds, named.repeats, root / kTruths);
   std::vector<Work> work;
   double all = 0, done = 0;
-  for (const NamedStudy* study : named.studies())
+  for (const NamedStudy* study : named.studies()) {
+    if (name != named.name && name != study->name) continue;
     for (const Experiment& e : study->experiments(scale)) {
       work.push_back({study, e, named.folderOf(root, *study) / e.name, runner.pictures(e)});
       all += work.back().weight;
     }
+  }
+  std::vector<std::pair<Experiment, fs::path>> experiments;
+  for (const Work& w : work) experiments.emplace_back(w.experiment, w.folder);
+  const ExperimentsAhead ahead = runner.ahead(std::move(experiments));
+  session.progress.note(fmt::format(
+      "{} experiments, {} points: {:.0f} pictures to come; {} of them compute a truth, of which {} are different "
+      "and {} are to be made{}",
+      ahead.experiments, ahead.points, ahead.pictures, ahead.asking, ahead.truths, ahead.missing,
+      ahead.seconds > 0 ? "; about " + duration(ahead.seconds) : ""));
   using Clock = std::chrono::steady_clock;
   const Clock::time_point began = Clock::now();
   for (size_t i = 0; i < work.size(); ++i) {
@@ -241,11 +268,11 @@ void runNamedStudy(const std::string& name, const MeasureArguments& measure, con
     session.progress.note(fmt::format("{} of {}: {} {}{}", i + 1, work.size(), work[i].study->name,
                                       work[i].experiment.name,
                                       done > 0 ? ", " + timeLeft(seconds * (all - done) / done) : ""));
-    runner.run(work[i].experiment, work[i].folder);
+    runner.run(work[i].experiment, work[i].folder, fmt::format("{} {}", work[i].study->name, work[i].experiment.name));
     done += work[i].weight;
   }
   session.progress.finish();
-  report(root, named);
+  report(root, named, name);
   session.checkValidation();
 }
 
@@ -270,7 +297,8 @@ void mergeNamedStudies(const std::vector<fs::path>& shards, const fs::path& out)
       for (const fs::path& shard : shards) folders.push_back(named.folderOf(shard, *study) / e.name);
       mergeExperiment(folders, named.folderOf(out, *study) / e.name);
     }
-  report(out, named);
+  mergeTruths(shards, out);
+  report(out, named, named.name);
 }
 
 }  // namespace irad::app

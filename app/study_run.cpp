@@ -6,11 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/interrupts.h"
+#include "app/reference.h"
 #include "app/table.h"
 #include "app/version.h"
+#include "gi/check/path_state.h"
 #include "gi/facets.h"
+#include "gi/host_facets.h"
+#include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/sky.h"
 #include "gi/watch.h"
@@ -20,6 +25,7 @@
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
 #include "renderer/scene/camera_json.h"
+#include "renderer/scene/scene_content.h"
 #include "shaders/shared/color_map.h"
 
 namespace irad::app {
@@ -28,6 +34,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kPathTracer = "path-tracer";
+/// A truth that is killed while it is traced loses no more than this.
+constexpr std::chrono::seconds kBetweenStates(60);
 
 /// A third of the picture's width and height, 16 to 128 pixels, where the truth has most contrast.
 void chooseCrop(const Truth& truth, ReportNotes& notes) {
@@ -83,7 +91,11 @@ void requirePathTracer(const ViewInfo& view, const Settings& settings) {
 }
 
 StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task)
-    : session_(session), scene_(std::move(scene)), grid_(std::move(grid)), task_(std::move(task)) {
+    : session_(session),
+      scene_(std::move(scene)),
+      sceneContent_(sceneContent(scene_)),
+      grid_(std::move(grid)),
+      task_(std::move(task)) {
   if (std::min(task_.size.x, task_.size.y) < kBlockSide)
     throw UsageError(fmt::format("--size: {} x {} holds no block of {} x {} pixels", task_.size.x, task_.size.y,
                                  kBlockSide, kBlockSide));
@@ -95,12 +107,17 @@ StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyT
     if (*file && (*file)->picture.size != task_.size)
       throw UsageError(fmt::format("{}: {} x {} pixels, --size is {} x {}", (*file)->path.string(),
                                    (*file)->picture.size.x, (*file)->picture.size.y, task_.size.x, task_.size.y));
+  for (const std::optional<ReferencePicture>* file : {&task_.truth.file, &task_.truth.secondFile})
+    if (*file) requireSubject(**file, task_.camera, task_.view.view);
   folder_.emplace(task_.out, identity());
   const GridTexts grids = gridsOf(folder_->identity());
   for (size_t i = grid_.texts().size(); i < grids.size(); ++i) grid_.add(grids[i]);
   makeFolder(task_.out / "pictures");
+  announce();
   bench_.emplace(*session_.context, scene_, grid_.settings(0), task_.size, task_.view.view, task_.camera);
+  if (task_.facetRays) facetTruths_.emplace(session_, *bench_, task_.out / "facets", *task_.facetRays);
   exposure_ = std::exp2(grid_.base().camera.exposureEv);
+  if (!needsTruth()) return;
   makeTruth();
   writeAsShown(task_.out / "pictures" / kReferenceName, task_.size, truth_.mean(), exposure_);
 }
@@ -111,6 +128,7 @@ void StudyRun::measure() {
   measurePeers();
   folder_->save();
   session_.progress.finish();
+  if (!needsTruth()) return;  // a shard beyond the last point: the others have the notes
   const ReportNotes n = notes();
   writeFile(task_.out / "notes.json", nlohmann::ordered_json{{"facts", n.facts},
                                                              {"picture", {n.pictureSize.x, n.pictureSize.y}},
@@ -144,50 +162,197 @@ std::string TruthSource::name() const {
   return secondFile ? fmt::format("{} and {}", file->sha256, secondFile->sha256) : file->sha256;
 }
 
-/// What is computed is two pictures of independent noise, kept in the folder.
+namespace {
+
+/// Of the path tracer for a truth, whatever the seeds of points are.
+TraceOptions truthOptions(uint32_t samples) {
+  return {.samples = samples, .seed = 1, .centred = true};
+}
+
+}  // namespace
+
+std::optional<TruthRecipe> truthRecipe(const DeviceSession& session, const StudyTask& task, const Scene& scene,
+                                       const std::string& sceneContent, const SkySettings& sky) {
+  if (task.truth.file) return std::nullopt;
+  const TruthSubject subject{.program = programIdentity(),
+                             .scene = sceneContent,
+                             .sceneName = scene.path.stem().string(),
+                             .camera = task.camera,
+                             .size = task.size,
+                             .view = task.view.name};
+  if (task.truth.samples)
+    return tracedTruth(subject, makeSky(sky, skyInputs(scene, scene.lights)), truthOptions(*task.truth.samples));
+  return drawnTruth(subject, *task.truth.settings, session.device->info.name);
+}
+
+bool StudyRun::needsTruth() const {
+  for (size_t point = 0; point < grid_.size(); ++point)
+    if (task_.shard.has(point)) return true;
+  return task_.shard.part == 1 && !task_.peerSamples.empty();
+}
+
+/// What is computed is two pictures of independent noise, kept in a folder.
 void StudyRun::makeTruth() {
-  const fs::path& out = task_.out;
-  const auto fileOf = [&](const char* half) { return out / (half + std::string(linearExtension())); };
   if (task_.truth.file) {
     truth_.first = task_.truth.file->picture.pixels;
     if (task_.truth.secondFile) truth_.second = task_.truth.secondFile->picture.pixels;
     return;
   }
-  if (!fs::exists(fileOf("reference.a")) || !fs::exists(fileOf("reference.b"))) {
-    session_.progress("reference", 0);
-    if (task_.truth.samples) {
-      const TracedPicture picture = trace(*task_.truth.samples, 1);
-      writeLinear(out / "reference.a", task_.size, pixelsOf(lightOf(picture).half[0]));
-      writeLinear(out / "reference.b", task_.size, pixelsOf(lightOf(picture).half[1]));
-    } else {
-      Settings settings = *task_.truth.settings;
-      for (const char* half : {"reference.a", "reference.b"}) {
-        settings.matrix.gpu.seed += 1'000'000;  // no seed of a point
-        writeLinear(out / half, task_.size, picture(settings));
-      }
-    }
+  const TruthRecipe recipe = *truthRecipe(session_, task_, scene_, sceneContent_, grid_.settings(0).sky);
+  const TruthStore store(task_.sharedTruths ? task_.sharedTruths->folder : task_.out / "truths");
+  std::string spoilt;
+  std::optional<LinearPicture> halves[] = {store.find(recipe, 0, &spoilt), store.find(recipe, 1, &spoilt)};
+  if (!spoilt.empty()) session_.progress.note(fmt::format("warning: {}; it is made anew", spoilt));
+  const bool there = halves[0] && halves[1];
+  std::string from = there ? "there already" : "is made";
+  if (SharedTruths* shared = task_.sharedTruths) {
+    const std::string& first = shared->users.try_emplace(recipe.name(), shared->user).first->second;
+    if (there && first != shared->user) from = "shared with " + first;
   }
-  truth_.first = readLinear(fileOf("reference.a")).pixels;
-  truth_.second = readLinear(fileOf("reference.b")).pixels;
-  IRAD_CHECK_OP(truth_.first.size(), ==, size_t{task_.size.x} * task_.size.y);
-  IRAD_CHECK_OP(truth_.second.size(), ==, truth_.first.size());
+  session_.progress.note(fmt::format("  truth {}: {}", recipe.name(), from));
+  if (!there) {
+    makeHalves(store, recipe);
+    for (int half : {0, 1}) halves[half] = store.find(recipe, half);
+  }
+  for (const std::optional<LinearPicture>& half : halves)
+    IRAD_CHECK(half && half->size == task_.size, "the truth {} is gone from its folder", recipe.name());
+  truth_.first = std::move(halves[0]->pixels), truth_.second = std::move(halves[1]->pixels);
 }
 
-LinearPixels StudyRun::picture(const Settings& settings) {
+/// Those that the store lacks.
+void StudyRun::makeHalves(const TruthStore& store, const TruthRecipe& recipe) {
+  const PictureSubject subject{cameraToJson(task_.camera), task_.view.name};
+  if (!task_.truth.samples) {
+    for (int half : {0, 1}) {
+      if (store.find(recipe, half)) continue;
+      progress("reference", 0, 1);
+      Settings settings = *task_.truth.settings;
+      settings.matrix.gpu.seed += kHalfSeeds[half];
+      store.keep(recipe, half, task_.size, picture(settings), subject);
+    }
+    return;
+  }
+  const fs::path state = store.stateFile(recipe);
+  std::error_code ignored;
+  TracedSums sums;
+  if (fs::exists(state, ignored))
+    if (SavedSums saved = readSums(state); saved.made == recipe.made) sums = std::move(saved.sums);
+  const auto save = [&](const TracedSums& so) {
+    makeFolder(state.parent_path());
+    writeSums(state, {recipe.made, so});
+  };
+  auto saved = std::chrono::steady_clock::now();
+  const TracedPicture picture =
+      trace("reference", *task_.truth.samples, truthOptions(0).seed, std::move(sums), [&](const TracedSums& so) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - saved < kBetweenStates && !isStopped()) return;
+        save(so);
+        saved = now;
+      });
+  for (int half : {0, 1}) store.keep(recipe, half, task_.size, pixelsOf(lightOf(picture).half[half]), subject);
+  removeFile(state);
+}
+
+// ---- What is ahead ----
+
+double picturesMissing(const StudyResults& results, const std::vector<size_t>& points, uint32_t firstSeed,
+                       const StudyTask& task) {
+  double missing = 0;
+  for (const size_t point : points) {
+    if (results.hasFailed(point)) continue;
+    for (uint32_t i = 0; i < task.seeds; ++i) missing += results.hasError(point, firstSeed + i) ? 0 : 1;
+    double repeats = 0;
+    for (uint32_t i = 0; i < task.repeats; ++i) repeats += results.hasTimes(point, i) ? 0 : 1;
+    missing += repeats > 0 ? repeats + 1 : 0;
+  }
+  return missing;
+}
+
+double secondsOfPicture(DeviceSession& session, const Scene& scene, const Settings& settings, const StudyTask& task) {
+  double seconds = 0;
+  try {
+    Bench bench(*session.context, scene, settings, task.size, task.view.view, task.camera);
+    bench.prepare({});  // which compiles, too
+    bench.cameraFrame();
+    throwIfStopped();
+    const auto began = std::chrono::steady_clock::now();
+    bench.rebuild(), bench.relight(), bench.cameraFrame();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  } catch (const DeviceError&) {
+    seconds = 0;  // the point itself will be a row that says so
+  } catch (const UsageError&) {
+    seconds = 0;
+  }
+  session.device->waitIdle();
+  session.timings.reset();
+  return seconds;
+}
+
+double secondsOfTruth(const Scene& scene, const SkySettings& sky, const StudyTask& task) {
+  using Clock = std::chrono::steady_clock;
+  const glm::uvec2 some = glm::max(task.size / 8u, glm::min(task.size, glm::uvec2(16)));
+  const TraceOptions options = truthOptions(2);
+  const Clock::time_point began = Clock::now();
+  const auto tracer = makePathTracer(scene, makeSky(sky, skyInputs(scene, scene.lights)));
+  const Clock::time_point built = Clock::now();
+  TracedSums sums;
+  tracer->add(task.camera, some, options, sums);
+  const std::chrono::duration<double> build = built - began, spent = Clock::now() - built;
+  return build.count() + spent.count() * (double{1} * task.size.x * task.size.y * *task.truth.samples) /
+                             (double{1} * some.x * some.y * options.samples);
+}
+
+/// Where many studies share truths, those who run them tell of all.
+void StudyRun::announce() {
+  if (task_.sharedTruths) return;
+  const std::vector<size_t> points = ownPoints();
+  const double pictures = picturesMissing(folder_->results, points, grid_.base().matrix.gpu.seed, task_);
+  const std::optional<TruthRecipe> recipe = truthRecipe(session_, task_, scene_, sceneContent_, grid_.settings(0).sky);
+  const bool trace = needsTruth() && recipe && task_.truth.samples && !TruthStore(task_.out / "truths").has(*recipe);
+  if (pictures == 0 && !trace) return;
+  double seconds = trace ? secondsOfTruth(scene_, grid_.settings(0).sky, task_) : 0;
+  if (pictures > 0) {
+    // Grids mostly go from little to much: a point is taken to be as long as the first and the last are on average.
+    double sum = 0, tried = 0;
+    for (const size_t point : std::set{points.front(), points.back()})
+      if (const double one = secondsOfPicture(session_, scene_, grid_.settings(point), task_); one > 0)
+        sum += one, ++tried;
+    seconds += tried > 0 ? pictures * sum / tried : 0;
+  }
+  const char* const truth = task_.truth.file ? "the truth is a file"
+                            : trace          ? "1 truth is to be traced"
+                                             : "the truth is there";
+  session_.progress.note(fmt::format("{} points, {} seeds and {} repeats each: {:.0f} pictures to come; {}; about {}",
+                                     points.size(), task_.seeds, task_.repeats, pictures, truth, duration(seconds)));
+}
+
+LinearPixels StudyRun::picture(const Settings& settings, const std::function<void()>& whileLit) {
   Pipeline& pipeline = bench_->pipeline();
   pipeline.set(settings);
   bench_->prepare({});
   bench_->forget();
   const View view = task_.view.view;
-  LinearPixels out = bench_->pictures({&view, 1});
+  LinearPixels out = bench_->pictures({&view, 1}, whileLit);
   for (const Finding& finding : pipeline.findings())
     if (finding.severity == Finding::Severity::Error) throw DeviceError(finding.text);  // a row that says so
   return out;
 }
 
-TracedPicture StudyRun::trace(uint32_t samples, uint64_t seed) {
-  if (!tracer_) tracer_ = makePathTracer(scene_, bench_->pipeline().sky());
-  return tracer_->render(task_.camera, task_.size, {.samples = samples, .seed = seed, .centred = true});
+/// In passes, between which a signal ends it; the bits are those of one go.
+TracedPicture StudyRun::trace(const char* what, uint32_t samples, uint64_t seed, TracedSums sums,
+                              const std::function<void(const TracedSums&)>& afterPass) {
+  constexpr uint32_t kPass = 16;
+  if (!tracer_) tracer_ = makePathTracer(scene_, makeSky(grid_.settings(0).sky, skyInputs(scene_, scene_.lights)));
+  const uint32_t before = sums.samples;
+  TraceOptions options = truthOptions(0);
+  options.seed = seed;
+  while (sums.samples < samples) {
+    progress(what, sums.samples - before, samples - before);
+    options.samples = std::min(kPass, samples - sums.samples);
+    tracer_->add(task_.camera, task_.size, options, sums);
+    if (afterPass) afterPass(sums);
+  }
+  return pictureOf(sums);
 }
 
 const TracedLight& StudyRun::lightOf(const TracedPicture& picture) const {
@@ -197,16 +362,18 @@ const TracedLight& StudyRun::lightOf(const TracedPicture& picture) const {
 StudyIdentity StudyRun::identity() const {
   nlohmann::ordered_json json;
   json["study"] = task_.study;
-  json["program"] = fmt::format("{} ({})", versionNumber(), versionCommit());
+  json["program"] = programIdentity();
   json["device"] = session_.device->info.name;
   json["cpu"] = session_.device->isCpu;
   json["scene"] = scene_.path.filename().string();
   json["scene_sha256"] = scene_.sha256;
+  json["scene_as_loaded"] = sceneContent_;  // with edits of lights and materials, which no file has
   if (scene_.sky) json["sky_sha256"] = scene_.sky->sha256;
   json["camera"] = nlohmann::ordered_json::parse(cameraToJson(task_.camera));
   json["size"] = {task_.size.x, task_.size.y};
   json["view"] = task_.view.name;
   json["reference"] = truth_.what;
+  if (task_.facetRays) json["facet_rays"] = *task_.facetRays;
   json["sweeps"] = grid_.texts();
   json["settings"] = nlohmann::ordered_json::parse(settingsToJson(grid_.base()));
   return json.dump(2);
@@ -267,22 +434,48 @@ void StudyRun::measureErrors(const std::vector<size_t>& points, uint32_t seeds) 
 }
 
 void StudyRun::measureError(size_t point, const Settings& settings, bool keepPicture) {
-  const LinearPixels pixels = picture(settings);
   const Pipeline& pipeline = bench_->pipeline();
+  std::vector<glm::vec4> h;
+  const LinearPixels pixels = picture(settings, [&] {
+    if (!facetTruths_) return;
+    for (const glm::vec3& v : perFacet(*session_.context, pipeline.facets(), pipeline.lighting().indirect))
+      h.emplace_back(v, 0.0f);
+  });
   const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
   const bool matrix = pipeline.obeyed().solver.method == SolverMethod::matrix;
-  folder_->results.errors.push_back({.point = point,
-                                     .seed = settings.matrix.gpu.seed,
-                                     .relMse = m.blockRelMse,
-                                     .rmse = m.pixels.rmse,
-                                     .meanError = m.pixels.meanError,
-                                     .psnr = m.pixels.psnr,
-                                     .flip = m.flip,
-                                     .facets = pipeline.facets().count,
-                                     .entries = matrix ? pipeline.matrix().stats.entries : 0,
-                                     .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
-                                     .deviceMib = inMebibytes(session_.device->memory().used())});
+  ErrorRow row{.point = point,
+               .seed = settings.matrix.gpu.seed,
+               .relMse = m.blockRelMse,
+               .rmse = m.pixels.rmse,
+               .meanError = m.pixels.meanError,
+               .psnr = m.pixels.psnr,
+               .flip = m.flip,
+               .facets = pipeline.facets().count,
+               .entries = matrix ? pipeline.matrix().stats.entries : 0,
+               .matrixMib = matrix ? inMebibytes(pipeline.matrix().stats.bytesAllocated) : 0,
+               .deviceMib = inMebibytes(session_.device->memory().used())};
+  if (facetTruths_) {
+    try {
+      measureFacets(settings, h, row);
+    } catch (const DeviceError& error) {  // the picture and its errors are none the worse for it
+      session_.progress.note(fmt::format("{}: no truth of H: {}", grid_.label(point), error.what()));
+      session_.device->waitIdle();
+      session_.timings.reset();
+    }
+  }
+  folder_->results.errors.push_back(row);
   if (keepPicture) writeAsShown(task_.out / "pictures" / pictureName(point), task_.size, pixels, exposure_);
+}
+
+/// The pipeline has other settings afterwards.
+void StudyRun::measureFacets(const Settings& settings, const std::vector<glm::vec4>& h, ErrorRow& row) {
+  const FacetTruth& truth = facetTruths_->of(settings);
+  if (truth.first.empty()) return;  // there is no light to be told apart
+  if (truth.first.size() != h.size())
+    throw InputError(
+        fmt::format("{}: {} facets, the truth of their H has {}", task_.out.string(), h.size(), truth.first.size()));
+  const PairedMetrics m = measurePaired(h, truth.first, truth.second);
+  row.hRelMse = m.relMse, row.hRmse = m.rmse;
 }
 
 /// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
@@ -339,10 +532,9 @@ void StudyRun::measureTimes(const std::vector<size_t>& asked, uint32_t repeats) 
 void StudyRun::measurePeers() {
   if (task_.shard.part != 1) return;
   for (size_t i = 0; i < task_.peerSamples.size(); ++i) {
-    progress("path tracer", i, task_.peerSamples.size());
     const uint32_t samples = task_.peerSamples[i];
     if (folder_->results.hasPeer(kPathTracer, samples)) continue;
-    const TracedPicture picture = trace(samples, 1000 + i);  // other samples than the truth's
+    const TracedPicture picture = trace("path tracer", samples, 1000 + i);  // other samples than the truth's
     const LinearPixels pixels = pixelsOf(lightOf(picture).mean);
     const PictureMetrics m = measurePicture(task_.size, pixels, truth_.first, truth_.second, exposure_);
     folder_->results.peers.push_back({kPathTracer, samples, picture.seconds, m.blockRelMse, m.pixels.rmse,
@@ -369,19 +561,31 @@ ReportNotes StudyRun::notes() const {
       fmt::format("Errors: {} seeds from {} on; relMSE of means over {} × {} pixels, ε = (0.1 × mean)²; ± is half of "
                   "a 95 % interval over seeds (Student's t)",
                   task_.seeds, grid_.base().matrix.gpu.seed, kBlockSide, kBlockSide)};
+  if (task_.facetRays)
+    notes.facts.push_back(
+        fmt::format("H of facets: against brute force of {} rays per facet on the same facets, twice, whose noise "
+                    "cancels; means over facets and channels, ε = (0.1 × mean)²",
+                    withThousands(*task_.facetRays)));
   if (!task_.peerSamples.empty())
     notes.facts.push_back(
         "Path tracer: Embree on this machine's CPU, diffuse, one sample through each pixel's middle; "
         "every picture takes all of its time");
-  chooseCrop(truth_, notes);
+  if (!truth_.first.empty()) chooseCrop(truth_, notes);
   return notes;
 }
 
 void finishStudy(const fs::path& out, const SettingGrid& grid, const StudyResults& results, const ReportNotes& notes) {
   writeReport(out, grid, results, notes);
   const std::vector<PointSummary> points = summarize(results, grid.labels());
+  const bool ofFacets = std::ranges::any_of(points, [](const PointSummary& p) { return !std::isnan(p.hRelMse.mean); });
   std::vector<std::vector<std::string>> rows{
       {"point", "settings", "relMSE", "±", "FLIP", "build ms", "relight ms", "frame ms", "MiB", ""}};
+  std::vector<bool> right{true, false, true, true, true, true, true, true, true, false};
+  const auto insertFacets = [&](std::vector<std::string>& row, const std::string& mean, const std::string& half) {
+    if (ofFacets) row.insert(row.begin() + 4, {mean, half});
+  };
+  if (ofFacets) right.insert(right.begin() + 4, {true, true});
+  insertFacets(rows[0], "of H", "±");
   for (const PointSummary& p : points) {
     const auto ms = [&](const char* kind) {
       return std::isfinite(p.gpuMs(kind)) ? milliseconds(p.gpuMs(kind)) : std::string("-");
@@ -391,8 +595,11 @@ void finishStudy(const fs::path& out, const SettingGrid& grid, const StudyResult
                     done && std::isfinite(p.relMse.half) ? shortNumber(p.relMse.half) : "-",
                     done ? shortNumber(p.flip.mean) : "-", ms("setup"), ms("relight"), ms("camera"),
                     done ? fmt::format("{:.1f}", p.deviceMib) : "-", p.failure});
+    const MeanInterval& h = p.hRelMse;
+    insertFacets(rows.back(), done && !std::isnan(h.mean) ? shortNumber(h.mean) : "-",
+                 done && std::isfinite(h.half) ? shortNumber(h.half) : "-");
   }
-  print("{}", formatTable(rows, {true, false, true, true, true, true, true, true, true, false}));
+  print("{}", formatTable(rows, right));
   for (const std::string& finding : findings(points, results.peers, grid.find(grid.base()))) print("{}\n", finding);
   print("wrote       {}\n", (out / "report.html").string());
 }

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,11 +13,13 @@
 
 #include "app/bench.h"
 #include "app/device_session.h"
+#include "app/facet_truth.h"
 #include "gi/check/path_tracer.h"
 #include "gi/picture.h"
 #include "gi/study/report.h"
 #include "gi/study/results.h"
 #include "gi/study/sweep.h"
+#include "gi/study/truths.h"
 #include "gi/views/views.h"
 
 namespace irad::app {
@@ -30,6 +34,13 @@ struct TruthSource {
   std::string name() const;                          ///< for identities: hashes of files, or what is computed
 };
 
+/// A folder of truths that several studies of a run share, and who was the first to use which.
+struct SharedTruths {
+  std::filesystem::path folder;
+  std::string user;                          ///< the study at work, for people
+  std::map<std::string, std::string> users;  ///< by TruthRecipe::name()
+};
+
 struct StudyTask {
   std::string study = "cost";  ///< its name, in the identity
   std::filesystem::path out;
@@ -37,9 +48,11 @@ struct StudyTask {
   glm::uvec2 size{0};
   ViewInfo view{};
   TruthSource truth;
+  SharedTruths* sharedTruths = nullptr;  ///< null: what is computed lies in out/truths
   uint32_t seeds = 4, repeats = 30;
   Shard shard;
   std::vector<uint32_t> peerSamples;  ///< of the path tracer as a peer, even; empty: none
+  std::optional<uint64_t> facetRays;  ///< of the truth of the facets' H; none: H is not held against one
 };
 
 /// What pictures are held against: one picture, or two with independent noise.
@@ -50,13 +63,26 @@ struct Truth {
   LinearPixels mean() const;
 };
 
+/// What a task's truth is computed from, in this scene; none where it is a file.
+std::optional<TruthRecipe> truthRecipe(const DeviceSession& session, const StudyTask& task, const Scene& scene,
+                                       const std::string& sceneContent, const SkySettings& sky);
+
+/// Pictures that these points lack, the round of times that warms up included.
+double picturesMissing(const StudyResults& results, const std::vector<size_t>& points, uint32_t firstSeed,
+                       const StudyTask& task);
+/// Seconds of a picture from the voxels on, by a trial; 0: there is no memory for it, or the settings do not go
+/// together.
+double secondsOfPicture(DeviceSession& session, const Scene& scene, const Settings& settings, const StudyTask& task);
+/// Seconds that the path tracer takes for a truth, by a trial of few samples of few pixels.
+double secondsOfTruth(const Scene& scene, const SkySettings& sky, const StudyTask& task);
+
 /// UsageError where the path tracer, which is diffuse, makes no truth of this view, or is not there.
 void requirePathTracer(const ViewInfo& view, const Settings& settings);
 
 class StudyRun {
  public:
-  /// Opens the folder and makes the truth. The scene as DeviceSession::load gave it with grid.base(). UsageError where
-  /// sizes do not fit, or the folder holds another study.
+  /// Opens the folder and makes the truth, where the shard has a point. The scene as DeviceSession::load gave it with
+  /// grid.base(). UsageError where sizes do not fit, or the folder holds another study.
   StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task);
   /// Measures what the folder does not have yet; notes.json is written at the end.
   void measure();
@@ -75,9 +101,15 @@ class StudyRun {
   ReportNotes notes() const;
 
  private:
+  void announce();  ///< what is ahead, before it begins
+  bool needsTruth() const;
   void makeTruth();
-  LinearPixels picture(const Settings& settings);  ///< of a light solved from the dark
-  TracedPicture trace(uint32_t samples, uint64_t seed);
+  void makeHalves(const TruthStore& store, const TruthRecipe& recipe);
+  /// Of a light solved from the dark, which `whileLit` may look at.
+  LinearPixels picture(const Settings& settings, const std::function<void()>& whileLit = {});
+  /// `afterPass`: between two passes, the last included.
+  TracedPicture trace(const char* what, uint32_t samples, uint64_t seed, TracedSums sums = {},
+                      const std::function<void(const TracedSums&)>& afterPass = {});
   const TracedLight& lightOf(const TracedPicture& picture) const;
   StudyIdentity identity() const;
   void progress(const char* what, size_t done, size_t all);  ///< with the time left, as if each took as long
@@ -87,11 +119,13 @@ class StudyRun {
   bool attempt(size_t point, Act&& act);
   void measureErrors(const std::vector<size_t>& points, uint32_t seeds);
   void measureError(size_t point, const Settings& settings, bool keepPicture);
+  void measureFacets(const Settings& settings, const std::vector<glm::vec4>& h, ErrorRow& row);
   void measureTimes(const std::vector<size_t>& points, uint32_t repeats);
   void measurePeers();
 
   DeviceSession& session_;
   Scene scene_;
+  std::string sceneContent_;
   SettingGrid grid_;
   StudyTask task_;
   Truth truth_;
@@ -99,6 +133,7 @@ class StudyRun {
   std::optional<StudyFolder> folder_;
   std::optional<Bench> bench_;
   std::unique_ptr<PathTracer> tracer_;
+  std::optional<FacetTruths> facetTruths_;
   std::chrono::steady_clock::time_point stepBegan_;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/devices.h"
+#include "app/interrupts.h"
 #include "app/study.h"
 #include "gi/manifest.h"
 #include "gi/study/tune.h"
@@ -126,9 +127,11 @@ void run(const TuneArguments& a) {
   auto [scene, task] = a.measure.open(session, "irad tune", a.scene, kReferenceSamples);
   task.study = "tune";
   const fs::path out = task.out = a.measure.out.value_or("out/tune");
+  const MadeFolder folder(out);
   const uint32_t seeds = task.seeds, repeats = task.repeats;
   const std::vector<std::string> sweeps =
       a.measure.sweeps.empty() ? coarseSweeps(session.device->isCpu) : a.measure.sweeps;
+  const StopOnSignal stop;
   StudyRun study(session, std::move(scene), SettingGrid(sweeps, session.settings), std::move(task));
   session.progress.note(
       fmt::format("{} points at first, {} seeds and {} repeats each", study.grid().size(), seeds, repeats));

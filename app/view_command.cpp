@@ -8,11 +8,11 @@
 
 #include "app/arguments.h"
 #include "app/command.h"
-#include "app/config.h"
 #include "app/devices.h"
 #include "app/reference.h"
 #include "app/version.h"
 #include "app/view_command.h"
+#include "gi/config.h"
 #include "renderer/base/error.h"
 #include "renderer/base/timings.h"
 #include "renderer/frame/context.h"
@@ -82,6 +82,8 @@ void run(const ViewArguments& arguments) {
   options.program = {versionNumber(), versionCommit()};
   options.scene = findScene(arguments.scene, config, "box");
   options.builtIn = builtInFolders();
+  options.exposes =
+      !arguments.settings.names(config, "camera.exposure") && !arguments.settings.names(config, "camera.auto_exposure");
   if (arguments.view)
     options.view = findViews({*arguments.view}).front().view;
   else if (!config.views.empty())

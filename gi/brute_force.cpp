@@ -104,7 +104,7 @@ class FrameTracer {
   }
 
  private:
-  bool sky() const { return static_cast<bool>(sky_); }
+  bool sky() const { return static_cast<bool>(binsOf(facets_.outer, sky_)); }
 
   void record(Frame& frame, uint32_t first, uint32_t rays) {
     const FrameMean& mean = light_.frameMean;
@@ -113,7 +113,7 @@ class FrameTracer {
     BruteForcePush push{};
     push.facets = pass.in(facets_.record);
     push.hits = pass.in(mean.hits);
-    push.bins = pass.inIfAny(sky_.bins);
+    push.bins = pass.inIfAny(binsOf(facets_.outer, sky_));
     push.direct = pass.in(light_.direct);
     push.from = pass.in(light_.radiosityNext);
     push.to = pass.out(mean.next);
@@ -253,7 +253,7 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
     // The mean over the facets hardly knows the noise of single ones.
     watchSolve(report, r.residual, static_cast<float>(std::abs(r.meanH - mean.meanH)), light.guard);
     report.omega = light.guard.omega;
-    report.dark = r.residual.maxSource == 0 && !sky;
+    report.dark = r.residual.maxSource == 0 && !sky && !facets.outer;
     mean.meanH = r.meanH;
     report.meanH = static_cast<float>(r.meanH);
     report.standardError = static_cast<float>(r.meanError);
@@ -265,7 +265,7 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
   if (report.diverging) mean.weights = {};
   if (report.settled()) mean.hits = Buffer();
   // What a sky brings is in H and nowhere by itself.
-  if (report.converged && params.lambda == 1 && !sky) report.energy = balance(context, facets, light);
+  if (report.converged && params.lambda == 1 && !sky && !facets.outer) report.energy = balance(context, facets, light);
   return light.report = report;
 }
 

@@ -8,6 +8,7 @@
 #include "gi/scan.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
+#include "gi/voxel_pass.h"
 #include "gi/voxelize.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/record.h"
@@ -21,22 +22,22 @@ namespace {
 
 constexpr const char* kFacetsStage = "GI CompactList";
 
-/// Attributes of all facets ("GI Voxelization": in the thesis the voxelizer writes them). Returns how many albedos had
-/// to be clamped.
-uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& list, const Settings& settings) {
-  const SceneOnDevice& scene = *voxels.scene;
+/// Attributes of all facets. `stage`: whose time it is; in the thesis the voxelizer's, which writes them. Returns how
+/// many albedos had to be clamped.
+uint32_t shadeFacets(Context& context, const char* stage, const SceneOnDevice& scene, const Buffer& gridRecord,
+                     const FacetList& list, const Settings& settings) {
   const Order order = groupByMaterial(scene, downloadAs<uint32_t>(context, list.triangle));
   const Buffer facets =
       makeBuffer<uint32_t>(context, "facets by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
   const Buffer clamped(context.device, "clamped albedo", Subsystem::Facets, 4);
   const bool raster = settings.voxel.method == VoxelMethod::raster;
   Frame frame = context.begin();
-  frame.pass(kFacetsStage).fill(clamped, 0);
+  frame.pass(stage).fill(clamped, 0);
   const char* shader = raster ? "thesis/facet_shade_raster.comp" : "gi/facet_shade.comp";
-  dispatchByMaterial(frame, "GI Voxelization", shader, scene, order, [&](Pass& pass) {
+  dispatchByMaterial(frame, stage, shader, scene, order, [&](Pass& pass) {
     ShadeFacetsPush push{};
     push.scene = pass.in(scene.record);
-    push.grid = pass.in(voxels.gridRecord);
+    push.grid = pass.in(gridRecord);
     push.order = pass.in(facets);
     push.voxel = pass.in(list.voxel);
     push.triangle = pass.in(list.triangle);
@@ -54,6 +55,10 @@ uint32_t shadeFacets(Context& context, const Voxels& voxels, const FacetList& li
   return downloadAs<uint32_t>(context, clamped).at(0);
 }
 
+Buffer emissionBuffer(const Device& device, uint32_t count, bool kept) {
+  return Buffer(device, "facet emission", Subsystem::Facets, kept ? 12ull * count : 0);
+}
+
 }  // namespace
 
 bool keepsEmission(const SceneOnDevice& scene, const Settings& settings) {
@@ -68,8 +73,7 @@ void allocateFacets(const Device& device, FacetList& list) {
   list.voxel = Buffer(device, "facet voxel", Subsystem::Facets, 4 * n);
   list.shape = Buffer(device, "facet shape", Subsystem::Facets, 4 * n);
   list.albedo = Buffer(device, "facet albedo", Subsystem::Facets, 8 * n);
-  list.emission = Buffer(device, "facet emission", Subsystem::Facets, list.hasEmission ? 12 * n : 0);
-  list.triangle = Buffer(device, "facet triangles", Subsystem::Facets, 4 * n);
+  list.emission = emissionBuffer(device, list.count, list.hasEmission);
   list.area = Buffer(device, "facet areas", Subsystem::Facets, 4 * n);
   list.reverse = Buffer(device, "facet reverse map", Subsystem::Facets, 4ull * list.grid.voxels);
 }
@@ -98,6 +102,22 @@ FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Setting
   return compactFacets(context, voxels, settings);
 }
 
+void shadeAnew(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Settings& settings,
+               FacetList& list, FacetParts& parts) {
+  const bool emission = keepsEmission(scene, settings);
+  constexpr const char* kStage = "GI Materials";
+  shadeOuter(context, scene, list.outer);
+  if (list.surface && list.count > 0 && !parts) parts = listParts(context, scene, settings);
+  if (emission != list.hasEmission) {
+    list.emission = emissionBuffer(context.device, list.count, emission);
+    list.hasEmission = emission;
+    recordFacets(context, list);
+  }
+  if (list.count == 0) return;
+  list.clampedAlbedo = list.surface ? shadeParts(context, kStage, scene, gridRecord, parts, list)
+                                    : shadeFacets(context, kStage, scene, gridRecord, list, settings);
+}
+
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings) {
   FacetList list;
   list.grid = voxels.grid;
@@ -123,6 +143,7 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   list.count = list.solidVoxels = downloadAs<uint32_t>(context, total).at(0);
 
   allocateFacets(context.device, list);
+  list.triangle = Buffer(context.device, "facet triangles", Subsystem::Facets, 4ull * list.count);
   Frame frame = context.begin();
   Pass pass = frame.pass(kFacetsStage);
   push.grid = pass.in(voxels.gridRecord);
@@ -133,7 +154,8 @@ FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settin
   push.reverse = pass.out(list.reverse);
   pass.shader("gi/facet_emit.comp").push(push).dispatch(push.blocks);
   frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shadeFacets(context, voxels, list, settings);
+  if (list.count > 0)
+    list.clampedAlbedo = shadeFacets(context, kVoxelizeStage, *voxels.scene, voxels.gridRecord, list, settings);
   recordFacets(context, list);
   voxels.keys = Buffer();
   return list;

@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "gi/outer.h"
+#include "gi/region.h"
 #include "gi/surface.h"
 #include "renderer/resources.h"
 #include "shaders/shared/facets.h"
@@ -20,13 +22,15 @@ struct Voxels;
 
 struct FacetList {
   Grid grid;
+  SceneRegion region;  ///< that the grid was made around
   uint32_t count = 0;  ///< facets
   uint32_t solidVoxels = 0;
   uint32_t clampedAlbedo = 0;  ///< facets, of a Surface pieces, whose albedo was outside [0, .98] or no number
   Buffer voxel, shape, albedo, emission, reverse;
-  Buffer triangle;  ///< one that it stands for, | SURFEL_BACK for its back, for the inspector; none of uploaded lists
+  Buffer triangle;  ///< that has won its voxel; of lists that compactFacets makes alone
   Buffer area;      ///< voxel faces: of the surface that the facet stands for
   Buffer record;    ///< one FacetArrays
+  Outer outer;      ///< what lies outside of the grid
   Surface surface;  ///< what the facets are classes of, where the hit rule is `triangles`
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
@@ -35,6 +39,11 @@ struct FacetList {
 };
 /// The list that the hit rule goes by: by classes of surfels (listFacets), or a plane facet for each solid voxel.
 FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings);
+/// Albedo, exitance and normals of a list anew, by the scene's materials as they are: the same bits as in a list that
+/// is made with them. `parts`: made where they are called for and not there yet; they serve until the list is another
+/// one.
+void shadeAnew(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Settings& settings,
+               FacetList& list, FacetParts& parts);
 /// A plane facet for each solid voxel, for the thesis's hit rule: Morton-ordered compaction by prefix sum, then the
 /// attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);

@@ -9,6 +9,27 @@
 #include "shaders/shared/normals.h"
 
 namespace irad {
+namespace {
+
+/// surfelAt of gi/surface_point.glsl for all surfels.
+std::vector<Surfel> hostSurfels(const oracle::Facets& facets, uint32_t count, const std::vector<uint32_t>& words,
+                                const std::vector<uint32_t>& wideSides) {
+  std::vector<Surfel> surfels;
+  for (size_t facet = 0; facet < count; ++facet) {
+    const uint32_t* at = &words.at(SURFEL_WORDS * facet);
+    const uint32_t* sides = at + FACET_SURFELS;
+    for (uint32_t k = 0; k < FACET_SURFELS; ++k) {
+      const uint32_t side = sides[1] == WIDE_SIDES
+                                ? wideSides.at(WIDE_WORDS * size_t{sides[0]} + k / 2) >> (16 * (k % 2)) & 0xFFFFu
+                                : sides[k / 4] >> (8 * (k % 4)) & 0xFFu;
+      const uint32_t triangle = facets.pieces.at(facets.firstPiece.at(facet) + side / 2) & ~PIECE_SMALL;
+      surfels.push_back({triangle | ((side & 1u) != 0 ? SURFEL_BACK : 0u), at[k]});
+    }
+  }
+  return surfels;
+}
+
+}  // namespace
 
 HostFacets hostFacets(Context& context, const FacetList& list) {
   HostFacets host;
@@ -54,7 +75,8 @@ oracle::Facets oracleFacets(Context& context, const FacetList& list) {
     host.pieces = downloadAs<uint32_t>(context, s.pieces);
     host.sides = downloadAs<uint32_t>(context, s.sides);
     host.cuts = downloadAs<uint32_t>(context, s.cuts);
-    host.surfels = downloadAs<Surfel>(context, s.surfels);
+    host.surfels = hostSurfels(host, list.count, downloadAs<uint32_t>(context, s.surfels),
+                               downloadAs<uint32_t>(context, s.wideSides));
     host.area = downloadAs<float>(context, list.area);
   }
   return host;

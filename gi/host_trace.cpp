@@ -99,12 +99,23 @@ bool atHiddenBack(const oracle::Facets& facets, const HostRay& ray, uint32_t tri
   return glm::dot(normal, ray.direction) > 0 && !facets.showsBack(triangle);
 }
 
+/// What a ray leaves to what lies outside the grid, by distances: before the first, after the second.
+glm::vec2 ofGrid(const oracle::Facets& facets, const HostRay& ray) {
+  const glm::vec3 d =
+      glm::mix(ray.direction, glm::vec3(1e-9f), glm::lessThan(glm::abs(ray.direction), glm::vec3(1e-9f)));
+  return throughGrid(facets.grid.dims, ray.origin, 1.0f / d);
+}
+bool isOutside(const glm::vec2& grid, float t) {
+  return t < grid.x || t > grid.y;
+}
+
 /// For a ray that passes through the triangle that it leaves, or through triangles where they have no piece.
 struct PassedThrough {
   RTCIntersectContext context;  // first: Embree hands back its address
   const oracle::Facets* facets;
   const HostRay* ray;
-  bool hiddenBacks;  ///< through these, too
+  bool hiddenBacks;               ///< through these, too
+  std::optional<glm::vec2> grid;  ///< ofGrid, where something lies outside
 };
 
 void passThrough(const RTCFilterFunctionNArguments* arguments) {
@@ -115,6 +126,7 @@ void passThrough(const RTCFilterFunctionNArguments* arguments) {
     const float t = RTCRayN_tfar(arguments->ray, arguments->N, i);
     const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, arguments->N, i), RTCHitN_Ng_y(arguments->hit, arguments->N, i),
                            RTCHitN_Ng_z(arguments->hit, arguments->N, i));
+    if (triangle != passed.ray->own && passed.grid && isOutside(*passed.grid, t)) continue;
     if (triangle == passed.ray->own || !pieceAt(*passed.facets, passed.ray->at(t), triangle) ||
         (passed.hiddenBacks && atHiddenBack(*passed.facets, *passed.ray, triangle, normal)))
       arguments->valid[i] = 0;
@@ -125,6 +137,7 @@ class EmbreeTrace : public HostTrace {
  public:
   EmbreeTrace(Context& context, const FacetList& list, uint64_t memory)
       : facets_(oracleFacets(context, list)),
+        lattices_(list.outer.lattices),
         scene_(positions(facets_), corners(facets_), std::min(memory, free(context.device.memory()))) {}
 
   void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits, uint32_t threads,
@@ -166,7 +179,7 @@ class EmbreeTrace : public HostTrace {
     for (uint32_t i = 0; i < FACET_SURFELS; ++i) {
       const Surfel& s = facets_.surfels[FACET_SURFELS * size_t{facet} + i];
       from[i] = surfelOn(triangleAt(facets_, s.triangle & ~SURFEL_BACK), s, unpackVoxel(facets_.voxel[facet]));
-      from[i].position = liftedStart(from[i].position, from[i].facing);
+      from[i].position = liftedOff(from[i]);
     }
     const uint32_t rays = oracle::raysOf(facets_, facet, params);
     std::fill(hits.begin() + rays, hits.end(), TRACE_NOT_CAST);
@@ -178,9 +191,18 @@ class EmbreeTrace : public HostTrace {
         ray = {start.position, rayDirection(start.facing, k++, rays, shifts), start.triangle};
       }
       trace(some, &hits[first]);
-      for (size_t i = 0; sky && i < some.size(); ++i)
-        if (hits[first + i] == TRACE_ESCAPED) hits[first + i] = metSky(some[i].direction);
+      for (size_t i = 0; i < some.size(); ++i) {
+        uint32_t& hit = hits[first + i];
+        if (sky && hit == TRACE_ESCAPED) hit = metSky(some[i].direction);
+        if (!sky && isSky(hit)) hit = TRACE_ESCAPED;
+      }
     }
+  }
+
+  /// gi/trace_triangles.glsl.
+  glm::vec3 liftedOff(const SurfelPoint& p) const {
+    if (lattices_.empty()) return liftedStart(p.position, p.facing);
+    return liftedFar(p.position, p.facing, triangleAt(facets_, p.triangle));
   }
 
   void trace(std::span<const HostRay> rays, uint32_t* hits) const {
@@ -214,7 +236,8 @@ class EmbreeTrace : public HostTrace {
   }
 
   uint32_t traceBetween(const HostRay& ray, float near, float far, bool hiddenBacks) const {
-    PassedThrough passed{.context = {}, .facets = &facets_, .ray = &ray, .hiddenBacks = hiddenBacks};
+    PassedThrough passed{
+        .context = {}, .facets = &facets_, .ray = &ray, .hiddenBacks = hiddenBacks, .grid = gridOf(ray)};
     rtcInitIntersectContext(&passed.context);
     passed.context.filter = passThrough;
     RTCRayHit met{.ray = EmbreeScene::ray(ray.origin, ray.direction, near, far), .hit = {}};
@@ -229,6 +252,8 @@ class EmbreeTrace : public HostTrace {
     if (triangle == RTC_INVALID_GEOMETRY_ID) return TRACE_ESCAPED;
     if (triangle == ray.own) return std::nullopt;
     const glm::vec3 at = ray.at(t);
+    if (const std::optional<glm::vec2> grid = gridOf(ray); grid && isOutside(*grid, t))
+      return pointMet(ray, triangle, at, normal);
     const std::optional<Piece> piece = pieceAt(facets_, at, triangle);
     if (!piece) return std::nullopt;
     if (atHiddenBack(facets_, ray, triangle, normal)) {
@@ -242,7 +267,24 @@ class EmbreeTrace : public HostTrace {
     return found == PIECE_BLACK ? TRACE_BLOCKED : TRACE_INVALID;
   }
 
+  /// Where nothing lies outside there is no need for it.
+  std::optional<glm::vec2> gridOf(const HostRay& ray) const {
+    return lattices_.empty() ? std::nullopt : std::optional(ofGrid(facets_, ray));
+  }
+
+  /// The point outside the grid that stands for what a ray has met there (outerPoint, shaders/gi/trace_outer.glsl).
+  uint32_t pointMet(const HostRay& ray, uint32_t triangle, const glm::vec3& at, const glm::vec3& normal) const {
+    if (atHiddenBack(facets_, ray, triangle, normal)) return TRACE_BLOCKED;
+    const OuterLattice lattice = lattices_.at(triangle);
+    // By a rounding: it ends at the grid's face, half a voxel outside of its region.
+    if (lattice.first == NO_LATTICE) return TRACE_INVALID;
+    const Triangle t = triangleAt(facets_, triangle);
+    const uint32_t point = lattice.first + nearestLattice(lattice.edges, barycentricOf(t.a, t.b, t.c, at));
+    return metOuter(glm::dot(normal, ray.direction) > 0 ? point + latticePoints(lattice.edges) : point);
+  }
+
   oracle::Facets facets_;
+  std::vector<OuterLattice> lattices_;
   EmbreeScene scene_;
 };
 

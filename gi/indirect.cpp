@@ -9,6 +9,7 @@
 #include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
+#include "shaders/shared/solve.h"
 
 namespace irad {
 namespace {
@@ -109,8 +110,9 @@ void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shado
                                    4ull * targets.size.x * targets.size.y)
                           : Buffer();
   if (!fromFacets) return;
-  lookUpFacets(frame, indirect, camera, emitted, lights, targets);
-  if (lights) checkDirect(frame, scene, indirect, camera, targets);
+  if (!effects.wanted.surfaces || !effects.wanted.indirect) return;
+  lookUpFacets(frame, indirect, camera, emitted, lights && effects.wanted.direct, targets);
+  if (lights && effects.wanted.direct) checkDirect(frame, scene, indirect, camera, targets);
 }
 
 }  // namespace irad

@@ -25,7 +25,6 @@
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
 #include "renderer/scene/scene.h"
-#include "shaders/shared/slice.h"
 #include "shaders/shared/trace.h"
 #include "shaders/shared/voxelize.h"
 
@@ -39,9 +38,7 @@ void Inspector::refresh() {
   const FacetList& list = pipeline_.facets();
   const Lighting& light = pipeline_.lighting();
   if (build_ != pipeline_.revision().build) {
-    facets_ = hostFacets(context_, list);
-    list_ = oracleFacets(context_, list);
-    triangles_ = list.triangle ? downloadAs<uint32_t>(context_, list.triangle) : std::vector<uint32_t>{};
+    places_ = FacetPlaces(context_, pipeline_);
     // A pipeline in which no ray reads a field has none.
     madeField_.reset();
     if (!pipeline_.field()) madeField_ = buildField(context_, list, pipeline_.settings());
@@ -56,6 +53,10 @@ void Inspector::refresh() {
     const Buffer& rows = pipeline_.matrix().rowInfo;
     rows_ = rows ? downloadAs<glm::uvec2>(context_, rows) : std::vector<glm::uvec2>(list.count);
     build_ = pipeline_.revision().build;
+    materials_ = pipeline_.revision().materials;
+  } else if (materials_ != pipeline_.revision().materials) {
+    places_.facets = hostFacets(context_, list);
+    materials_ = pipeline_.revision().materials;
   }
   direct_ = perFacet(context_, list, light.direct);
   irradiance_ = perFacet(context_, list, light.indirect);
@@ -66,116 +67,49 @@ void Inspector::refresh() {
   standardError_ = perFacet(context_, list, light.frameMean.standardError);
 }
 
-bool Inspector::contains(const glm::ivec3& voxel) const {
-  return glm::all(glm::greaterThanEqual(voxel, glm::ivec3(0))) &&
-         glm::all(glm::lessThan(voxel, glm::ivec3(facets_.grid.dims)));
-}
-
-std::vector<uint32_t> Inspector::facetsOf(const glm::uvec3& voxel) const {
-  const uint32_t entry = list_.reverse.at(voxelIndex(voxel, facets_.grid.dims));
-  if (entry == NO_FACET) return {};
-  std::vector<uint32_t> facets(::irad::facetsOf(entry));
-  std::iota(facets.begin(), facets.end(), firstFacet(entry));
-  return facets;
-}
-
 void Inspector::requireFacets(const glm::uvec3& voxel) const {
-  const bool outside = !contains(glm::ivec3(voxel));
-  if (!outside && !facetsOf(voxel).empty()) return;
+  const bool outside = !places_.contains(glm::ivec3(voxel));
+  if (!outside && !places_.facetsOf(voxel).empty()) return;
   const auto away = [&](const glm::uvec3& v) {
     const glm::dvec3 d = glm::dvec3(v) - glm::dvec3(voxel);
     return glm::dot(d, d);
   };
-  const auto nearest = std::min_element(facets_.voxel.begin(), facets_.voxel.end(),
+  const auto nearest = std::min_element(places_.facets.voxel.begin(), places_.facets.voxel.end(),
                                         [&](const glm::uvec3& a, const glm::uvec3& b) { return away(a) < away(b); });
-  const glm::uvec3 dims = facets_.grid.dims;
+  const glm::uvec3 dims = places_.facets.grid.dims;
   throw UsageError(
       fmt::format("voxel {},{},{} {} of {} x {} x {} voxels; {}", voxel.x, voxel.y, voxel.z,
                   outside ? "is outside of the grid" : "holds no facet in the grid", dims.x, dims.y, dims.z,
-                  nearest == facets_.voxel.end()
+                  nearest == places_.facets.voxel.end()
                       ? std::string("no voxel holds one")
                       : fmt::format("the nearest solid voxel is {},{},{}", nearest->x, nearest->y, nearest->z)));
 }
 
-glm::dvec3 Inspector::toVoxels(const glm::dvec3& world) const {
-  return (world - pipeline_.scene().origin - glm::dvec3(facets_.grid.origin)) / double{facets_.grid.edge};
-}
-
-std::optional<uint32_t> Inspector::facetAt(const glm::dvec3& point, const glm::dvec3& normal) const {
-  const glm::dvec3 p = toVoxels(point);
-  std::optional<uint32_t> best;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int around = 0; around < 27; ++around) {
-    const glm::ivec3 cell = glm::ivec3(glm::floor(p)) + glm::ivec3(around % 3, around / 3 % 3, around / 9) - 1;
-    if (!contains(cell)) continue;
-    for (const uint32_t f : facetsOf(glm::uvec3(cell))) {
-      const glm::dvec3 middle = (facets_.position[f] - glm::dvec3(facets_.grid.origin)) / double{facets_.grid.edge};
-      const double away = glm::distance(p, middle);
-      if (glm::dot(facets_.normal[f], normal) <= 0 || away >= nearest) continue;
-      nearest = away;
-      best = f;
-    }
-  }
-  return best;
-}
-
-/// Of the facets in a voxel, the one that faces the eye more; voxel units.
-std::optional<uint32_t> Inspector::facing(const glm::uvec3& voxel, const glm::dvec3& eye) const {
-  const std::vector<uint32_t> facets = facetsOf(voxel);
-  if (facets.empty()) return std::nullopt;
-  const glm::dvec3 towards = eye - (glm::dvec3(voxel) + 0.5);
-  return *std::max_element(facets.begin(), facets.end(), [&](uint32_t a, uint32_t b) {
-    return glm::dot(facets_.normal[a], towards) < glm::dot(facets_.normal[b], towards);
-  });
-}
-
-std::optional<SliceCell> Inspector::inSlice(const glm::dvec3& start, const glm::dvec3& direction,
-                                            const glm::dvec3& forward, const ViewSettings& view) const {
-  const glm::dvec3 origin = toVoxels(start);
-  const auto axis = static_cast<int>(sliceAxis(view.axis, glm::vec3(forward)));
-  const double layer = sliceLayer(static_cast<float>(facets_.grid.dims[axis]), view.slice);
-  const double t = (layer + 0.5 - origin[axis]) / direction[axis];
-  if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
-  glm::dvec3 cell = glm::floor(origin + t * direction);
-  cell[axis] = layer;
-  if (!contains(glm::ivec3(cell))) return std::nullopt;
-  return SliceCell{glm::uvec3(cell), facing(glm::uvec3(cell), origin)};
-}
-
-std::optional<uint32_t> Inspector::facetAlong(const glm::dvec3& start, const glm::dvec3& direction) const {
-  oracle::Ray ray;
-  ray.origin = toVoxels(start);
-  ray.direction = direction;
-  const std::optional<glm::uvec3> voxel = oracle::firstSolid(list_, ray);
-  if (!voxel) return std::nullopt;
-  return facing(*voxel, ray.origin);
-}
-
 InspectedVoxel Inspector::voxel(const glm::uvec3& voxel) const {
-  IRAD_CHECK(contains(glm::ivec3(voxel)), "voxel {}, {}, {} is outside of the grid", voxel.x, voxel.y, voxel.z);
-  const Grid& grid = facets_.grid;
+  IRAD_CHECK(places_.contains(glm::ivec3(voxel)), "voxel {}, {}, {} is outside of the grid", voxel.x, voxel.y, voxel.z);
+  const Grid& grid = places_.facets.grid;
   const uint32_t index = voxelIndex(voxel, grid.dims);
   InspectedVoxel record;
   record.voxel = voxel;
   record.world = pipeline_.scene().origin + glm::dvec3(grid.origin) + double{grid.edge} * (glm::dvec3(voxel) + 0.5);
   record.distance = field_.voxels.at(index);
   if (!seeds_.empty() && seeds_.at(index) != NO_SEED) record.seed = unpackVoxel(seeds_[index]);
-  for (const uint32_t f : facetsOf(voxel)) record.facets.push_back(facet(f));
+  for (const uint32_t f : places_.facetsOf(voxel)) record.facets.push_back(facet(f));
   return record;
 }
 
 InspectedFacet Inspector::facet(uint32_t i) const {
-  IRAD_CHECK_OP(i, <, facets_.count());
+  IRAD_CHECK_OP(i, <, places_.facets.count());
   InspectedFacet r;
   r.facet = i;
-  r.voxel = facets_.voxel[i];
-  r.shape = list_.shape[i];
-  r.position = pipeline_.scene().origin + facets_.position[i];
-  r.normal = facets_.normal[i];
+  r.voxel = places_.facets.voxel[i];
+  r.shape = places_.list.shape[i];
+  r.position = pipeline_.scene().origin + places_.facets.position[i];
+  r.normal = places_.facets.normal[i];
   r.mesh = meshNormal(i);
-  r.area = facets_.area[i];
-  r.albedo = facets_.albedo[i];
-  r.emission = facets_.emission[i];
+  r.area = places_.facets.area[i];
+  r.albedo = places_.facets.albedo[i];
+  r.emission = places_.facets.emission[i];
   r.direct = direct_[i];
   r.irradiance = irradiance_[i];
   r.radiosity = radiosity_[i];
@@ -208,15 +142,15 @@ Link Inspector::link(uint32_t receiver, uint32_t sender, uint32_t hits, uint32_t
   const auto weight = [&](uint32_t r) { return double{std::bit_cast<float>(rows_[r].y)}; };
   Link l;
   l.facet = row ? sender : receiver;
-  l.voxel = facets_.voxel[l.facet];
-  l.position = pipeline_.scene().origin + facets_.position[l.facet];
+  l.voxel = places_.facets.voxel[l.facet];
+  l.position = pipeline_.scene().origin + places_.facets.position[l.facet];
   l.hits = hits;
   l.formFactor = hits * weight(receiver);
-  l.distance = glm::distance(facets_.position[receiver], facets_.position[sender]);
+  l.distance = glm::distance(places_.facets.position[receiver], places_.facets.position[sender]);
   l.radiosity = radiosity_[sender];
   l.contribution = l.formFactor * l.radiosity;
-  l.exchange = facets_.area[receiver] * l.formFactor;
-  l.opposite = facets_.area[sender] * hitsBack * weight(sender);
+  l.exchange = places_.facets.area[receiver] * l.formFactor;
+  l.opposite = places_.facets.area[sender] * hitsBack * weight(sender);
   return l;
 }
 
@@ -252,20 +186,21 @@ void Inspector::addLinks(uint32_t i, InspectedFacet& record) const {
 }
 
 std::optional<MeshNormal> Inspector::meshNormal(uint32_t i) const {
-  if (triangles_.empty()) return std::nullopt;
+  if (places_.triangles.empty()) return std::nullopt;
   const Scene& scene = pipeline_.scene();
   MeshNormal mesh;
-  mesh.triangle = triangles_.at(i) & ~SURFEL_BACK;
-  mesh.back = (triangles_[i] & SURFEL_BACK) != 0;
+  mesh.triangle = places_.triangles.at(i) & ~SURFEL_BACK;
+  mesh.back = (places_.triangles[i] & SURFEL_BACK) != 0;
   const uint32_t* corner = &scene.indices.at(3 * size_t{mesh.triangle});
-  const oracle::Triangle t = oracle::toVoxels(facets_.grid, scene.positions.at(corner[0]),
+  const oracle::Triangle t = oracle::toVoxels(places_.facets.grid, scene.positions.at(corner[0]),
                                               scene.positions.at(corner[1]), scene.positions.at(corner[2]));
   const glm::dvec3 across = glm::cross(t[1] - t[0], t[2] - t[0]);
   mesh.face = glm::normalize(across) * (mesh.back ? -1.0 : 1.0);
 
   // Where gi/facet_shade.glsl samples it, in barycentric coordinates.
   const bool raster = pipeline_.obeyed().voxel.method == VoxelMethod::raster;
-  const glm::dvec3 middle = (raster ? oracle::onMiddleLine : oracle::middleInside)(t, glm::ivec3(facets_.voxel[i]));
+  const glm::dvec3 middle =
+      (raster ? oracle::onMiddleLine : oracle::middleInside)(t, glm::ivec3(places_.facets.voxel[i]));
   glm::dvec3 normal(0);
   for (int c = 0; c < 3; ++c) {
     const glm::dvec3 area = glm::cross(t[(c + 1) % 3] - middle, t[(c + 2) % 3] - middle);
@@ -273,8 +208,8 @@ std::optional<MeshNormal> Inspector::meshNormal(uint32_t i) const {
   }
   mesh.shading = glm::length(normal) > 1e-6 ? glm::normalize(normal) : mesh.face;
   if (glm::dot(mesh.shading, mesh.face) < 0) mesh.shading = -mesh.shading;
-  mesh.faceError = degreesBetween(mesh.face, facets_.normal[i]);
-  mesh.shadingError = degreesBetween(mesh.shading, facets_.normal[i]);
+  mesh.faceError = degreesBetween(mesh.face, places_.facets.normal[i]);
+  mesh.shadingError = degreesBetween(mesh.shading, places_.facets.normal[i]);
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "gi/facet_places.h"
 #include "gi/field.h"
 #include "gi/host_facets.h"
 #include "gi/inspected.h"
@@ -22,30 +23,19 @@ class Inspector {
   /// Reads again what prepare() has changed since.
   void refresh();
 
-  const Grid& grid() const { return facets_.grid; }
-  bool contains(const glm::ivec3& voxel) const;
+  const Grid& grid() const { return places_.facets.grid; }
   /// The whole record; the voxel is in the grid.
   InspectedVoxel voxel(const glm::uvec3& voxel) const;
   InspectedFacet facet(uint32_t facet) const;
-  std::vector<uint32_t> facetsOf(const glm::uvec3& voxel) const;
   /// UsageError that names the grid and the nearest solid voxel where this one is outside or holds no facet.
   void requireFacets(const glm::uvec3& voxel) const;
-  /// The facet that a point of a surface lies on, by its side: of those in its voxel and around it that face the same
-  /// way, the one whose middle is nearest. World point, unit normal.
-  std::optional<uint32_t> facetAt(const glm::dvec3& point, const glm::dvec3& normal) const;
-  /// The facet that a ray meets where voxels are drawn as cubes: of the first voxel that holds any, the one that faces
-  /// the ray's start more. World point, unit direction.
-  std::optional<uint32_t> facetAlong(const glm::dvec3& start, const glm::dvec3& direction) const;
-  /// The cell of a slice (settings.view) that a ray meets in front of its start. `forward`: where the camera looks.
-  std::optional<SliceCell> inSlice(const glm::dvec3& start, const glm::dvec3& direction, const glm::dvec3& forward,
-                                   const ViewSettings& view) const;
-  glm::uvec3 voxelOf(uint32_t facet) const { return facets_.voxel.at(facet); }
+  /// Which facets are seen where.
+  const FacetPlaces& places() const { return places_; }
+  glm::uvec3 voxelOf(uint32_t facet) const { return places_.facets.voxel.at(facet); }
   /// Ray k of a facet, step by step; k below the rays per facet.
   InspectedRay ray(uint32_t facet, uint32_t k) const;
 
  private:
-  std::optional<uint32_t> facing(const glm::uvec3& voxel, const glm::dvec3& eye) const;
-  glm::dvec3 toVoxels(const glm::dvec3& world) const;
   std::vector<uint32_t> traceOnDevice(uint32_t facet) const;
   std::optional<MeshNormal> meshNormal(uint32_t facet) const;
   const Field& field() const;
@@ -56,9 +46,8 @@ class Inspector {
   Context& context_;
   const Pipeline& pipeline_;
   uint64_t build_ = 0;
-  HostFacets facets_;
-  oracle::Facets list_;
-  std::vector<uint32_t> triangles_;
+  uint64_t materials_ = 0;  ///< likewise: Revision::materials
+  FacetPlaces places_;
   std::optional<Field> madeField_;  ///< where the pipeline has none
   oracle::DistanceField field_;
   std::vector<uint32_t> seeds_;   ///< packVoxel, with jump flooding

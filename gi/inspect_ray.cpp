@@ -16,30 +16,30 @@ std::vector<uint32_t> Inspector::traceOnDevice(uint32_t facet) const {
   traceRows(frame, rayKernel(pipeline_.facets(), field(), params), params, facet, /*rows=*/1, met);
   frame.submitAndWait();
   std::vector<uint32_t> out = downloadAs<uint32_t>(context_, met);
-  out.resize(oracle::raysOf(list_, facet, params));
+  out.resize(oracle::raysOf(places_.list, facet, params));
   return out;
 }
 
 RayPath Inspector::path(const oracle::Ray& ray, const oracle::DistanceField* field, double& margin) const {
   std::vector<oracle::Passage::Step> cells;
   const oracle::Hit hit =
-      oracle::trace(list_, ray, pipeline_.settings().matrix.gpu.hitRule, {.field = field, .steps = &cells});
+      oracle::trace(places_.list, ray, pipeline_.settings().matrix.gpu.hitRule, {.field = field, .steps = &cells});
   margin = std::min(margin, hit.margin);
   RayPath path{{}, hit.facet, hit.facet == TRACE_ESCAPED && !cells.empty() ? cells.back().t : hit.t};
   for (size_t i = 0; i < cells.size(); ++i) {
     const double end = i + 1 < cells.size() ? cells[i + 1].t : path.t;
-    const bool in = contains(cells[i].cell);
+    const bool in = places_.contains(cells[i].cell);
     path.steps.push_back({cells[i].cell, cells[i].t, std::max(end - cells[i].t, 0.0),
-                          in ? static_cast<uint32_t>(facetsOf(glm::uvec3(cells[i].cell)).size()) : 0});
+                          in ? static_cast<uint32_t>(places_.facetsOf(glm::uvec3(cells[i].cell)).size()) : 0});
   }
   return path;
 }
 
 InspectedRay Inspector::ray(uint32_t facet, uint32_t k) const {
   const MatrixParams& params = pipeline_.settings().matrix.gpu;
-  IRAD_CHECK_OP(facet, <, facets_.count());
-  IRAD_CHECK_OP(k, <, oracle::raysOf(list_, facet, params));
-  const oracle::Ray ray = oracle::facetRay(list_, facet, k, params);
+  IRAD_CHECK_OP(facet, <, places_.facets.count());
+  IRAD_CHECK_OP(k, <, oracle::raysOf(places_.list, facet, params));
+  const oracle::Ray ray = oracle::facetRay(places_.list, facet, k, params);
   InspectedRay r{facet, k, ray.origin, ray.direction, {}, {}, 0, 1e9};
   r.dda = path(ray, nullptr, r.margin);
   r.sdf = path(ray, &field_, r.margin);

@@ -38,7 +38,7 @@ struct RayShares {
   uint32_t rays = 0, hits = 0, escaped = 0, blocked = 0, invalid = 0;
 };
 
-/// The mesh under a facet: the triangle that won its voxel.
+/// The mesh under a facet: the triangle that won its voxel or, of those that it stands for, the one in its middle.
 struct MeshNormal {
   uint32_t triangle = 0;
   bool back = false;  ///< the facet is the triangle's back side

@@ -40,4 +40,13 @@ Lighting makeLighting(Context& context, const FacetList& facets, const Settings&
   return light;
 }
 
+void fitEmitted(Context& context, const FacetList& facets, Lighting& light) {
+  light.emitted = Buffer();
+  if (!facets.hasEmission) return;
+  light.emitted = Buffer(context.device, "emitted share F M", Subsystem::Solver, 16ull * facets.count);
+  Frame frame = context.begin();
+  frame.pass("GI Solve Clear").fill(light.emitted, 0);
+  frame.submit();
+}
+
 }  // namespace irad

@@ -57,21 +57,21 @@ struct FrameMean {
 struct Lighting {
   Buffer direct;  ///< D
   /// F M: first gather from emissive facets alone (the part of H that is direct light of emitters). None where nothing
-  /// emits.
+  /// emits. w: variance of what samples of the emitters bring, were they independent, the channels together; or 0.
   Buffer emitted;
   Buffer correction;  ///< what samples of the emitters add to F M by rays; none where they are not sampled
   /// Sum of F M by samples over that by rays; 0: not sampled. Far from 1 the samples are not used
   /// (gather_emitters.cpp).
   float sampledShare = 0;
-  Buffer sky;                       ///< the part of H that comes straight from the sky; none without one
+  Buffer sky;                       ///< the part of H that comes straight from the sky (w: gather_sky.comp); or none
   Writeback writeback;              ///< W: reflections as a source; nothing where they are not written back
   Buffer indirect;                  ///< H
   Buffer radiosity, radiosityNext;  ///< B, double buffer; w: v, the gains' answer (docs/method.md 1)
   std::array<Buffer, 3> history;    ///< B of earlier sweeps, where they are accelerated
   SourceGain gain;                  ///< of B and H; for light that is 0 any value is right
-  Buffer blurred;         ///< H averaged over neighbours that face the same way; none where shading samples H itself
+  Buffer blurred;  ///< H averaged over linked facets as far as its noise goes; none where shading samples H itself
   Buffer blurredEmitted;  ///< `emitted` likewise
-  Buffer blurChange;      ///< largest |blurred - H|, float bits; where scatter() watches it
+  Buffer blurChange;      ///< the most that the blur changes H by, float bits; where scatter() watches it
   Buffer residual;        ///< solver's reductions, see shared/solve.h: a record per sweep of a batch
   Buffer sums;            ///< gi/solve_sums.comp's
   Buffer rowSum;          ///< sum_j F_ij, one float each; none without a matrix
@@ -92,5 +92,8 @@ struct Lighting {
 };
 /// All zero, with what solver.method needs. Blurred copies exist where scatter() blurs, which makes and frees them.
 Lighting makeLighting(Context& context, const FacetList& facets, const Settings& settings);
+/// Makes room for F M, all zero, where facets have come to emit, and frees it where they no longer do. For light of a
+/// matrix; the next gatherEmitters() and scatter() fit the rest.
+void fitEmitted(Context& context, const FacetList& facets, Lighting& light);
 
 }  // namespace irad

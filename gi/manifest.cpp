@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "gi/check/check.h"
 #include "gi/picture.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 #include "renderer/scene/sky_image.h"
 
 namespace irad {
@@ -35,6 +37,22 @@ std::string shellQuote(const std::string& word) {
 
 }  // namespace
 
+std::string timeText(int64_t seconds) {
+  const auto time = static_cast<std::time_t>(seconds);
+  std::tm utc{};
+  char text[64] = "";
+  if (gmtime_r(&time, &utc)) std::strftime(text, sizeof(text), "%FT%TZ", &utc);
+  return text;
+}
+
+std::optional<int64_t> timeFromText(const std::string& text) {
+  std::tm utc{};
+  const char* end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  if (end != text.c_str() + text.size()) return std::nullopt;
+  const int64_t seconds = timegm(&utc);  // of February 30 it makes March 2
+  return timeText(seconds) == text ? std::optional(seconds) : std::nullopt;
+}
+
 std::string settingsFile(const Settings& settings) {
   Json json{{"format", kConfigFormat}};
   json.update(Json::parse(settingsToJson(settings)));
@@ -44,6 +62,10 @@ std::string settingsFile(const Settings& settings) {
 std::string Manifest::commandLine() const {
   std::vector<std::string> words{"irad", subcommand, sceneArgument(*scene), "--no-sidecar"};
   if (scene->lights != scene->fileLights) words.insert(words.end(), {"--lights", lightsToJson(scene->lights)});
+  if (!scene->materialEdits.empty())
+    words.insert(words.end(), {"--materials", materialEditsToJson(scene->materialEdits)});
+  for (const std::string& path : scene->hidden.paths) words.insert(words.end(), {"--hide", path});
+  if (!scene->hidden.isolated.empty()) words.insert(words.end(), {"--isolate", scene->hidden.isolated});
   if (device) words.insert(words.end(), {"--device", device->name});
   if (size) words.insert(words.end(), {"--size", fmt::format("{}x{}", size->x, size->y)});
   for (const Camera& camera : cameras) words.insert(words.end(), {"--camera", cameraToJson(camera)});
@@ -64,6 +86,7 @@ std::string Manifest::toJson() const {
   Json json;
   json["format"] = kConfigFormat;
   json["program"] = {{"name", "irad"}, {"version", program.version}, {"commit", program.commit}};
+  if (time) json["time"] = timeText(*time);
   json["command"] = commandLine();
   if (device)
     json["device"] = {{"name", device->name},
@@ -81,6 +104,9 @@ std::string Manifest::toJson() const {
     for (const Camera& camera : cameras) json["cameras"].push_back(Json::parse(cameraToJson(camera)));
   }
   json["lights"] = Json::parse(lightsToJson(scene->lights));
+  if (!scene->materialEdits.empty()) json["materials"] = Json::parse(materialEditsToJson(scene->materialEdits));
+  if (!scene->hidden.paths.empty()) json["hidden"] = scene->hidden.paths;
+  if (!scene->hidden.isolated.empty()) json["isolated"] = scene->hidden.isolated;
   if (!views.empty()) json["views"] = views;
   if (!viewRanges.empty()) json["view_ranges"] = Json::parse(fmt::format("[{}]", fmt::join(viewRanges, ",")));
   if (reference) json["reference"] = {{"path", reference->path.string()}, {"sha256", reference->sha256}};

@@ -22,6 +22,10 @@ constexpr uint32_t kConfigFormat = 1;
 /// Settings as a file that --config takes.
 std::string settingsFile(const Settings& settings);
 
+/// "2026-11-25T23:50:00Z", as manifests say their time, and back; none where it is none.
+std::string timeText(int64_t seconds);
+std::optional<int64_t> timeFromText(const std::string& text);
+
 /// The build that wrote it.
 struct Program {
   std::string version, commit;
@@ -31,6 +35,7 @@ struct Program {
 struct Manifest {
   Program program;
   std::string subcommand;
+  std::optional<int64_t> time;  ///< seconds since 1970, UTC; none: two runs give the same bytes
   const DeviceInfo* device = nullptr;
   const Scene* scene = nullptr;
   const Settings* settings = nullptr;

@@ -27,9 +27,14 @@ bool isSegment(const FormFactors& matrix, const std::string& name) {
 
 }  // namespace
 
+MemoryCounts memoryCounts(const FacetList& facets, const FormFactors& matrix) {
+  return {facets.count, facets.grid.voxels, matrix.rows, matrix.rays, matrix.stats.entries};
+}
+
 std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& facets, const Field& field,
-                                                            const FormFactors& matrix, const Lighting& lighting) {
-  const uint64_t s = facets.count, V = facets.grid.voxels;
+                                                            const FormFactors& matrix, const Lighting& lighting,
+                                                            const MemoryCounts& counts) {
+  const uint64_t s = counts.facets, V = counts.voxels;
   std::vector<std::pair<std::string, uint64_t>> out;
   const auto buffer = [&](const Buffer& b, uint64_t bytes) {
     if (b) out.emplace_back(b.name, bytes);
@@ -37,8 +42,8 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   const auto image = [&](const Image& i, uint64_t bytes) {
     if (i) out.emplace_back(i.desc.name, bytes);
   };
-  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission, a triangle, area; reverse map one
-  // word per voxel. Of the true surface what there is per facet: surfels, links, first piece.
+  // Facet list: packed voxel, shape word, 3 x 16-bit albedo in 8 B, fp32 emission, area, with rule `thesis` a triangle;
+  // reverse map one word per voxel. Of the true surface what there is per facet: surfels, masks of links, first piece.
   buffer(facets.voxel, 4 * s);
   buffer(facets.shape, 4 * s);
   buffer(facets.albedo, 8 * s);
@@ -46,13 +51,16 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(facets.reverse, 4 * V);
   buffer(facets.triangle, 4 * s);
   buffer(facets.area, 4 * s);
-  buffer(facets.surface.surfels, sizeof(Surfel) * FACET_SURFELS * s);
-  buffer(facets.surface.links, FACET_LINKS * s);
+  buffer(facets.surface.surfels, 4 * SURFEL_WORDS * s);
+  buffer(facets.surface.linkMasks, 4 * s);
+  buffer(facets.surface.firstLinks, 4 * (s + 1));
   buffer(facets.surface.firstPiece, 4 * (s + 1));
-  // Nothing but these arrays knows how many triangles, pieces and cuts there are: what was asked for.
-  for (const Buffer* b : {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes,
-                          &facets.surface.groups, &facets.surface.sides, &facets.surface.cuts})
-    buffer(*b, b->bytes);
+  // Nothing but these arrays knows how many triangles, pieces, cuts and links there are: what was asked for, as many
+  // per facet where those are more or fewer.
+  for (const Buffer* b :
+       {&facets.surface.corners, &facets.surface.pieces, &facets.surface.boxes, &facets.surface.groups,
+        &facets.surface.sides, &facets.surface.cuts, &facets.surface.wideSides, &facets.surface.links})
+    buffer(*b, s == facets.count || facets.count == 0 ? b->bytes : b->bytes * s / facets.count);
   buffer(facets.surface.record, sizeof(SurfaceArrays));
   buffer(facets.record, sizeof(FacetArrays));
   out.emplace_back("Grid", sizeof(Grid));  // the pipeline's
@@ -61,11 +69,11 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   image(field.jumpFlood.distance, V);
   image(field.jumpFlood.seeds, 4 * V);
   // csr: 4 B per distinct column. Padded rows have no starts.
-  out.emplace_back(kMatrixEntries, matrix.format == MatrixFormat::csr ? 4 * matrix.stats.entries
-                                                                      : paddedBytes(matrix.rows, matrix.rays));
-  buffer(matrix.rowStart, matrix.format == MatrixFormat::csr ? 4 * uint64_t{matrix.rows} : 0);
-  buffer(matrix.rowInfo, 8 * uint64_t{matrix.rows});
-  buffer(matrix.rowSky, 4 * uint64_t{matrix.rows});
+  out.emplace_back(kMatrixEntries,
+                   matrix.format == MatrixFormat::csr ? 4 * counts.entries : paddedBytes(counts.rows, counts.rays));
+  buffer(matrix.rowStart, matrix.format == MatrixFormat::csr ? 4 * counts.rows : 0);
+  buffer(matrix.rowInfo, 8 * counts.rows);
+  buffer(matrix.rowSky, 4 * counts.rows);
   buffer(matrix.record, FormFactors::kSegmentTable + 8 * std::max<uint64_t>(1, matrix.segments.size()));
   // Light: one fp32 vec4 per facet in each array; the thesis's volume holds half-precision RGBA.
   for (const Buffer* b : {&lighting.direct, &lighting.emitted, &lighting.indirect, &lighting.radiosity,
@@ -98,7 +106,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
 std::vector<MemoryReportRow> memoryReport(const std::vector<MemoryRow>& measured, const FacetList& facets,
                                           const Field& field, const FormFactors& matrix, const Lighting& lighting,
                                           uint64_t rays) {
-  const auto predictions = predictMemory(facets, field, matrix, lighting);
+  const auto predictions = predictMemory(facets, field, matrix, lighting, memoryCounts(facets, matrix));
   const auto known = [&](const std::string& name) -> std::optional<uint64_t> {
     for (const auto& [resource, bytes] : predictions)
       if (resource == name) return bytes;

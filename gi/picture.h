@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gi/views/views.h"
 #include "renderer/image_io.h"
+#include "renderer/scene/scene.h"
 
 namespace irad {
 
@@ -21,9 +23,10 @@ struct PictureFiles {
   std::string bad;  ///< what findBadPixels says of it; the files are written all the same, they show where
 };
 /// What is in `targets` after Pipeline::render() of `view`: stem.png as shown, stem.exr linear (renderer/image_io.h).
-/// `legend`: drawn into the PNG.
+/// `legend` and the lines of `notice` are drawn into the PNG.
 PictureFiles writePicture(Context& context, const Targets& targets, const ViewInfo& view,
-                          const std::filesystem::path& stem, const Legend* legend = nullptr);
+                          const std::filesystem::path& stem, const Legend* legend = nullptr,
+                          const std::vector<std::string>& notice = {});
 /// What the display picture of a view with a range was drawn with.
 Legend legendOf(Context& context, const Targets& targets, const ViewInfo& view, const Settings& settings);
 
@@ -37,9 +40,15 @@ struct ReferencePicture {
   std::filesystem::path path;  ///< absolute; empty: it was made here, and is in no file
   std::string sha256;          ///< of the file
   LinearPicture picture;
-  View of = VIEW_LIT;  ///< what it is a picture of
+  View of = VIEW_LIT;              ///< what it is a picture of: as the file says, else this
+  std::optional<Camera> camera{};  ///< that it was made from, where the file says it
+  std::string note{};              ///< what is odd about it, in words; empty: nothing
 };
-/// As readLinear() does; InputError.
+/// In words, how the camera that a picture was made from differs from another in what is seen; empty: in nothing but
+/// roundings, or it is not known.
+std::string otherCamera(const std::optional<Camera>& made, const Camera& camera);
+/// As readLinear() does; integers (PNG, JPEG) are what screens show, and are decoded from sRGB, which `note` says.
+/// InputError.
 ReferencePicture readReference(const std::filesystem::path& path);
 
 }  // namespace irad

@@ -1,5 +1,7 @@
 #include "gi/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +15,7 @@
 #include "gi/field.h"
 #include "gi/gather.h"
 #include "gi/gather_emitters.h"
+#include "gi/glass.h"
 #include "gi/host_facets.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
@@ -26,10 +29,12 @@
 #include "gi/specular.h"
 #include "gi/stage_keys.h"
 #include "gi/subsystems.h"
+#include "gi/views/passes.h"
 #include "gi/voxelize.h"
 #include "gi/watch.h"
 #include "gi/writeback.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 
@@ -49,9 +54,11 @@ struct Pipeline::Impl {
         expected(std::move(h)),
         settings(wanted),
         planned(scene, wanted),
-        onDevice(c, scene) {
+        onDevice(c, scene),
+        surfaces(scene) {
     materials = onDevice.materialValues;
-    content = {surfaceContent(scene), lightContent(onDevice.lightValues)};
+    content = {.lights = lightContent(onDevice.lightValues)};
+    lookAtSurfaces(scene.materials, content);
     lookAtSky(scene.lights);
     useSun();
     decide();
@@ -72,6 +79,7 @@ struct Pipeline::Impl {
 
   // What there is to be made, and what was made, by content. Shadow maps are not the product of a stage, but have a key
   // like one.
+  SurfaceContent surfaces;
   SceneContent content;
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
@@ -87,7 +95,7 @@ struct Pipeline::Impl {
 
   // ---- What the plan says ----
 
-  /// The first stage that the next prepare() has to run. Later stages follow it.
+  /// The first stage that the next prepare() has to run. Those that come of it follow.
   Redo due() const { return firstDifference(made, wanted()); }
   StageKeys wanted() const { return stageKeys(content, planned.settings()); }
   bool shadowsDue() const { return shadowsMade != shadowsWanted; }
@@ -107,7 +115,10 @@ struct Pipeline::Impl {
   /// The key of the shadow maps that these lights need.
   uint64_t shadowKey(std::span<const GpuLight> lights) const {
     Digest digest;
-    digest.add(content.surfaces).add(planned.on(Effect::alphaTest)).add(settings.light.shadowResolution);
+    digest.add(content.surfaces)
+        .add(planned.on(Effect::alphaTest))
+        .add(planned.on(Effect::glass))
+        .add(settings.light.shadowResolution);
     const ShadowNeeds needs = shadowNeeds();
     digest.add(needs.filter).add(needs.bleedReduction).add(needs.points);
     if (needs.filter == ShadowFilter::vsm) digest.add(needs.taps);
@@ -122,6 +133,12 @@ struct Pipeline::Impl {
       onDevice.setMaterials(context, std::move(wanted));
   }
 
+  void lookAtSurfaces(const std::vector<Material>& of, SceneContent& in) const {
+    in.surfaces = surfaces.surfaces(of);
+    in.materials = surfaces.materials(of);
+    in.emission = surfaces.emission(of);
+  }
+
   void lookAtLights(std::span<const GpuLight> lights) {
     planned.traits.lights.clear();
     for (const GpuLight& light : lights)
@@ -134,6 +151,12 @@ struct Pipeline::Impl {
     sky = makeSky(settings.sky, skyInputs(scene, lights), &sky);
     planned.traits.sky = sky.largest();
     content.sky = scene.sky ? Digest().add(std::as_bytes(std::span(scene.sky->sha256))).value() : 0;
+  }
+  /// liesOutside(), which may look at every triangle, but where settings leave the region as it is.
+  bool outside(const Settings& wanted) const {
+    const bool same =
+        wanted.scene.region == settings.scene.region && wanted.matrix.gpu.hitRule == settings.matrix.gpu.hitRule;
+    return same ? planned.traits.outer : liesOutside(scene, wanted);
   }
   /// Settings or sky have changed.
   void lookAgain() {
@@ -215,24 +238,58 @@ struct Pipeline::Impl {
       // The new list's products replace the old ones together, once they are lit. Until then the old picture stays.
       Products fresh;
       build(fresh, Redo::Voxels, progress);
-      relight(fresh, Redo::Emission, maxSweeps, progress);
+      relight(fresh, StagesDue::from(Redo::Emission), maxSweeps, progress);
       now = std::move(fresh);
     } else {
+      StagesDue due(made, wanted());
+      const auto done = [this](std::initializer_list<Redo> stages) {
+        const StageKeys keys = wanted();
+        for (const Redo stage : stages) made[stage] = keys[stage];
+      };
       if (first <= Redo::Matrix) {
         build(now, first, progress);
-        std::copy_n(wanted().of.begin(), static_cast<size_t>(Redo::Emission), made.of.begin());
-        first = Redo::Emission;
+        done({Redo::Voxels, Redo::Field, Redo::Matrix});
+        due.add(StagesDue::from(Redo::Emission));
+      }
+      if (due.has(Redo::Materials)) {
+        made.forget(Redo::Materials);
+        shadeFacets(now, due.has(Redo::Emission), progress);
+        done({Redo::Materials});
       }
       fitField(now);
       if (!relights()) return;
       // A mean over frames would begin anew each time; it goes on by itself.
-      if (settings.effects.relight == EffectMode::on && !framewise()) first = std::min(first, Redo::Gather);
-      if (first > Redo::Scatter && now.light->report.settled() && !reflectionsDue()) return;
-      if (first > Redo::Scatter) first = Redo::Solve;
-      made.forget(first);
-      relight(now, first, maxSweeps, progress);
+      if (settings.effects.relight == EffectMode::on && !framewise()) due.add(StagesDue::from(Redo::Gather));
+      if (first > Redo::Scatter && !due.has(Redo::Solve)) {
+        if (now.light->report.settled() && !reflectionsDue()) return;
+        due.add(StagesDue::from(Redo::Solve));
+      }
+      for (const Redo stage : {Redo::Emission, Redo::Gather, Redo::Solve, Redo::Scatter})
+        if (due.has(stage)) made.forget(stage);
+      relight(now, due, maxSweeps, progress);
     }
     made = wanted();
+  }
+
+  /// What materials give the facets of voxels that stay: rho and M, with what is listed of the emitters where these are
+  /// others.
+  void shadeFacets(Products& p, bool emitters, const Progress& progress) {
+    if (progress && !progress("GI Materials", 0)) throw WorkError("cancelled");
+    const Settings& obeyed = planned.settings();
+    if (p.facets->surface && p.facets->count > 0 && !p.parts) {
+      const auto start = std::chrono::steady_clock::now();
+      p.parts = listParts(context, onDevice, obeyed);
+      context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
+    }
+    const auto start = std::chrono::steady_clock::now();
+    ++revision.materials;
+    shadeAnew(context, onDevice, p.gridRecord, obeyed, *p.facets, p.parts);
+    if (emitters) {
+      p.emitters = listEmitters(context, *p.facets);
+      p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
+    }
+    learn(p);
+    context.timings.endFrame(frameIndex, /*setup=*/false, since(start));
   }
 
   /// Everything from the geometry to the matrix: the thesis's "Init" set. `first`: the stage to start from.
@@ -306,32 +363,42 @@ struct Pipeline::Impl {
 
   /// The thesis's "per-frame" set, with the lights as they are: D, after F M where that is due, then H <- F B and B <-
   /// M + rho (D + H) until the error bound holds, then H to where shading reads it.
-  void relight(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
+  void relight(Products& p, StagesDue due, uint32_t maxSweeps, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     ++revision.light;
     // A new list has no light yet: if it were given up now it would stay black.
     if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
-    if (first <= Redo::Gather || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
+    if (due.has(Redo::Gather) || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
-    // The other method's light lacks what this one keeps, and has what this one does not need.
-    const bool other = p.light && static_cast<bool>(p.light->frameMean.next) != framewise();
+    // The other method's light lacks what this one keeps, and has what this one does not need. By brute force so has
+    // that of facets with an M for those without, whose rays are traced anew in any case.
+    const auto misfits = [&] { return static_cast<bool>(p.light->emitted) != p.facets->hasEmission; };
+    const bool other =
+        p.light && (static_cast<bool>(p.light->frameMean.next) != framewise() || (framewise() && misfits()));
     if (!p.light || !*p.light || other) {
       planned.traits.light.noise.reset();
       decide();
       p.light = makeLighting(context, *p.facets, planned.settings());
-      first = Redo::Emission;
+      due.add(StagesDue::from(Redo::Emission));
+    } else if (misfits()) {
+      fitEmitted(context, *p.facets, *p.light);
+      due.add(Redo::Emission);
     }
-    if (first <= Redo::Emission && !framewise())
+    if (due.has(Redo::Emission) && !framewise())
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
-    if (first <= Redo::Gather) {
+    // What lies outside passes on what its materials make of it.
+    if (p.facets->outer && (due.has(Redo::Materials) || due.has(Redo::Emission))) due.add(Redo::Gather);
+    if (due.has(Redo::Gather)) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
-      if (!framewise()) gatherSky(frame, *p.matrix, skyOnDevice, *p.light);
+      lightOuter(frame, onDevice, *p.facets, *p.field, skyOnDevice);
+      if (!framewise()) gatherSky(frame, *p.matrix, binsOf(p.facets->outer, skyOnDevice), *p.light);
       frame.submitAndWait();
     }
-    if (first <= Redo::Solve) {
+    if (due.has(Redo::Solve)) {
       useReflections(*p.light, p.facets->count);
-      solveFor(p, first, maxSweeps, progress);
+      const bool restarts = due.has(Redo::Materials) || due.has(Redo::Emission) || due.has(Redo::Gather);
+      solveFor(p, restarts, maxSweeps, progress);
       solvedFrame = frameIndex;
     }
     showSolved(p);
@@ -345,14 +412,15 @@ struct Pipeline::Impl {
     if (flipsBlur(p.light->report)) scatterInto(p);
   }
 
-  /// `maxSweeps` 0: as many as it takes; else one frame of brute force, which costs as much as a matrix.
-  void solveFor(Products& p, Redo first, uint32_t maxSweeps, const Progress& progress) {
+  /// `restarts`: frames of brute force begin anew. `maxSweeps` 0: as many as it takes; else one frame of brute force,
+  /// which costs as much as a matrix.
+  void solveFor(Products& p, bool restarts, uint32_t maxSweeps, const Progress& progress) {
     const Settings& obeyed = planned.settings();
     if (!framewise()) {
       solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
       return;
     }
-    const bool restarts = first <= Redo::Gather, byFrames = maxSweeps != 0;
+    const bool byFrames = maxSweeps != 0;
     if (restarts && byFrames) hold(*p.light);
     bruteForce(context, *p.facets, *p.field, skyOnDevice, *p.light, obeyed, byFrames ? 1 : obeyed.solver.frames,
                restarts, [&](float fraction) { return !progress || progress("GI BruteForce", fraction); });
@@ -400,7 +468,7 @@ struct Pipeline::Impl {
     Frame frame = context.begin(frameIndex);
     const bool mayBlur =
         settings.effects.blur == EffectMode::automatic && settings.sample.gpu.filter_ == SampleFilter::blur;
-    scatter(frame, *p.facets, *p.light, planned.settings(), /*watchBlur=*/mayBlur);
+    scatter(frame, *p.facets, *p.matrix, *p.light, planned.settings(), /*watchBlur=*/mayBlur);
     frame.submitAndWait();
   }
 
@@ -428,7 +496,7 @@ struct Pipeline::Impl {
   ShadowNeeds shadowNeeds() const {
     ShadowNeeds needs = irad::shadowNeeds(settings);
     needs.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); };
-    needs.alphaTest = planned.on(Effect::alphaTest);
+    needs.alphaTest = planned.on(Effect::alphaTest) || planned.on(Effect::glass);
     needs.kernels = rasterizesByKernels(context.device, settings);
     return needs;
   }
@@ -464,6 +532,7 @@ const SceneTraits& Pipeline::traits() const {
 
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
+  p.planned.traits.outer = p.outside(settings);
   p.settings = settings;
   p.lookAgain();
   return p.due();
@@ -473,6 +542,7 @@ Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
   SceneTraits traits = p.planned.traits;
   traits.sky = makeSky(settings.sky, skyInputs(p.scene, p.scene.lights), &p.sky).largest();
+  traits.outer = p.outside(settings);
   const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
 }
@@ -509,11 +579,54 @@ void Pipeline::setLights(std::vector<Light> lights) {
   p.context.timings.endFrame(p.frameIndex, /*setup=*/false, since(start));
 }
 
+void Pipeline::setMaterials(std::vector<MaterialEdit> edits) {
+  Impl& p = *impl_;
+  std::vector<Material> materials = editedMaterials(p.scene, edits);
+  for (const Material& material : materials)
+    if (const std::string problem = unsound(material, p.scene.images.size()); !problem.empty())
+      throw UsageError(problem);
+  const Planned planned = p.planned;
+  const SceneContent content = p.content;
+  const std::vector<GpuMaterial> values = p.materials;
+  if (p.scene.fileMaterials.empty()) p.scene.fileMaterials = p.scene.materials;
+  std::swap(p.scene.materials, materials);
+  try {
+    p.lookAtSurfaces(p.scene.materials, p.content);
+    measureMaterials(p.scene, p.scene.materials, p.planned.traits);
+    p.planned.traits.outer = liesOutside(p.scene, p.settings);  // albedos have a say in it
+    p.materials = gpuMaterials(p.scene);
+    p.lookAgain();
+  } catch (...) {
+    p.planned = planned;
+    p.content = content;
+    p.materials = values;
+    std::swap(p.scene.materials, materials);
+    throw;
+  }
+  p.scene.materialEdits = std::move(edits);
+}
+
+Redo Pipeline::due(const std::vector<MaterialEdit>& edits) const {
+  const Impl& p = *impl_;
+  const std::vector<Material> materials = editedMaterials(p.scene, edits);
+  SceneContent content = p.content;
+  p.lookAtSurfaces(materials, content);
+  SceneTraits traits = p.planned.traits;
+  measureMaterials(p.scene, materials, traits);
+  const EffectPlan plan = irad::plan(traits, p.settings, &p.planned.plan());
+  return firstDifference(p.made, stageKeys(content, irad::obeyed(p.settings, plan)));
+}
+
 bool Pipeline::adopt(Scene& scene) {
   Impl& p = *impl_;
-  if (surfaceContent(scene) != p.content.surfaces) return false;
+  const SurfaceContent surfaces(scene);
+  const std::vector<Material>&mine = fileMaterials(p.scene), &its = fileMaterials(scene);
+  if (surfaces.surfaces(its) != p.surfaces.surfaces(mine) || surfaces.materials(its) != p.surfaces.materials(mine))
+    return false;
   setLights(scene.lights);
-  p.scene = std::move(scene);  // where p.onDevice looks for it
+  setMaterials(scene.materialEdits);
+  p.scene = std::move(scene);                                 // where p.onDevice looks for it
+  p.planned.traits.outer = liesOutside(p.scene, p.settings);  // and so have cameras
   p.lookAgain();
   return true;
 }
@@ -536,7 +649,7 @@ void Pipeline::darken() {
   Impl& p = *impl_;
   if (!p.now.light) return;
   if (*p.now.light) p.now.light = makeLighting(p.context, *p.now.facets, p.planned.settings());
-  p.made.forget(Redo::Emission);  // its F M is gone, too
+  for (const Redo gone : {Redo::Emission, Redo::Gather}) p.made.forget(gone);
 }
 
 void Pipeline::invalidate(Redo from) {
@@ -545,6 +658,7 @@ void Pipeline::invalidate(Redo from) {
 
 void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
   Impl& p = *impl_;
+  p.context.timings.about(fmt::format("{}, {} voxels", p.scene.path.stem().string(), p.settings.voxel.resolution));
   if (p.shadowsDue()) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
     p.redrawShadows();
@@ -603,7 +717,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
       p.solvedFrame = solvedFrame;
     }
   } before{p};
-  p.relight(p.now, Redo::Gather, /*maxSweeps=*/0, progress);
+  p.relight(p.now, StagesDue::from(Redo::Emission), /*maxSweeps=*/0, progress);
   draw();
 }
 
@@ -642,14 +756,13 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   const GpuCamera gpu = makeGpuCamera(p.scene, camera, targets.size);
   frame.pass("Camera").update(p.camera, gpu);
 
-  ShadeParams shade = p.settings.camera.gpu;
-  shade.exposure = std::exp2(p.settings.camera.exposureEv);
-  ForwardEffects effects = p.planned.forwardEffects();
-  effects.kernels = rasterizesByKernels(p.context.device, p.settings);
+  // Stages whose result the view does not show are left out.
+  const Settings& obeyed = p.planned.settings();
+  uint32_t from = sourcesOf(view, obeyed, p.pictureOf);
+  if (p.now.light && p.now.light->writeback.used) from |= FROM_TARGETS | FROM_REFLECTIONS;  // every picture writes back
+  const auto isFrom = [&](uint32_t sources) { return (from & sources) != 0; };
   const bool pixelEmitters = p.planned.plan().pixelEmitters;
-  const IndirectInputs indirect = indirectInputs(p.now, view, pixelEmitters, p.planned.settings());
-  drawScene(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, effects);
-
+  const uint32_t indirectly = FROM_INDIRECT_LIGHT | FROM_EMITTED | FROM_REFLECTIONS;
   ViewInputs inputs = viewInputs(p.now, pixelEmitters);
   inputs.scene = &p.onDevice;
   if (p.shadows) inputs.shadows = &*p.shadows;
@@ -657,10 +770,41 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   inputs.pictureOf = p.pictureOf;
   if (p.skyOnDevice) inputs.sky = &p.skyOnDevice.record;
   inputs.range = range;
-  lightByEmitters(frame, inputs, p.planned.settings(), targets);
-  traceSpecular(frame, inputs, p.camera, p.planned.settings(), targets);
-  writeBack(frame, inputs, p.camera, p.planned.settings(), p.skyOnDevice ? p.sky.largest() : 0.0f, targets);
-  drawView(frame, view, inputs, p.camera, p.planned.settings(), targets);
+
+  const auto drawSurfaces = [&](Layer layer) {
+    if (isFrom(FROM_TARGETS | FROM_DEPTH)) {
+      ShadeParams shade = p.settings.camera.gpu;
+      shade.exposure = std::exp2(p.settings.camera.exposureEv);
+      ForwardEffects effects = p.planned.forwardEffects();
+      effects.layer = layer;
+      effects.kernels = rasterizesByKernels(p.context.device, p.settings);
+      // The facets that pixels lie on tell, too, where the lights' shadow maps let through what a wall keeps off.
+      effects.wanted = {.surfaces = isFrom(FROM_TARGETS),
+                        .direct = isFrom(FROM_DIRECT_LIGHT),
+                        .indirect = isFrom(FROM_DIRECT_LIGHT | indirectly),
+                        .reflections = isFrom(FROM_REFLECTIONS)};
+      const IndirectInputs indirect = indirectInputs(p.now, view, pixelEmitters, obeyed);
+      drawScene(frame, p.onDevice, *p.shadows, indirect, p.camera, shade, targets, effects);
+    }
+    if (isFrom(indirectly)) lightByEmitters(frame, inputs, obeyed, targets);
+    if (!isFrom(FROM_REFLECTIONS)) return;
+    traceSpecular(frame, inputs, p.camera, obeyed, targets);
+    // What is written back is of the surfaces that are nearest.
+    if (layer == Layer::first)
+      writeBack(frame, inputs, p.camera, obeyed, p.skyOnDevice ? p.sky.largest() : 0.0f, targets);
+  };
+  const View seen = isFrom(FROM_PICTURE) ? p.pictureOf : view;
+  inputs.composed = p.planned.on(Effect::glass) && seen == VIEW_LIT;
+  targets.fitLayers(p.context, inputs.composed);
+  const auto drawLayer = [&](Layer layer) {
+    drawSurfaces(layer);
+    drawTargets(frame, seen, inputs, p.camera, obeyed, targets);
+  };
+  if (inputs.composed)
+    drawLayers(frame, p.settings.camera.glassLayers, drawLayer, targets);
+  else
+    drawSurfaces(Layer::first);
+  drawView(frame, view, inputs, p.camera, obeyed, targets);
 }
 
 void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels, View of) {

@@ -26,6 +26,7 @@ struct Finding;
 struct FormFactors;
 struct Light;
 struct Lighting;
+struct MaterialEdit;
 struct Scene;
 struct SavedFrames;
 struct SceneTraits;
@@ -41,6 +42,7 @@ using Progress = std::function<bool(const char* stage, float fraction)>;
 struct Revision {
   uint64_t build = 0;  ///< facets, field, matrix
   uint64_t light = 0;
+  uint64_t materials = 0;  ///< what they give the facets of one build
   bool operator==(const Revision&) const = default;
 };
 
@@ -78,9 +80,16 @@ class Pipeline {
   /// prepare(). UsageError names what is wrong with a light, DeviceError what the device lacks for its shadow map: then
   /// the old lights stay.
   void setLights(std::vector<Light> lights);
-  /// Takes another reading of the scene, such as its file after an edit, with other lights, cameras and bookmarks.
-  /// False, and `scene` and this stay as they are, where its surfaces differ by their content: that takes another
-  /// pipeline. Throws what setLights() throws.
+  /// Takes other edits of materials, in place of those that the scene has: the facets' rho and M, what light these
+  /// need, and solve follow at the next prepare(), or all of it where an edit moves what an alpha mask cuts out.
+  /// UsageError names what is wrong with a material: then the old edits stay.
+  void setMaterials(std::vector<MaterialEdit> edits);
+  /// The first stage that would be due with these.
+  Redo due(const std::vector<MaterialEdit>& edits) const;
+  /// Takes another reading of the scene, such as its file after an edit, with other lights, edits of materials, cameras
+  /// and bookmarks.
+  /// False, and `scene` and this stay as they are, where its file's surfaces or materials differ by their content: that
+  /// takes another pipeline. Throws what setLights() throws.
   bool adopt(Scene& scene);
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();
@@ -93,7 +102,7 @@ class Pipeline {
   /// H and B become 0: the next prepare() solves from the dark.
   void darken();
 
-  /// `from` and the stages after it run again at the next prepare(): repeated measurements.
+  /// `from` and the stages that come of it run again at the next prepare(): repeated measurements.
   void invalidate(Redo from);
 
   /// Runs what is dirty up to the scatter: blocking. When it throws or is cancelled pictures are drawn from the old

@@ -35,6 +35,7 @@ class Planner {
     emission();
     sky();
     if (shines_) plan_.noLight.clear();
+    nothingDiffuse();
     specular();
     matrix();
     writeback();
@@ -43,7 +44,8 @@ class Planner {
     field();
     relight();
     rebuild();
-    materialFeature(Effect::alphaTest, &MaterialTraits::alphaTest, "cut out by alpha");
+    glass();
+    alphaTest();
     materialFeature(Effect::normalMap, &MaterialTraits::normalMap, "with a normal map");
     blur();
     redraw();
@@ -125,7 +127,8 @@ class Planner {
       maps += l.cube ? flat / 4 * 6 : flat;
     }
     std::string reason = counted(all, kind.one, kind.many);
-    if (all > 0) reason += fmt::format(": {} with an intensity, of these {} in reach of the scene", shining, lighting);
+    if (all > 0)
+      reason += fmt::format(": {} on and with an intensity, of these {} in reach of the scene", shining, lighting);
     if (sized > 0) reason += fmt::format("; penumbrae of {}, by {} points", sized, s_.light.points);
     const bool calledFor = held(effect, share, reason);
     decide(effect, calledFor, std::move(reason), maps);
@@ -140,8 +143,10 @@ class Planner {
     std::string reason = fmt::format("sky.source = {}", nameOf(source));
     if (source != SkySource::none) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", t_.sky);
     if (!byTriangles() && source != SkySource::none) reason += "; not with matrix.hit_rule = thesis, which has no sky";
+    // What lies outside the region is met by the rays that escape, as a sky is.
+    if (byTriangles() && t_.outer) reason += "; rays that leave scene.region meet what lies outside of it";
     if (byTriangles())
-      decide(Effect::sky, t_.sky > 0, std::move(reason), bytes);
+      decide(Effect::sky, t_.sky > 0 || t_.outer, std::move(reason), bytes);
     else
       without(Effect::sky, std::move(reason), bytes);
     lit(Effect::sky, t_.sky > 0);
@@ -152,6 +157,17 @@ class Planner {
     r.state = EffectState::asleep;
     r.reason += "; what was built for it is kept";
     r.bytesNotAllocated = 0;
+  }
+
+  /// Metals show what is around them, which is black without a sky, but for highlights of the lights.
+  void nothingDiffuse() {
+    const bool metal = most(&MaterialTraits::f0) > 0 && most(&MaterialTraits::albedo) == 0;
+    if (!metal || !shines_ || emits_ || plan_.on(Effect::sky)) return;
+    const std::string which = used_.size() == 1 ? "The one material is not diffuse"
+                                                : fmt::format("None of {} materials is diffuse", used_.size());
+    plan_.nothingDiffuse = {which + ": metal shows what is around it, and nothing there gives light.",
+                            "A sky would: sky.source = constant or preetham, or a picture of one (--sky FILE, or "
+                            "dropped into the window)."};
   }
 
   void specular() {
@@ -189,9 +205,9 @@ class Planner {
     }
     without(Effect::bruteForce, "solver.method = matrix", b_.facets * kFrames);
     decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight + kSolve));
-    // Lights that are there may be turned up again: what was built for them is kept.
+    // Lights that are there, and what has emitted, may be turned up again: what was built for them is kept.
     EffectRow& r = row(Effect::matrix);
-    const bool mayShine = !t_.lights.empty() || !plan_.off(Effect::sky);
+    const bool mayShine = !t_.lights.empty() || t_.emitted || !plan_.off(Effect::sky);
     if (r.state == EffectState::on || s_.effects.matrix != EffectMode::automatic || !mayShine || !b_.matrix) return;
     r.state = EffectState::asleep;
     r.reason += "; kept for the lights that there are";
@@ -253,7 +269,8 @@ class Planner {
       even = even && m.evenEmission;
     }
     if (triangles == 0 || plan_.noIndirectLight()) return;
-    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles() && (even || !automatic);
+    // What emits outside the region is not in F M, whose place pixels' rays take.
+    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles() && (even || !automatic) && !t_.outer;
     row(Effect::emission).reason +=
         fmt::format("; {} look for {} triangles{}: {} at most{}, with matrix.hit_rule=triangles alone",
                     plan_.pixelEmitters ? "pixels" : "pixels do not", triangles,
@@ -280,7 +297,7 @@ class Planner {
     const bool due = l.due <= Redo::Scatter;
     // Light at rest is kept, unless relighting is switched off.
     sleeps(Effect::relight, due || !l.settled || s_.effects.relight == EffectMode::off,
-           due ? fmt::format("{} is due", nameOf(std::max(l.due, Redo::Gather)))
+           due ? fmt::format("{} is due", nameOf(std::max(l.due, Redo::Materials)))
            : plan_.on(Effect::bruteForce)
                ? fmt::format("{} of {} frames, standard error {:.2g} {} {:.2g} W/m^2", l.frames, s_.solver.frames,
                              l.standardError, l.standardError <= l.tolerance ? "<=" : ">", l.tolerance)
@@ -302,6 +319,19 @@ class Planner {
                         : "camera, scene, settings and light are as drawn");
   }
 
+  void glass() {
+    auto [n, reason] = materials([](const MaterialTraits& m) { return m.glass; }, "blended with alpha below 1");
+    if (!byTriangles() && n > 0)
+      return without(Effect::glass, reason + ", opaque with matrix.hit_rule = thesis; textured ones cut at one half");
+    decide(Effect::glass, n > 0, std::move(reason));
+  }
+  /// Where there is no glass, textured materials that blend are cut out.
+  void alphaTest() {
+    const bool glass = plan_.on(Effect::glass);
+    const auto cut = [&](const MaterialTraits& m) { return m.alphaTest || (m.cutIfOpaque && !(glass && m.glass)); };
+    auto [n, reason] = materials(cut, "cut out by alpha");
+    decide(Effect::alphaTest, n > 0, std::move(reason));
+  }
   void materialFeature(Effect effect, bool MaterialTraits::*has, const char* what) {
     auto [n, reason] = materials(has, what);
     decide(effect, n > 0, std::move(reason));
@@ -404,10 +434,11 @@ std::string planJson(const EffectPlan& plan, int indent) {
   return out.dump(indent);
 }
 
-Planned::Planned(const Scene& scene, const Settings& settings)
-    : traits(measure(scene, settings.voxel.resolution)),
-      plan_(irad::plan(traits, settings)),
-      settings_(obeyed(settings, plan_)) {}
+Planned::Planned(const Scene& scene, const Settings& settings) : traits(measure(scene, settings.voxel.resolution)) {
+  traits.outer = liesOutside(scene, settings);
+  plan_ = irad::plan(traits, settings);
+  settings_ = obeyed(settings, plan_);
+}
 
 void Planned::decide(const Settings& wanted) {
   plan_ = irad::plan(traits, wanted, &plan_);
@@ -430,12 +461,19 @@ bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& 
 
 std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all) const {
   std::vector<GpuMaterial> out = all;
-  for (GpuMaterial& m : out) {
+  for (size_t i = 0; i < out.size(); ++i) {
+    GpuMaterial& m = out[i];
+    const MaterialTraits& t = traits.materials.at(i);
+    const bool glass = on(Effect::glass) && t.glass;
+    if (!glass && (m.flags & MATERIAL_BLEND) != 0) {
+      m.flags &= ~MATERIAL_BLEND;
+      if (!t.cutIfOpaque) m.flags &= ~MATERIAL_ALPHA_MASK;
+    }
     if (!on(Effect::emission)) {
       m.emission = glm::vec3(0);
       m.flags &= ~MATERIAL_EMISSIVE_TEXTURE;
     }
-    if (!on(Effect::alphaTest)) m.flags &= ~MATERIAL_ALPHA_MASK;
+    if (!on(Effect::alphaTest) && !glass) m.flags &= ~MATERIAL_ALPHA_MASK;
     if (!on(Effect::normalMap)) m.flags &= ~MATERIAL_NORMAL_TEXTURE;
   }
   return out;
@@ -445,7 +483,8 @@ ForwardEffects Planned::forwardEffects() const {
   ForwardEffects e;
   for (const LightKind& kind : lightKinds()) e.lights[kind.type] = on(effectOf(kind.type));
   e.emission = on(Effect::emission);
-  e.alphaTest = on(Effect::alphaTest);
+  e.alphaTest = on(Effect::alphaTest) || on(Effect::glass);
+  e.glass = on(Effect::glass);
   e.normalMap = on(Effect::normalMap);
   e.specular = on(Effect::specular);
   e.highlights = std::ranges::any_of(traits.materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });

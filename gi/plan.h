@@ -31,6 +31,7 @@ struct ForwardEffects;
   X(relight, "relight", "Relight", "effects.relight", &EffectSettings::relight)                  \
   X(rebuild, "rebuild", "Rebuild", "", nullptr)                                                  \
   X(alphaTest, "alpha-test", "Alpha test", "effects.alpha_test", &EffectSettings::alphaTest)     \
+  X(glass, "glass", "Glass", "effects.glass", &EffectSettings::glass)                            \
   X(normalMap, "normal-map", "Normal maps", "effects.normal_map", &EffectSettings::normalMap)    \
   X(blur, "blur", "Blur", "effects.blur", &EffectSettings::blur)                                 \
   X(redraw, "redraw", "Redraw", "", nullptr)
@@ -77,6 +78,9 @@ struct EffectPlan {
   bool pixelEmitters = false;  ///< sample.emitters = pixels is obeyed; the row of emission says why not
   /// The reasons of all kinds of light where none lights the scene; else nothing.
   std::vector<std::string> noLight;
+  /// Where there is light, but no material that scatters it and no sky: why surfaces are black all the same, and what
+  /// would mend it, a sentence each; else nothing.
+  std::vector<std::string> nothingDiffuse;
   const EffectRow& row(Effect effect) const { return rows[static_cast<size_t>(effect)]; }
   bool on(Effect effect) const { return row(effect).state == EffectState::on; }
   bool off(Effect effect) const { return row(effect).state == EffectState::off; }

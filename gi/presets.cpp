@@ -83,6 +83,7 @@ void applyPreset(Settings& settings, std::string_view name, bool cpuDevice) {
     throw UsageError(fmt::format("unknown preset '{}'{}", name, suggestion(name, presetNames())));
   preset.matrix.gpu.seed = settings.matrix.gpu.seed;
   preset.camera.exposureEv = settings.camera.exposureEv;
+  preset.camera.autoExposure = settings.camera.autoExposure;
   preset.camera.gpu.toneCurve = settings.camera.gpu.toneCurve;
   preset.view = settings.view;
   preset.sky = settings.sky;

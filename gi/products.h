@@ -19,6 +19,7 @@ namespace irad {
 /// One member per stage's product, all made from one facet list. Before the first build there are none.
 struct Products {
   std::optional<FacetList> facets;
+  FacetParts parts;   ///< of `facets`, since the first edit of a material
   Buffer gridRecord;  ///< one Grid
   std::optional<Field> field;
   std::optional<FormFactors> matrix;

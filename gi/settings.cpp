@@ -54,6 +54,39 @@ size_t parseChoice(const Setting& setting, std::string_view given) {
   throw UsageError(message);
 }
 
+/// "x0,y0,z0,x1,y1,z1"
+void assignBox(Settings& settings, std::string_view given) {
+  Settings changed = settings;
+  std::string_view rest = given;
+  bool six = true;
+  for (const char* name : {"scene.region_x0", "scene.region_y0", "scene.region_z0", "scene.region_x1",
+                           "scene.region_y1", "scene.region_z1"}) {
+    six = six && !rest.empty();
+    if (!six) break;
+    const size_t comma = rest.find(',');
+    findSetting(name).assign(changed, rest.substr(0, comma));
+    rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
+  }
+  if (!six || !rest.empty())
+    throw UsageError(fmt::format("scene.region: '{}' is not allowed; expected six numbers x0,y0,z0,x1,y1,z1", given));
+  changed.scene.region.mode = RegionMode::box;
+  requireMatching(changed);
+  settings = changed;
+}
+
+/// One of the settings by its name; "auto" as an exposure is camera.auto_exposure, six numbers as a region its box.
+void assign(Settings& settings, std::string_view name, std::string_view value) {
+  if (name == "camera.exposure" && value == "auto") {
+    settings.camera.autoExposure = true;
+    return;
+  }
+  if (name == "scene.region" && value.find(',') != std::string_view::npos) {
+    assignBox(settings, value);
+    return;
+  }
+  findSetting(name).assign(settings, value);
+}
+
 }  // namespace
 
 std::string_view Setting::group() const {
@@ -110,6 +143,15 @@ const Setting& findSetting(std::string_view name) {
 }
 
 void requireMatching(const Settings& settings) {
+  if (const RegionSettings& r = settings.scene.region; r.mode == RegionMode::box) {
+    if (!(r.x0 < r.x1 && r.y0 < r.y1 && r.z0 < r.z1))
+      throw UsageError(
+          fmt::format("scene.region={},{},{},{},{},{}: each of the first three has to be less than its "
+                      "counterpart in the last three",
+                      r.x0, r.y0, r.z0, r.x1, r.y1, r.z1));
+    if (settings.matrix.gpu.hitRule == HitRule::thesis)
+      throw UsageError("scene.region=box needs matrix.hit_rule=triangles");
+  }
   if (settings.matrix.gpu.hitRule == HitRule::thesis) return;
   const char* alone = settings.voxel.method == VoxelMethod::raster     ? "voxel.method=raster"
                       : settings.matrix.format == MatrixFormat::padded ? "matrix.format=padded"
@@ -121,7 +163,7 @@ void requireMatching(const Settings& settings) {
 void applySetting(Settings& settings, std::string_view assignment) {
   const size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) throw UsageError(fmt::format("setting '{}': expected name=value", assignment));
-  findSetting(assignment.substr(0, equals)).assign(settings, assignment.substr(equals + 1));
+  assign(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
 std::string settingsToJson(const Settings& settings, int indent) {
@@ -150,7 +192,7 @@ void settingsFromJson(Settings& settings, std::string_view json) {
   for (const auto& [name, value] : parsed.items()) {
     if (value.is_structured() || value.is_null())
       throw UsageError(fmt::format("{}: expected a number, true, false or a name, not {}", name, value.dump()));
-    findSetting(name).assign(changed, value.is_string() ? value.get<std::string>() : value.dump());
+    assign(changed, name, value.is_string() ? value.get<std::string>() : value.dump());
   }
   settings = changed;
 }

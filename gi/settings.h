@@ -33,9 +33,10 @@ namespace irad {
 #define IRAD_RASTERIZERS(X) X(automatic, "auto") X(hardware, "hardware") X(kernels, "kernels")
 #define IRAD_EFFECT_MODES(X) X(automatic, "auto") X(on, "on") X(off, "off")
 #define IRAD_SKY_SOURCES(X) X(none, "none") X(constant, "constant") X(image, "image") X(preetham, "preetham")
+#define IRAD_REGION_MODES(X) X(automatic, "auto") X(whole, "whole") X(box, "box")
 #define IRAD_REDOS(X) \
-  X(Voxels, "voxels") X(Field, "field") X(Matrix, "matrix") X(Emission, "emission") X(Gather, "gather") \
-  X(Solve, "solve") X(Scatter, "scatter") X(Shade, "shade") X(Nothing, "nothing")
+  X(Voxels, "voxels") X(Field, "field") X(Matrix, "matrix") X(Materials, "materials") X(Emission, "emission") \
+  X(Gather, "gather") X(Solve, "solve") X(Scatter, "scatter") X(Shade, "shade") X(Nothing, "nothing")
 // clang-format on
 
 IRAD_ENUM(VoxelMethod, IRAD_VOXEL_METHODS)
@@ -53,10 +54,12 @@ IRAD_ENUM(SolverAcceleration, IRAD_SOLVER_ACCELERATIONS)
 /// Who turns triangles into pixels: the graphics pipeline, or compute kernels (shaders/raster).
 IRAD_ENUM(Rasterizer, IRAD_RASTERIZERS)
 IRAD_ENUM(SkySource, IRAD_SKY_SOURCES)
+/// Which part of the scene has voxels (gi/region.h).
+IRAD_ENUM(RegionMode, IRAD_REGION_MODES)
 /// Whether an effect (gi/plan.h) runs. automatic: where the scene calls for it; on: always; off: never.
 IRAD_ENUM(EffectMode, IRAD_EFFECT_MODES)
-/// The first stage that has to run again when a setting changes; later ones follow. Ordered. (Emission: the first
-/// gather from emissive facets, F M of docs/method.md 6.)
+/// The first stage that has to run again when a setting changes; later ones follow. Ordered. (Materials: rho and M of
+/// the facets. Emission: the first gather from emissive facets, F M of docs/method.md 6.)
 IRAD_ENUM(Redo, IRAD_REDOS)
 
 struct VoxelSettings {
@@ -128,6 +131,8 @@ struct SkySettings {
 };
 struct CameraSettings {
   float exposureEv = 0.0f;
+  bool autoExposure = false;
+  uint32_t glassLayers = 4;  ///< blended surfaces behind each other that a picture shows
   ShadeParams gpu{1.0f, ToneCurve::neutral, 1.5f, 3, true};
   bool operator==(const CameraSettings&) const = default;
 };
@@ -153,7 +158,8 @@ struct ThesisSettings {
 
 /// Overrides of the effect plan.
 struct EffectSettings {
-  EffectMode emission{}, sky{}, matrix{}, specular{}, writeback{}, field{}, relight{}, alphaTest{}, normalMap{}, blur{};
+  EffectMode emission{}, sky{}, matrix{}, specular{}, writeback{}, field{}, relight{}, alphaTest{}, glass{},
+      normalMap{}, blur{};
   // One for each kind of light: sun, point, spot.
 #define IRAD_LIGHT_MODE(constant, number, id, effect, gltf, name, one, many, map, traits) EffectMode effect{};
   IRAD_LIGHT_KINDS(IRAD_LIGHT_MODE)
@@ -162,9 +168,15 @@ struct EffectSettings {
   bool operator==(const EffectSettings&) const = default;
 };
 
-/// How the scene's file is read (LoadOptions).
+struct RegionSettings {
+  RegionMode mode = RegionMode::whole;
+  float x0 = -1, y0 = -1, z0 = -1, x1 = 1, y1 = 1, z1 = 1;  ///< of RegionMode::box: two of its corners, world
+  bool operator==(const RegionSettings&) const = default;
+};
+/// How the scene's file is read (LoadOptions), and which part of it has voxels.
 struct SceneSettings {
   bool lambertian = false, doubleSided = false;
+  RegionSettings region;
   bool operator==(const SceneSettings&) const = default;
 };
 
@@ -222,17 +234,18 @@ std::span<const Setting> settingTable();
 /// UsageError names the near matches.
 const Setting& findSetting(std::string_view name);
 
-/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposure, the tone curve, the view, the
+/// "thesis", "fast", "balanced", "reference": every setting but the seed, the exposures, the tone curve, the view, the
 /// sky, device.rasterizer and scene.*, which are the user's own; UsageError lists the names. `cpuDevice` picks the
 /// sizes by device class (CPU rasterizer N = 64, 128 rays; GPU N = 256, 384 rays); thesis is the same everywhere.
 void applyPreset(Settings& settings, std::string_view name, bool cpuDevice = false);
 Settings defaultSettings(bool cpuDevice);
 std::vector<std::string> presetNames();
 
-/// UsageError where values do not go together: what is the thesis's alone, and its hit rule.
+/// UsageError where values do not go together: what is the thesis's alone, and its hit rule; a box and its corners.
 void requireMatching(const Settings& settings);
 
-/// One "name=value"; UsageError names the near matches of an unknown name, or the range of a bad value.
+/// One "name=value" (or camera.exposure=auto, scene.region=x0,y0,z0,x1,y1,z1); UsageError names the near matches of an
+/// unknown name, or the range of a bad value.
 void applySetting(Settings& settings, std::string_view assignment);
 
 std::string settingsToJson(const Settings& settings, int indent = 2);  ///< {"voxel.resolution": 64, ...}

@@ -44,6 +44,9 @@ constexpr Setting row(Member member, const char* name, const char* help, Redo re
   row(                       \
       [](auto& s) -> auto& { return s.member; }, __VA_ARGS__)
 
+/// Of a box's corners, m.
+constexpr double kFarthest = 1e9;
+
 namespace rows {  // alone sees the stages' names without Redo::, whatever is compiled with it
 using enum Redo;
 constexpr Setting kTable[] = {
@@ -111,10 +114,13 @@ constexpr Setting kTable[] = {
             "Subtract direct and emitted light from the volume that shading samples with matrix.hit_rule=thesis: no "
             "blocky shadow edges.",
             Scatter),
-    SETTING(
-        sample.gpu.filter_, "sample.filter",
-        "How shading looks up indirect light: the nearest facet, between voxel centres, or a blur of 3 x 3 x 3 voxels.",
-        Scatter),
+    SETTING(sample.gpu.filter_, "sample.filter",
+            "How shading looks up indirect light: the nearest facet, between voxel centres, or between them after a "
+            "blur over "
+            "3 x 3 x 3 voxels. With matrix.hit_rule=triangles that goes only as far as the noise of the rays calls "
+            "for, and "
+            "costs one product with the matrix per relight.",
+            Scatter),
     SETTING(sample.gpu.premultiplied, "sample.premultiplied",
             "Divide what is looked up by its alpha, the share of it that lies on surfaces, so that empty voxels do not "
             "darken it.",
@@ -194,7 +200,16 @@ constexpr Setting kTable[] = {
         "Diffuse albedo of the ground below the horizon of Preetham's sky, which that sky and its coupled sun light.",
         Gather),
     SETTING(camera.exposureEv, "camera.exposure", {-16, 16, "EV"},
-            "Exposure of the displayed picture; EXR files stay linear.", Nothing),
+            "Exposure of the displayed picture; EXR files stay linear. auto: camera.auto_exposure = true.", Nothing),
+    SETTING(camera.autoExposure, "camera.auto_exposure",
+            "Exposes each picture of light by itself, so that 95 % of it are darker than the tone curve's bend; "
+            "camera.exposure comes on top.",
+            Nothing),
+    SETTING(
+        camera.glassLayers, "camera.glass_layers", {1, 16},
+        "Blended surfaces, one behind the other, that a picture shows; those behind are left out. Where a scene has "
+        "such surfaces its pictures are drawn once for each and once more.",
+        Nothing),
     SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),
     SETTING(camera.gpu.shadowBias, "camera.shadow_bias", {0, 10, "texels"}, "Normal offset of shadow lookups.", Gather),
     SETTING(camera.gpu.pcf, "camera.pcf", {1, 5, "taps", /*logarithmic=*/false, /*step=*/2},
@@ -229,13 +244,13 @@ constexpr Setting kTable[] = {
     SETTING(thesis.literal, "thesis.literal",
             "Bring back the thesis's slips (a grid without padding, the sign of 0), to show what they cost.", Voxels),
     SETTING(effects.emission, "effects.emission",
-            "Emissive surfaces: the light that they give, and how they look; auto: where a material emits.", Voxels),
-    SETTING(effects.sun, "effects.sun", "Suns with their shadow maps; auto: those with an intensity.", Gather),
+            "Emissive surfaces: the light that they give, and how they look; auto: where a material emits.", Materials),
+    SETTING(effects.sun, "effects.sun", "Suns with their shadow maps; auto: those that give light.", Gather),
     SETTING(effects.point, "effects.point",
-            "Point lights with their shadow maps; auto: those with an intensity whose range reaches the scene.",
+            "Point lights with their shadow maps; auto: those that give light and whose range reaches the scene.",
             Gather),
     SETTING(effects.spot, "effects.spot",
-            "Spot lights with their shadow maps; auto: those with an intensity whose range and cone reach the scene.",
+            "Spot lights with their shadow maps; auto: those that give light and whose range and cone reach the scene.",
             Gather),
     SETTING(
         effects.sky, "effects.sky",
@@ -255,14 +270,18 @@ constexpr Setting kTable[] = {
             "Gather, solve and scatter; auto: until the error bound is below solver.tolerance; on: in every frame of "
             "the window; off: the light stays as it is.",
             Nothing),
+    SETTING(effects.glass, "effects.glass",
+            "Blended surfaces cover the share alpha of what meets them; auto: where a material has alpha below 1 and "
+            "matrix.hit_rule = triangles. off: opaque; textured ones cut out at one half.",
+            Voxels),
     SETTING(effects.alphaTest, "effects.alpha_test", "Cut-outs by alpha; auto: where a material has one.", Voxels),
-    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Voxels),
+    SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Materials),
     SETTING(effects.blur, "effects.blur",
-            "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it changes H by more than "
+            "Blur of sample.filter=blur; off: as sample.filter=linear; auto: where it may change H by more than "
             "effects.blur_noise.",
             Scatter),
     SETTING(effects.blurNoise, "effects.blur_noise", {0, 1},
-            "The blur is left out where it changes H by less than this share of the largest H.", Scatter),
+            "The blur is left out where it could change H by less than this share of the largest H.", Scatter),
     SETTING(rasterizer, "device.rasterizer",
             "Who rasterizes voxels (voxel.method=raster), shadow maps and pictures: the graphics pipeline or compute "
             "kernels; auto: kernels where few of the GPU's processors serve the graphics pipeline.",
@@ -271,6 +290,23 @@ constexpr Setting kTable[] = {
             Voxels),
     SETTING(scene.doubleSided, "scene.double_sided",
             "Every material double-sided, as path tracers without culling have them (read at load).", Voxels),
+    SETTING(scene.region.mode, "scene.region",
+            "The part of the scene that has voxels. auto: a small part that holds the detail, if there is one; whole: "
+            "all of it; box: that between scene.region_x0 and so on, also given as scene.region=x0,y0,z0,x1,y1,z1: "
+            "what lies outside is lit directly and gives light, but passes none on.",
+            Voxels),
+    SETTING(scene.region.x0, "scene.region_x0", {-kFarthest, kFarthest, "m"},
+            "Least x of the box of scene.region, world.", Voxels),
+    SETTING(scene.region.y0, "scene.region_y0", {-kFarthest, kFarthest, "m"},
+            "Least y of the box of scene.region, world.", Voxels),
+    SETTING(scene.region.z0, "scene.region_z0", {-kFarthest, kFarthest, "m"},
+            "Least z of the box of scene.region, world.", Voxels),
+    SETTING(scene.region.x1, "scene.region_x1", {-kFarthest, kFarthest, "m"},
+            "Largest x of the box of scene.region, world.", Voxels),
+    SETTING(scene.region.y1, "scene.region_y1", {-kFarthest, kFarthest, "m"},
+            "Largest y of the box of scene.region, world.", Voxels),
+    SETTING(scene.region.z1, "scene.region_z1", {-kFarthest, kFarthest, "m"},
+            "Largest z of the box of scene.region, world.", Voxels),
 };
 }  // namespace rows
 

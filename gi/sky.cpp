@@ -63,7 +63,7 @@ float Sky::largest() const {
 SkyInputs skyInputs(const Scene& scene, std::span<const Light> lights) {
   SkyInputs in{.image = scene.sky.get(), .sun = {}};
   for (const Light& light : lights)
-    if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && light.intensity > 0 && !in.sun)
+    if (lightHas(static_cast<uint32_t>(light.type), LIGHT_DISTANT) && light.on && light.intensity > 0 && !in.sun)
       in.sun = SkySun{-light.direction, light.intensity * light.color};
   return in;
 }
@@ -151,8 +151,8 @@ void place(Context& context, const Sky& sky, SkyOnDevice& onDevice) {
   onDevice.sky = sky;
 }
 
-void gatherSky(Frame& frame, const FormFactors& matrix, const SkyOnDevice& sky, Lighting& light) {
-  if (!sky || !matrix.rowSky) {
+void gatherSky(Frame& frame, const FormFactors& matrix, const Buffer& bins, Lighting& light) {
+  if (!bins || !matrix.rowSky) {
     light.sky = Buffer();
     return;
   }
@@ -160,7 +160,7 @@ void gatherSky(Frame& frame, const FormFactors& matrix, const SkyOnDevice& sky, 
     light.sky = Buffer(frame.context().device, "irradiance from the sky", Subsystem::Solver, light.direct.bytes);
   Pass pass = frame.pass("GI Gather");
   pass.shader("gi/gather_sky.comp")
-      .push(GatherSkyPush{pass.in(matrix.record), pass.in(sky.bins), pass.out(light.sky)})
+      .push(GatherSkyPush{pass.in(matrix.record), pass.in(bins), pass.out(light.sky)})
       .dispatch(matrix.rows);
 }
 

@@ -69,7 +69,8 @@ struct SkyOnDevice {
 void place(Context& context, const Sky& sky, SkyOnDevice& onDevice);
 
 /// light.sky becomes the irradiance from the sky, pi x mean radiance x share of rays summed over the bins into which a
-/// facet's rays escape; where there is no sky it is freed.
-void gatherSky(Frame& frame, const FormFactors& matrix, const SkyOnDevice& sky, Lighting& light);
+/// facet's rays escape; where there is no sky it is freed. `bins`: the sky's, or those with what lies outside
+/// (gi/outer.h).
+void gatherSky(Frame& frame, const FormFactors& matrix, const Buffer& bins, Lighting& light);
 
 }  // namespace irad

@@ -40,9 +40,13 @@ uint32_t traceMethod(const Settings& settings, const Field& field) {
   return bytes ? TRACE_SKIP : TRACE_DDA_REVERSE;
 }
 
-/// Invocations that share a pixel's rays. On a CPU those that have none, as all but one of a mirror, are work for all.
-uint32_t lobeLanes(const Device& device) {
-  return device.isCpu ? 2 : 4;
+/// Invocations that share a pixel's rays. On a CPU those that have none, as all but one of a mirror, are work for all;
+/// but no more than eight rays go to one, or Mesa's CPU driver may end its loops, after 65,535 rounds, in a crowd.
+uint32_t lobeLanes(const Device& device, uint32_t rays) {
+  if (!device.isCpu) return 4;
+  uint32_t lanes = 2;
+  while (lanes < 16 && rays > 8 * lanes) lanes *= 2;
+  return lanes;
 }
 
 /// W/m^2. In the dark no pixel traces rays, unless the threshold is 0.
@@ -122,7 +126,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
 
   Pass trace = frame.pass(kSpecularStage);
   trace.shader(fieldIsImage(picture) ? "specular/trace_jfa.comp" : "specular/trace.comp");
-  const uint32_t lanes = lobeLanes(frame.context().device);
+  const uint32_t lanes = lobeLanes(frame.context().device, settings.specular.gpu.rays);
   trace.constant(CONSTANT_LOBE_LANES, lanes).constant(CONSTANT_LOBE_WORKGROUP, lanes * PICKED_GROUP);
   const bool emitters = inputs.facets->surface && inputs.emitters != nullptr && inputs.emitters->count > 0;
   addRays(picture, trace, emitters ? inputs.emitters : nullptr).write(targets.linear);

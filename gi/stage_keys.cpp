@@ -1,25 +1,27 @@
 #include "gi/stage_keys.h"
 
+#include <algorithm>
 #include <functional>
 #include <string_view>
+#include <tuple>
+
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 namespace {
 
-void add(Digest& digest, const TextureUse& use) {
+void addUse(Digest& digest, const TextureUse& use) {
   digest.add(use.image).add(use.uvSet).add(use.transform);
   const SamplerDesc& s = use.sampler;
   digest.add(s.u).add(s.v).add(s.linearMag).add(s.linearMin).add(s.mips).add(s.linearMips);
   digest.add(s.anisotropic);
 }
 
-void add(Digest& digest, const Material& m) {
+void addMaterial(Digest& digest, const Material& m) {
   digest.add(m.baseColor).add(m.metallic).add(m.roughness).add(m.emission);
   digest.add(m.normalScale).add(m.occlusionStrength).add(m.alphaCutoff).add(m.alpha);
   digest.add(m.doubleSided).add(m.lambertian);
-  for (const TextureUse* use :
-       {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
-    add(digest, *use);
+  for (const TextureUse* use : texturesOf(m)) addUse(digest, *use);
 }
 
 }  // namespace
@@ -31,14 +33,50 @@ Digest& Digest::add(std::span<const std::byte> bytes) {
   return *this;
 }
 
-uint64_t surfaceContent(const Scene& scene) {
+SurfaceContent::SurfaceContent(const Scene& scene) {
   Digest digest;
   digest.add(scene.origin).add(scene.boundsMin).add(scene.boundsMax);
   digest.add(scene.positions).add(scene.normals).add(scene.tangents);
   digest.add(scene.uv0).add(scene.uv1).add(scene.colors).add(scene.indices).add(scene.draws);
-  for (const Material& m : scene.materials) add(digest, m);
+  geometry_ = digest.value();
   for (const SceneImage& image : scene.images)
-    digest.add(image.width).add(image.height).add(image.srgb).add(image.rgba);
+    images_.push_back(Digest().add(image.width).add(image.height).add(image.srgb).add(image.rgba).value());
+}
+
+/// With its texels.
+void SurfaceContent::add(Digest& digest, const TextureUse& use) const {
+  addUse(digest, use);
+  if (use.image >= 0) digest.add(images_.at(static_cast<size_t>(use.image)));
+}
+
+uint64_t SurfaceContent::surfaces(std::span<const Material> materials) const {
+  Digest digest;
+  digest.add(geometry_);
+  for (const Material& m : materials) {
+    const bool holes = cutByAlpha(m) || m.alpha == AlphaMode::Blend;
+    digest.add(m.doubleSided).add(holes);
+    if (!holes) continue;
+    digest.add(m.alpha).add(m.alphaCutoff).add(m.baseColor.a);
+    add(digest, m.baseColorTexture);
+  }
+  return digest.value();
+}
+
+uint64_t SurfaceContent::materials(std::span<const Material> materials) const {
+  Digest digest;
+  digest.add(images_);
+  for (const Material& m : materials) addMaterial(digest, m);
+  return digest.value();
+}
+
+uint64_t SurfaceContent::emission(std::span<const Material> materials) const {
+  Digest digest;
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const Material& m = materials[i];
+    if (m.emission == glm::vec3(0)) continue;
+    digest.add(i).add(m.emission);
+    add(digest, m.emissiveTexture);
+  }
   return digest.value();
 }
 
@@ -53,28 +91,75 @@ uint64_t lightContent(std::span<const GpuLight> lights) {
   return digest.value();
 }
 
-void StageKeys::forget(Redo from) {
-  for (size_t stage = static_cast<size_t>(from); stage < of.size(); ++stage) of[stage] = 0;
+namespace {
+
+constexpr std::array kStages{Redo::Voxels,   Redo::Field,  Redo::Matrix, Redo::Materials,
+                             Redo::Emission, Redo::Gather, Redo::Solve,  Redo::Scatter};
+
+/// The stages before `stage` whose products it reads.
+std::vector<Redo> readBy(Redo stage) {
+  switch (stage) {
+    case Redo::Field:
+      return {Redo::Voxels};
+    case Redo::Matrix:
+      return {Redo::Field};
+    case Redo::Materials:
+      return {Redo::Voxels};
+    case Redo::Emission:  // and M: SceneContent::emission with the settings of Redo::Materials
+    case Redo::Gather:
+      return {Redo::Matrix};
+    case Redo::Solve:
+      return {Redo::Materials, Redo::Emission, Redo::Gather};
+    case Redo::Scatter:
+      return {Redo::Solve};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+void StageKeys::forget(Redo stage) {
+  static_assert(kStages.size() == std::tuple_size_v<decltype(of)>);
+  (*this)[stage] = 0;
+  for (const Redo later : kStages)
+    if (later > stage && std::ranges::any_of(readBy(later), [&](Redo read) { return (*this)[read] == 0; }))
+      (*this)[later] = 0;
 }
 
 StageKeys stageKeys(const SceneContent& content, const Settings& obeyed) {
   // Each stage reads its own settings,
   std::array<Digest, static_cast<size_t>(Redo::Nothing) + 1> own;
   for (const Setting& setting : settingTable()) own[static_cast<size_t>(setting.redo)].add(setting.get(obeyed));
-  // a part of the scene, and what the stage before it has made.
+  // a part of the scene, and what stages before it have made.
   StageKeys keys;
-  Digest chain;
-  for (size_t stage = 0; stage < keys.of.size(); ++stage) {
-    if (stage == static_cast<size_t>(Redo::Voxels)) chain.add(content.surfaces);
-    if (stage == static_cast<size_t>(Redo::Gather)) chain.add(content.lights).add(content.sky);
-    keys.of[stage] = chain.add(own[stage].value()).value();
+  for (const Redo stage : kStages) {
+    Digest digest;
+    for (const Redo read : readBy(stage)) digest.add(keys[read]);
+    if (stage == Redo::Voxels) digest.add(content.surfaces);
+    if (stage == Redo::Materials) digest.add(content.materials);
+    if (stage == Redo::Emission) digest.add(content.emission).add(own[static_cast<size_t>(Redo::Materials)].value());
+    if (stage == Redo::Gather) digest.add(content.lights).add(content.sky);
+    keys[stage] = digest.add(own[static_cast<size_t>(stage)].value()).value();
   }
   return keys;
 }
 
+StagesDue::StagesDue(const StageKeys& made, const StageKeys& wanted) {
+  for (const Redo stage : kStages)
+    if (made[stage] != wanted[stage]) add(stage);
+}
+
+StagesDue StagesDue::from(Redo first) {
+  StagesDue due;
+  for (const Redo stage : kStages)
+    if (stage >= first) due.add(stage);
+  return due;
+}
+
 Redo firstDifference(const StageKeys& made, const StageKeys& wanted) {
-  for (size_t stage = 0; stage < made.of.size(); ++stage)
-    if (made.of[stage] != wanted.of[stage]) return static_cast<Redo>(stage);
+  for (const Redo stage : kStages)
+    if (made[stage] != wanted[stage]) return stage;
   return Redo::Nothing;
 }
 

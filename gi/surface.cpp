@@ -9,6 +9,7 @@
 #include "gi/facets.h"
 #include "gi/grid.h"
 #include "gi/group_by_material.h"
+#include "gi/region.h"
 #include "gi/repeated.h"
 #include "gi/scan.h"
 #include "gi/settings.h"
@@ -37,6 +38,7 @@ struct Pieces {
   Buffer triangle;                ///< per piece, ascending within a voxel
   Buffer pieceVoxel;              ///< which solid voxel
   Buffer area;                    ///< float, voxel faces
+  Buffer facings;                 ///< the triangles' unit normals, until points have their facets
   Buffer boxes, groups;           ///< packBox; and around groups of them
   Buffer firstPoint, firstCut;    ///< per piece, and the end: its PiecePoints, and its words of SurfaceArrays::cuts
   uint32_t points = 0, cuts = 0;
@@ -48,6 +50,8 @@ struct Points {
   Buffer classes;     ///< per point
   Buffer area;        ///< per point: for how much it stands, voxel faces
   Buffer facetStart;  ///< per solid voxel, and the end
+  Buffer wideStart;   ///< likewise, of the facets whose surfels' sides take more than a byte
+  uint32_t wide = 0;  ///< of these
 };
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
@@ -125,6 +129,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   p.triangle = words(device, "pieces' triangles", p.count);
   p.pieceVoxel = words(device, "pieces' voxels", p.count);
   p.area = words(device, "pieces' areas", p.count);
+  p.facings = words(device, "pieces' facings", 3ull * p.count);
   p.boxes = words(device, "pieces' boxes", p.count);
   p.groups = words(device, "boxes of groups", groupPlaces(p.count));
   Buffer unsorted = words(device, "unsorted pieces", p.count);
@@ -165,6 +170,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     shape.firstPiece = pass.in(p.first);
     shape.corners = pass.in(corners);
     shape.area = pass.out(p.area);
+    shape.facings = pass.out(p.facings);
     shape.boxes = pass.out(p.boxes);
     shape.points = pass.out(p.firstPoint);
     shape.cuts = pass.out(p.firstCut);
@@ -225,9 +231,9 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   p.classes = words(device, "points' facets", pieces.points);
   p.area = words(device, "points' areas", pieces.points);
   p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
-  const Buffer total = words(device, "facets", 1);
+  p.wideStart = words(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
+  const Buffer total = words(device, "facets", 1), wide = words(device, "wide facets", 1);
   Frame frame = context.begin();
-  frame.pass(kListStage).fill(surface.sides, 0);
   {
     Pass pass = frame.pass(kListStage);
     PiecePointsPush push{};
@@ -252,10 +258,12 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
     push.firstPiece = pass.in(pieces.first);
     push.surface = pass.in(surface.record);
     push.area = pass.in(pieces.area);
+    push.facings = pass.in(pieces.facings);
     push.firstPoint = pass.in(pieces.firstPoint);
     push.points = pass.in(p.at);
     push.classes = pass.accumulate(p.classes);
     push.facets = pass.accumulate(p.facetStart);
+    push.wide = pass.accumulate(p.wideStart);
     push.count = pieces.solid;
     pass.shader(shader).push(push);
     return pass;
@@ -263,13 +271,17 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   classify("gi/class_points.comp").dispatch(pieces.solid);
   classify("gi/class_crowd.comp").dispatchWorkgroups(pieces.solid);
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
+  scanToEnd(frame, p.wideStart, pieces.solid, wide, p.wide);
   frame.submitAndWait();
   return p;
 }
 
 /// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels.
-void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
-                const Surface& surface, const FacetList& list) {
+void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
+                const FacetList& list, const Buffer& facings) {
+  const Surface& surface = list.surface;
+  Frame frame = context.begin();
+  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
   {
     Pass pass = frame.pass(kListStage);
     PieceSidesPush push{};
@@ -287,7 +299,6 @@ void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
     pass.out(surface.sides);
     pass.out(surface.cuts);
     push.voxel = pass.out(list.voxel);
-    push.triangle = pass.out(list.triangle);
     push.reverse = pass.out(list.reverse);
     push.facetPiece = pass.out(surface.firstPiece);
     push.count = pieces.count;
@@ -303,21 +314,54 @@ void fillFacets(Frame& frame, const Buffer& gridRecord, const Pieces& pieces, co
     push.classes = pass.in(points.classes);
     push.points = pass.in(points.at);
     push.pointArea = pass.in(points.area);
+    push.pieceVoxel = pass.in(pieces.pieceVoxel);
+    push.wideStart = pass.in(points.wideStart);
     push.surfels = pass.out(surface.surfels);
+    push.wideSides = pass.out(surface.wideSides);
+    push.facings = pass.out(facings);
     push.area = pass.out(list.area);
     push.dims = list.grid.dims;
     push.count = list.count;
     pass.shader("gi/facet_surfels.comp").push(push).dispatch(list.count);
   }
+  frame.submitAndWait();
+}
+
+/// Which facets continue the surface of which: masks and, where `list` says that each facet's begin, links.
+void linkFacets(Context& context, FacetList& list, const Buffer& facings) {
+  Surface& surface = list.surface;
+  const Device& device = context.device;
+  const Buffer found(device, "links as found", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
+  const Buffer total = words(device, "links", 1);
+  uint32_t links = 0;
+  {
+    Frame frame = context.begin();
+    Pass pass = frame.pass(kListStage);
+    LinkFacetsPush push{};
+    push.surface = pass.in(surface.record);
+    push.voxel = pass.in(list.voxel);
+    push.reverse = pass.in(list.reverse);
+    push.facings = pass.in(facings);
+    push.found = pass.out(found);
+    push.masks = pass.out(surface.linkMasks);
+    push.counts = pass.out(surface.firstLinks);
+    push.dims = list.grid.dims;
+    push.count = list.count;
+    pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
+    scanToEnd(frame, surface.firstLinks, list.count, total, links);
+    frame.submitAndWait();
+  }
+  surface.links = Buffer(device, "links of facets", Subsystem::Facets, links);
+  Frame frame = context.begin();
   Pass pass = frame.pass(kListStage);
-  LinkFacetsPush push{};
-  push.surface = pass.in(surface.record);
-  push.voxel = pass.in(list.voxel);
-  push.reverse = pass.in(list.reverse);
+  PackLinksPush push{};
+  push.found = pass.in(found);
+  push.masks = pass.in(surface.linkMasks);
+  push.firstLinks = pass.in(surface.firstLinks);
   push.links = pass.out(surface.links);
-  push.dims = list.grid.dims;
   push.count = list.count;
-  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
+  pass.shader("gi/pack_links.comp").push(push).dispatch(list.count);
+  frame.submitAndWait();
 }
 
 void makeRecord(Context& context, FacetList& list) {
@@ -337,76 +381,40 @@ void makeRecord(Context& context, FacetList& list) {
     arrays.firstPiece = record.of(s.firstPiece);
     arrays.voxel = record.of(list.voxel);
     arrays.surfels = record.of(s.surfels);
+    arrays.wideSides = record.of(s.wideSides);
     arrays.area = record.of(list.area);
+  }
+  if (s.links) {
+    arrays.linkMasks = record.of(s.linkMasks);
+    arrays.firstLinks = record.of(s.firstLinks);
     arrays.links = record.of(s.links);
   }
+  if (list.outer) arrays.outer = record.of(list.outer.record);
   s.record = record.make(arrays);
 }
 
-/// Albedo and exitance of the pieces, then of the facets, with normals. Returns how many albedos had to be clamped.
-uint32_t shade(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Pieces& pieces,
-               const Points& points, FacetList& list) {
-  const Surface& surface = list.surface;
-  const Device& device = context.device;
-  const Order order =
-      groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces), kColorTextures | MATERIAL_NORMAL_TEXTURE);
-  const Buffer ordered =
-      makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
-  const Buffer clamped = words(device, "clamped albedo", 1);
-  const Buffer albedo = words(device, "pieces' albedo", 3ull * pieces.count),
-               emission = words(device, "pieces' exitance", list.hasEmission ? 3ull * pieces.count : 0);
-  Frame frame = context.begin();
-  frame.pass(kListStage).fill(clamped, 0);
-  dispatchByMaterial(frame, kVoxelizeStage, "gi/piece_shade.comp", scene, order, [&](Pass& pass) {
-    PieceShadePush push{};
-    push.scene = pass.in(scene.record);
-    push.grid = pass.in(gridRecord);
-    push.order = pass.in(ordered);
-    push.pieceVoxel = pass.in(pieces.pieceVoxel);
-    push.solid = pass.in(pieces.voxel);
-    push.surface = pass.in(surface.record);
-    push.albedo = pass.out(albedo);
-    push.emission = pass.out(emission);
-    push.clamped = pass.out(clamped);
-    push.hasEmission = list.hasEmission;
-    return push;
-  });
-  Pass pass = frame.pass(kVoxelizeStage);
-  FacetMeanPush push{};
-  push.surface = pass.in(surface.record);
-  push.voxel = pass.in(list.voxel);
-  push.reverse = pass.in(list.reverse);
-  push.firstPoint = pass.in(pieces.firstPoint);
-  push.classes = pass.in(points.classes);
-  push.points = pass.in(points.at);
-  push.pointArea = pass.in(points.area);
-  push.pieceAlbedo = pass.in(albedo);
-  push.pieceEmission = pass.in(emission);
-  push.shape = pass.out(list.shape);
-  push.albedo = pass.out(list.albedo);
-  push.emission = pass.out(list.emission);
-  push.dims = list.grid.dims;
-  push.count = list.count;
-  push.encoding = list.encoding;
-  push.hasEmission = list.hasEmission;
-  pass.shader("gi/facet_mean.comp").push(push).dispatch(list.count);
-  frame.submitAndWait();
-  return downloadAs<uint32_t>(context, clamped).at(0);
-}
+/// A list that is still to be shaded, and its parts.
+struct Listed {
+  FacetList list;
+  Buffer grid;  ///< one Grid
+  FacetParts parts;
+};
 
-}  // namespace
-
-FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings& settings) {
   const Device& device = context.device;
   const uint32_t triangles = scene.scene.triangleCount();
-  FacetList list;
-  list.grid = makeGrid(scene.scene.boundsMin, scene.scene.boundsMax, settings.voxel.resolution);
+  Listed listed;
+  FacetList& list = listed.list;
+  const SceneRegion& region = list.region = regionOf(scene.scene, settings);
+  list.grid = makeGrid(region.lo, region.hi, settings.voxel.resolution);
   list.encoding = settings.voxel.normals;
   list.hasEmission = keepsEmission(scene, settings);
-  const Buffer grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
+  listed.grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
+  const Buffer& grid = listed.grid;
   Surface& surface = list.surface;
   surface.corners = words(device, "triangles' corners", 12ull * triangles);
   const std::vector<uint32_t> repeated = repeatedTriangles(scene);
+  list.outer = makeOuter(context, scene, region, list.grid, repeated);
   const Buffer repeats = repeated.empty() ? Buffer()
                                           : makeBuffer<uint32_t>(context, "repeated triangles", Subsystem::Facets,
                                                                  std::span<const uint32_t>(repeated));
@@ -435,21 +443,99 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   Points points;
   findMasks(context, scene, grid, pieces, surface);
   if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
+  pieces.facings = Buffer();
   allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
-  surface.surfels = Buffer(device, "surfels", Subsystem::Facets, sizeof(Surfel) * FACET_SURFELS * uint64_t{list.count});
-  surface.links = Buffer(device, "links of facets", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
+  surface.surfels = words(device, "surfels", uint64_t{SURFEL_WORDS} * list.count);
+  surface.wideSides = words(device, "wide sides of surfels", uint64_t{WIDE_WORDS} * points.wide);
+  surface.linkMasks = words(device, "masks of links", list.count);
+  surface.firstLinks = words(device, "first links of facets", uint64_t{list.count} + 1);
   makeRecord(context, list);
+  {
+    Frame frame = context.begin();
+    frame.pass(kListStage).fill(list.reverse, NO_FACET);
+    frame.submit();
+  }
+  if (list.count > 0) {
+    const Buffer facings = words(device, "facings of facets", 3ull * list.count);
+    fillFacets(context, grid, pieces, points, list, facings);
+    linkFacets(context, list, facings);
+    makeRecord(context, list);
+  }
+  listed.parts = {.pieces = pieces.count,
+                  .solid = std::move(pieces.voxel),
+                  .pieceVoxel = std::move(pieces.pieceVoxel),
+                  .firstPoint = std::move(pieces.firstPoint),
+                  .points = std::move(points.at),
+                  .classes = std::move(points.classes),
+                  .pointArea = std::move(points.area)};
+  return listed;
+}
+
+}  // namespace
+
+/// Albedo and exitance of the pieces, then of the facets.
+uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& scene, const Buffer& gridRecord,
+                    const FacetParts& parts, const FacetList& list) {
+  const Surface& surface = list.surface;
+  const Device& device = context.device;
+  const Order order =
+      groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces), kColorTextures | MATERIAL_NORMAL_TEXTURE);
+  const Buffer ordered =
+      makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
+  const Buffer clamped = words(device, "clamped albedo", 1);
+  const Buffer albedo = words(device, "pieces' albedo", 3ull * parts.pieces),
+               emission = words(device, "pieces' exitance", list.hasEmission ? 3ull * parts.pieces : 0);
   Frame frame = context.begin();
-  frame.pass(kListStage).fill(list.reverse, NO_FACET);
-  // A kernel that Mesa's CPU driver cuts short in a crowd leaves points of the first triangle, not of none.
-  frame.pass(kListStage).fill(surface.surfels, 0);
-  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
-  if (list.count > 0) fillFacets(frame, grid, pieces, points, surface, list);
+  frame.pass(stage).fill(clamped, 0);
+  dispatchByMaterial(frame, stage, "gi/piece_shade.comp", scene, order, [&](Pass& pass) {
+    PieceShadePush push{};
+    push.scene = pass.in(scene.record);
+    push.grid = pass.in(gridRecord);
+    push.order = pass.in(ordered);
+    push.pieceVoxel = pass.in(parts.pieceVoxel);
+    push.solid = pass.in(parts.solid);
+    push.surface = pass.in(surface.record);
+    push.albedo = pass.out(albedo);
+    push.emission = pass.out(emission);
+    push.clamped = pass.out(clamped);
+    push.hasEmission = list.hasEmission;
+    return push;
+  });
+  Pass pass = frame.pass(stage);
+  FacetMeanPush push{};
+  push.surface = pass.in(surface.record);
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.firstPoint = pass.in(parts.firstPoint);
+  push.classes = pass.in(parts.classes);
+  push.points = pass.in(parts.points);
+  push.pointArea = pass.in(parts.pointArea);
+  push.pieceAlbedo = pass.in(albedo);
+  push.pieceEmission = pass.in(emission);
+  push.shape = pass.out(list.shape);
+  push.albedo = pass.out(list.albedo);
+  push.emission = pass.out(list.emission);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  push.encoding = list.encoding;
+  push.hasEmission = list.hasEmission;
+  pass.shader("gi/facet_mean.comp").push(push).dispatch(list.count);
   frame.submitAndWait();
-  if (list.count > 0) list.clampedAlbedo = shade(context, scene, grid, pieces, points, list);
-  recordFacets(context, list);
-  return list;
+  return downloadAs<uint32_t>(context, clamped).at(0);
+}
+
+FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  Listed listed = listSurface(context, scene, settings);
+  FacetList& facets = listed.list;
+  if (facets.count > 0)
+    facets.clampedAlbedo = shadeParts(context, kVoxelizeStage, scene, listed.grid, listed.parts, facets);
+  recordFacets(context, facets);
+  return std::move(facets);
+}
+
+FacetParts listParts(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  return std::move(listSurface(context, scene, settings).parts);
 }
 
 }  // namespace irad

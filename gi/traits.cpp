@@ -4,11 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <numbers>
+#include <span>
 
+#include "gi/region.h"
+#include "renderer/base/error.h"
 #include "renderer/gpu_scene.h"
-#include "renderer/scene/texel_range.h"
+#include "renderer/scene/material_edits.h"
 #include "shaders/shared/emitters.h"
 
 namespace irad {
@@ -43,7 +45,9 @@ MaterialTraits measureMaterial(const Material& m, const Texels& texels) {
   }
   t.normalMap = m.normalTexture.image >= 0;
   t.evenEmission = m.emissiveTexture.image < 0 && m.alpha != AlphaMode::Mask;
-  t.alphaTest = m.alpha == AlphaMode::Mask || (m.alpha == AlphaMode::Blend && m.baseColorTexture.image >= 0);
+  t.alphaTest = m.alpha == AlphaMode::Mask;
+  t.glass = m.alpha == AlphaMode::Blend && m.baseColor.a * texels(m.baseColorTexture).least.a < 1;
+  t.cutIfOpaque = m.alpha == AlphaMode::Blend && cutByAlpha(m);
   return t;
 }
 
@@ -74,21 +78,38 @@ LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t res
   return t;
 }
 
-SceneTraits measure(const Scene& scene, uint32_t resolution) {
-  SceneTraits traits;
-  std::map<int, TexelRange> images;  // each is read once
+void measureMaterials(const Scene& scene, const std::vector<Material>& materials, SceneTraits& traits) {
   const Texels texels = [&](const TextureUse& use) {
     if (use.image < 0) return TexelRange{glm::vec4(1), glm::vec4(1)};
-    const auto [at, fresh] = images.try_emplace(use.image);
+    const auto [at, fresh] = traits.texels.try_emplace(use.image);
     if (fresh) at->second = texelRange(scene.images.at(static_cast<size_t>(use.image)));
     return at->second;
   };
-  traits.materials.resize(scene.materials.size());
+  traits.materials.assign(materials.size(), {});
   for (const Draw& draw : scene.draws) {
     MaterialTraits& t = traits.materials.at(draw.material);
-    if (t.triangles == 0) t = measureMaterial(scene.materials.at(draw.material), texels);
+    if (t.triangles == 0) t = measureMaterial(materials.at(draw.material), texels);
     t.triangles += draw.indexCount / 3;
+    if (materials.at(draw.material).alpha == AlphaMode::Blend && !t.glass)
+      t.glass = std::ranges::any_of(std::span(scene.indices).subspan(draw.firstIndex, draw.indexCount),
+                                    [&](uint32_t vertex) { return scene.colors[vertex].a < 1; });
+    traits.emitted |= t.emission > 0;
   }
+}
+
+bool liesOutside(const Scene& scene, const Settings& settings) {
+  const RegionSettings& r = settings.scene.region;
+  if (r.mode == RegionMode::whole || settings.matrix.gpu.hitRule == HitRule::thesis) return false;
+  try {
+    return !regionOf(scene, settings).whole;
+  } catch (const UsageError&) {
+    return false;  // as the build says
+  }
+}
+
+SceneTraits measure(const Scene& scene, uint32_t resolution) {
+  SceneTraits traits;
+  measureMaterials(scene, scene.materials, traits);
   for (const GpuLight& light : gpuLights(scene.lights, scene.origin))
     traits.lights.push_back(measureLight(light, scene, resolution));
   return traits;

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "gi/settings.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/texel_range.h"
 #include "shaders/shared/scene_gpu.h"
 
 namespace irad {
@@ -21,6 +23,8 @@ struct MaterialTraits {
   float f0 = 0;              ///< specular reflectance at normal incidence; 0: Lambertian
   float leastRoughness = 1;  ///< lower bound
   bool alphaTest = false, normalMap = false;
+  bool glass = false;        ///< blended, with alpha below 1 in any texel or vertex
+  bool cutIfOpaque = false;  ///< blended and textured: an alpha mask where there is no glass
 };
 
 struct LightTraits {
@@ -61,16 +65,24 @@ struct LightState {
 
 struct SceneTraits {
   std::vector<MaterialTraits> materials;
+  bool emitted = false;              ///< a material emits, or did before an edit of it
+  std::map<int, TexelRange> texels;  ///< of images that were looked at, by index
   std::vector<LightTraits> lights;
   std::optional<BuildTraits> build;
   LightState light;
   float sky = 0;                 ///< largest radiance of the sky that the settings ask for
+  bool outer = false;            ///< something lies outside the region that has voxels
   uint64_t pixels = 0;           ///< of the picture that was drawn last
   std::optional<bool> redraw{};  ///< the window has to draw its picture again; none: pictures are drawn on request
 };
 
 /// Reads every texel of the images that decide something, once each. `resolution`: voxels along the longest axis.
 SceneTraits measure(const Scene& scene, uint32_t resolution);
+/// `materials` anew, were these the scene's, and `emitted`.
+void measureMaterials(const Scene& scene, const std::vector<Material>& materials, SceneTraits& traits);
+
+/// Whether settings leave something outside the region that has voxels; not where they are wrong.
+bool liesOutside(const Scene& scene, const Settings& settings);
 
 /// `light` is in the scene's local space.
 LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution);

@@ -9,6 +9,7 @@
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/subsystems.h"
+#include "renderer/base/number_text.h"
 #include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/energy.h"
@@ -108,7 +109,7 @@ EnergyBalance balance(Context& context, const FacetList& facets, const Lighting&
 std::string describe(const EnergyBalance& energy, double edge) {
   const auto watts = [&](glm::dvec3 sum) { return (sum.x + sum.y + sum.z) * edge * edge; };
   return fmt::format("in {:.4g}, absorbed {:.4g}, escaped {:.4g} W, imbalance {:+.2f} %", watts(energy.entering),
-                     watts(energy.absorbed), watts(energy.escaped), 100 * energy.imbalance());
+                     watts(energy.absorbed), watts(energy.escaped), unsignedZero(100 * energy.imbalance(), 2));
 }
 
 std::vector<Finding> findings(const SolveReport& report, const Grid& grid, glm::dvec3 origin, uint64_t frame) {

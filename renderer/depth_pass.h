@@ -1,4 +1,4 @@
-// Depth alone, of the whole scene through one projection: "RE Shadow" and "RE Depth".
+// Depth alone, of the scene or some of its triangles through one projection: "RE Shadow", "RE Depth", outlines.
 #pragma once
 
 #include "renderer/frame/frame.h"
@@ -11,9 +11,13 @@ struct DepthPass {
   const Image& target;  ///< D32, cleared to 0: the far plane's depth; the near plane's is 1
   int layer = 0;
   const Buffer& projections;
-  uint64_t offset = 0;    ///< of the Projection in `projections`, bytes
-  bool cull = false;      ///< backs of single-sided materials
-  bool alphaTest = true;  ///< false: masked materials are opaque
+  uint64_t offset = 0;                       ///< of the Projection in `projections`, bytes
+  bool cull = false;                         ///< backs of single-sided materials
+  bool alphaTest = true;                     ///< false: masked materials are opaque
+  bool blended = true;                       ///< false: blended materials are left out
+  bool screens = false;                      ///< DepthPush::screens
+  const Image* peeled = nullptr;             ///< R32F: depth that blended materials are behind
+  const std::vector<Draw>* draws = nullptr;  ///< null: all of the scene's
 };
 
 /// Opaque triangles in as few draws as their culling allows, then masked materials, which read their textures.

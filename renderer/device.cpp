@@ -4,16 +4,12 @@
 #include <cctype>
 
 #include "renderer/base/error.h"
+#include "renderer/base/near_match.h"
 #include "renderer/device_impl.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
 namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /// Discrete before integrated before virtual before CPU.
 int rank(const DeviceInfo& info) {
@@ -32,8 +28,7 @@ uint32_t choose(const std::vector<DeviceInfo>& devices, const std::string& selec
   }
   const bool isIndex = std::all_of(select.begin(), select.end(), [](unsigned char c) { return std::isdigit(c); });
   for (const DeviceInfo& d : devices) {
-    const bool named =
-        isIndex ? select == std::to_string(d.index) : lower(d.name).find(lower(select)) != std::string::npos;
+    const bool named = isIndex ? select == std::to_string(d.index) : containsAnyCase(d.name, select);
     if (!named) continue;
     if (!suitable(d)) throw DeviceError(fmt::format("--device {}: not suitable:\n{}", select, toText({d})));
     return d.index;

@@ -14,13 +14,21 @@ namespace {
 using Plane = std::vector<double>;
 using Kernel = std::vector<double>;  // odd, its middle over the pixel
 
-/// IEC 61966-2-1; its white (D65) is the image of (1, 1, 1).
-glm::dvec3 toXyz(const glm::dvec3& c) {
-  return {.4124 * c.r + .3576 * c.g + .1805 * c.b, .2126 * c.r + .7152 * c.g + .0722 * c.b,
-          .0193 * c.r + .1192 * c.g + .9505 * c.b};
+/// X Y Z of Y = 1 by CIE 1931 x and y.
+glm::dvec3 ofChromaticity(double x, double y) {
+  return {x / y, 1, (1 - x - y) / y};
 }
-const glm::dvec3 kWhite = toXyz(glm::dvec3(1));
-const glm::dmat3 kFromXyz = glm::inverse(glm::dmat3(toXyz({1, 0, 0}), toXyz({0, 1, 0}), toXyz({0, 0, 1})));
+/// Rec. 709's primaries, so bright that together they are the white D65. To all digits: with the four that
+/// IEC 61966-2-1 rounds them to FLIP of single pixels is off by 2e-4 of itself.
+const glm::dvec3 kWhite = ofChromaticity(.31271, .32902);
+const glm::dmat3 kPrimaries{ofChromaticity(.64, .33), ofChromaticity(.30, .60), ofChromaticity(.15, .06)};
+const glm::dvec3 kBrightness = glm::inverse(kPrimaries) * kWhite;
+const glm::dmat3 kToXyz{kPrimaries[0] * kBrightness.x, kPrimaries[1] * kBrightness.y, kPrimaries[2] * kBrightness.z};
+const glm::dmat3 kFromXyz = glm::inverse(kToXyz);
+
+glm::dvec3 toXyz(const glm::dvec3& c) {
+  return kToXyz * c;
+}
 
 /// The linear opponent space of the contrast sensitivities, Y C_x C_z, and back to linear light.
 glm::dvec3 toOpponents(const glm::dvec3& linear) {

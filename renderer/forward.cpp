@@ -110,36 +110,50 @@ GpuCamera makeGpuCamera(const Scene& scene, const Camera& camera, glm::uvec2 siz
 }
 
 void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const Buffer& camera,
-                 const ShadeParams& shade, Targets& targets, const ForwardEffects& effects,
-                 const VolumeLookup& lookup) {
+                 const ShadeParams& shade, Targets& targets, const ForwardEffects& all, const VolumeLookup& lookup) {
   Context& context = frame.context();
   const std::vector<Draw>& draws = scene.scene.draws;
-  const bool highlights = effects.highlights && shade.specularDirect != 0;
   const bool inVolume = lookup.volume != nullptr;
 
-  targets.fit(context, &Targets::f0, effects.specular);
-  targets.fit(context, &Targets::highlight, highlights || effects.emission);
-  targets.fit(context, &Targets::indirect, effects.indirect);
+  targets.fit(context, &Targets::f0, all.specular);
+  targets.fit(context, &Targets::highlight, (all.highlights && shade.specularDirect != 0) || all.emission);
+  targets.fit(context, &Targets::indirect, all.indirect);
+
+  ForwardEffects effects = all;
+  effects.specular &= all.wanted.reflections;
+  effects.indirect &= all.wanted.indirect;
+  if (!all.wanted.direct) {
+    effects.lights = {};
+    effects.emission = effects.highlights = false;
+  }
+  const bool highlights = effects.highlights && shade.specularDirect != 0;
+  const Image none;
+  const auto written = [&](bool wanted, const Image& target) -> const Image& { return wanted ? target : none; };
+  const Image &f0 = written(effects.specular, targets.f0),
+              &highlight = written(highlights || effects.emission, targets.highlight),
+              &indirect = written(effects.indirect, targets.indirect);
 
   // Depth prepass: masked materials read their textures here, so that shading writes each pixel once.
   targets.fitRaster(context, effects.kernels, scene.scene.triangleCount());
   if (effects.kernels)
-    rasterVisible(frame, scene, camera, effects.alphaTest, targets);
+    rasterVisible(frame, scene, camera, effects.alphaTest, targets, effects.layer);
   else
     drawDepth(frame, scene,
               {.stage = "RE Depth",
                .target = targets.depth,
                .projections = camera,
                .cull = true,
-               .alphaTest = effects.alphaTest});
+               .alphaTest = effects.alphaTest,
+               .blended = effects.layer != Layer::opaque,
+               .peeled = effects.layer == Layer::behind ? &targets.peeled : nullptr});
+
+  if (!all.wanted.surfaces) return;
 
   // Background: zero in every target.
-  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp};
-  nearest.linearMag = nearest.linearMin = nearest.mips = nearest.linearMips = false;
   frame.pass("RE Forward")
       .shader("forward/background.comp")
       .constant(CONSTANT_TARGETS, targets.present())
-      .sample(targets.depth, sampler(context.device, nearest))
+      .sample(targets.depth, pointSampler(context.device))
       .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
              targets.bound(&Targets::highlight), targets.bound(&Targets::indirect), targets.bound(&Targets::emitted))
       .dispatch(targets.size);
@@ -171,7 +185,6 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
   for (const bool textured : {false, true}) {
     const auto drawnHere = [&](const Draw& draw) { return hasFlag(scene, draw, kAnyTexture) == textured; };
     if (std::none_of(draws.begin(), draws.end(), drawnHere)) continue;
-    const Image none;
     Pass pass = frame.pass("RE Forward");
     if (effects.kernels)
       pass.shader(inVolume ? "forward/resolve_volume.comp" : "forward/resolve.comp");
@@ -184,6 +197,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
         .effect(FORWARD_HIGHLIGHTS, highlights)
         .effect(FORWARD_F0, effects.specular)
         .effect(FORWARD_INDIRECT, effects.indirect)
+        .effect(FORWARD_GLASS, effects.glass)
         .constant(FORWARD_PCF, std::clamp(shade.pcf, 1u, 5u) | 1u)
         .constant(FORWARD_MANY_LIGHTS, push.lightCount > UNIFORM_LIGHTS);
     push.scene = pass.in(scene.record);
@@ -196,7 +210,8 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
       pass.sample(*lookup.volume, sampler(context.device, trilinear));
     }
     if (effects.kernels) {
-      pass.constant(FORWARD_TARGETS, targets.present() & (TARGET_F0 | TARGET_HIGHLIGHT | TARGET_INDIRECT))
+      pass.constant(FORWARD_TARGETS,
+                    (f0 ? TARGET_F0 : 0u) | (highlight ? TARGET_HIGHLIGHT : 0u) | (indirect ? TARGET_INDIRECT : 0u))
           .write(targets.normal, targets.geometric, targets.albedo, targets.bound(&Targets::f0), targets.direct,
                  targets.bound(&Targets::highlight), targets.bound(&Targets::indirect));
       if (!inVolume) pass.write(targets.linear);  // for the lookup
@@ -216,10 +231,10 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
     pass.color(targets.normal)
         .color(targets.geometric)
         .color(targets.albedo)
-        .colorIfAny(targets.f0)
+        .colorIfAny(f0)
         .color(targets.direct)
-        .colorIfAny(targets.highlight)
-        .colorIfAny(targets.indirect);
+        .colorIfAny(highlight)
+        .colorIfAny(indirect);
     if (!inVolume) pass.colorIfAny(effects.indirect ? targets.linear : none);  // for the lookup
     pass.depth(targets.depth, /*write*/ false).depthCompare(VK_COMPARE_OP_EQUAL).run([&](Commands& commands) {
       for (const Draw& draw : draws) {

@@ -17,12 +17,23 @@ struct ForwardEffects {
   bool emission = true;   ///< of materials
   bool alphaTest = true;  ///< masked materials; false: opaque
   bool normalMap = true;
+  bool glass = true;       ///< blended materials
+  Layer layer = {};        ///< not an effect: the layer that is drawn
   bool highlights = true;  ///< the lights' specular lobe
   /// Without a VolumeLookup for a later pass that looks indirect light up: Targets::indirect gets every pixel's
   /// position (local space; w = 0 where nothing is drawn), Targets::linear its normal.
   bool indirect = true;
   bool specular = true;  ///< what reflections are traced from: Targets::f0
   bool kernels = false;  ///< not an effect: who rasterizes (renderer/raster.h)
+
+  /// What the picture at hand is for. What it is not for is left out of its passes like an effect that is off, but
+  /// keeps its target, for the next picture.
+  struct Wanted {
+    bool surfaces = true;     ///< normals and albedo; false: depth alone, and nothing of the rest
+    bool direct = true;       ///< light that comes straight from lights, and what materials emit
+    bool indirect = true;     ///< what indirect light is looked up by
+    bool reflections = true;  ///< what reflections are traced from
+  } wanted;
 };
 
 /// The thesis's indirect light (T 5.10, eq. 24), looked up while a pixel is shaded, into Targets::indirect. `volume`

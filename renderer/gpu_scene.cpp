@@ -7,17 +7,14 @@
 
 #include "renderer/base/error.h"
 #include "renderer/frame/record.h"
+#include "renderer/scene/material_edits.h"
 #include "renderer/scene/mips.h"
 #include "renderer/scene/texel_range.h"
 
 namespace irad {
 namespace {
 
-constexpr size_t kTextures = 5;  // per material, in the order of TEXTURE_*
-
-std::array<const TextureUse*, kTextures> texturesOf(const Material& m) {
-  return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture};
-}
+constexpr size_t kTextures = kMaterialTextures.size();
 
 Image uploadTexture(Context& context, const SceneImage& source) {
   IRAD_CHECK_OP(source.rgba.size(), ==, 4ull * source.width * source.height);
@@ -50,10 +47,9 @@ GpuMaterial toGpu(const Material& m) {
   gpu.occlusionStrength = m.occlusionStrength;
   gpu.alphaCutoff = m.alphaCutoff;
   if (m.alpha == AlphaMode::Mask) gpu.flags |= MATERIAL_ALPHA_MASK;
-  // Blending is not ordered here: a textured blend material is cut out at one half, an untextured one is opaque.
-  if (m.alpha == AlphaMode::Blend && m.baseColorTexture.image >= 0) {
-    gpu.flags |= MATERIAL_ALPHA_MASK;
-    gpu.alphaCutoff = 0.5f;
+  if (m.alpha == AlphaMode::Blend) {
+    gpu.flags |= MATERIAL_ALPHA_MASK | MATERIAL_BLEND;
+    gpu.alphaCutoff = 0.5f;  // where it is taken for a mask
   }
   if (m.doubleSided) gpu.flags |= MATERIAL_DOUBLE_SIDED;
   if (m.lambertian) gpu.flags |= MATERIAL_LAMBERTIAN;
@@ -71,25 +67,22 @@ GpuMaterial toGpu(const Material& m) {
 
 GpuLight toGpu(const Light& light, const glm::dvec3& origin) {
   GpuLight gpu{};
-  gpu.position = glm::vec3(light.position - origin);
   gpu.type = static_cast<uint32_t>(light.type);
+  gpu.shadowLayer = -1;
+  gpu.shadowFilter = ShadowFilter::pcf;
+  gpu.shadowMatrix = glm::mat4(1.0f);
+  gpu.direction = {0, -1, 0};
+  gpu.innerCos = 1;
+  // All that are off are alike: editing one redoes nothing.
+  if (!light.on) return gpu;
+  gpu.position = glm::vec3(light.position - origin);
   gpu.direction = light.direction;
   gpu.range = light.range;
   gpu.intensity = light.color * light.intensity;
-  gpu.shadowLayer = -1;
-  gpu.shadowFilter = ShadowFilter::pcf;
   gpu.innerCos = light.innerCos;
   gpu.outerCos = light.outerCos;
   gpu.size = lightKind(light.type).has(LIGHT_DISTANT) ? std::tan(0.5f * glm::radians(light.angle)) : light.radius;
-  gpu.shadowMatrix = glm::mat4(1.0f);
   return gpu;
-}
-
-bool emits(const Scene& scene, uint32_t material, const glm::vec3& factor) {
-  const int image = scene.materials.at(material).emissiveTexture.image;
-  const glm::vec3 most =
-      factor == glm::vec3(0) || image < 0 ? factor : factor * glm::vec3(texelRange(scene.images.at(image)).most);
-  return std::max({most.x, most.y, most.z}) > 0.0f;
 }
 
 template <class T>
@@ -116,7 +109,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   triangleMaterials = uploadArray(context, "triangle materials", owners);
 
   // Materials and their textures; a material without one gets a constant (white, or the flat normal).
-  for (const Material& m : scene.materials) materialValues.push_back(toGpu(m));
+  materialValues = gpuMaterials(scene);
   materials = uploadArray(context, "materials", materialValues);
   textures.reserve(scene.images.size() + 2);
   for (const SceneImage& image : scene.images) textures.push_back(uploadTexture(context, image));
@@ -125,7 +118,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   const size_t flat = textures.size();
   textures.push_back(constantTexture(context, "flat normal", {128, 128, 255, 255}));
   std::vector<MaterialTextures> bound;
-  for (const Material& m : scene.materials) {
+  for (const Material& m : fileMaterials(scene)) {
     MaterialTextures& set = bound.emplace_back();
     const auto uses = texturesOf(m);
     for (uint32_t i = 0; i < kTextures; ++i) {
@@ -143,11 +136,21 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   setLights(context, gpuLights(scene.lights, scene.origin));
 }
 
+bool SceneOnDevice::emits(uint32_t material, const glm::vec3& factor) {
+  glm::vec3 most = factor;
+  if (const int image = scene.materials.at(material).emissiveTexture.image; image >= 0 && factor != glm::vec3(0)) {
+    const auto [at, fresh] = brightest_.try_emplace(image);
+    if (fresh) at->second = texelRange(scene.images.at(static_cast<size_t>(image))).most;
+    most *= at->second;
+  }
+  return std::max({most.x, most.y, most.z}) > 0.0f;
+}
+
 void SceneOnDevice::surveyMaterials() {
   anyEmission = anyAlphaMask = false;
   for (const Draw& draw : scene.draws) {
     const GpuMaterial& m = materialValues.at(draw.material);
-    anyEmission = anyEmission || emits(scene, draw.material, m.emission);
+    anyEmission = anyEmission || emits(draw.material, m.emission);
     anyAlphaMask = anyAlphaMask || (m.flags & MATERIAL_ALPHA_MASK) != 0;
   }
 }
@@ -186,6 +189,12 @@ void SceneOnDevice::setLights(Context& context, std::vector<GpuLight> values, co
 
 bool hasIntensity(const GpuLight& light) {
   return std::max({light.intensity.x, light.intensity.y, light.intensity.z}) > 0.0f;
+}
+
+std::vector<GpuMaterial> gpuMaterials(const Scene& scene) {
+  std::vector<GpuMaterial> values;
+  for (const Material& m : scene.materials) values.push_back(toGpu(m));
+  return values;
 }
 
 std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin) {

@@ -1,6 +1,7 @@
 // A scene on the device: vertex arrays, materials, textures with mips, one descriptor set per material.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "renderer/frame/frame.h"
@@ -24,7 +25,7 @@ class SceneOnDevice {
   Buffer shiningLights;  ///< those that passes sum up
   Buffer record;         ///< one GpuScene, of the latter
   std::vector<Image> textures;
-  MaterialSets materialSets;                ///< per material, set 1
+  MaterialSets materialSets;  ///< per material, set 1: the file's textures, whether or not edits leave them out
   std::vector<GpuMaterial> materialValues;  ///< as uploaded
   std::vector<GpuLight> lightValues;        ///< as uploaded, with what drawShadows fills in
   std::vector<GpuLight> shining;            ///< likewise
@@ -38,8 +39,13 @@ class SceneOnDevice {
   void setLights(Context& context, std::vector<GpuLight> values, const LightFilter& shines = hasIntensity);
 
  private:
+  bool emits(uint32_t material, const glm::vec3& factor);
   void surveyMaterials();
+  std::map<int, glm::vec3> brightest_;  ///< texel of each image that was asked for, by index
 };
+
+/// The scene's materials as passes read them.
+std::vector<GpuMaterial> gpuMaterials(const Scene& scene);
 
 /// Lights as passes read them; drawShadows adds their shadow maps.
 std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin);

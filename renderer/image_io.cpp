@@ -44,6 +44,9 @@ void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, const void*
   writeFile(path, std::as_bytes(std::span(memory.buffer())));
 }
 
+const char* const kCameraAttribute = "iradCamera";
+const char* const kViewAttribute = "iradView";
+
 OIIO::ImageSpec exrSpec(glm::uvec2 size, size_t channels) {
   OIIO::ImageSpec spec(static_cast<int>(size.x), static_cast<int>(size.y), static_cast<int>(channels),
                        OIIO::TypeDesc::FLOAT);
@@ -143,8 +146,11 @@ LinearPicture readLinear(const std::filesystem::path& path) {
   if (spec.depth > 1 || spec.nchannels < 1)
     throw InputError(fmt::format("{}: {} channels, {} deep: not a picture", path.string(), spec.nchannels, spec.depth));
   const std::array<int, 3> channels = colorChannels(spec);
-  LinearPicture picture{
-      {static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)}, {}, !spec.format.is_floating_point()};
+  LinearPicture picture{{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)},
+                        {},
+                        !spec.format.is_floating_point(),
+                        {std::string(spec.get_string_attribute(kCameraAttribute)),
+                         std::string(spec.get_string_attribute(kViewAttribute))}};
   picture.pixels.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height), glm::vec4(1));
   for (int c = 0; c < 3; ++c)
     if (!input->read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT, &picture.pixels[0][c],
@@ -220,11 +226,14 @@ const char* linearExtension() {
 }
 
 std::vector<std::filesystem::path> writeLayers(const std::filesystem::path& stem, glm::uvec2 size,
-                                               std::span<const PictureLayer> layers) {
+                                               std::span<const PictureLayer> layers,
+                                               [[maybe_unused]] const PictureSubject& subject) {
 #ifdef IRAD_OIIO
   const std::filesystem::path path = withExtension(stem, ".exr");
   const size_t channels = 3 * layers.size();
   OIIO::ImageSpec spec = exrSpec(size, channels);
+  if (!subject.camera.empty()) spec.attribute(kCameraAttribute, subject.camera);
+  if (!subject.view.empty()) spec.attribute(kViewAttribute, subject.view);
   spec.channelnames.clear();
   std::vector<float> values(size_t{size.x} * size.y * channels);
   for (size_t l = 0; l < layers.size(); ++l) {

@@ -1,6 +1,5 @@
 // Pictures to files: EXR (linear, fp32) and PNG (display) with OpenImageIO; .pfm and .npy in builds without it. All
-// appear whole or not at all (renderer/output_file.h), and hold nothing but pixels: no date, so two runs give the same
-// bytes.
+// appear whole or not at all (renderer/output_file.h), and hold no date, so two runs give the same bytes.
 #pragma once
 
 #include <array>
@@ -21,12 +20,19 @@ struct PictureLayer {
   std::string name;  ///< "" for the first, which readLinear reads
   std::vector<glm::vec4> pixels;
 };
+/// What a file says that its picture shows; empty: it does not say.
+struct PictureSubject {
+  std::string camera;  ///< JSON: renderer/scene/camera_json.h
+  std::string view;    ///< name of the first layer's view
+};
 /// How files of layers end: ".exr", or ".pfm" in builds without OpenImageIO.
 const char* linearExtension();
 /// stem.exr with the channels R G B of the first layer and NAME.R NAME.G NAME.B of each other, as OpenEXR names layers;
-/// or stem.pfm and stem.NAME.pfm. Returns the files' paths.
+/// or stem.pfm and stem.NAME.pfm. An .exr keeps the subject in its header (iradCamera, iradView), a .pfm has no room
+/// for it. Returns the files' paths.
 std::vector<std::filesystem::path> writeLayers(const std::filesystem::path& stem, glm::uvec2 size,
-                                               std::span<const PictureLayer> layers);
+                                               std::span<const PictureLayer> layers,
+                                               const PictureSubject& subject = {});
 /// What the screen shows: sRGB-encoded bytes, alpha left out. Writes stem.png, or stem.npy of shape (height, width, 3).
 std::filesystem::path writeDisplay(const std::filesystem::path& stem, glm::uvec2 size,
                                    std::span<const glm::u8vec4> pixels);
@@ -49,6 +55,7 @@ struct LinearPicture {
   glm::uvec2 size{0};
   std::vector<glm::vec4> pixels;  ///< top row first; alpha 1
   bool integers = false;          ///< the file holds integers, which end at white
+  PictureSubject subject{};       ///< of an .exr by writeLayers()
 };
 /// A little-endian "PF" with its pixels, in every build; a scale is left aside. InputError where that fails.
 LinearPicture readPfm(const std::filesystem::path& path);

@@ -60,6 +60,29 @@ Metrics measure(std::span<const glm::vec4> values, std::span<const glm::vec4> re
   return m;
 }
 
+PairedMetrics measurePaired(std::span<const glm::vec4> values, std::span<const glm::vec4> first,
+                            std::span<const glm::vec4> second) {
+  IRAD_CHECK_OP(values.size(), ==, first.size());
+  IRAD_CHECK_OP(values.size(), ==, second.size());
+  const auto counts = [&](size_t i) { return comparable(values[i], first[i]) && comparable(values[i], second[i]); };
+  double n = 0, sum = 0;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (counts(i))
+      for (int c = 0; c < 3; ++c) ++n, sum += .5 * (double{first[i][c]} + double{second[i][c]});
+  const double epsilon = square(.1 * sum / n);
+  double products = 0, relative = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!counts(i)) continue;
+    for (int c = 0; c < 3; ++c) {
+      const double v = values[i][c], r = first[i][c], s = second[i][c], product = (v - r) * (v - s);
+      products += product;
+      if (product != 0) relative += product / (square(.5 * (r + s)) + epsilon);
+    }
+  }
+  if (n == 0) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  return {std::sqrt(std::max(products / n, 0.0)), relative / n};
+}
+
 PictureMetrics measurePicture(glm::uvec2 size, std::span<const glm::vec4> values, std::span<const glm::vec4> reference,
                               std::span<const glm::vec4> second, std::optional<double> exposure,
                               std::span<const glm::vec4> error) {

@@ -28,6 +28,15 @@ struct Metrics {
 };
 Metrics measure(std::span<const glm::vec4> values, std::span<const glm::vec4> reference);
 
+/// Against two references of independent noise, r and s, which then cancels in the mean; m = (r + s) / 2. Elements
+/// where one is not finite are left out; NaN where none is left.
+struct PairedMetrics {
+  double rmse = 0;    ///< sqrt(mean (v - r)(v - s)); 0 where that mean is below 0
+  double relMse = 0;  ///< mean (v - r)(v - s) / (m^2 + (0.1 mean m)^2): may be below 0
+};
+PairedMetrics measurePaired(std::span<const glm::vec4> values, std::span<const glm::vec4> first,
+                            std::span<const glm::vec4> second);
+
 /// Of whole pictures. A reference that has noise of its own counts for less by blocks than by pixels, and not at all
 /// where there are two of them, with independent noise.
 struct PictureMetrics {

@@ -51,12 +51,17 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
   push.size = raster.size;
   push.pieces = rasterQueuePieces(triangles);
   push.cull = raster.cull;
-  const auto dispatches = static_cast<uint32_t>(std::ranges::count_if(scene.scene.draws, masked));
+  const auto drawn = [&](const Draw& draw) {
+    return masked(draw) && (raster.blended || (scene.materialValues.at(draw.material).flags & MATERIAL_BLEND) == 0);
+  };
+  const auto dispatches = static_cast<uint32_t>(std::ranges::count_if(scene.scene.draws, drawn));
   const auto declare = [&](Pass& pass, RasterStep step, uint64_t queued) {
     pass.constant(RASTER_MASKED, step.masked);
     push.scene = pass.in(scene.record);
     push.projection = pass.in(raster.projections, raster.offset);
     push.queue = queued;
+    push.peels = raster.peeled != nullptr;
+    if (raster.peeled != nullptr) push.peeled = pass.in(*raster.peeled);
     push.target = pass.accumulate(raster.target, raster.targetOffset);
   };
   rasterize(frame, raster.stage, raster.shader, raster.queue, dispatches > 0, declare,
@@ -71,11 +76,12 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
               push.skipMasked = !step.masked && raster.alphaTest;
               if (!step.masked) return draw(0, 0, triangles, 1);
               for (const Draw& d : scene.scene.draws)
-                if (masked(d)) draw(d.material, d.firstIndex / 3, (d.firstIndex + d.indexCount) / 3, dispatches);
+                if (drawn(d)) draw(d.material, d.firstIndex / 3, (d.firstIndex + d.indexCount) / 3, dispatches);
             });
 }
 
-void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camera, bool alphaTest, Targets& targets) {
+void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camera, bool alphaTest, Targets& targets,
+                   Layer layer) {
   constexpr const char* kStage = "RE Depth";
   frame.pass(kStage).fill(targets.visible, ~0u);
   rasterScene(frame, scene,
@@ -86,7 +92,9 @@ void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camer
                .size = targets.size,
                .queue = targets.rasterQueue,
                .cull = true,
-               .alphaTest = alphaTest});
+               .alphaTest = alphaTest,
+               .blended = layer != Layer::opaque,
+               .peeled = layer == Layer::behind ? &targets.peeledVisible : nullptr});
   Pass store = frame.pass(kStage);
   store.shader("raster/store_depth.comp").write(targets.depth).push(store.in(targets.visible)).dispatch(targets.size);
 }

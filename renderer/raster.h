@@ -35,16 +35,20 @@ struct RasterPass {
   const Buffer& projections;
   uint64_t offset = 0;  ///< of the Projection in `projections`, bytes
   const Buffer& target;
-  uint64_t targetOffset = 0;  ///< bytes
-  glm::uvec2 size;            ///< pixels
-  const Buffer& queue;        ///< makeRasterQueue of all triangles
-  bool cull = false;          ///< backs of single-sided materials
-  bool alphaTest = true;      ///< false: masked materials are opaque
+  uint64_t targetOffset = 0;       ///< bytes
+  glm::uvec2 size;                 ///< pixels
+  const Buffer& queue;             ///< makeRasterQueue of all triangles
+  bool cull = false;               ///< backs of single-sided materials
+  bool alphaTest = true;           ///< false: masked materials are opaque
+  bool blended = true;             ///< false: blended materials are left out
+  const Buffer* peeled = nullptr;  ///< a `target` of raster/visible.comp that blended materials are behind
 };
 void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& pass);
 
 /// "RE Depth": what a camera sees, into Targets::visible and Targets::depth.
 struct Targets;
-void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camera, bool alphaTest, Targets& targets);
+enum class Layer;
+void rasterVisible(Frame& frame, const SceneOnDevice& scene, const Buffer& camera, bool alphaTest, Targets& targets,
+                   Layer layer = {});
 
 }  // namespace irad

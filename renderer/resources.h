@@ -139,5 +139,7 @@ struct SamplerDesc {
 };
 /// Cached by the device; never freed before it.
 VkSampler sampler(const Device& device, const SamplerDesc& desc);
+/// Nearest texel, no mips.
+VkSampler pointSampler(const Device& device);
 
 }  // namespace irad

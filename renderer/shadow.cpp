@@ -137,7 +137,8 @@ void drawByHardware(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& 
                .layer = faces[i].layer,
                .projections = projections,
                .offset = i * sizeof(Projection),
-               .alphaTest = alphaTest});
+               .alphaTest = alphaTest,
+               .screens = true});
 }
 
 /// Flat maps are stored by a kernel, layer by layer. Cubes are copied, all at once.
@@ -243,9 +244,7 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
   if (cubes > 0)
     maps.cubes = mapArray(context.device, "shadow cubes", VK_FORMAT_D32_SFLOAT, cubeSize, 6 * cubes, /*cube*/ true,
                           needs.kernels ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
-  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
-  nearest.linearMips = false;
-  maps.sampler = sampler(context.device, nearest);
+  maps.sampler = pointSampler(context.device);
   if (flats + cubes == 0) return maps;
 
   // Fit each light's projections to the scene.

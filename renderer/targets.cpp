@@ -77,6 +77,19 @@ void Targets::fitRaster(Context& context, bool kernels, uint32_t triangles) {
     rasterQueue = makeRasterQueue(device, Subsystem::Targets, triangles);
 }
 
+void Targets::fitLayers(Context& context, bool wanted) {
+  const Device& device = context.device;
+  if (wanted != static_cast<bool>(layers)) {
+    layers = wanted ? target(device, "layers of glass", kFull, size, kColor) : Image();
+    peeled = wanted ? target(device, "depth of the last layer", VK_FORMAT_R32_SFLOAT, size, VK_IMAGE_USAGE_STORAGE_BIT)
+                    : Image();
+  }
+  const bool byKernels = wanted && visible;
+  if (byKernels != static_cast<bool>(peeledVisible))
+    peeledVisible =
+        byKernels ? Buffer(device, "visible triangles of the last layer", Subsystem::Targets, visible.bytes) : Buffer();
+}
+
 void Targets::fit(Context& context, Image Targets::*image, bool wanted) {
   const Optional& o = optional(image);
   if (static_cast<bool>(this->*image) == wanted) return;

@@ -5,6 +5,10 @@
 
 namespace irad {
 
+/// Which surfaces a picture shows (docs/method.md 7). first: all, the nearest; behind: those behind the layer before,
+/// of blended materials, or the opaque ones; opaque: these alone.
+enum class Layer { first, behind, opaque };
+
 /// Results of the forward pass, of traced reflections and of views. fp32 where light is held, so that emission from
 /// 1e-6 to 1e6 survives. The second group exists only where a pass writes it: an absent term is 0.
 struct Targets {
@@ -13,7 +17,7 @@ struct Targets {
   glm::uvec2 size{0};
   Image depth;       ///< D32, or R32F where kernels rasterize; 1 = nothing
   Image normal;      ///< RGBA16F: shading normal xyz, roughness
-  Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic
+  Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic (packCover() of blended surfaces)
   Image albedo;      ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
   Image direct;      ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
   Image linear;      ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn.
@@ -39,6 +43,11 @@ struct Targets {
   Buffer pixelLists;    ///< a PixelList per material and one more
   Buffer listedPixels;  ///< the lists' entries: x | y << 16, triangle
 
+  // Where blended surfaces are drawn by layers:
+  Image layers;          ///< RGBA32F: the sum so far, and the share of what is behind that shows
+  Image peeled;          ///< R32F: depth of the last layer
+  Buffer peeledVisible;  ///< `visible` of the last layer, where kernels rasterize
+
   Buffer facet;  ///< uint per pixel, row by row: the facet that it lies on, NO_FACET (shared/facets.h) where there is
                  ///< none; where reflections are written back and lookups go by facets
 
@@ -49,6 +58,8 @@ struct Targets {
 
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);
+  /// Makes what layers are put together in, or frees it. After fitRaster().
+  void fitLayers(Context& context, bool wanted);
   /// Makes one of the images of the second group, or frees it once the device has finished with it.
   void fit(Context& context, Image Targets::*image, bool wanted);
   /// TARGET_* of shaders/shared/passes.h: those of them that exist.

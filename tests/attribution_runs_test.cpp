@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "gi/check/glb.h"
@@ -51,10 +52,12 @@ void PrintTo(const Spoilt& spoilt, std::ostream* out) {
 // Without jitter all seeds have the same rays, so that what differs from the truth is what is spoilt alone.
 const Spoilt kSpoilt[] = {
     {"voxels",
-     {"matrix.jitter=false", "voxel.resolution=8"},
-     Strings{"matrix.jitter=false", "voxel.resolution=24"},
+     {"matrix.jitter=false", "voxel.resolution=8", "matrix.rays=256"},
+     Strings{"matrix.jitter=false", "voxel.resolution=24", "matrix.rays=256"},
      "indirect",
-     {"--finer", "3"}},
+     {"--finer", "3", "--gather-rays", "256", "--seeds", "8"},
+     "still.glb",
+     "64x64"},
     {"facets", {"matrix.hit_rule=thesis"}, std::nullopt},
     {"normals",
      {"matrix.hit_rule=thesis", "matrix.jitter=false", "voxel.normals=axis6"},
@@ -62,7 +65,7 @@ const Spoilt kSpoilt[] = {
     {"traversal",
      {"matrix.hit_rule=thesis", "matrix.jitter=false", "field.method=jfa", "matrix.traversal=sdf"},
      Strings{"matrix.hit_rule=thesis", "matrix.jitter=false", "matrix.traversal=dda"}},
-    {"rays", {"matrix.rays=1", "matrix.emitter_sampling=off"}, std::nullopt, "indirect", {"--seeds", "8"}},
+    {"rays", {"matrix.rays=2"}, std::nullopt, "indirect", {"--seeds", "8"}},
     // Light so weak that the solver puts out most of it.
     {"storage", {"matrix.jitter=false", "solver.flush=0.001"}, std::nullopt, "indirect", {}, "dim.glb"},
     {"sweeps", {"matrix.jitter=false", "solver.max_sweeps=1", "solver.acceleration=off"}, std::nullopt},
@@ -84,6 +87,8 @@ const Spoilt kSpoilt[] = {
 
 class AttributionRuns : public ::testing::Test {
  protected:
+  static void SetUpTestSuite() { truths_ = std::make_unique<TemporaryFolder>(); }
+  static void TearDownTestSuite() { truths_.reset(); }
   void SetUp() override {
     writeGlb(at("still.glb"), stillLife().finish("still"));
     writeGlb(at("dim.glb"), stillLife(1e-3f).finish("dim"));
@@ -98,11 +103,15 @@ class AttributionRuns : public ::testing::Test {
       if (std::count(spoilt.options.begin(), spoilt.options.end(), option) == 0) append(arguments, {option, value});
     };
     unlessGiven("--seeds", "3");
-    unlessGiven("--gather-rays", "1024");
-    if (spoilt.truth)
+    unlessGiven("--gather-rays", "256");
+    if (spoilt.truth) {
       append(arguments, {"--reference", reference_.string()});
-    else
+    } else {
+      // Studies of the same scene, size and samples have one truth: each is traced once for all tests.
       append(arguments, {"--reference-samples", "512"});
+      fs::create_directories(at(out));
+      if (!fs::is_symlink(at(out + "/truths"))) fs::create_directory_symlink(truths_->path, at(out + "/truths"));
+    }
     return arguments;
   }
   void makeTruth(const Spoilt& spoilt) {
@@ -130,6 +139,7 @@ class AttributionRuns : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  static inline std::unique_ptr<TemporaryFolder> truths_;
   fs::path reference_;
 };
 

@@ -2,7 +2,11 @@
 // whatever was shown before.
 #include "gi/picture.h"
 #include "gi/pipeline.h"
+
+#include <set>
+
 #include "renderer/base/error.h"
+#include "renderer/pipeline_use.h"
 #include "renderer/scene/scene.h"
 #include "renderer/targets.h"
 #include "tests/support.h"
@@ -93,6 +97,69 @@ TEST_F(Capture, WhatGoesWrongLeavesTheLightAsItWas) {
   window.prepare({}, 1);
   EXPECT_TRUE(window.current());
   EXPECT_FALSE(window.asleep()) << "one sweep suffices: choose a harder scene";
+}
+
+TEST_F(Capture, StagesThatAViewDoesNotShowAreNotRunAndItsBitsStay) {
+  Settings s = small();
+  s.specular.mode = SpecularMode::compute;
+  Pipeline pipeline(context(), box(), s);
+  pipeline.prepare();
+  const std::vector<glm::vec4> grey(16, glm::vec4(0.5f));
+  pipeline.setReference({4, 4}, grey);
+  Targets used(context(), {96, 64});
+  struct Drawn {
+    std::set<std::string> shaders;
+    std::vector<std::byte> linear, display;
+  };
+  const auto draw = [&](View view, Targets& targets) {
+    context().pipelinesUsed();
+    Frame frame = context().begin();
+    pipeline.render(frame, pipeline.scene().cameras.at(0), view, targets);
+    frame.submitAndWait();
+    Drawn drawn{{}, download(context(), targets.linear), download(context(), targets.display)};
+    for (const PipelineUse& use : context().pipelinesUsed())
+      drawn.shaders.insert(use.shaders.begin(), use.shaders.end());
+    return drawn;
+  };
+  struct Runs {
+    bool shades, looksUp, checksLights, reflects;
+    bool operator==(const Runs&) const = default;
+  };
+  const auto runs = [](const Drawn& drawn) {
+    const auto ran = [&](const char* shader) { return drawn.shaders.contains(shader); };
+    return Runs{ran("forward/background.comp"), ran("gi/indirect_links.comp"), ran("gi/direct_seen.comp"),
+                ran("specular/classify.comp")};
+  };
+  const auto expected = [](const std::string& name) -> Runs {
+    if (name == "lit" || name == "error") return {true, true, true, true};
+    if (name == "specular") return {true, true, false, true};
+    if (name == "indirect" || name == "irradiance" || name == "emitter-irradiance") return {true, true, false, false};
+    if (name == "no-gi" || name == "direct" || name == "direct-irradiance") return {true, true, true, false};
+    if (name == "albedo" || name == "normal" || name == "roughness-metallic" || name == "shadow" ||
+        name == "writeback-mask")
+      return {true, false, false, false};
+    if (name == "writeback" || name == "writeback-writers") return {true, true, false, true};
+    // Slices, around which the lit scene shows.
+    if (name == "distance-chebyshev" || name == "distance-jfa" || name.starts_with("jfa-") || name == "chebyshev-error")
+      return {true, true, true, false};
+    return {};  // depth, voxels, matrix, shadow map, reference picture
+  };
+  draw(VIEW_LIT, used);
+  for (const ViewInfo& view : views()) {
+    Targets fresh(context(), {96, 64});
+    const Drawn first = draw(view.view, fresh), second = draw(view.view, used);
+    const Runs ran = runs(first), wanted = expected(view.name);
+    EXPECT_EQ(ran, wanted) << view.name << ": shades " << ran.shades << ", looks up " << ran.looksUp
+                           << ", checks lights " << ran.checksLights << ", reflects " << ran.reflects;
+    EXPECT_EQ(runs(second), wanted) << view.name;
+    EXPECT_EQ(first.linear, second.linear) << view.name << ": it hangs on what was shown before";
+    EXPECT_EQ(first.display, second.display) << view.name;
+  }
+  // What is written back shows in the voxels' light, whichever view is shown: every picture reflects.
+  s.writeback.mode = WritebackMode::compute;
+  pipeline.set(s);
+  pipeline.prepare();
+  EXPECT_TRUE(runs(draw(VIEW_VOXEL_IRRADIANCE, used)).reflects);
 }
 
 }  // namespace

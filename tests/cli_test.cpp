@@ -39,7 +39,19 @@ TEST(Cli, BadUsageIsStatus2AndNamesNearMatches) {
       {{"render", "box", "--size", "640"}, "'640' is not WIDTHxHEIGHT"},
       {{"render", "box", "--size", "0x10"}, "1 to 16384"},
       {{"render", "box", "--size", "10x99999"}, "1 to 16384"},
-      {{"render", "box", "--size", "1x1", "--size", "2x2"}, "--size"},
+      {{"render", "box", "--size", "1x1", "--size", "2x2"},
+       "irad render: --size is given 2 times; it may be given once"},
+      {{"export", "box", "--out", "a", "--matrix", "--out", "b", "--out", "c"},
+       "irad export: --out is given 3 times; it may be given once"},
+      {{"render", "box", "--out", ""}, "irad render: --out is empty"},
+      {{"export", "box", "--matrix", "--out="}, "--out: its value is missing: DIR"},
+      {{"render", ""}, "irad render: SCENE is empty"},
+      {{"render", "box", "--view", "error"},
+       "--view error: there is no picture to show or compare with: --reference FILE"},
+      {{"render", "box", "--view", "lit,reference-picture"}, "--view reference-picture: there is no picture"},
+      {{"render", "box", "--view", "all,error"}, "--view error: there is no picture"},
+      {{"render", "box", "--view", "reference"}, "--view reference: only the scenes of irad check have an oracle"},
+      {{"bench", "box", "--view", "error"}, "--view error: has nothing to be drawn from here"},
       {{"render", "box", "--frames", "0"}, "--frames: '0' is not allowed"},
       {{"render", "box", "--frames", "many"}, "--frames: 'many'"},
       {{"render", "box", "--seed", "-1"}, "--seed: '-1' is not allowed; expected an integer, 0 to 4294967295"},
@@ -105,16 +117,18 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
       {{"render", "box", "--config", sizes}, "size: expected a whole number, 1 to 16384, not 0"},
       {{"render", "box", "--config", cameras}, "e.json: cameras[0]: position"},
       {{"render", notGltf, "--out", folder.path.string()}, "c.gltf"},
+      {{"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")},
+       "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays"},
+      {{"settings", "--config", write("g.json", R"({"matrix.rays": 0})")}, "g.json: matrix.rays: '0' is not allowed"},
+      {{"render", folder.path.string()}, "is a folder, not a file"},
+      {{"render", "/dev/null"}, "/dev/null: is a device or a pipe, not a file"},
+      {{"render", "no\xFFsuch\x1b.glb"}, "no\\xFFsuch\\x1B.glb: no such file"},
   };
   for (const UsageCase& c : cases) {
     const RunResult result = runIrad(c.arguments);
     EXPECT_EQ(result.status, 3) << c.expected << "\n" << result.err;
     EXPECT_TRUE(contains(result.err, c.expected)) << result.err;
   }
-  // A settings file with an unknown name is bad usage, and names the file as well.
-  const RunResult unknown = runIrad({"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")});
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_TRUE(contains(unknown.err, "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays")) << unknown.err;
 }
 
 TEST(Cli, TimeLeftInWords) {

@@ -160,6 +160,12 @@ TEST(Render, ReferenceAndRangesAreStatedAndReplayed) {
                   slurp(folder.path / "c" / (std::string(view) + kind)))
           << view << kind;
 
+  const RunResult other = runIrad({"render", "box", "--size", "32x16", "--view", "error", "--reference", reference,
+                                   "--out", (folder.path / "d").string()});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "64 x 48 pixels, the pictures have 32 x 16: --size 64x48")) << other.err;
+  EXPECT_FALSE(fs::exists(folder.path / "d"));
+
   const RunResult missing = runIrad(smallRender(folder.path / "d", {"--reference", "/nowhere.exr"}));
   EXPECT_EQ(missing.status, 3);
   EXPECT_TRUE(contains(missing.err, "/nowhere.exr")) << missing.err;
@@ -358,13 +364,22 @@ TEST(BenchCommand, RecordsAndCompares) {
                                  "--versus",   "solver.omega=0.5"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto first = contents(fs::path(out) / "settings"), second = contents(fs::path(out) / "versus");
-  EXPECT_EQ(names(first), (std::vector<std::string>{"frames.csv", "summary.csv", "trace.json"}));
+  EXPECT_EQ(names(first), (std::vector<std::string>{"frames.csv", "manifest.json", "summary.csv", "trace.json"}));
   EXPECT_EQ(names(second), names(first));
   // 1 rebuild with its cold relight, 12 relights, 12 pictures.
   EXPECT_EQ(std::count(first.at("frames.csv").begin(), first.at("frames.csv").end(), '\n'), 1 + 2 + 12 + 12);
   EXPECT_TRUE(contains(first.at("summary.csv"), "\nGI Solve,relight,")) << first.at("summary.csv");
   const auto trace = nlohmann::json::parse(first.at("trace.json"));
   EXPECT_EQ(trace["otherData"]["scene"], "box.glb");
+  // What was timed is beside it, and in the trace; its command line times the same again.
+  const auto manifest = nlohmann::json::parse(first.at("manifest.json"));
+  EXPECT_EQ(trace["otherData"]["manifest"], manifest);
+  EXPECT_EQ(manifest["settings"]["matrix.rays"], 16);
+  EXPECT_EQ(manifest["size"], (nlohmann::json{48, 48}));
+  EXPECT_EQ(manifest["cameras"].size(), 1u);
+  EXPECT_EQ(nlohmann::json::parse(second.at("manifest.json"))["settings"]["solver.omega"], 0.5);
+  EXPECT_TRUE(contains(manifest["command"], "irad bench /") && contains(manifest["command"], "--rebuilds 1"))
+      << manifest["command"];
   // On the GPU's track nothing overlaps, and every group's passes follow the beginning of its work on the CPU.
   std::map<int, double> ended;
   for (const auto& event : trace["traceEvents"]) {

@@ -23,6 +23,14 @@ const Scene kEmpty = room(/*emits=*/false), kGlossy = glossy(kEmpty), kLamp = ro
             kTextured = room(/*emits=*/true, {spot()}, /*textured=*/true),
             kEven = furnaceBox(0.5f);  // H is the same everywhere but for what lights add to it
 
+/// The left wall is a pane.
+Scene glazed(Scene scene) {
+  scene.materials[1].alpha = AlphaMode::Blend;
+  scene.materials[1].baseColor.a = 0.4f;
+  return scene;
+}
+const Scene kGlazed = glazed(room(/*emits=*/true, {spot()}));
+
 /// How one effect is called for, and what it brings along. Among them are lights of each kind alone, a spot with one
 /// map and with six, and of any two kinds.
 struct Row {
@@ -53,6 +61,8 @@ const Row kRows[] = {
     {E::field, kLamp, setting("matrix.traversal=dda"), setting("matrix.traversal=sdf"), "GI SDF, has chebyshev field"},
     {E::alphaTest, kTextured, setting("effects.alpha_test=off"), setting("effects.alpha_test=auto"),
      "shader forward/depth_masked.frag"},
+    {E::glass, kGlazed, setting("effects.glass=off"), setting("effects.glass=auto"),
+     "RE Glass, has layers of glass, shader forward/add_layer.comp, shader forward/depth_peeled.frag"},
     {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
      forwardWith(FORWARD_NORMAL_MAP)},
     {E::blur, kEven, lights({}), lights({spot(0.17f)}), "has blurred H"},

@@ -117,13 +117,13 @@ class NoMemory : public GpuTest {
 };
 
 TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
-  Settings ours = small(12), thesis = small(12, "thesis");
+  Settings ours = small(8), thesis = small(8, "thesis");
   ours.writeback.mode = WritebackMode::compute;
   ours.sky.source = SkySource::preetham;
   thesis.writeback.mode = WritebackMode::mask;
   std::set<std::string> subsystems = everyResource(ours);
   subsystems.merge(everyResource(thesis));
-  subsystems.merge(everyResource(framewise(12)));
+  subsystems.merge(everyResource(framewise(8)));
   if (kStep == 1) {
     EXPECT_EQ(subsystems, (std::set<std::string>{"facets", "field", "matrix", "scene", "shadow", "solver", "specular",
                                                  "staging", "targets", "volumes", "voxels", "writeback"}));
@@ -135,14 +135,14 @@ TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
 }
 
 TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
-  const Pixels pictures[] = {fresh(context(), small(12)), fresh(context(), small(14))};
+  const Pixels pictures[] = {fresh(context(), small(8)), fresh(context(), small(10))};
   ASSERT_FALSE(pictures[0] == pictures[1]);
-  Pipeline pipeline(context(), box(), small(12));
+  Pipeline pipeline(context(), box(), small(8));
   pipeline.prepare();
   int shown = 0;
   uint64_t n = 1;
   for (;; n += kStep) {
-    pipeline.set(small(shown == 0 ? 14 : 12));
+    pipeline.set(small(shown == 0 ? 10 : 8));
     const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
     if (message.empty()) break;
     expectNamed(message);

@@ -135,10 +135,29 @@ Scene masked() {
   return scene;
 }
 
+/// The same room with two sheets across it, one tilted to the other, that blend: alpha .3 (`thin`), and .7 by its
+/// vertices.
+Scene glazed(bool thin = true) {
+  SceneBuilder b;
+  const uint32_t wall = b.material(glm::vec3(0.5f)), pale = b.material(glm::vec3(0.8f), glm::vec3(0), true),
+                 thick = b.material(glm::vec3(0.4f), glm::vec3(0), true);
+  b.box({wall, wall, wall, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  if (thin) b.quad(pale, {-1, 0.02f, 1}, {1, 0.03f, 1}, {1, 0.05f, -1}, {-1, 0.04f, -1});
+  b.quad(thick, {-1, 0.4f, 1}, {1, 0.5f, 1}, {1, 0.7f, -1}, {-1, 0.6f, -1});
+  b.edit(pale).alpha = b.edit(thick).alpha = AlphaMode::Blend;
+  b.edit(pale).baseColor.a = 0.3f;
+  Scene scene = b.finish("glazed");
+  for (const Draw& draw : scene.draws)
+    for (uint32_t i = draw.firstIndex; draw.material == thick && i < draw.firstIndex + draw.indexCount; ++i)
+      scene.colors[scene.indices[i]].a = 0.7f;
+  return scene;
+}
+
 TEST_F(HostTracing, MeetsWhatTheKernelMeetsButForTies) {
   expectTiesAlone("furnished room", furnishedRoom(), triangles(24, 64), 20000);
   expectTiesAlone("thin wall", twoRooms(0.2f), triangles(24, 64), 20000);
   expectTiesAlone("masked", masked(), triangles(24, 64), 20000);
+  expectTiesAlone("glazed", glazed(), triangles(24, 64), 20000);
   expectTiesAlone("box.glb", loadScene(sourceFolder() / "assets/box.glb"), triangles(40, 32), 20000);
 }
 
@@ -212,6 +231,23 @@ TEST_F(HostTracing, HolesLetRaysThroughFromEverySide) {
   fmt::print("through the stripes: {:.4f}\n", passed(hits));
   EXPECT_NEAR(passed(hits), 0.5, 0.05);
   EXPECT_NEAR(passed(kernel), passed(hits), 1e-3);
+}
+
+TEST_F(HostTracing, GlassLetsItsShareThrough) {
+  // Of the floor's rays that come above the lower sheet, 1 - alpha still do with it there.
+  const auto above = [&](const World& w, const std::vector<uint32_t>& met) {
+    const HostFacets f = hostFacets(context(), w.facets);
+    double count = 0;
+    for (size_t i = 0; i < met.size(); ++i)
+      count += f.position[i / 128].y < -0.99 && f.normal[i / 128].y > 0.9 && met[i] <= TRACE_LAST_FACET &&
+               f.position[met[i]].y > 0.1;
+    return count;
+  };
+  const World open = world(glazed(/*thin=*/false), triangles(24, 128)), w = world(glazed(), triangles(24, 128));
+  const double all = above(open, byHost(open)), host = above(w, byHost(w)) / all, kernel = above(w, byKernel(w)) / all;
+  fmt::print("through alpha .3: {:.4f} of {:.0f}\n", host, all);
+  EXPECT_NEAR(host, 0.7, 0.01);
+  EXPECT_NEAR(kernel, host, 1e-3);
 }
 
 TEST_F(HostTracing, TheSameHitsFromAnyNumberOfThreads) {

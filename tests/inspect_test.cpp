@@ -187,18 +187,18 @@ TEST_F(Inspect, RaysEndWhereTheMatrixHasThem) {
 TEST_F(Inspect, PicksByPointAndByRay) {
   // The box of 1 m about 0, seen from inside; one voxel is 1 / 16 m.
   open(furnaceBox(0.5f), at(16, 8));
-  const auto wall = inspector_->facetAt({0.01, -0.5, 0.26}, {0, 1, 0});
+  const auto wall = inspector_->places().facetAt({0.01, -0.5, 0.26}, {0, 1, 0});
   ASSERT_TRUE(wall);
   EXPECT_EQ(inspector_->voxelOf(*wall), glm::uvec3(9, 1, 13));
   EXPECT_NEAR(inspector_->facet(*wall).normal.y, 1, 1e-6);
-  EXPECT_FALSE(inspector_->facetAt({0.01, -0.5, 0.26}, {0, -1, 0})) << "nothing faces that way";
-  EXPECT_FALSE(inspector_->facetAt({0, 0, 0}, {0, 1, 0})) << "in the middle of the room";
-  EXPECT_FALSE(inspector_->facetAt({90, 0, 0}, {0, 1, 0}));
+  EXPECT_FALSE(inspector_->places().facetAt({0.01, -0.5, 0.26}, {0, -1, 0})) << "nothing faces that way";
+  EXPECT_FALSE(inspector_->places().facetAt({0, 0, 0}, {0, 1, 0})) << "in the middle of the room";
+  EXPECT_FALSE(inspector_->places().facetAt({90, 0, 0}, {0, 1, 0}));
   // From inside; from outside, through the wall's back, whose voxel is the first.
-  EXPECT_EQ(inspector_->facetAlong({0.01, 0, 0.26}, {0, -1, 0}), wall);
-  EXPECT_EQ(inspector_->facetAlong({0.01, -7, 0.26}, {0, 1, 0}), wall);
-  EXPECT_FALSE(inspector_->facetAlong({0.01, -7, 0.26}, {0, -1, 0}));
-  EXPECT_FALSE(inspector_->facetAlong({5, 5, 5}, {0, 0, 1}));
+  EXPECT_EQ(inspector_->places().facetAlong({0.01, 0, 0.26}, {0, -1, 0}), wall);
+  EXPECT_EQ(inspector_->places().facetAlong({0.01, -7, 0.26}, {0, 1, 0}), wall);
+  EXPECT_FALSE(inspector_->places().facetAlong({0.01, -7, 0.26}, {0, -1, 0}));
+  EXPECT_FALSE(inspector_->places().facetAlong({5, 5, 5}, {0, 0, 1}));
 }
 
 TEST_F(Inspect, ComparesRows) {
@@ -277,7 +277,7 @@ TEST_F(Inspect, VoxelsAndTheirJson) {
 
   std::vector<uint32_t> facets;
   for (const InspectedFacet& f : record.facets) facets.push_back(f.facet);
-  EXPECT_EQ(facets, inspector_->facetsOf(voxel));
+  EXPECT_EQ(facets, inspector_->places().facetsOf(voxel));
   const SolveHistory history = replaySolve(context(), *pipeline_, facets);
   const auto json = nlohmann::json::parse(inspectJson(record, grid, pipeline_->facets().encoding, history));
   EXPECT_EQ(json["voxel"], (nlohmann::json{voxel.x, voxel.y, voxel.z}));

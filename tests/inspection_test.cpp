@@ -7,8 +7,11 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/quaternion.hpp>
 
+#include <cstring>
+
 #include "gi/lighting.h"
 #include "renderer/base/error.h"
+#include "shaders/shared/emitters.h"
 #include "ui/session.h"
 
 namespace irad::test::inspection_suite {
@@ -107,6 +110,138 @@ TEST_F(InspectionTest, PicksTheCellThatASliceShows) {
   }
   EXPECT_GT(solid, 20u);
   EXPECT_GT(empty, 20u);
+}
+
+TEST_F(InspectionTest, WhatIsUnderTheMouseIsWhatAClickPicks) {
+  Settings& settings = session_->edited = at(16, 32);
+  settings.view.shape = ViewShape::automatic;
+  session_->pipeline->set(settings);
+  build();
+  Pointing& pointing = session_->pointing;
+  const auto reading = [&](const glm::uvec2& pixel) {
+    pointing.over = Pointing::Over{pixel};
+    const Counters before = context().counters();
+    Frame frame = context().beginUntimed();
+    pointing.record(*session_, frame);
+    frame.submitAndWait();
+    EXPECT_EQ(context().counters().since(before).dispatches, 0u);
+    return pointing.take(*session_);
+  };
+  size_t facets = 0;
+  for (const View view : {View{VIEW_LIT}, View{VIEW_DEPTH}, View{VIEW_VOXEL_ALBEDO}, View{VIEW_JFA_SEEDS}}) {
+    draw(glm::normalize(glm::dvec3(-1, 0.4, -0.6)), view);
+    ++session_->pictures;
+    const std::vector<std::byte> bytes = download(context(), session_->targets.linear);
+    for (const glm::uvec2 pixel : {glm::uvec2(0, 0), glm::uvec2(20, 31), glm::uvec2(63, 47)}) {
+      ASSERT_TRUE(reading(pixel)) << "nothing has come back";
+      ASSERT_TRUE(pointing.reading);
+      glm::vec4 value;
+      std::memcpy(&value, bytes.data() + sizeof(value) * (pixel.y * 64 + pixel.x), sizeof(value));
+      EXPECT_EQ(pointing.reading->pixel, pixel);
+      const std::string wanted = value.w == 0 ? std::string("nothing")
+                                 : view == VIEW_DEPTH
+                                     ? fmt::format("{:.4g} m", value.x)
+                                     : fmt::format("{:.4g}  {:.4g}  {:.4g}", value.x, value.y, value.z);
+      EXPECT_TRUE(pointing.reading->value.starts_with(wanted)) << pointing.reading->value << " is not " << wanted;
+      pick(pixel);
+      EXPECT_EQ(pointing.reading->voxel.has_value(), inspection().voxel.has_value());
+      if (inspection().voxel && pointing.reading->voxel) {
+        EXPECT_EQ(*pointing.reading->voxel, inspection().voxel->voxel);
+      }
+      ASSERT_EQ(pointing.reading->facet.has_value(), inspection().facet() != nullptr);
+      if (!inspection().facet()) continue;
+      ++facets;
+      EXPECT_EQ(*pointing.reading->facet, inspection().facet()->facet) << "view " << view;
+      EXPECT_FALSE(pointing.reading->material.empty());
+    }
+  }
+  EXPECT_GE(facets, 9u);
+  // Asked once for a pixel of a picture.
+  EXPECT_FALSE(reading({63, 47}));
+  ++session_->pictures;
+  EXPECT_TRUE(reading({63, 47}));
+  pointing.over.reset();
+  Frame frame = context().beginUntimed();
+  pointing.record(*session_, frame);
+  frame.submitAndWait();
+  EXPECT_FALSE(pointing.take(*session_)) << "the mouse is elsewhere";
+
+  // Many pixels at once, for numbers in them.
+  pointing.large = {{3, 5}, {4, 2}};
+  draw({0, 0, -1}, VIEW_LIT);
+  Frame values = context().beginUntimed();
+  pointing.record(*session_, values);
+  values.submitAndWait();
+  const std::vector<std::byte> bytes = download(context(), session_->targets.linear);
+  ASSERT_EQ(pointing.values.size(), 8u);
+  for (uint32_t i = 0; i < 8; ++i)
+    EXPECT_EQ(std::memcmp(&pointing.values[i], bytes.data() + 16 * ((5 + i / 4) * 64 + 3 + i % 4), 16), 0) << i;
+}
+
+TEST_F(InspectionTest, TheHistogramIsCountedWhileItIsShownAndThePictureIsAnother) {
+  session_->edited = at(16, 32);
+  ShownHistogram& histogram = session_->histogram;
+  const auto record = [&] {
+    const uint64_t before = context().counters().dispatches;
+    Frame frame = context().beginUntimed();
+    histogram.record(*session_, frame);
+    frame.submitAndWait();
+    return context().counters().dispatches - before;
+  };
+  draw({0.3, 0.2, -1}, VIEW_DEPTH);
+  ++session_->pictures;
+  EXPECT_EQ(record(), 0u) << "nobody looks";
+  histogram.wanted = true;
+  EXPECT_GT(record(), 0u);
+  ASSERT_TRUE(histogram.counts);
+  EXPECT_EQ(record(), 0u) << "the picture is the same";
+
+  // Counted again by the host. The axis holds all of the values; bins of one width.
+  const auto texels = [&] {
+    const std::vector<std::byte> bytes = download(context(), session_->targets.linear);
+    std::vector<glm::vec4> out(bytes.size() / sizeof(glm::vec4));
+    std::memcpy(out.data(), bytes.data(), bytes.size());
+    return out;
+  };
+  const auto expect = [&](uint32_t channel, auto&& valueOf) {
+    const Histogram& h = histogram.counts->histogram;
+    std::vector<uint32_t> wanted(HISTOGRAM_BINS);
+    uint32_t outside = 0, apart = 0;
+    for (const glm::vec4& texel : texels()) {
+      if (texel.w == 0) continue;
+      const double at = (double{valueOf(texel)} - h.low) / (double{h.high} - h.low) * HISTOGRAM_BINS;
+      if (at < 0 || at > HISTOGRAM_BINS)
+        ++outside;
+      else
+        ++wanted[std::min(static_cast<uint32_t>(at), HISTOGRAM_BINS - 1)];
+    }
+    for (uint32_t bin = 0; bin < HISTOGRAM_BINS; ++bin)
+      apart += static_cast<uint32_t>(
+          std::abs(static_cast<int>(h.counts[channel * HISTOGRAM_BINS + bin]) - static_cast<int>(wanted[bin])));
+    EXPECT_LE(apart, 4u) << "values on the edge of a bin, by rounding; channel " << channel;
+    return outside;
+  };
+  EXPECT_EQ(expect(3, [](const glm::vec4& v) { return v.x; }), 0u);
+  EXPECT_EQ(histogram.counts->histogram.below + histogram.counts->histogram.above, 0u);
+  // While an end of the range is dragged the axis stays.
+  histogram.axis = glm::vec2(0.1f, 0.5f);
+  EXPECT_GT(record(), 0u);
+  EXPECT_EQ(histogram.counts->histogram.high, 0.5f);
+  const uint32_t outside = expect(3, [](const glm::vec4& v) { return v.x; });
+  EXPECT_EQ(outside, histogram.counts->histogram.below + histogram.counts->histogram.above);
+  EXPECT_GT(outside, 0u);
+  histogram.axis.reset();
+
+  draw({0.3, 0.2, -1}, VIEW_LIT);
+  ++session_->pictures;
+  record();
+  expect(0, [](const glm::vec4& v) { return v.x; });
+  expect(2, [](const glm::vec4& v) { return v.z; });
+  const uint32_t beyond = expect(3, [](const glm::vec4& v) { return luminance(glm::vec3(v)); });
+  EXPECT_EQ(beyond, histogram.counts->histogram.above);
+  histogram.wanted = false;
+  EXPECT_EQ(record(), 0u);
+  EXPECT_FALSE(histogram.counts);
 }
 
 TEST_F(InspectionTest, FollowsLinksAndGoesBack) {

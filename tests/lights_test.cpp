@@ -9,6 +9,7 @@
 #include "gi/check/check.h"
 #include "gi/check/scenes.h"
 #include "gi/pipeline.h"
+#include "gi/plan.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sidecar.h"
@@ -122,6 +123,31 @@ TEST_F(Lights, AnEditRunsTheRelightAlone) {
   EXPECT_EQ(pipeline.shadows().cubes.desc.layers, 12u);
 }
 
+/// Off they are as if they were not there: no shadow map, no pass, the same bits; and editing one redoes nothing.
+TEST_F(Lights, OnesThatAreOffCostNothing) {
+  std::vector<Light> lights = threeLights();
+  for (size_t off : {0u, 1u, 2u}) {
+    std::vector<Light> some = lights, without = lights;
+    some[off].on = false;
+    without.erase(without.begin() + static_cast<ptrdiff_t>(off));
+    EXPECT_TRUE(of(some, VIEW_DIRECT) == of(without, VIEW_DIRECT)) << lights[off].name;
+    EXPECT_FALSE(of(some, VIEW_DIRECT) == of(lights, VIEW_DIRECT)) << lights[off].name;
+  }
+  for (Light& light : lights) light.on = light.type == LightType::Sun;
+  Pipeline pipeline(context(), room(lights), small());
+  pipeline.prepare();
+  EXPECT_EQ(pipeline.shadows().flat.desc.layers, 1u) << "the sun's alone";
+  EXPECT_FALSE(pipeline.shadows().cubes);
+  EXPECT_TRUE(pipeline.plan().off(Effect::point));
+  EXPECT_TRUE(pipeline.plan().off(Effect::spot));
+  lights[1].position.x += 0.2, lights[1].intensity = 9, lights[2].outerCos = 0.5f, lights[2].color = glm::vec3(1);
+  pipeline.setLights(lights);
+  EXPECT_TRUE(pipeline.asleep()) << "an edit of one that is off";
+  lights[1].on = true;
+  pipeline.setLights(lights);
+  EXPECT_FALSE(pipeline.asleep());
+}
+
 TEST_F(Lights, OnesOutOfRangeAreRefusedByNameAndTheOldStay) {
   Pipeline pipeline(context(), room({lamp()}), small());
   pipeline.prepare();
@@ -210,6 +236,7 @@ Camera bookmark(const std::string& name) {
 TEST(LightJson, KeepsEveryBit) {
   std::vector<Light> lights = threeLights();
   lights[1].position = {1.0 / 3.0, -1e6 - 0.1, 1e-9};
+  lights[1].on = false;
   for (float degrees = 0.25f; degrees < 180.0f; degrees += 0.25f) {
     Light spot = lights[2];
     spot.outerCos = std::cos(degrees * std::numbers::pi_v<float> / 180.0f);
@@ -284,6 +311,7 @@ TEST(LightJson, RefusalsNameLightFieldAndValue) {
        "L[0]: light \"a\": its intensity -2 is not from 0 to 1e+12"},
       {R"([{"type": "point", "position": [0, 1, 0], "colour": [1, 1, 1]}])",
        "unknown field 'colour' (did you mean color?)"},
+      {R"([{"type": "point", "position": [0, 1, 0], "on": 0}])", "L[0]: on: expected true or false, not 0"},
       {R"([{"type": "point", "position": [0, 1, 0], "angle": 1}])", "L[0]: angle: a point has none"},
       {R"([{"type": "sun", "direction": [0, 1, 0], "radius": 1}])", "L[0]: radius: a sun has none"},
       {R"([{"type": "point", "position": [0, 1, 0], "name": "a", "radius": -0.5}])",
@@ -313,7 +341,8 @@ TEST_F(SidecarTest, LiesBesideTheSceneAndComesBackToTheBit) {
   EXPECT_EQ(sidecar, folder.path / "scene.gltf.irad.json");
   const Scene own = load();
   EXPECT_TRUE(own.sidecar.empty());
-  const Sidecar written{threeLights(), {bookmark("door"), bookmark("window \"2\"")}, own.sha256};
+  const Sidecar written{
+      .lights = threeLights(), .bookmarks = {bookmark("door"), bookmark("window \"2\"")}, .sceneSha256 = own.sha256};
   writeSidecar(sidecar, written);
   EXPECT_EQ(readSidecar(sidecar), written);
 
@@ -334,13 +363,13 @@ TEST_F(SidecarTest, LiesBesideTheSceneAndComesBackToTheBit) {
 }
 
 TEST_F(SidecarTest, WithoutLightsTheScenesOwnStay) {
-  writeSidecar(sidecar, {std::nullopt, {bookmark("door")}, ""});
+  writeSidecar(sidecar, {.bookmarks = {bookmark("door")}});
   const Scene s = load();
   EXPECT_TRUE(s.defaultLight);
   EXPECT_EQ(s.lights, s.fileLights);
   EXPECT_EQ(sidecarNote(s), "cameras of scene.gltf.irad.json");
   EXPECT_FALSE(warns(s, "has changed"));
-  writeSidecar(sidecar, {std::vector<Light>{}, {}, std::string(64, '0')});
+  writeSidecar(sidecar, {.lights = std::vector<Light>{}, .sceneSha256 = std::string(64, '0')});
   const Scene dark = load();
   EXPECT_TRUE(dark.lights.empty());
   EXPECT_TRUE(warns(dark, "scene.gltf has changed since scene.gltf.irad.json was saved"));
@@ -414,7 +443,7 @@ class SidecarCli : public SidecarTest {
 
 TEST_F(SidecarCli, IsSaidIgnoredOnRequestAndReplayedWhateverBecomesOfIt) {
   ASSERT_EQ(render("own", tiny()).status, 0);
-  writeSidecar(sidecar, {threeLights(), {bookmark("door")}, ""});
+  writeSidecar(sidecar, {.lights = threeLights(), .bookmarks = {bookmark("door")}});
   const RunResult lit = render("lit", tiny());
   ASSERT_EQ(lit.status, 0) << lit.err;
   EXPECT_NE(lit.err.find("lights and cameras of scene.gltf.irad.json"), std::string::npos) << lit.err;

@@ -61,6 +61,23 @@ TEST(LinkFilter, SaysWhatItCannotReadAndLetsThatPass) {
   EXPECT_EQ(passing("hist>3, hits>2"), "12") << "what can be read holds";
 }
 
+TEST(LinkScale, IsLogarithmicWhereStrengthsSpanDecades) {
+  const LinkScale even = linkScale(0.5f, 2);
+  EXPECT_FALSE(even.logarithmic);
+  EXPECT_EQ(even.at(1), 0.5f);
+  EXPECT_EQ(even.at(2), 1);
+  EXPECT_EQ(even.at(0), 0);
+  const LinkScale wide = linkScale(0.02f, 2);
+  EXPECT_TRUE(wide.logarithmic);
+  EXPECT_NEAR(wide.at(0.2f), 0.5f, 1e-6f);
+  EXPECT_EQ(wide.at(2), 1);
+  EXPECT_EQ(wide.at(0.02f), 0);
+  EXPECT_EQ(wide.at(0), 0) << "none";
+  // More than six decades would leave what is strong all one colour.
+  EXPECT_EQ(linkScale(1e-12f, 1).low, 1e-6f);
+  EXPECT_EQ(linkScale(0, 0).at(1), 0) << "there is no link";
+}
+
 }  // namespace
 }  // namespace irad::link_filter_suite
 

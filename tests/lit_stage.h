@@ -40,7 +40,7 @@ struct Lit {
     gatherEmitters(context, facets, matrix, {}, settings, light);
     solve(context, facets, matrix, light, settings, settings.solver.maxSweeps);
     Frame frame = context.begin();
-    scatter(frame, facets, light, settings);
+    scatter(frame, facets, matrix, light, settings);
     frame.submitAndWait();
     grid = makeBuffer(context, "grid", Subsystem::Voxels, std::span<const Grid>(&facets.grid, 1));
   }

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <random>
 
+#include "gi/picture.h"
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
@@ -271,6 +272,30 @@ TEST(ImageIo, ExrKeepsEveryBitAndPngEveryByte) {
   std::vector<glm::u8vec3> readBytes(bytes.size());
   ASSERT_TRUE(inPng->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, readBytes.data()));
   for (size_t i = 0; i < bytes.size(); ++i) ASSERT_EQ(readBytes[i], glm::u8vec3(bytes[i])) << i;
+}
+
+TEST(ImageIo, LayersSayWhatTheyShow) {
+  test::TemporaryFolder folder;
+  const glm::uvec2 size(5, 4);
+  const PictureLayer layers[] = {{"", ramp(size)}, {"error", ramp(size)}};
+  const std::string camera = R"({"name": "a \"b\"", "position": [0.1, 2, 3]})";
+  const LinearPicture with = readLinear(writeLayers(folder.path / "a", size, layers, {camera, "indirect"}).front());
+  EXPECT_EQ(with.subject.camera, camera);
+  EXPECT_EQ(with.subject.view, "indirect");
+  const LinearPicture without = readLinear(writeLayers(folder.path / "b", size, layers).front());
+  EXPECT_EQ(without.subject.camera + without.subject.view, "");
+  EXPECT_EQ(without.pixels, with.pixels);
+  // As a reference: what a file says of its camera has to be one.
+  EXPECT_FALSE(readReference(folder.path / "b.exr").camera);
+  for (const char* broken : {"no JSON", R"({"position": 3})"}) {
+    const fs::path file = writeLayers(folder.path / "c", size, layers, {broken, ""}).front();
+    try {
+      readReference(file);
+      ADD_FAILURE() << broken;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(contains(error.what(), "c.exr: iradCamera")) << error.what();
+    }
+  }
 }
 
 TEST(ImageIo, TheSamePixelsGiveTheSameFile) {

@@ -2,6 +2,7 @@
 #include "gi/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fnmatch.h>
 #include <gtest/gtest.h>
 
@@ -101,6 +102,8 @@ const Case kCases[]{
     {E::matrix, dark, "off: no light at all: H is 0 everywhere"},
     {E::matrix, EDIT(dark(t, s), t.lights = {light(LightType::Point)}), "on: light, and albedos of up to 0.5"},
     {E::matrix, turnedDown, "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
+    {E::matrix, EDIT(unlit(t, s), t.emitted = true),
+     "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
     {E::matrix, EDIT(turnedDown(t, s), t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
     {E::matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
     {E::matrix, thesis, "on: *"},
@@ -165,6 +168,15 @@ const Case kCases[]{
     {E::rebuild, EDIT(t.light.due = Redo::Matrix), "on: due from matrix on"},
     {E::alphaTest, EDIT(t.materials[0].alphaTest = true), "on: 1 of 2 materials cut out by alpha"},
     {E::alphaTest, EDIT(t.materials[0].normalMap = true), "off: none of 2 materials cut out by alpha"},
+    {E::alphaTest, EDIT(t.materials[0].cutIfOpaque = true), "on: 1 of 2 materials cut out by alpha"},
+    {E::alphaTest, EDIT(t.materials[0].cutIfOpaque = t.materials[0].glass = true),
+     "off: none of 2 materials cut out by alpha"},
+    {E::alphaTest, EDIT(thesis(t, s), t.materials[0].cutIfOpaque = t.materials[0].glass = true), "on: *"},
+    {E::glass, none, "off: none of 2 materials blended with alpha below 1"},
+    {E::glass, EDIT(t.materials[1].glass = true), "on: 1 of 2 materials blended with alpha below 1"},
+    {E::glass, EDIT(thesis(t, s), t.materials[1].glass = true),
+     "off: 1 of 2 materials blended with alpha below 1, opaque with matrix.hit_rule = thesis; textured ones cut at one "
+     "half"},
     {E::normalMap, EDIT(t.materials[0].normalMap = t.materials[1].normalMap = true), "on: 2 of 2 materials with *"},
     {E::normalMap, EDIT(t.materials[0].alphaTest = true), "off: none of 2 materials with a normal map"},
     {E::blur, thesis, "on, *"},
@@ -181,6 +193,30 @@ const Case kCases[]{
 
 void expectRow(const EffectRow& row, const char* pattern) {
   EXPECT_EQ(fnmatch(pattern, text(row).c_str(), 0), 0) << row.info().name << " is " << text(row) << "\nnot " << pattern;
+}
+
+TEST(Plan, SaysThatAllMetalIsBlackWithoutASky) {
+  const auto said = [](void (*edit)(T&, S&)) {
+    T t = lit();
+    S s = usual();
+    t.materials = {{.triangles = 10, .f0 = 0.9f}, {.triangles = 0, .albedo = 0.5f}};
+    t.lights = {light(LightType::Sun)};
+    edit(t, s);
+    return fmt::format("{}", fmt::join(plan(t, s).nothingDiffuse, " "));
+  };
+  const std::string one = said([](T&, S&) {});
+  EXPECT_EQ(
+      one,
+      "The one material is not diffuse: metal shows what is around it, and nothing there gives light. A sky would: "
+      "sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window).");
+  EXPECT_TRUE(said([](T& t, S&) {
+                t.materials[1].triangles = 1, t.materials[1].albedo = 0;
+              }).starts_with("None of 2 materials"));
+  for (const auto edit : {+[](T&t, S&) { t.materials[1].triangles = 1; },  // something diffuse
+                          +[](T&t, S&) { t.lights.clear(); },              // no light at all, which noLight says
+                          +[](T&t, S&) { t.materials[0].emission = 1; },
+                          +[](T&t, S&s) { s.sky.source = SkySource::constant, t.sky = 1; }})
+    EXPECT_EQ(said(edit), "");
 }
 
 TEST(Plan, EachRowFollowsWhatCallsForIt) {
@@ -218,13 +254,13 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
     const LightTraits lights = light(kind.type), dim = light(kind.type, /*shines=*/false),
                       far = light(kind.type, true, /*gap=*/5);
     says({}, "off: no *");
-    says({lights}, "on: 1 *: 1 with an intensity, of these 1 in reach of the scene");
-    says({dim}, "off, 16777216 B: 1 *: 0 with an intensity, of these 0 *");
-    says({far}, "off, 16777216 B: 1 *: 1 with an intensity, of these 0 in reach of the scene");
-    says({far, lights}, "on: 2 *: 2 with an intensity, of these 1 *");
+    says({lights}, "on: 1 *: 1 on and with an intensity, of these 1 in reach of the scene");
+    says({dim}, "off, 16777216 B: 1 *: 0 on and with an intensity, of these 0 *");
+    says({far}, "off, 16777216 B: 1 *: 1 on and with an intensity, of these 0 in reach of the scene");
+    says({far, lights}, "on: 2 *: 2 on and with an intensity, of these 1 *");
     LightTraits soft = lights, softButFar = far;
     soft.size = softButFar.size = true;
-    says({soft, softButFar, lights}, "on: 3 *: 3 with an intensity, of these 2 *; penumbrae of 1, by 32 points");
+    says({soft, softButFar, lights}, "on: 3 *: 3 on and with an intensity, of these 2 *; penumbrae of 1, by 32 points");
   }
 }
 

@@ -1,6 +1,7 @@
 // The headless binary for another Linux, which ./test builds beside the full one (build-portable/irad).
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "tests/exr.h"
 #include "tests/support.h"
@@ -50,13 +51,18 @@ TEST_F(Portable, NeedsTheCLibraryAlone) {
 
 TEST_F(Portable, RendersTheFullBuildsPictureFromItsCache) {
   const TemporaryFolder folder;
-  const std::string cache = folder.path / "box.irscene", full = folder.path / "full", small = folder.path / "small";
-  const RunResult exported = runIrad({"export", "box", "--cache", cache, "--out", full});
+  // Beside a program, where its built-in scenes are: there it goes by its name.
+  const fs::path program = folder.path / "irad", cache = folder.path / "assets/kept.irscene";
+  fs::create_directory(cache.parent_path());
+  fs::copy_file(program_, program);
+  const std::string full = folder.path / "full", small = folder.path / "small";
+  const RunResult exported = runIrad({"export", "box", "--cache", cache.string(), "--out", full});
   ASSERT_EQ(exported.status, 0) << exported.err;
-  for (const auto& [program, out] : {std::pair{iradProgram(), full}, std::pair{program_.string(), small}}) {
-    const RunResult run = runProgram(program, {"render", cache, "--view", "lit", "--size", "48x48", "--set",
-                                               "voxel.resolution=24", "--set", "matrix.rays=32", "--out", out});
-    ASSERT_EQ(run.status, 0) << program << ": " << run.err;
+  for (const auto& [which, scene, out] :
+       {std::tuple{iradProgram(), cache.string(), full}, std::tuple{program.string(), std::string("kept"), small}}) {
+    const RunResult run = runProgram(which, {"render", scene, "--view", "lit", "--size", "48x48", "--set",
+                                             "voxel.resolution=24", "--set", "matrix.rays=32", "--out", out});
+    ASSERT_EQ(run.status, 0) << which << ": " << run.err;
   }
   const ExrPicture a = readExr(fs::path(full) / "lit.exr"), b = readPfm(fs::path(small) / "lit.pfm");
   ASSERT_EQ(a.pixels.size(), b.pixels.size());

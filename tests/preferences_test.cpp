@@ -22,12 +22,15 @@ TEST(Preferences, ComeBackAsTheyWere) {
   Preferences p;
   p.sizes = {.left = 321.5f, .right = 200, .bottom = 0};
   p.folded = {"Memory", "Settings"};
+  p.scale = 1.5f;
+  p.applyByHand = true;
   p.opened("/scenes/a.glb");
   p.opened("/scenes/\"b\".glb");
   writePreferences(file, p);
   EXPECT_EQ(readPreferences(file), p);
   p.resetLayout();
   EXPECT_EQ(p.sizes, PanelSizes());
+  EXPECT_EQ(p.scale, 0);
   EXPECT_EQ(p.folded, Preferences().folded);
   EXPECT_EQ(p.recent.size(), 2u);
 }
@@ -49,6 +52,9 @@ TEST(Preferences, BadFilesAreNamedWithMemberAndValue) {
       {"{\"format\": 1, \"left\": -3}", {"left", "-3"}},
       {"{\"format\": 1, \"bottom\": \"wide\"}", {"bottom", "wide"}},
       {"{\"format\": 1, \"right\": 1e39}", {"right", "1e+39"}},
+      {"{\"format\": 1, \"apply_by_hand\": 1}", {"apply_by_hand", "1"}},
+      {"{\"format\": 1, \"scale\": 9}", {"scale", "9"}},
+      {"{\"format\": 1, \"scale\": \"big\"}", {"scale", "big"}},
       {"{\"format\": 1, \"folded\": [7]}", {"folded", "7"}},
       {"{\"format\": 1, \"recent\": \"x\"}", {"recent", "x"}},
       {"{\"format\": 9}", {"format", "9"}},
@@ -115,9 +121,12 @@ TEST(Presets, AreSavedListedAndAppliedUnderTheirNames) {
 TEST(Layout, TilesTheWindowWhateverTheSizes) {
   for (const glm::uvec2 window : {glm::uvec2(1280, 720), {2560, 1440}, {700, 500}, {64, 48}, {1, 1}})
     for (const float scale : {1.0f, 2.0f})
-      for (const PanelSizes& sizes :
-           {PanelSizes{}, PanelSizes{1, 1, 1}, PanelSizes{4000, 4000, 4000}, PanelSizes{500, 0, 300}}) {
-        const Layout l = layout(window, scale, /*hidden=*/false, sizes);
+      for (const auto& [sizes, folding] :
+           {std::pair(PanelSizes{}, Folding{}), std::pair(PanelSizes{1, 1, 1}, Folding{.strip = true}),
+            std::pair(PanelSizes{4000, 4000, 4000}, Folding{}),
+            std::pair(PanelSizes{500, 0, 300}, Folding{.left = true}),
+            std::pair(PanelSizes{4000, 4000, 4000}, Folding{.left = true, .right = true, .strip = true})}) {
+        const Layout l = layout(window, scale, Filling::Panels, sizes, folding);
         const glm::vec2 size(window);
         EXPECT_FLOAT_EQ(l.left.size.x + l.viewport.size.x + l.right.size.x, size.x);
         EXPECT_FLOAT_EQ(l.bar.size.y + l.viewport.size.y + l.bottom.size.y, size.y);
@@ -127,8 +136,24 @@ TEST(Layout, TilesTheWindowWhateverTheSizes) {
         EXPECT_GE(l.viewport.size.x, 0.2f * size.x - 1);
         EXPECT_GE(l.viewport.size.y, 0.2f * size.y - 1);
       }
-  EXPECT_EQ(layout({1280, 720}, 1, false, {.left = 250}).left.size.x, 250);
-  EXPECT_EQ(layout({2560, 1440}, 2, false, {.bottom = 200}).bottom.size.y, 400);
+  EXPECT_EQ(layout({1280, 720}, 1, Filling::Panels, {.left = 250}).left.size.x, 250);
+  EXPECT_EQ(layout({2560, 1440}, 2, Filling::Panels, {.bottom = 200}).bottom.size.y, 400);
+}
+
+TEST(Layout, GivesThePictureHalfOfTheWindowAtFirstAndMoreOnceFolded) {
+  const auto share = [](glm::uvec2 window, float scale, Filling filling, const Folding& folding) {
+    const glm::vec2 picture = layout(window, scale, filling, {}, folding).viewport.size;
+    return picture.x * picture.y / static_cast<float>(window.x * window.y);
+  };
+  const Folding first = Preferences().folding();
+  EXPECT_TRUE(first.strip);
+  EXPECT_FALSE(first.left || first.right);
+  for (const glm::uvec2 window : {glm::uvec2(1280, 720), {1600, 900}, {1920, 1080}, {2560, 1440}}) {
+    EXPECT_GE(share(window, 1, Filling::Panels, first), 0.5f) << window.x;
+    EXPECT_GT(share(window, 1, Filling::Panels, {true, true, true}), 0.9f) << window.x;
+    EXPECT_GT(share(window, 1, Filling::Picture, first), 0.95f) << window.x;
+    EXPECT_EQ(share(window, 1, Filling::PictureAlone, first), 1) << window.x;
+  }
 }
 
 }  // namespace

@@ -293,6 +293,29 @@ TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
   EXPECT_FALSE(fs::exists(folder.path / "manifest.json"));
 }
 
+TEST(ProgramFaults, AFailedRunLeavesNoEmptyFolder) {
+  TemporaryFolder folder;
+  const fs::path out = folder.path / "new" / "out";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"render", "box"}, {"export", "box", "--matrix"}, {"export", "box", "--facets"}}) {
+    std::vector<std::string> arguments = command;
+    for (const char* more : {"--set", "voxel.resolution=8", "--inject", "oom=1", "--out"}) arguments.emplace_back(more);
+    arguments.push_back(out.string());
+    const RunResult result = runIrad(arguments, 120);
+    EXPECT_EQ(result.status, 4) << command[0] << "\n" << result.err;
+    EXPECT_FALSE(fs::exists(folder.path / "new")) << command[0];
+  }
+}
+
+TEST(ProgramFaults, ABuiltInSceneIsNotHiddenByAFolderOfItsName) {
+  TemporaryFolder folder;
+  fs::create_directory(folder.path / "box");
+  const std::string command = "cd '" + folder.path.string() + "' && '" + iradProgram() +
+                              "' render box --list-devices >/dev/null && '" + iradProgram() +
+                              "' export box --cache box.irscene > out 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << slurp(folder.path / "out");
+}
+
 // ---- Files of newer programs ----------------------------------------------------------------------------------------
 
 TEST(NewerFiles, SettingsAndManifestsAreStatus3AndSayWhatIsUnknown) {
@@ -332,14 +355,14 @@ TEST(NewerFiles, SceneCachesAreInputErrors) {
   writeSceneCache(loadScene(assets() / "box.glb"), path);
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   file.seekp(8);  // behind the magic: uint32 version
-  file.put(3);
+  file.put(5);
   file.close();
   try {
     loadScene(path);
-    FAIL() << "a cache of version 3 is read";
+    FAIL() << "a cache of version 5 is read";
   } catch (const InputError& error) {
     EXPECT_EQ(error.exitStatus, 3);
-    EXPECT_TRUE(contains(error.what(), "version 3; this program reads 2")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "version 5; this program reads 2 to 4")) << error.what();
   }
 }
 

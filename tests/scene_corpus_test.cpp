@@ -172,6 +172,7 @@ TEST_F(Corpus, MadeFilesAreRefusedUnlessTheyAreValidOrOnlyOdd) {
                                           "material_emissive_1e38.glb",
                                           "material_alphacutoff_neg.glb",
                                           "light_intensity_1e38.glb",
+                                          "light_type_area.glb",
                                           "bom.gltf"};
   const fs::path folder = root / "hostile" / "made";
   std::ifstream why(folder / "WHY.tsv");

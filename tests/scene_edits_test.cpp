@@ -1,4 +1,5 @@
-// What the window's user makes of a scene: lights and bookmarks, their names, undo, what is unsaved, where it is kept.
+// What the window's user makes of a scene: lights, materials, objects and bookmarks, their names, what is unsaved,
+// where it is kept.
 #include <gtest/gtest.h>
 
 #if IRAD_UI
@@ -24,7 +25,7 @@ struct SceneEditsTest : ::testing::Test {
   using Names = std::vector<std::string>;
 };
 
-TEST_F(SceneEditsTest, AddsUnderFreeNamesRemovesAndBringsBack) {
+TEST_F(SceneEditsTest, AddsUnderFreeNamesAndRemoves) {
   EXPECT_EQ(names(), (Names{"default sun"}));
   EXPECT_EQ(edits.light(), nullptr);
   EXPECT_FALSE(edits.modified());
@@ -39,12 +40,18 @@ TEST_F(SceneEditsTest, AddsUnderFreeNamesRemovesAndBringsBack) {
   EXPECT_EQ(edits.light()->name, "lamp 2");
   edits.remove();
   EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
-  EXPECT_EQ(edits.removed()->name, "lamp 2");
-  edits.undoRemoval();
-  edits.undoRemoval();
-  EXPECT_EQ(names(), (Names{"default sun", "lamp", "lamp 2", "lamp 3"}));
-  EXPECT_EQ(edits.light()->position, lamp.position);
-  EXPECT_EQ(edits.removed(), nullptr);
+  // What undo does: the light that comes back is chosen.
+  const Sidecar before = edits.content();
+  edits.selected = 0;
+  edits.remove();
+  edits.restore(before);
+  EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
+  EXPECT_EQ(edits.selected, 0);
+  EXPECT_EQ(edits.content(), before);
+  edits.add(lamp);
+  edits.restore(before);
+  EXPECT_EQ(names(), (Names{"default sun", "lamp 3"}));
+  EXPECT_EQ(edits.selected, 1) << "of those that are left";
   for (int i = 0; i < 5; ++i) edits.selected = 0, edits.remove();
   EXPECT_TRUE(edits.lights.empty());
   EXPECT_EQ(edits.light(), nullptr);
@@ -78,11 +85,78 @@ TEST_F(SceneEditsTest, SavesWhatDiffersFromTheSceneAndReverts) {
   edits.revert();
   EXPECT_EQ(edits.lights.at(0).intensity, 7);
   EXPECT_FALSE(edits.modified());
+  // From what was saved to the file's own lights, and no further.
+  EXPECT_TRUE(edits.canRevert());
+  edits.revert();
+  EXPECT_EQ(edits.lights, scene.lights);
+  EXPECT_TRUE(edits.modified()) << "the sidecar has others";
+  edits.save();
+  EXPECT_FALSE(readSidecar(file).lights);
+  EXPECT_FALSE(edits.canRevert());
+  edits.lights[0].intensity = 7;
+  edits.save();
 
   // Loaded again, edits stay.
   edits.lights[0].intensity = 8;
   edits.again(scene);
   EXPECT_EQ(edits.lights[0].intensity, 8);
+  EXPECT_TRUE(edits.modified());
+}
+
+TEST_F(SceneEditsTest, KeepsMaterialsByNameUntilTheyAreTheFilesOwn) {
+  const MaterialEdit wall{.material = "wall", .roughness = 0.25f}, door{.material = "door", .emissionStrength = 2.0f};
+  EXPECT_EQ(edits.material("wall"), MaterialEdit{.material = "wall"});
+  edits.setMaterial(wall);
+  edits.setMaterial(door);
+  EXPECT_EQ(edits.materials, (std::vector<MaterialEdit>{door, wall})) << "sorted: the same whatever came first";
+  EXPECT_EQ(edits.material("wall"), wall);
+  EXPECT_TRUE(edits.modified());
+  edits.save();
+  EXPECT_FALSE(edits.modified());
+  EXPECT_TRUE(edits.kept());
+  EXPECT_EQ(readSidecar(file).materials, edits.materials);
+  EXPECT_FALSE(readSidecar(file).lights);
+
+  edits.setMaterial({.material = "wall", .roughness = 0.75f});
+  EXPECT_EQ(edits.materials.size(), 2u);
+  edits.setMaterial({.material = "door"});
+  EXPECT_EQ(edits.materials, (std::vector<MaterialEdit>{{.material = "wall", .roughness = 0.75f}}));
+  edits.setMaterial({.material = "never edited"});
+  EXPECT_EQ(edits.materials.size(), 1u);
+  EXPECT_TRUE(edits.modified());
+  edits.revert();
+  EXPECT_EQ(edits.materials, (std::vector<MaterialEdit>{door, wall}));
+  edits.take(Sidecar());
+  EXPECT_TRUE(edits.materials.empty());
+  EXPECT_TRUE(edits.modified());
+}
+
+TEST_F(SceneEditsTest, HidesAndIsolatesNodes) {
+  std::vector<SceneNode> nodes(4);
+  for (uint32_t i = 0; i < 4; ++i) nodes[i].name = std::string(1, static_cast<char>('a' + i));
+  nodes[1].parent = nodes[3].parent = 0;
+  nodes[2].parent = 1;
+  edits.hide(nodes, 3, true);
+  edits.hide(nodes, 1, true);
+  edits.hide(nodes, 1, true);
+  EXPECT_EQ(edits.hidden, (HiddenNodes{{"a/b", "a/d"}, ""})) << "sorted, each once";
+  EXPECT_TRUE(edits.modified());
+  const Sidecar before = edits.content();
+  // What is isolated is shown, with what it is under.
+  edits.isolate(nodes, 2);
+  EXPECT_EQ(edits.hidden, (HiddenNodes{{"a/d"}, "a/b/c"}));
+  edits.save();
+  EXPECT_TRUE(edits.kept());
+  EXPECT_FALSE(edits.modified());
+  EXPECT_EQ(readSidecar(file).hidden, edits.hidden);
+  edits.restore(before);
+  EXPECT_EQ(edits.hidden, before.hidden);
+  edits.hide(nodes, 3, false);
+  EXPECT_EQ(edits.hidden, (HiddenNodes{{"a/b"}, ""}));
+  edits.revert();
+  EXPECT_EQ(edits.hidden.isolated, "a/b/c");
+  edits.showAll();
+  EXPECT_TRUE(edits.hidden.empty());
   EXPECT_TRUE(edits.modified());
 }
 

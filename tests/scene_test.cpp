@@ -1,4 +1,8 @@
 // The loader on small files with known answers.
+#include <fmt/ranges.h>
+
+#include <ctime>
+
 #include "renderer/base/sha256.h"
 #include "tests/scene_files.h"
 
@@ -380,6 +384,190 @@ TEST_F(SceneLoading, MalformedFilesAreNamed) {
     file.json["nodes"][static_cast<size_t>(i - 1)] = {{"children", {i}}, {"translation", {0, 0, 1}}};
   }
   EXPECT_DOUBLE_EQ(world(load(file), 0).z, 1000.0);
+}
+
+/// Processor time of this thread, s.
+double threadSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// A triangle in each of `count` root nodes.
+std::filesystem::path manyNodes(const std::filesystem::path& folder, size_t count) {
+  GltfFile file = triangleFile();
+  file.json["scenes"][0]["nodes"] = json::array();
+  file.json["nodes"] = json::array();
+  for (size_t i = 0; i < count; ++i) {
+    file.json["nodes"].push_back(
+        {{"mesh", 0}, {"name", fmt::format("n{}", i)}, {"translation", {i % 1000, 0, i / 1000}}});
+    file.json["scenes"][0]["nodes"].push_back(i);
+  }
+  return file.write(folder, fmt::format("{}.gltf", count));
+}
+
+TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
+  // By processor time, which a busy machine leaves alone: a reader that walks all nodes at the end of each takes a
+  // hundred times as long for ten times as many.
+  const auto load = [&](size_t count) {
+    const std::filesystem::path path = manyNodes(folder.path, count);
+    const double before = threadSeconds();
+    EXPECT_EQ(loadScene(path).triangleCount(), count);
+    return threadSeconds() - before;
+  };
+  const double few = load(5'000), many = load(50'000);
+  EXPECT_LT(many, 25 * few) << few << " s and " << many << " s";
+  // As many elements of JSON as a file of 300,000 such nodes has.
+  EXPECT_EQ(loadScene(manyNodes(folder.path, 300'000)).triangleCount(), 300'000u);
+}
+
+TEST_F(SceneLoading, NodesThatAreListedTwiceAreTakenOnce) {
+  GltfFile file = triangleFile();
+  file.json["nodes"] = {{{"mesh", 0}, {"children", {1}}, {"translation", {10, 0, 0}}},
+                        {{"mesh", 0}, {"translation", {0, 5, 0}}}};
+  file.json["scenes"][0]["nodes"] = {0, 1, 0};
+  const Scene both = load(file);
+  expectCorners(both, {{10, 0, 0}, {11, 0, 0}, {10, 1, 0}, {10, 5, 0}, {11, 5, 0}, {10, 6, 0}});
+  EXPECT_TRUE(warns(both, "scenes[0]: lists node 1, which is a child of node 0, and 1 more like it; it is taken once"));
+  // One whose parents the scene does not list is shown where the tree has it.
+  file.json["scenes"][0]["nodes"] = {1};
+  const Scene child = load(file);
+  expectCorners(child, {{10, 5, 0}, {11, 5, 0}, {10, 6, 0}});
+  EXPECT_FALSE(warns(child, "lists node"));
+  file.json["scenes"][0]["nodes"] = {0, 0};
+  EXPECT_TRUE(warns(load(file), "scenes[0]: lists node 0 twice"));
+}
+
+TEST_F(SceneLoading, OddLensesLightsAndRotationsAreMendedAndNamed) {
+  GltfFile file = triangleFile();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["cameras"] = {{{"type", "perspective"}, {"name", "wide"}, {"perspective", {{"yfov", 60}, {"znear", 0.1}}}},
+                          {{"type", "perspective"}, {"perspective", {{"yfov", 0}, {"znear", 0.1}}}},
+                          {{"type", "perspective"}, {"perspective", {{"yfov", 1000}, {"znear", 0.1}}}}};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "area"}, {"name", "panel"}},
+                                                              {{"type", "point"}, {"name", "bulb"}, {"range", 0}},
+                                                              {{"type", "point"}, {"range", -4}}};
+  for (int i = 0; i < 3; ++i)
+    file.json["nodes"].push_back({{"camera", i}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  file.json["nodes"][0]["rotation"] = {0, 0, 0, 0};
+  file.json["nodes"][0]["name"] = "flat";
+  file.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  const Scene s = load(file);
+  expectCorners(s, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  ASSERT_EQ(s.cameras.size(), 3u);
+  EXPECT_NEAR(s.cameras[0].yfov, M_PI / 3, 1e-6);
+  EXPECT_EQ(s.cameras[1].yfov, Camera{}.yfov);
+  EXPECT_EQ(s.cameras[2].yfov, Camera{}.yfov);
+  ASSERT_EQ(s.lights.size(), 2u);
+  EXPECT_EQ(s.lights[0].range, 0.0f);
+  EXPECT_EQ(s.lights[1].range, 0.0f);
+  for (const char* said :
+       {"cameras[0] \"wide\".perspective.yfov: 60 is not from 0.0001 to 3.1415 radians; 1.0472 is taken, as if it were "
+        "degrees",
+        "cameras[1].perspective.yfov: 0 is not from", "cameras[2].perspective.yfov: 1000 is not from",
+        "lights[0].type: \"area\" is not directional, point or spot; the light \"panel\" is left out",
+        "lights[1].range: 0 is not above 0; the light \"bulb\" reaches without limit",
+        "lights[2].range: -4 is not above 0", "nodes[0] \"flat\".rotation: (0, 0, 0, 0) is no rotation"})
+    EXPECT_TRUE(warns(s, said)) << said << "\n" << fmt::format("{}", fmt::join(s.warnings, "\n"));
+}
+
+TEST_F(SceneLoading, RotationsOfInstancesThatAreNoneAreNamed) {
+  GltfFile file = triangleFile();
+  file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] =
+      file.data(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", kFloat, 4);
+  EXPECT_TRUE(warns(load(file), "nodes[0].EXT_mesh_gpu_instancing.ROTATION[1]: (0, 0, 0, 0) is no rotation"));
+}
+
+TEST_F(SceneLoading, TheFormatsFirstVersionIsNamed) {
+  const auto text = [&](const std::string& content) {
+    std::ofstream(folder.path / "old.gltf", std::ios::binary) << content;
+    expectRefused(folder.path / "old.gltf", "this is glTF 1.0");
+  };
+  text(R"({"asset": {"version": "1.0"}, "scene": "main", "scenes": {"main": {"nodes": ["a"]}}, "nodes": {"a": {}}})");
+  text(R"({"asset": {"version": 1}, "scenes": {}})");
+  text(R"({"scene": "main", "scenes": {"main": {"nodes": []}}})");
+  const std::string glb("glTF\x01\0\0\0\x18\0\0\0\x04\0\0\0\0\0\0\0{}  ", 24);
+  std::ofstream(folder.path / "old.glb", std::ios::binary) << glb;
+  expectRefused(folder.path / "old.glb", "GLB header: version 1: this is glTF 1.0");
+}
+
+TEST_F(SceneLoading, WhatIsTheMatterWhereNothingIsDrawnIsSaid) {
+  GltfFile file = triangleFile();
+  file.json["scenes"][0].erase("nodes");
+  EXPECT_TRUE(warns(load(file), "none of the file's 1 meshes is shown: scenes[0] lists no nodes"));
+  file.json["scenes"][0]["nodes"] = {0};
+  file.json["nodes"][0] = {{"name", "empty"}};
+  EXPECT_TRUE(warns(load(file), "none of the file's 1 meshes is shown: no node of scenes[0] names one"));
+  file.json.erase("scenes"), file.json.erase("scene");
+  EXPECT_TRUE(warns(load(file), "is shown: no node names one"));
+  file.json.erase("nodes");
+  EXPECT_TRUE(warns(load(file), "is shown: it has no nodes"));
+  file.json.erase("meshes");
+  EXPECT_TRUE(warns(load(file), "the scene has no triangles: the file has no meshes"));
+}
+
+TEST_F(SceneLoading, CompressedTexturesAreRefusedInWords) {
+  GltfFile file = texturedQuad();
+  file.json["extensionsUsed"] = {"KHR_texture_basisu"};
+  EXPECT_TRUE(
+      warns(load(file), "KHR_texture_basisu is ignored: KTX2 images are not decoded here; PNG, JPEG and WebP are"));
+  file.json["extensionsRequired"] = {"KHR_texture_basisu"};
+  refuse(file, "\"KHR_texture_basisu\" is not supported: KTX2 images are not decoded here");
+}
+
+TEST_F(SceneLoading, FoldersAndDevicesAreCalledSo) {
+  expectRefused(folder.path, "is a folder, not a file");
+  expectRefused("/dev/null", "is a device or a pipe, not a file");
+}
+
+/// A box of quads from (-x, 0, -z) to (x, 2 y, z) that faces inwards or outwards.
+GltfFile boxFile(glm::vec3 half, bool inwards) {
+  GltfFile file;
+  std::vector<float> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.insert(corners.end(), {i & 1 ? half.x : -half.x, i & 2 ? 2 * half.y : 0.0f, i & 4 ? half.z : -half.z});
+  file.attributes()["POSITION"] = file.vec3(corners);
+  std::vector<uint16_t> indices;
+  // Counter-clockwise from outside.
+  for (const auto& q : std::vector<std::array<int, 4>>{
+           {0, 2, 3, 1}, {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {4, 5, 7, 6}}) {
+    for (const int k : inwards ? std::array{0, 2, 1, 0, 3, 2} : std::array{0, 1, 2, 0, 2, 3})
+      indices.push_back(static_cast<uint16_t>(q[static_cast<size_t>(k)]));
+  }
+  file.primitive()["indices"] = file.data(indices, "SCALAR", kU16, 1);
+  return file;
+}
+
+TEST_F(SceneLoading, TheFittedCameraStandsInsideOfWhatFacesInwards) {
+  GltfFile hall = boxFile({4, 3, 10}, /*inwards=*/true);
+  hall.json["nodes"][0]["translation"] = {100, 0, 0};
+  const Scene inside = load(hall);
+  ASSERT_TRUE(inside.defaultCamera);
+  EXPECT_TRUE(warns(inside, "a fitted one is used, which stands inside: 100 % of the surface face inwards"));
+  const Camera& camera = inside.cameras[0];
+  EXPECT_EQ(camera.name, "fitted");
+  const glm::dvec3 p = camera.position - glm::dvec3(100, 0, 0);
+  EXPECT_LT(std::abs(p.x), 3);
+  EXPECT_GT(p.y, 1);
+  EXPECT_LT(p.y, 4);
+  EXPECT_GT(std::abs(p.z), 4) << "nearer to one end";
+  EXPECT_LT(std::abs(p.z), 10);
+  const glm::vec3 forward = camera.orientation * glm::vec3(0, 0, -1);
+  EXPECT_GT(-forward.z * (p.z > 0 ? 1 : -1), 0.9) << "along the hall, to the other end";
+  EXPECT_NEAR(forward.y, 0, 1e-6);
+
+  GltfFile solid = boxFile({4, 3, 10}, /*inwards=*/false);
+  const Scene outside = load(solid);
+  EXPECT_FALSE(warns(outside, "stands inside"));
+  EXPECT_GT(glm::length(outside.cameras[0].position - outside.origin),
+            1.02 * glm::length(glm::dvec3(outside.boundsMax)))
+      << "around the sphere";
+  // Most of a plane faces what stands on it; that is no room.
+  GltfFile plane;
+  plane.attributes()["POSITION"] = plane.vec3({-9, 0, -9, -9, 0, 9, 9, 0, 9, 9, 0, -9, 0, 0, 0, 0, 2, 0, 1, 0, 0});
+  plane.primitive()["indices"] = plane.data(std::vector<uint16_t>{0, 1, 2, 0, 2, 3, 4, 5, 6}, "SCALAR", kU16, 1);
+  EXPECT_FALSE(warns(load(plane), "stands inside"));
 }
 
 TEST_F(SceneLoading, IndexErrors) {

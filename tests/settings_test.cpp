@@ -139,6 +139,18 @@ TEST(Settings, BadValuesAreRefusedAndChangeNothing) {
   EXPECT_TRUE(contains(usageError([&] { applySetting(settings, "camera.pcf=4"); }), "1 | 3 | 5 taps"));
 }
 
+TEST(Settings, AutoIsAnExposureToo) {
+  Settings settings;
+  applySetting(settings, "camera.exposure=1.5");
+  applySetting(settings, "camera.exposure=auto");
+  EXPECT_TRUE(settings.camera.autoExposure);
+  EXPECT_EQ(settings.camera.exposureEv, 1.5f) << "which comes on top";
+  Settings read;
+  settingsFromJson(read, R"({"camera.exposure": "auto"})");
+  EXPECT_TRUE(read.camera.autoExposure);
+  EXPECT_THROW(applySetting(settings, "camera.exposure=automatic"), UsageError);
+}
+
 TEST(Settings, UnknownNamesListNearMatches) {
   Settings settings;
   const auto message = [&](const char* text) { return usageError([&] { applySetting(settings, text); }); };

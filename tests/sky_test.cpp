@@ -654,7 +654,7 @@ TEST_F(SkyPictures, OfSponzaIsThePathTracers) {
   LoadOptions options;
   options.lambertian = options.doubleSided = true;
   options.lights = std::vector<Light>{};
-  const Off is = off(loadScene(*folder / "sponza/sponza.glb", options), under(SkySource::constant, 96, 256), nullptr,
+  const Off is = off(loadScene(*folder / "sponza/sponza.glb", options), under(SkySource::constant, 64, 64), nullptr,
                      {64, 48}, 256);
   fmt::print("Sponza: mean off by {:+.2f} %, mean |difference| {:.2f} %\n", 100 * is.mean, 100 * is.pixels);
   EXPECT_NEAR(is.mean, 0, 0.03);
@@ -718,7 +718,7 @@ TEST_F(SkyPictures, OfSponzaInTheSunIsThePathTracers) {
   }
   // Preetham's, coupled to the scene's sun, above its ground. The sun's outlines and the textures are fine: the picture
   // has many pixels, and the path tracer samples all over its few.
-  Pipeline p(context(), scene, under(SkySource::preetham, 64, 256));
+  Pipeline p(context(), scene, under(SkySource::preetham, 64, 128));
   p.prepare();
   const std::vector<glm::vec4> found = picture(p, {512, 384});
   const TracedPicture truth =

@@ -297,7 +297,7 @@ TEST_F(Solve, TheVolumeHoldsRadiosity) {
   const auto run = [&](const std::vector<glm::vec4>& radiosity) {
     upload(context(), light.radiosity, std::as_bytes(std::span(radiosity)));
     Frame frame = context().begin();
-    scatter(frame, facets, light, settings);
+    scatter(frame, facets, FormFactors{}, light, settings);
     frame.submitAndWait();
     const std::vector<std::byte> bytes = download(context(), light.volume.image);
     ASSERT_EQ(bytes.size(), texels.size() * 8);

@@ -56,33 +56,105 @@ TEST(StageKeys, SurfacesAreWhatVoxelsAreMadeOfLightsWhatIsGathered) {
   EXPECT_EQ(firstDifference(forgotten, keys), Redo::Solve);
 }
 
-TEST(SurfaceContent, IsOfEveryVertexMaterialAndTexel) {
+/// The stages that are due, by name.
+std::string due(const StagesDue& stages) {
+  std::string names;
+  for (uint32_t stage = 0; stage < static_cast<uint32_t>(Redo::Shade); ++stage)
+    if (stages.has(Redo{stage})) names += fmt::format("{} ", nameOf(Redo{stage}));
+  return names;
+}
+
+TEST(StageKeys, MaterialsAndRaysDoNotReadEachOther) {
+  const Settings s = defaultSettings(true);
+  SceneContent content{1, 2, 3, 4, 5};
+  const StageKeys keys = stageKeys(content, s);
+  const auto dueWith = [&](const SceneContent& other) { return due(StagesDue(keys, stageKeys(other, s))); };
+  EXPECT_EQ(dueWith(content), "");
+  EXPECT_EQ(dueWith({9, 2, 3, 4, 5}), "voxels field matrix materials emission gather solve scatter ");
+  EXPECT_EQ(dueWith({1, 9, 3, 4, 5}), "gather solve scatter ");
+  EXPECT_EQ(dueWith({1, 2, 9, 4, 5}), "gather solve scatter ");
+  EXPECT_EQ(dueWith({1, 2, 3, 9, 5}), "materials solve scatter ");
+  EXPECT_EQ(dueWith({1, 2, 3, 9, 9}), "materials emission solve scatter ");
+  Settings other = s;
+  other.matrix.gpu.seed = 7;
+  EXPECT_EQ(due(StagesDue(keys, stageKeys(content, other))), "matrix emission gather solve scatter ");
+  // What is forgotten is due, with all that comes of it and nothing else.
+  const auto without = [&](Redo stage) {
+    StageKeys forgotten = keys;
+    forgotten.forget(stage);
+    return due(StagesDue(forgotten, keys));
+  };
+  EXPECT_EQ(without(Redo::Voxels), "voxels field matrix materials emission gather solve scatter ");
+  EXPECT_EQ(without(Redo::Matrix), "matrix emission gather solve scatter ");
+  EXPECT_EQ(without(Redo::Materials), "materials solve scatter ");
+  EXPECT_EQ(without(Redo::Emission), "emission solve scatter ");
+  EXPECT_EQ(without(Redo::Gather), "gather solve scatter ");
+  EXPECT_EQ(without(Redo::Scatter), "scatter ");
+  EXPECT_EQ(due(StagesDue::from(Redo::Gather)), "gather solve scatter ");
+}
+
+/// The keys of a scene's surfaces, materials and what emits, by a letter for each that differs.
+std::string differing(const Scene& a, const Scene& b) {
+  const SurfaceContent of(a), its(b);
+  return std::string(of.surfaces(a.materials) != its.surfaces(b.materials) ? "s" : "") +
+         (of.materials(a.materials) != its.materials(b.materials) ? "m" : "") +
+         (of.emission(a.materials) != its.emission(b.materials) ? "e" : "");
+}
+
+TEST(SurfaceContent, TellsWhatMovesSurfacesFromWhatColoursThem) {
   Scene scene = furnishedRoom();
   scene.images.push_back({"checks", 2, 2, true, std::vector<uint8_t>(16, 255)});
   scene.materials[0].baseColorTexture.image = 0;
-  const uint64_t before = surfaceContent(scene);
-  EXPECT_EQ(surfaceContent(Scene(scene)), before);
-  const std::pair<const char*, std::function<void(Scene&)>> edits[]{
-      {"a vertex moves", [](Scene& s) { s.positions[3].x += 1e-6f; }},
-      {"a normal turns", [](Scene& s) { s.normals[3] = -s.normals[3]; }},
-      {"two indices swap", [](Scene& s) { std::swap(s.indices[0], s.indices[1]); }},
-      {"a triangle takes another material", [](Scene& s) { s.draws[0].material ^= 1; }},
-      {"a colour", [](Scene& s) { s.materials[0].baseColor.y *= 0.5f; }},
-      {"an emission", [](Scene& s) { s.materials[0].emission.z += 1; }},
-      {"a wrap", [](Scene& s) { s.materials[0].baseColorTexture.sampler.v = Wrap::Clamp; }},
-      {"a texel", [](Scene& s) { s.images[0].rgba[7] = 254; }},
-      {"the file's place in the world", [](Scene& s) { s.origin.x += 1; }}};
-  std::set<uint64_t> seen{before};
-  for (const auto& [what, edit] : edits) {
+  EXPECT_EQ(differing(scene, Scene(scene)), "");
+  struct Change {
+    const char* what;
+    const char* differs;
+    std::function<void(Scene&)> make;
+  };
+  const auto masked = [](Scene& s) { s.materials[0].alpha = AlphaMode::Mask; };
+  for (const Change& change : std::vector<Change>{
+           {"a vertex moves", "s", [](Scene& s) { s.positions[3].x += 1e-6f; }},
+           {"a normal turns", "s", [](Scene& s) { s.normals[3] = -s.normals[3]; }},
+           {"two indices swap", "s", [](Scene& s) { std::swap(s.indices[0], s.indices[1]); }},
+           {"a triangle takes another material", "s", [](Scene& s) { s.draws[0].material ^= 1; }},
+           {"the file's place in the world", "s", [](Scene& s) { s.origin.x += 1; }},
+           {"a back shows", "sm", [](Scene& s) { s.materials[0].doubleSided = true; }},
+           {"a mask", "sm", masked},
+           {"a cutoff that nothing asks for", "m", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
+           {"a colour", "m", [](Scene& s) { s.materials[0].baseColor.y *= 0.5f; }},
+           {"an alpha", "m", [](Scene& s) { s.materials[0].baseColor.a *= 0.5f; }},
+           {"a roughness", "m", [](Scene& s) { s.materials[0].roughness = 0.375f; }},
+           {"a metalness", "m", [](Scene& s) { s.materials[0].metallic = 0.375f; }},
+           {"no texture", "m", [](Scene& s) { s.materials[0].baseColorTexture.image = -1; }},
+           {"a wrap", "m", [](Scene& s) { s.materials[0].baseColorTexture.sampler.v = Wrap::Clamp; }},
+           {"a texel", "m", [](Scene& s) { s.images[0].rgba[7] = 254; }},
+           {"an emission", "me", [](Scene& s) { s.materials[0].emission.z += 1; }},
+           {"an emission texture that nothing emits by", "m",
+            [](Scene& s) { s.materials[0].emissiveTexture.image = 0; }},
+           {"lights, cameras and names", "",
+            [](Scene& s) { s.lights.clear(), s.cameras.clear(), s.path = "b.glb"; }}}) {
     Scene other = scene;
-    edit(other);
-    EXPECT_TRUE(seen.insert(surfaceContent(other)).second) << what;
+    change.make(other);
+    EXPECT_EQ(differing(scene, other), change.differs) << change.what;
   }
-  Scene other = scene;
-  other.lights.clear();
-  other.cameras.clear();
-  other.path = "another.glb";
-  EXPECT_EQ(surfaceContent(other), before) << "lights, cameras and names are no surfaces";
+  // With a mask alpha and what it comes of are where surfaces are.
+  Scene cut = scene;
+  masked(cut);
+  cut.materials[1].emission = glm::vec3(1);
+  cut.materials[1].emissiveTexture.image = 0;
+  for (const Change& change : std::vector<Change>{
+           {"a cutoff", "sm", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
+           {"an alpha", "sm", [](Scene& s) { s.materials[0].baseColor.a *= 0.5f; }},
+           {"no texture", "sm", [](Scene& s) { s.materials[0].baseColorTexture.image = -1; }},
+           {"a texel", "sme", [](Scene& s) { s.images[0].rgba[7] = 254; }},
+           {"a colour", "m", [](Scene& s) { s.materials[0].baseColor.y *= 0.5f; }},
+           {"an emission that moves on", "me",
+            [](Scene& s) { std::swap(s.materials[0].emission, s.materials[1].emission); }},
+           {"no emission texture", "me", [](Scene& s) { s.materials[1].emissiveTexture.image = -1; }}}) {
+    Scene other = cut;
+    change.make(other);
+    EXPECT_EQ(differing(cut, other), change.differs) << change.what;
+  }
 }
 
 class Dirty : public EffectsTest {

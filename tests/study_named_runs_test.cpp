@@ -26,8 +26,9 @@ class NamedRuns : public ::testing::Test {
     ::setenv("IRAD_SHARED", (folder_.path / "none").c_str(), 1);  // no Sponza
   }
   void TearDown() override { ::unsetenv("IRAD_SHARED"); }
-  std::vector<std::string> study(const std::string& out, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"study", "rq10"};
+  std::vector<std::string> study(const std::string& out, const std::vector<std::string>& more = {},
+                                 const char* name = "rq10") const {
+    std::vector<std::string> arguments{"study", name};
     for (const char* setting : {"voxel.resolution=8", "matrix.rays=8", "light.shadow_resolution=64"})
       arguments.insert(arguments.end(), {"--set", setting});
     for (const char* option :
@@ -94,6 +95,14 @@ TEST_F(NamedRuns, AKilledOneGoesOnAndShardsMergeToTheSame) {
             << out << " " << experiment << " " << name;
   EXPECT_EQ(file("merged", "findings.csv"), file("whole", "findings.csv")) << "relMSE and light alone are in them";
 
+  // What was merged can be gone on with: the shards' truths came along.
+  const RunResult goesOn = runIrad(study("merged"));
+  EXPECT_EQ(goesOn.status, 0) << goesOn.err;
+  EXPECT_TRUE(contains(goesOn.err,
+                       "8 points: 0 pictures to come; 2 of them compute a truth, of which 2 are different "
+                       "and 0 are to be made\n"))
+      << goesOn.err;
+
   // Another scale in its folder, and shards of another study.
   const RunResult other = runIrad({"study", "rq11", "--scale", "small", "--out", (folder_.path / "whole").string()});
   EXPECT_EQ(other.status, 2);
@@ -101,6 +110,74 @@ TEST_F(NamedRuns, AKilledOneGoesOnAndShardsMergeToTheSame) {
   const RunResult mixed = runIrad({"study", "merge", (folder_.path / "shard1").string(),
                                    (folder_.path / "none").string(), "--out", (folder_.path / "m").string()});
   EXPECT_EQ(mixed.status, 3) << mixed.err;
+}
+
+// rq7's two experiments from the Box's camera `main` and its two from `close` ask for one truth each; of its third
+// shard of four each has one point.
+TEST_F(NamedRuns, ExperimentsShareTheTruthsThatTheyNeed) {
+  const auto rq7 = [&](const std::string& out, std::vector<std::string> more = {}) {
+    if (more.empty()) more = {"--shard", "3/4"};
+    return runIrad(study(out, more, "rq7"));
+  };
+  const RunResult first = rq7("all");
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_TRUE(contains(first.err,
+                       "4 experiments, 4 points: 16 pictures to come; 4 of them compute a truth, of which 2 "
+                       "are different and 2 are to be made; about "))
+      << first.err;
+  const auto truths = [&](const std::string& out) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_.path / out / "truths"))
+      names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+  };
+  const std::vector<std::string> files = truths("all");
+  ASSERT_EQ(files.size(), 6u) << "of each two halves and what vouches for them";
+  const std::string close = files[0].substr(0, files[0].find('.')), main = files[3].substr(0, files[3].find('.'));
+  EXPECT_TRUE(close.starts_with("box-close-indirect-") && main.starts_with("box-main-indirect-")) << close << main;
+  for (const std::string& line :
+       {"truth " + main + ": is made\n", "truth " + close + ": is made\n",
+        "truth " + main + ": shared with rq7 box-thesis\n", "truth " + close + ": shared with rq7 curved-thesis\n"})
+    EXPECT_TRUE(contains(first.err, line) && first.err.find(line) == first.err.rfind(line)) << line << first.err;
+  // Reports need nothing of it.
+  const std::string report = file("all", "curved-ours/report.html");
+  EXPECT_TRUE(contains(report, "</html>") && !contains(report, "truths/"));
+  EXPECT_EQ(file("all", "curved-ours/pictures/reference.png"), file("all", "curved-thesis/pictures/reference.png"));
+
+  // A thesis's folder takes its questions one by one; what is there is not measured again.
+  fs::create_directories(folder_.path / "thesis/rq7");
+  std::string named = file("all", "named.json");
+  named.replace(named.find("rq7"), 3, "thesis");
+  writeFile(folder_.path / "thesis/named.json", named);
+  fs::rename(folder_.path / "all/truths", folder_.path / "thesis/truths");
+  for (const char* experiment : {"box-thesis", "curved-thesis", "voxels-thesis"})
+    fs::rename(folder_.path / "all" / experiment, folder_.path / "thesis/rq7" / experiment);
+  // A picture that nothing vouches for is not taken, though it is whole: that of the other camera.
+  fs::copy_file(folder_.path / "thesis/truths" / files[3], folder_.path / "thesis/truths" / files[0],
+                fs::copy_options::overwrite_existing);
+  const RunResult again = rq7("thesis");
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_TRUE(contains(again.err, ": 4 pictures to come; 4 of them compute a truth, of which 2 are different and 1 "))
+      << again.err;
+  EXPECT_TRUE(contains(again.err, "truth " + main + ": there already\n")) << again.err;
+  EXPECT_TRUE(contains(again.err, files[0] + ": not the picture that was written; it is made anew")) << again.err;
+  EXPECT_TRUE(contains(again.out, "rq7: What changes") && !contains(again.out, "rq8: ")) << again.out;
+  EXPECT_EQ(truths("thesis"), files);
+  for (const char* name : {"errors.csv", "figures.csv"})
+    EXPECT_EQ(file("thesis", fmt::format("rq7/curved-ours/{}", name)),
+              file("all", fmt::format("curved-ours/{}", name)));
+  EXPECT_TRUE(file("thesis", "report.html").ends_with("</html>\n"));
+
+  // Other lights: neither that study nor its truths. Of a shard beyond all points there is nothing.
+  const RunResult other =
+      rq7("thesis", {"--shard", "3/4", "--lights", R"([{"type": "sun", "direction": [0, -1, 0]}])"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "holds another study: scene_as_loaded ")) << other.err;
+  const RunResult beyond = rq7("beyond", {"--shard", "5/5"});
+  ASSERT_EQ(beyond.status, 0) << beyond.err;
+  EXPECT_TRUE(contains(beyond.err, "0 experiments, 0 points: 0 pictures to come")) << beyond.err;
+  EXPECT_FALSE(fs::exists(folder_.path / "beyond/truths"));
 }
 
 TEST_F(NamedRuns, EndAtASignalWithWholeFilesAndGoOn) {

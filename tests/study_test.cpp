@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -16,6 +17,7 @@
 #include "gi/study/pick.h"
 #include "gi/study/plot.h"
 #include "gi/study/report.h"
+#include "gi/study/report_parts.h"
 #include "gi/study/results.h"
 #include "gi/study/slope.h"
 #include "gi/study/sweep.h"
@@ -23,6 +25,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
+#include "renderer/scene/camera_json.h"
 #include "tests/support.h"
 
 namespace irad::test::study_suite {
@@ -239,6 +242,40 @@ TEST(Results, OfShardsMergeToTheWhole) {
   EXPECT_THROW(merge(merged, other, "other"), InputError) << "the same seed gives the same error to the last digit";
 }
 
+TEST(Results, HoldTheErrorsOfFacetsWhereThereAreAny) {
+  TemporaryFolder folder;
+  const StudyIdentity identity = R"({"scene": "box", "sweeps": [["a"]], "settings": {}})";
+  StudyFolder written(folder.path / "s", identity);
+  written.results = someResults();
+  const double errors[] = {.03, .01, .02};
+  for (size_t seed = 0; seed < 3; ++seed)
+    written.results.errors[seed].hRelMse = errors[seed], written.results.errors[seed].hRmse = 10 * errors[seed];
+  written.save();
+  const StudyResults read = readResults(folder.path / "s");
+  EXPECT_EQ(read.errors[1].hRelMse, .01) << "to the last bit";
+  EXPECT_EQ(read.errors[2].hRmse, .2);
+  EXPECT_TRUE(std::isnan(read.errors[3].hRelMse)) << "of another point, not measured";
+
+  const std::vector<PointSummary> points = summarize(read, {"a", "b", "c"});
+  EXPECT_NEAR(points[0].hRelMse.mean, .02, 1e-15);
+  EXPECT_NEAR(points[0].hRelMse.half, 4.3027 * .01 / std::sqrt(3.0), 1e-6) << "t of 2 degrees of freedom x s / sqrt 3";
+  EXPECT_TRUE(std::isnan(points[1].hRelMse.mean));
+  EXPECT_TRUE(contains(pointTables(points, std::nullopt), "<th>relMSE of H</th>"));
+  EXPECT_FALSE(contains(pointTables(summarize(someResults(), {"a", "b", "c"}), std::nullopt), "of H"));
+  const std::string csv = pointsCsv(points, {"n"}, {{"16"}, {"32"}, {"64"}});
+  EXPECT_TRUE(contains(csv, ",h_relmse,h_relmse_ci95,h_rmse,h_rmse_ci95,facets,")) << csv;
+  EXPECT_TRUE(contains(csv, ",,,,,1000,20000,")) << "nothing where it was not measured: " << csv;
+
+  StudyResults merged = read;
+  merge(merged, read, "again");
+  EXPECT_EQ(merged.errors.size(), read.errors.size());
+  StudyResults other = read;
+  other.errors[0].hRelMse *= 1 + 1e-15;
+  EXPECT_THROW(merge(merged, other, "other"), InputError) << "the same seed gives the same error to the last digit";
+  other.errors[0].hRelMse = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(merge(merged, other, "other"), InputError);
+}
+
 TEST(Results, AreSummedUpByHand) {
   const std::vector<PointSummary> points = summarize(someResults(), {"a", "b", "c"});
   const PointSummary& b = points.at(1);
@@ -390,6 +427,41 @@ TEST(LoadedStudies, AreWhatTheirFoldersSay) {
   study = loadStudy(folder.path / "alone");
   EXPECT_TRUE(study.points.empty());
   EXPECT_EQ(study.stages.size(), 3u);
+}
+
+TEST(LoadedStudies, SayWhatDoesNotHoldForAPicture) {
+  Camera camera;
+  camera.position = {1, 2, 3};
+  LoadedStudy study;
+  EXPECT_TRUE(misfit(study, "abc", camera, {640, 480}).usable()) << "the folder says nothing";
+  study.scene = "box.glb", study.sceneSha256 = "abc", study.camera = cameraToJson(camera), study.size = {640, 480};
+  Misfit m = misfit(study, "abc", camera, {640, 480});
+  EXPECT_TRUE(m.usable() && m.size.empty());
+  EXPECT_EQ(misfit(study, "abd", camera, {640, 480}).scene, "box.glb");
+  EXPECT_FALSE(misfit(study, "abd", camera, {640, 480}).usable());
+  m = misfit(study, "abc", camera, {320, 480});
+  EXPECT_TRUE(m.usable());
+  EXPECT_EQ(m.size, "640 \u00D7 480 pixels, not 320 \u00D7 480");
+
+  const auto other = [&](const std::function<void(Camera&)>& change) {
+    Camera c = camera;
+    change(c);
+    const Misfit of = misfit(study, "abc", c, {640, 480});
+    EXPECT_EQ(of.usable(), of.camera.empty());
+    return of.camera;
+  };
+  EXPECT_EQ(other([](Camera& c) { c.position.y += .01; }), "it stands at 1 2 3, not 1 2.01 3");
+  EXPECT_TRUE(contains(other([](Camera& c) { c.orientation = {.9998f, 0, .02f, 0}; }), "it looks along "));
+  EXPECT_TRUE(contains(other([](Camera& c) { c.orientation = {.8f, 0, 0, .6f}; }), "is rolled"));
+  EXPECT_TRUE(contains(other([](Camera& c) { c.yfov = .9f; }), "its vertical angle is 57.30 degrees, not 51.57"));
+  EXPECT_EQ(other([](Camera& c) { c.orthographic = true; }), "it is perspective");
+  // What a window's turns make of the same camera, and what is not seen.
+  EXPECT_EQ(other([](Camera& c) {
+              c.name = "b", c.znear = .2f, c.position.x += 1e-9, c.orientation = {-1, 1e-7f, 0, 0};
+            }),
+            "");
+  study.camera = "{}";
+  EXPECT_FALSE(misfit(study, "abc", camera, {640, 480}).usable());
 }
 
 TEST(LoadedStudies, SayWhatIsWrongWithAFolder) {

@@ -194,9 +194,20 @@ TEST(Recording, FramesComeBackFromTheirCsv) {
   EXPECT_NE(summary.find("\n\"UI, panels\",frame,0.187500,0.125000,0.250000,"), std::string::npos) << summary;
 }
 
+TEST(Recording, ItsManifestIsBesideItAndInTheTrace) {
+  test::TemporaryFolder folder;
+  const std::string manifest = R"({"scene":{"path":"/a \"b\".glb"}})";
+  writeRecording(folder.path / "new", {.device = "", .scene = "", .frames = threeFrames(), .manifest = manifest});
+  EXPECT_EQ(test::slurp(folder.path / "new/manifest.json"), manifest);
+  const auto trace = nlohmann::json::parse(test::slurp(folder.path / "new/trace.json"));
+  EXPECT_EQ(trace["otherData"]["manifest"], nlohmann::json::parse(manifest));
+  EXPECT_EQ(readRecording(folder.path / "new").size(), threeFrames().size());
+}
+
 TEST(Recording, TheTraceHasATrackForEitherProcessorOnOneClock) {
   const auto trace = nlohmann::json::parse(traceJson({.device = "a \"device\"", .scene = "", .frames = threeFrames()}));
   EXPECT_EQ(trace["otherData"]["device"], "a \"device\"");
+  EXPECT_FALSE(trace["otherData"].contains("manifest"));
   std::map<std::string, int> tracks;
   std::vector<nlohmann::json> cpu, gpu;
   for (const auto& event : trace["traceEvents"]) {

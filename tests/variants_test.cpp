@@ -27,7 +27,14 @@ class VariantKeys : public EffectsTest {
     std::erase_if(used, [](const PipelineUse& use) { return use.shaders.front() != "forward/forward.vert"; });
     return used;
   }
-  static constexpr ForwardEffects kNone{{}, false, false, false, false, false, false};
+  static constexpr ForwardEffects kNone{.lights = {},
+                                        .emission = false,
+                                        .alphaTest = false,
+                                        .normalMap = false,
+                                        .glass = false,
+                                        .highlights = false,
+                                        .indirect = false,
+                                        .specular = false};
 };
 
 TEST_F(VariantKeys, LeftOutEffectsAreInThePipelinesKeyAndTakeTheirCodeAlong) {

@@ -102,6 +102,40 @@ TEST_F(Ranges, ManualIsTheUsersAndStandardTheViews) {
   EXPECT_EQ(show(scalar, ramp(), settings).range.high, 1000);  // depth has no range of its own
 }
 
+TEST_F(Ranges, LightExposesItselfByTheLuminanceThatMostOfItStaysBelow) {
+  Settings settings;
+  settings.camera.gpu.toneCurve = ToneCurve::linear;
+  const ViewInfo &lit = *viewInfo(VIEW_LIT), &irradiance = *viewInfo(VIEW_IRRADIANCE);
+  std::vector<glm::vec4> values = ramp();
+  for (glm::vec4& v : values) v = glm::vec4(glm::vec3(v) * glm::vec3(2.0f, 0.5f, 1.0f), 1.0f);
+  values[3] = glm::vec4(glm::vec3(1e9f), 0);  // nothing is drawn there
+  const float one = static_cast<float>(luminance(glm::vec3(2.0f, 0.5f, 1.0f)));
+  // Off: white all over but for the darkest.
+  EXPECT_EQ(show(lit, values, settings).display[500], glm::u8vec4(255, 255, 255, 255));
+  settings.camera.autoExposure = true;
+  for (const ViewInfo* info : {&lit, &irradiance}) {
+    const Shown shown = show(*info, values, settings);
+    const float level = 950 * one;  // of 999
+    EXPECT_NEAR(shown.range.high, level, level / 128) << info->name;
+    for (uint32_t i = 0; i < kPixels; ++i) {
+      if (i == 3 || luminance(values[i]) > 0.4 * level) continue;
+      const glm::vec3 expected = encodeSrgb(glm::vec3(values[i]) * AUTO_EXPOSURE_LEVEL / level) * 255.0f;
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(shown.display[i][c], expected[c], 2) << info->name << " " << i;
+    }
+    EXPECT_EQ(shown.display, show(*info, values, settings).display) << "the same picture, the same bits";
+  }
+  // camera.exposure is on top.
+  settings.camera.exposureEv = -2;
+  const glm::u8vec4 darker = show(lit, values, settings).display[500];
+  expectColor(darker, glm::vec3(values[500]) * AUTO_EXPOSURE_LEVEL / (950 * one) / 4.0f);
+  // A picture that is black but for a few pixels shows those; one that is all black stays so.
+  std::vector<glm::vec4> night(kPixels, glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(show(lit, night, settings).display[9], glm::u8vec4(0, 0, 0, 255));
+  night[8] = glm::vec4(1e-3f, 1e-3f, 1e-3f, 1);
+  settings.camera.exposureEv = 0;
+  expectColor(show(lit, night, settings).display[8], glm::vec3(AUTO_EXPOSURE_LEVEL));
+}
+
 TEST_F(Ranges, SignedViewsAreEvenAboutZero) {
   Settings settings;
   std::vector<glm::vec4> values = ramp(-1);

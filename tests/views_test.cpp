@@ -62,14 +62,15 @@ TEST(ViewRegistry, EveryViewIsDrawnFromSomething) {
   for (const ViewInfo& info : views()) {
     EXPECT_NE(info.from, 0u) << info.name;
     // A volume is seen as a shape, but where it is held against a surface in the picture.
-    EXPECT_EQ(info.shape.has_value(), info.isFrom(kVolumes) && !info.isFrom(FROM_TARGETS)) << info.name;
+    EXPECT_EQ(info.shape.has_value(), info.isFrom(kVolumes) && !info.isFrom(FROM_DEPTH)) << info.name;
     EXPECT_EQ(resolveShape(info.view, ViewShape::automatic), info.shape) << info.name;
     // One set of values per facet, one field, one of everything else.
     for (const uint32_t only : {FROM_FACET_VALUES, FROM_ANY_FIELD})
       EXPECT_LE(std::popcount(info.from & only), 1) << info.name;
     // What qualifies another source stands beside it.
     EXPECT_TRUE(!info.isFrom(FROM_EXACT) || info.isFrom(FROM_ANY_FIELD)) << info.name;
-    EXPECT_TRUE(!info.isFrom(FROM_EMITTED) || info.isFrom(FROM_TARGETS)) << info.name;
+    for (const uint32_t light : {FROM_EMITTED, FROM_DIRECT_LIGHT, FROM_INDIRECT_LIGHT, FROM_REFLECTIONS})
+      EXPECT_TRUE(!info.isFrom(light) || info.isFrom(FROM_TARGETS)) << info.name;
   }
 }
 

@@ -57,6 +57,11 @@ class Program {
     wait(5);
   }
 
+  /// At once, as a crash would.
+  void killNow() {
+    kill(process_.pid(), SIGKILL);
+    wait(5);
+  }
   bool running() { return !process_.poll(); }
   /// Exit status, or -1 when it still runs after `seconds`.
   int wait(double seconds) {
@@ -137,6 +142,13 @@ struct ScreenPart {
     for (size_t i = 0; i + 2 < rgb.size(); i += 3)
       differing += rgb[i] != other.rgb[i] || rgb[i + 1] != other.rgb[i + 1] || rgb[i + 2] != other.rgb[i + 2];
     return static_cast<double>(differing) / static_cast<double>(rgb.size() / 3);
+  }
+  /// By how much channels differ in the mean, of 255.
+  double levels(const ScreenPart& other) const {
+    if (rgb.size() != other.rgb.size()) return 255;
+    double sum = 0;
+    for (size_t i = 0; i < rgb.size(); ++i) sum += std::abs(int{other.rgb[i]} - int{rgb[i]});
+    return sum / static_cast<double>(rgb.size());
   }
 };
 

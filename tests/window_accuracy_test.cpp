@@ -5,6 +5,8 @@
 #include "gi/settings.h"
 #include "gi/study/results.h"
 #include "renderer/base/output_file.h"
+#include "renderer/image_io.h"
+#include "renderer/scene/camera_json.h"
 #include "tests/window_fixture.h"
 #include "ui/panel.h"
 
@@ -22,12 +24,13 @@ class WindowAccuracy : public WindowTest {
     fold(nlohmann::json(folded).dump().c_str());
   }
   /// Three resolutions about that of start(), each better and dearer than the one before.
-  void makeStudy() const {
+  void makeStudy(const nlohmann::ordered_json& more = nlohmann::ordered_json::object()) const {
     Settings base = defaultSettings(/*cpuDevice=*/true);
     base.voxel.resolution = 32, base.matrix.gpu.rays = 32, base.specular.mode = SpecularMode::off;
     nlohmann::ordered_json identity{{"study", "cost"}, {"scene", "box.glb"}, {"view", "indirect"}};
     identity["sweeps"] = GridTexts{{"voxel.resolution=16,24,32"}};
     identity["settings"] = nlohmann::ordered_json::parse(settingsToJson(base));
+    identity.update(more);
     StudyFolder study(folder_.path / "out/study", identity.dump());
     for (size_t point = 0; point < 3; ++point) {
       const double error = .04 / std::pow(2, point), ms = 10 * std::pow(2, point);
@@ -75,6 +78,25 @@ TEST_F(WindowAccuracy, AClickOnAPointTakesItsSettingsAndTheyComeBack) {
   quit();  // the settings are those of the last capture
 }
 
+TEST_F(WindowAccuracy, AStudyOfAnotherCameraIsNotUsedUntilTheWindowStandsThere) {
+  Camera camera;
+  camera.position = {0, 1, 3};
+  makeStudy({{"camera", nlohmann::ordered_json::parse(cameraToJson(camera))}, {"size", {320, 240}}});
+  start();
+  rests();
+  ASSERT_TRUE(appears("Accuracy/Go to its camera"));
+  EXPECT_FALSE(has("Accuracy/point 1"));
+  click("Accuracy/Go to its camera");
+  ASSERT_TRUE(appears("Accuracy/point 1"));
+  EXPECT_FALSE(has("Accuracy/Go to its camera"));
+  // Pictures of another size: what grows with them is no choice.
+  click("Accuracy/cost");
+  EXPECT_TRUE(appears("Accuracy/cost/relight"));
+  EXPECT_FALSE(has("Accuracy/cost/memory") || has("Accuracy/cost/frame"));
+  key("Escape");
+  quit();
+}
+
 TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
   if (!hasPathTracer()) GTEST_SKIP() << "built without IRAD_EMBREE";
   start();
@@ -83,8 +105,7 @@ TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
   choose("Accuracy/samples", "4096");
   const auto pressed = [&](const std::string& name) {  // it does not come to rest while it traces
     const Control c = control(name);
-    xdotool(fmt::format("mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1", c.area.x + c.area.width / 2,
-                        c.area.y + c.area.height / 2));
+    mouse().tap(fmt::format("{} {}", c.area.x + c.area.width / 2, c.area.y + c.area.height / 2));
   };
   pressed("Accuracy/Compute a reference");
   ASSERT_TRUE(appears("Accuracy/cancel reference"));
@@ -94,6 +115,9 @@ TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
   ASSERT_TRUE(appears("Accuracy/Compute a reference")) << "not cancelled";
   rests();
   EXPECT_TRUE(has("Accuracy/flip")) << "what there was of it is gone";
+  const std::string saved = std::string("out/reference") + linearExtension();
+  click("Accuracy/save reference");
+  ASSERT_TRUE(says("wrote " + saved)) << window_->log();
 
   // Where picture and reference differ, and both beside each other.
   key("4");
@@ -122,6 +146,17 @@ TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
   xdotool("keydown w sleep 0.3 keyup w");
   rests();
   EXPECT_TRUE(appears("Accuracy/flip", /*wanted=*/false)) << "figures against another camera's reference";
+  quit();
+
+  // What was saved is a reference like any other, of the camera that it was made from.
+  start({"--reference", (folder_.path / saved).string()});
+  ASSERT_TRUE(appears("Accuracy/flip")) << "no figures against the file";
+  EXPECT_FALSE(has("Accuracy/save reference"));
+  if (std::string(linearExtension()) == ".exr") {
+    xdotool("keydown w sleep 0.3 keyup w");
+    rests();
+    EXPECT_TRUE(appears("Accuracy/flip", /*wanted=*/false)) << "figures against another camera's file";
+  }
   quit();
 }
 

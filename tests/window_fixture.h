@@ -9,12 +9,14 @@
 
 #include "tests/controls.h"
 #include "tests/file_drop.h"
-#include "tests/virtual_screen.h"
+#include "tests/mouse.h"
 
 namespace irad::test {
 
 class WindowTest : public ::testing::Test {
  protected:
+  bool exposesFiles_ = false;  ///< as the window does where no exposure is given
+
   void SetUp() override {
     for (const char* program : {"Xvfb", "xdotool"})
       if (!installed(program)) GTEST_SKIP() << program << " is not installed: the window is not tested";
@@ -33,9 +35,12 @@ class WindowTest : public ::testing::Test {
                                      "--set",        "matrix.rays=32",
                                      "--set",        "specular.mode=off",
                                      "--controls",   controlsFile().string()};
+    if (!exposesFiles_) command.insert(command.end(), {"--set", "camera.exposure=0"});
     command.insert(command.end(), more.begin(), more.end());
     std::map<std::string, std::string> environment = screen_->environment();
     environment.insert(environment_.begin(), environment_.end());
+    // Where it covers nothing that is compared: the server draws its pointer, too.
+    xdotool("mousemove 700 6");
     window_ = std::make_unique<Program>(command, folder_.path, environment);
   }
   /// Remembered from an earlier run, as a JSON array of titles: the other panels are where a test looks for them.
@@ -74,12 +79,21 @@ class WindowTest : public ::testing::Test {
       const int middle = c.area.y + c.area.height / 2;
       const bool below = middle >= c.region.bottom();
       if (middle >= c.region.y && !below) return c;
-      xdotool(fmt::format("mousemove {} {} click {}", c.region.x + c.region.width / 2, c.region.y + c.region.height / 2,
-                          below ? 5 : 4));
+      // At its edge: in its middle a list within it may take the wheel.
+      xdotool(fmt::format("mousemove {} {} click {}", c.region.x + 3, c.region.y + c.region.height / 2, below ? 5 : 4));
       rests();
       c = control(name);
     }
     throw std::runtime_error(fmt::format("'{}' cannot be scrolled into view", name));
+  }
+  /// Turns the wheel below a control until one under it is there: rows of lists that are out of view are not drawn.
+  bool appearsUnder(const std::string& above, const std::string& name) {
+    for (int turn = 0; turn < 20 && !has(name); ++turn) {
+      const Control::Area region = control(above).region;
+      xdotool(fmt::format("mousemove {} {} click 5", region.x + 3, region.y + region.height / 2));
+      rests();
+    }
+    return has(name);
   }
   /// Where its middle is, or another share of it.
   std::string placeOf(const std::string& name, double across = 0.5) {
@@ -87,11 +101,19 @@ class WindowTest : public ::testing::Test {
     if (c.disabled) throw std::runtime_error(fmt::format("'{}' is disabled", name));
     return fmt::format("{} {}", c.area.x + static_cast<int>(across * c.area.width), c.area.y + c.area.height / 2);
   }
+  Mouse mouse() const { return {*screen_, controlsFile()}; }
   void press(const std::string& place) {
-    xdotool(fmt::format("mousemove {} sleep 0.05 mousedown 1 sleep 0.05 mouseup 1", place));
+    mouse().tap(place);
     rests();
   }
   void click(const std::string& name) { press(placeOf(name)); }
+  /// Frames of so many seconds, by the panel Timings; while they are recorded the window does not rest.
+  void record(double seconds) {
+    const std::string button = placeOf("Timings/record");
+    mouse().tap(button);
+    pause(seconds);
+    mouse().tap(button);
+  }
   /// An entry of a list, or of a menu.
   void choose(const std::string& list, const std::string& entry) {
     click(list);
@@ -99,8 +121,8 @@ class WindowTest : public ::testing::Test {
   }
   /// From its middle, by so many pixels.
   void drag(const std::string& name, int right, int down = 0, double across = 0.5) {
-    xdotool(fmt::format("mousemove {} sleep 0.05 mousedown 1 sleep 0.1 mousemove_relative -- {} {} sleep 0.1 mouseup 1",
-                        placeOf(name, across), right, down));
+    mouse().pressAt(placeOf(name, across));
+    xdotool(fmt::format("mousemove_relative --sync -- {} {} sleep 0.1 mouseup 1", right, down));
     rests();
   }
   /// Presses a key long enough for ImGui, which looks at keys once per frame, to see it.
@@ -121,9 +143,13 @@ class WindowTest : public ::testing::Test {
   }
   /// The same into a slider or a field that is dragged: a click with Ctrl makes it a text field.
   void enterNumber(const std::string& name, const std::string& text, double across = 0.5) {
-    xdotool("mousemove " + placeOf(name, across));
+    const std::string place = placeOf(name, across);
+    mouse().moveTo(place);
+    // Ctrl is held until the click has been seen: a frame may take seconds, and sees the keys as they are at its start.
+    xdotool("keydown ctrl");
     rests();
-    xdotool("keydown ctrl sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 keyup ctrl");
+    press(place);
+    xdotool("keyup ctrl");
     rests();
     hold("ctrl", "a");
     type(text);
@@ -133,9 +159,33 @@ class WindowTest : public ::testing::Test {
     if (!text.empty()) xdotool("type --delay 15 '" + text + "'");
     rests();
   }
-  /// Moves the mouse over the picture, but not over the part of it that is compared.
+  /// Where the picture is; the program says it, so that no test knows the layout.
+  Control::Area picture() {
+    appears("viewport", true, 120);  // from the first frame on
+    return control("viewport").area;
+  }
+  /// A place in the picture, from its middle to the right and down, in thousandths of its height: what is seen there
+  /// does not depend on the picture's size.
+  std::string at(int right, int down) {
+    const Control::Area p = picture();
+    return fmt::format("{} {}", p.x + p.width / 2 + right * p.height / 1000,
+                       p.y + p.height / 2 + down * p.height / 1000);
+  }
+  /// A part of it, given likewise.
+  ScreenPart around(int right, int down, int width, int height) {
+    const Control::Area p = picture();
+    return screen_->grab(p.x + p.width / 2 + right * p.height / 1000, p.y + p.height / 2 + down * p.height / 1000,
+                         width * p.height / 1000, height * p.height / 1000);
+  }
+  /// In the picture, but not in the part of it that is compared.
+  std::string aside() {
+    const Control::Area p = picture();
+    return fmt::format("{} {}", p.x + 28, p.bottom() - 22);
+  }
+  /// Moves the mouse there.
+  void goAside() { xdotool("mousemove " + aside()); }
   void away() {
-    xdotool("mousemove 360 510");
+    goAside();
     rests();
   }
 
@@ -163,12 +213,17 @@ class WindowTest : public ::testing::Test {
     EXPECT_EQ(window_->wait(20), 0);
   }
 
-  /// The middle of the viewport of a 1280 x 720 window: ui/layout.h gives x 332..998, y 30..532. The mouse stays in the
-  /// viewport but out of this part: the server draws its pointer into the framebuffer.
-  ScreenPart viewport() const { return screen_->grab(400, 100, 500, 380); }
-
+  /// The middle of the picture, of which the status line and one message take the lowest 75 rows. The mouse stays in
+  /// the picture but out of this part: the server draws its pointer into the framebuffer.
+  ScreenPart viewport() {
+    const Control::Area p = picture();
+    return screen_->grab(p.x + 68, p.y + 70, p.width - 167, p.height - 148);
+  }
   /// The part of it above the messages.
-  ScreenPart part() const { return screen_->grab(400, 60, 500, 220); }
+  ScreenPart part() {
+    const Control::Area p = picture();
+    return screen_->grab(p.x + 68, p.y + 30, p.width - 167, (p.height - 63) / 2);
+  }
 
   bool drop(const std::vector<std::filesystem::path>& files) { return dropFiles(screen_->display(), "irad", files); }
   /// The program prints `text`, in time.
@@ -187,16 +242,12 @@ class WindowTest : public ::testing::Test {
     const size_t before = times();
     startWork();
     ASSERT_TRUE(appears("progress/cancel")) << "no progress is shown";
-    // A busy device draws seldom, and the window may miss a click.
-    for (int tries = 0; tries < 10 && times() == before; ++tries) {
-      for (const Control& c : controls())
-        if (c.name == "progress/cancel")
-          xdotool(fmt::format("mousemove {} {} sleep 0.3 mousedown 1 sleep 0.3 mouseup 1", c.area.x + c.area.width / 2,
-                              c.area.y + c.area.height / 2));
-      for (int i = 0; i < 40 && times() == before; ++i) pause(0.05);
-    }
+    for (const Control& c : controls())
+      if (c.name == "progress/cancel")
+        mouse().tap(fmt::format("{} {}", c.area.x + c.area.width / 2, c.area.y + c.area.height / 2));
+    for (int i = 0; i < 400 && times() == before; ++i) pause(0.05);
     EXPECT_EQ(times(), before + 1) << "the button does not cancel";
-    xdotool("mousemove 360 510");
+    goAside();
   }
   std::filesystem::path copyShaders() const {
     const std::filesystem::path copy = folder_.path / "shaders";

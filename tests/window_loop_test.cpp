@@ -11,8 +11,7 @@
 #include <fstream>
 #include <set>
 
-#include "tests/controls.h"
-#include "tests/virtual_screen.h"
+#include "tests/mouse.h"
 #include "ui/window.h"
 
 namespace irad::test::window_loop_suite {
@@ -21,17 +20,14 @@ namespace {
 std::atomic<bool> iconified = false;
 PFN_vkAcquireNextImageKHR driversAcquire;
 PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR driversCapabilities;
+std::atomic<int64_t> presented = 0;  ///< frames of the window, while they are counted
+PFN_vkQueuePresentKHR driversPresent;
 
 double processSeconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-/// The part of the picture where there are neither panels nor messages (window_fixture.h).
-ScreenPart viewport(const VirtualScreen& screen) {
-  return screen.grab(400, 100, 500, 380);
 }
 
 bool until(const std::function<bool()>& holds) {
@@ -70,8 +66,9 @@ class WindowLoop : public ::testing::Test {
   /// The window from its start until `user` has ended and pressed Ctrl + Q.
   void run(const std::function<void()>& user, bool discards = false) {
     std::thread thread([&] {
-      screen_->xdotool("mousemove 360 510");  // out of the part looked at: the server draws its pointer
-      EXPECT_TRUE(until([&] { return rests() && viewport(*screen_).deviation() > 0.02; })) << "no picture";
+      EXPECT_TRUE(until([&] { return picture().width > 0; })) << "no frame";
+      screen_->xdotool("mousemove " + aside());  // out of the part looked at: the server draws its pointer
+      EXPECT_TRUE(until([&] { return rests() && viewport().deviation() > 0.02; })) << "no picture";
       user();
       screen_->key("ctrl+q");
       if (discards) click("Unsaved changes/Discard");
@@ -79,6 +76,21 @@ class WindowLoop : public ::testing::Test {
     EXPECT_NO_THROW(runWindow(*context_, options_));
     thread.join();
   }
+  /// Where the picture is; empty before the first frame.
+  Control::Area picture() const {
+    for (const Control& c : readControls(options_.controls))
+      if (c.name == "viewport") return c.area;
+    return {};
+  }
+  /// The part of it where there are neither panels nor messages (window_fixture.h).
+  ScreenPart viewport() const {
+    const Control::Area p = picture();
+    return p.width < 300 ? ScreenPart() : screen_->grab(p.x + 68, p.y + 70, p.width - 167, p.height - 148);
+  }
+  /// A pixel of it.
+  std::string at(int x, int y) const { return fmt::format("{} {}", picture().x + x, picture().y + y); }
+  /// In it, but out of that part.
+  std::string aside() const { return at(28, picture().height - 22); }
   void click(const std::string& name) {
     const auto find = [&] {
       const std::vector<Control> all = readControls(options_.controls);
@@ -86,18 +98,20 @@ class WindowLoop : public ::testing::Test {
     };
     EXPECT_TRUE(until(find)) << "no " << name;
     const Control::Area at = findControl(readControls(options_.controls), name).area;
-    screen_->xdotool(fmt::format("mousemove {} {} sleep 0.2 mousedown 1 sleep 0.2 mouseup 1", at.x + at.width / 2,
-                                 at.y + at.height / 2));
+    Mouse(*screen_, options_.controls).tap(fmt::format("{} {}", at.x + at.width / 2, at.y + at.height / 2));
   }
-  /// Of the first setting in view.
+  /// Of the first setting in view, down to which the left column is scrolled.
   std::string placeOfSetting() const {
-    for (const Control& c : readControls(options_.controls)) {
-      const int x = c.area.x + c.area.width / 2, y = c.area.y + c.area.height / 2;
-      if (c.name.starts_with("Settings/") && c.name.find('.') != std::string::npos && c.region.holds(x, y))
-        return fmt::format("{} {}", x, y);
+    for (int turns = 0; turns < 60; ++turns) {
+      for (const Control& c : readControls(options_.controls)) {
+        const int x = c.area.x + c.area.width / 2, y = c.area.y + c.area.height / 2;
+        if (c.name.starts_with("Settings/") && c.name.find('.') != std::string::npos && c.region.holds(x, y))
+          return fmt::format("{} {}", x, y);
+      }
+      screen_->xdotool("mousemove 4 400 click 5 sleep 0.3");  // at the column's edge no list takes the wheel
     }
     ADD_FAILURE() << "no setting is in view";
-    return "360 510";
+    return aside();
   }
   /// The display and every thread but the user's slept for a second, and nothing was asked of the device.
   bool rests() const {
@@ -127,21 +141,46 @@ class WindowLoop : public ::testing::Test {
 
 TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
   std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
-  run([&] {
-    // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
-    for (const std::string& place : {std::string("360 510"), placeOfSetting(), std::string("800 620")}) {
-      screen_->xdotool(fmt::format("mousemove {}", place));
-      ASSERT_TRUE(until([&] { return rests(); })) << "mouse at " << place;
-      const Counters before = context_->counters();
-      const double used = processSeconds();
-      constexpr double kSeconds = 5;
-      pause(kSeconds);
-      const Counters asked = context_->counters().since(before);
-      EXPECT_EQ(asked, Counters()) << "mouse at " << place << ": " << asked.dispatches << " dispatches, " << asked.draws
-                                   << " draws, " << asked.submissions << " submissions";
-      EXPECT_LT(processSeconds() - used, 0.02 * kSeconds) << "seconds of processor time in 5 s, mouse at " << place;
-    }
-  });
+  const auto autosave = [this] {
+    std::filesystem::path file;
+    std::error_code none;
+    for (std::filesystem::directory_iterator it(folder_.path / "autosave", none), end; !none && it != end;
+         it.increment(none))
+      if (it->path().extension() == ".json") file = it->path();
+    return file;
+  };
+  run(
+      [&] {
+        const auto idles = [&](const std::string& when, double seconds) {
+          ASSERT_TRUE(until([&] { return rests(); })) << when;
+          const Counters before = context_->counters();
+          const double used = processSeconds();
+          pause(seconds);
+          const Counters asked = context_->counters().since(before);
+          EXPECT_EQ(asked, Counters()) << when << ": " << asked.dispatches << " dispatches, " << asked.draws
+                                       << " draws, " << asked.submissions << " submissions";
+          EXPECT_LT(processSeconds() - used, 0.02 * seconds) << "seconds of processor time, " << when;
+        };
+        // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
+        for (const std::string& place : {aside(), placeOfSetting(), at(470, picture().height + 90)}) {
+          screen_->xdotool("mousemove " + place);
+          idles("mouse at " + place, 5);
+        }
+        screen_->xdotool("mousemove 4 400 click --repeat 60 --delay 50 4 sleep 0.5");
+        // With something unsaved: every edit is soon in the autosave, and then that is left alone.
+        EXPECT_EQ(autosave(), "");
+        click("Lights/point");
+        EXPECT_TRUE(until([&] { return autosave() != "" && rests(); }));
+        click("Lights/sun");
+        EXPECT_TRUE(until([&] { return contains(slurp(autosave()), "\"sun\""); })) << "no autosave of the last edit";
+        screen_->xdotool("mousemove " + aside());
+        EXPECT_TRUE(until([&] { return rests(); }));
+        const auto written = std::filesystem::last_write_time(autosave());
+        idles("with unsaved lights", 3);
+        EXPECT_EQ(std::filesystem::last_write_time(autosave()), written);
+      },
+      /*discards=*/true);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path / "autosave"));
 }
 
 TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
@@ -151,7 +190,8 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
     before = context_->counters();
     from = timings_.now();
     screen_->xdotool("keydown w sleep 0.5 keyup w");
-    screen_->xdotool("mousemove 500 300 mousedown 3 sleep 0.2 mousemove 540 310 sleep 0.2 mouseup 3 mousemove 360 510");
+    screen_->xdotool(fmt::format("mousemove {} mousedown 3 sleep 0.2 mousemove {} sleep 0.2 mouseup 3 mousemove {}",
+                                 at(168, 270), at(208, 280), aside()));
     EXPECT_TRUE(until([&] { return rests(); }));
     to = timings_.now();
     after = context_->counters();
@@ -177,6 +217,10 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
     ptrdiff_t threads;
   };
   constexpr int kPictures = 4;
+  driversPresent = std::exchange(vkQueuePresentKHR, [](VkQueue queue, const VkPresentInfoKHR* info) {
+    ++presented;
+    return driversPresent(queue, info);
+  });
   const auto threads = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
   };
@@ -185,7 +229,7 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
     const auto ofPictures = [&] {
       EXPECT_TRUE(until([&] { return rests(); }));
       const Counters before = context_->counters();
-      const uint64_t frames = timings_.recorded();
+      const int64_t frames = presented;
       const ptrdiff_t had = threads();
       for (int i = 0; i < kPictures; ++i) {
         const uint64_t draws = context_->counters().dispatches;
@@ -194,8 +238,7 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
         EXPECT_TRUE(until([&] { return rests(); }));
       }
       const Counters asked = context_->counters().since(before);
-      return Cost{static_cast<int64_t>(asked.submissions) - static_cast<int64_t>(timings_.recorded() - frames),
-                  asked.images, threads() - had};
+      return Cost{static_cast<int64_t>(asked.submissions) - (presented - frames), asked.images, threads() - had};
     };
     const auto free = [&](const char* when) {
       const Cost folded = ofPictures();
@@ -206,11 +249,56 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
     ofPictures();  // views that were not there before take memory once
     free("at first");
     click("Accuracy");
-    screen_->xdotool("mousemove 360 510");
+    screen_->xdotool("mousemove " + aside());
     EXPECT_GE(ofPictures().beside, kPictures - 1) << "an open one measures each";
     click("Accuracy");
-    screen_->xdotool("mousemove 360 510");
+    screen_->xdotool("mousemove " + aside());
     free("folded again");
+  });
+  vkQueuePresentKHR = driversPresent;
+}
+
+TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
+  const auto reading = [this](const std::string& name) {
+    for (const Control& c : readControls(options_.controls))
+      if (c.name.starts_with("Pointing/" + name + "=")) return c.name.substr(c.name.find('=') + 1);
+    return std::string();
+  };
+  run([&] {
+    EXPECT_TRUE(until([&] { return rests(); }));
+    const ScreenPart whole = viewport();
+    const Counters before = context_->counters();
+    const uint64_t frames = timings_.recorded();
+    const auto rendersNothing = [&](const char* when) {
+      EXPECT_EQ(context_->counters().since(before).dispatches, 0u) << when;
+    };
+    std::set<std::string> pixels, values;
+    for (const std::string& place : {at(88, 220), at(308, 270), at(468, 420)}) {
+      screen_->xdotool("mousemove " + place);
+      EXPECT_TRUE(until([&] { return rests(); }));
+      pixels.insert(reading("pixel"));
+      values.insert(reading("value"));
+    }
+    EXPECT_EQ(pixels, (std::set<std::string>{"x 88 y 220", "x 308 y 270", "x 468 y 420"}));
+    EXPECT_EQ(values.size(), 3u);
+    EXPECT_FALSE(values.contains(""));
+    rendersNothing("pointed at");
+    screen_->xdotool(
+        fmt::format("mousemove {} keydown ctrl click 4 sleep 0.1 click 4 sleep 0.1 click 4 keyup ctrl", at(308, 270)));
+    EXPECT_TRUE(until([&] { return reading("zoom") != ""; })) << "the wheel does not zoom";
+    EXPECT_TRUE(until([&] { return rests(); }));
+    rendersNothing("zoomed");
+    screen_->xdotool(fmt::format("mousedown 2 sleep 0.2 mousemove {} sleep 0.2 mouseup 2 sleep 0.2 mousemove {}",
+                                 at(328, 290), aside()));
+    EXPECT_TRUE(until([&] { return rests(); }));
+    EXPECT_GT(viewport().difference(whole), 0.2);
+    rendersNothing("moved");
+    screen_->key("0");
+    EXPECT_TRUE(until([&] { return rests() && viewport() == whole; })) << "not the whole picture again";
+    const Counters asked = context_->counters().since(before);
+    EXPECT_EQ(asked.dispatches, 0u);
+    EXPECT_GT(asked.draws, 0u) << "panels";
+    EXPECT_EQ(timings_.recorded(), frames) << "frames that only draw panels are in the timings";
   });
 }
 
@@ -220,8 +308,11 @@ TEST_F(WindowLoop, FramesOfBruteForceEndInRestAndBeginAnewFromTheDark) {
   double from = 0, to = 0;
   run([&] {  // once it rests
     from = timings_.now();
+    const uint64_t before = context_->counters().dispatches;
     click("Solver/H = 0");
-    screen_->xdotool("mousemove 360 510 sleep 2");  // it rests until the click arrives, too
+    screen_->xdotool("mousemove " + aside());
+    // It rests until the click arrives, too; panels are drawn without a dispatch.
+    EXPECT_TRUE(until([&] { return context_->counters().dispatches > before; })) << "the click does nothing";
     EXPECT_TRUE(until([&] { return rests(); }));
     to = timings_.now();
   });
@@ -239,14 +330,17 @@ TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
   double from = 0, to = 0;
   ScreenPart first, moved;
   const auto user = [&] {
-    first = viewport(*screen_);
+    first = viewport();
     from = timings_.now();
     // The handle of the Box's spot light, in the upper right of the picture.
+    const Control::Area p = picture();
+    const std::string lamp = at(p.width / 2 + 325 * p.height / 1000, p.height / 2 - 416 * p.height / 1000);
     screen_->xdotool(
-        "mousemove 829 72 sleep 1 mousedown 1 sleep 1 mousemove 760 90 sleep 1 mousemove 700 120 sleep 1 mouseup 1 "
-        "mousemove 360 510");
+        fmt::format("mousemove {} sleep 1 mousedown 1 sleep 1 mousemove_relative -- -69 18 sleep 1 "
+                    "mousemove_relative -- -60 30 sleep 1 mouseup 1 mousemove {}",
+                    lamp, aside()));
     EXPECT_TRUE(until([&] { return rests(); }));
-    moved = viewport(*screen_);
+    moved = viewport();
     to = timings_.now();
   };
   run(user, /*discards=*/true);
@@ -274,7 +368,7 @@ TEST_F(WindowLoop, SleepsWhileItHasNoArea) {
                       return result;
                     });
   run([&] {
-    const ScreenPart first = viewport(*screen_);
+    const ScreenPart first = viewport();
 
     // Another view is asked for while nothing can be drawn: no frame follows, and no busy waiting.
     iconified = true;
@@ -283,12 +377,11 @@ TEST_F(WindowLoop, SleepsWhileItHasNoArea) {
     const double used = processSeconds();
     pause(2);
     EXPECT_LE(processSeconds() - used, 0.1) << "seconds of processor time in 2 s without area";
-    EXPECT_EQ(viewport(*screen_), first);
+    EXPECT_EQ(viewport(), first);
 
     // The frame comes when there is an area again, without any further event.
     iconified = false;
-    EXPECT_TRUE(until([&] { return viewport(*screen_).difference(first) > 0.05; }))
-        << "nothing is drawn once there is area";
+    EXPECT_TRUE(until([&] { return viewport().difference(first) > 0.05; })) << "nothing is drawn once there is area";
   });
   vkAcquireNextImageKHR = driversAcquire;
   vkGetPhysicalDeviceSurfaceCapabilitiesKHR = driversCapabilities;

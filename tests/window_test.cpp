@@ -1,4 +1,5 @@
 // The window itself: keys and mouse, layout, size, scenes opened, what it refuses to show.
+#include "tests/scene_files.h"
 #include "tests/window_fixture.h"
 
 namespace irad::test::window_suite {
@@ -10,13 +11,20 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
                                     << viewport().deviation();
   const ScreenPart first = viewport();
   EXPECT_LT(first.meanLuminance(), 0.9);
+  // What users need first is in view.
+  for (const char* name : {"Settings/voxel", "Effects/emission", "Lights", "View/view", "Timings"}) {
+    const Control c = control(name);
+    EXPECT_LE(c.area.bottom(), c.region.bottom()) << name;
+  }
   // The panels hold text: both columns and the strip vary.
-  EXPECT_GT(screen_->grab(5, 40, 310, 600).deviation(), 0.03);
-  EXPECT_GT(screen_->grab(1010, 40, 260, 600).deviation(), 0.03);
-  EXPECT_GT(screen_->grab(340, 540, 400, 100).deviation(), 0.03);
+  const Control::Area p = picture();
+  EXPECT_GT(screen_->grab(5, 40, p.x - 20, 600).deviation(), 0.03);
+  EXPECT_GT(screen_->grab(p.right() + 10, 40, 1280 - p.right() - 20, 600).deviation(), 0.03);
+  EXPECT_GT(screen_->grab(p.x + 8, p.bottom() + 4, 400, 20).deviation(), 0.03);
+  EXPECT_GE(p.width * p.height, 1280 * 720 / 2) << "the picture's share of the window at first";
 
   // What settles() waits for is stated once: an idle window does no work, no picture and no processor time.
-  xdotool("mousemove 360 510");
+  goAside();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; }));
   const double used = window_->cpuSeconds();
   pause(3);
@@ -37,7 +45,8 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
 
   // A right drag looks around.
   const ScreenPart nearer = viewport();
-  xdotool("mousemove 360 510 sleep 0.4 mousedown 3 sleep 0.4 mousemove 420 515 sleep 0.4 mouseup 3");
+  goAside();
+  xdotool("sleep 0.4 mousedown 3 sleep 0.4 mousemove_relative 60 5 sleep 0.4 mouseup 3");
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(nearer) > 0.2; }))
       << "the drag changed nothing";
 
@@ -53,9 +62,9 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
 TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
-  xdotool("mousemove 360 510");
+  goAside();
   const ScreenPart first = viewport();
-  const auto column = [this] { return screen_->grab(5, 40, 310, 600); };
+  const auto column = [this] { return screen_->grab(5, 40, 280, 600); };
   const ScreenPart panels = column();
 
   key("F1");
@@ -71,11 +80,125 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   quit();
 }
 
+TEST_F(WindowTest, PanelsFoldToTheEdgeAndThePictureFillsTheWindow) {
+  start();
+  away();
+  const Control::Area first = picture();
+  EXPECT_FALSE(has("frame time"));
+  key("Tab");
+  rests();
+  EXPECT_EQ(picture().width, 1280) << "Tab does not fill the window";
+  EXPECT_TRUE(has("Menu/File"));
+  EXPECT_TRUE(has("frame time"));
+  EXPECT_FALSE(has("Settings"));
+  key("F2");
+  rests();
+  EXPECT_EQ(picture().height, 720);
+  EXPECT_FALSE(has("Menu/File"));
+  EXPECT_TRUE(has("frame time")) << "it is not told what a picture takes";
+  key("F2");
+  key("Tab");
+  rests();
+  EXPECT_EQ(picture().width, first.width);
+
+  // Each column by its handle, the strip by its header; what is folded is remembered.
+  click("fold-left");
+  EXPECT_FALSE(has("Settings"));
+  EXPECT_EQ(picture().x, 0);
+  click("fold-right");
+  EXPECT_EQ(picture().width, 1280);
+  click("Timings");
+  EXPECT_LT(picture().height, first.height - 100);
+  EXPECT_TRUE(has("Timings/record"));
+  quit();
+  start();
+  away();
+  EXPECT_EQ(picture().width, 1280) << "forgotten";
+  // The menu brings them back: the strip is among the panels.
+  for (const char* part : {"Left column", "Right column", "Timings"}) {
+    click("Menu/View");
+    click("Menu/View/Panels");
+    click(std::string("Menu/View/Panels/") + part);
+  }
+  away();
+  EXPECT_EQ(picture().width, first.width);
+  EXPECT_EQ(picture().height, first.height);
+  quit();
+}
+
+TEST_F(WindowTest, NotesEndByThemselvesAndErrorsAreCleared) {
+  start();
+  away();
+  ASSERT_TRUE(viewportSettles(lit));
+  key("F5");
+  ASSERT_TRUE(appears("messages/0/dismiss")) << "nothing is said";
+  EXPECT_TRUE(appears("messages/0/dismiss", false, 30)) << "the note stays";
+  for (const char* name : {"a.glb", "b.glb"}) ASSERT_TRUE(drop({folder_.path / name}));
+  ASSERT_TRUE(drop({folder_.path / "c.glb"}));
+  ASSERT_TRUE(appears("messages/1/dismiss")) << "errors";
+  pause(12);
+  EXPECT_TRUE(has("messages/1/dismiss")) << "errors do not stay";
+  click("messages/Clear all");
+  EXPECT_TRUE(appears("messages/0/dismiss", false)) << "not cleared";
+  quit();
+}
+
+TEST_F(WindowTest, TextIsScaledWhileItRuns) {
+  start();
+  away();
+  const int before = control("View").area.height;
+  key("ctrl+plus");
+  key("ctrl+plus");
+  rests();
+  EXPECT_NEAR(control("View").area.height, 1.5 * before, 2);
+  quit();
+  start();
+  away();
+  EXPECT_NEAR(control("View").area.height, 1.5 * before, 2) << "forgotten";
+  choose("Menu/View", "Reset the layout");
+  away();
+  EXPECT_EQ(control("View").area.height, before);
+  quit();
+}
+
+TEST_F(WindowTest, SettingsSayWhatTheyCostAndWaitForApply) {
+  start();
+  away();
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart before = viewport();
+  EXPECT_FALSE(isOn("Settings/cost"));
+  click("Settings/apply by hand");
+  EXPECT_TRUE(control("Settings/Apply").disabled);
+  click("Settings/voxel");
+  click("Settings/matrix");
+  enterNumber("Settings/voxel.resolution", "24");
+  enterNumber("Settings/matrix.rays", "16");
+  away();
+  EXPECT_TRUE(isOn("Settings/cost")) << "no prediction";
+  EXPECT_FALSE(control("Settings/Apply").disabled);
+  EXPECT_EQ(viewport(), before) << "it has not waited";
+  EXPECT_FALSE(contains(window_->log(), "irad: predicted "));
+  // What is only seen is taken at once.
+  key("2");
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(before) > 0.05; }));
+  key("1");
+  click("Settings/Apply");
+  away();
+  EXPECT_TRUE(says("irad: predicted ")) << "its error is not printed";
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p != before; })) << "not applied";
+  EXPECT_FALSE(isOn("Settings/cost"));
+  const std::string log = window_->log();
+  EXPECT_EQ(log.find("irad: predicted "), log.rfind("irad: predicted ")) << "built more than once";
+  EXPECT_TRUE(contains(log, " MiB; took ")) << log;
+  quitDiscarding();  // the settings
+}
+
 TEST_F(WindowTest, SaysWhyAPictureIsBlack) {
   start({}, "check:lights-off");
-  xdotool("mousemove 360 510");
-  const auto middle = [this] { return screen_->grab(530, 205, 270, 150); };
-  const auto around = [this] { return screen_->grab(340, 60, 180, 440); };
+  goAside();
+  const Control::Area p = picture();
+  const auto middle = [&] { return screen_->grab(p.x + p.width / 2 - 135, p.y + p.height / 2 - 75, 270, 150); };
+  const auto around = [&] { return screen_->grab(p.x + 20, p.y + 30, p.width / 2 - 175, p.height - 60); };
   const auto text = [](const ScreenPart& p) { return p.deviation() > 0.05; };
   ASSERT_TRUE(settles(middle, text)) << "no word in the middle of the picture";
   EXPECT_EQ(around().meanLuminance(), 0.0) << "a scene without light is not black";
@@ -98,9 +221,43 @@ TEST_F(WindowTest, SaysWhyAPictureIsBlack) {
   quitDiscarding();  // the light
 }
 
-TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {
+/// A triangle of rough metal under the default sun: nothing diffuse.
+std::filesystem::path metalScene(const std::filesystem::path& folder) {
+  GltfFile file = triangleFile();
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 1}}}}};
+  file.primitive()["material"] = 0;
+  return file.write(folder, "metal.gltf");
+}
+
+TEST_F(WindowTest, ExposesFilesByThemselvesAndSaysWhyMetalIsBlack) {
+  exposesFiles_ = true;
+  start({}, metalScene(folder_.path));
+  away();  // keys go to the window under the mouse
+  EXPECT_TRUE(isOn("View/camera.auto_exposure"));
+  // The words in the picture's lower left corner, which go with a view that is not of light.
+  const auto corner = [this] {
+    const Control::Area p = picture();
+    return screen_->grab(p.x + 18, p.bottom() - 93, 200, 60);
+  };
+  const auto text = [](const ScreenPart& p) { return p.deviation() > 0.05; };
+  EXPECT_TRUE(settles(corner, text)) << "no word in the corner";
+  key("6");
+  EXPECT_TRUE(settles(corner, [&](const ScreenPart& p) { return !text(p); })) << "the words stay";
+  quit();
   start();
-  xdotool("mousemove 360 510");
+  away();
+  EXPECT_FALSE(isOn("View/camera.auto_exposure")) << "a built-in scene is made for 0 EV";
+  quit();
+  start({"--set", "camera.exposure=1"}, metalScene(folder_.path));
+  away();
+  EXPECT_FALSE(isOn("View/camera.auto_exposure")) << "the user has chosen";
+  quit();
+}
+
+TEST_F(WindowTest, EffectsCanBeForced) {
+  fold(R"(["Lights", "Materials", "Objects", "Cameras", "History", "Settings"])");
+  start();
+  goAside();
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart first = viewport();
   // In the list behind the arrow of emissive facets: "off", and "auto" again.
@@ -118,13 +275,14 @@ TEST_F(WindowTest, EffectsAreInViewAndCanBeForced) {
 TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
-  xdotool("mousemove 360 510");
-  const auto left = [this] { return screen_->grab(286, 60, 40, 400); };  // of the left column; then of the viewport
-  const auto background = [this] { return screen_->grab(10, 500, 250, 200).deviation() < 0.01; };
+  goAside();
+  const int edge = picture().x;
+  const auto left = [&] { return screen_->grab(edge - 46, 60, 40, 200); };  // of the left column; then of the viewport
+  const auto background = [this] { return screen_->grab(10, 500, 200, 200).deviation() < 0.01; };
   ASSERT_FALSE(background());
   // The edge of the left column, and the headers of the settings and, below it then, of the effects.
   drag("edge-left", -52);
-  const auto black = [](const ScreenPart& p) { return p.count(0x000000) > 0.9 * 40 * 400; };
+  const auto black = [](const ScreenPart& p) { return p.count(0x000000) > 0.9 * 40 * 200; };
   ASSERT_TRUE(settles(left, black)) << "the edge cannot be dragged";
   click("Settings");
   click("Effects");
@@ -136,7 +294,7 @@ TEST_F(WindowTest, RemembersItsLayoutUntilItIsReset) {
   ASSERT_TRUE(settles(left, black)) << "the column's width is forgotten";
   EXPECT_TRUE(background()) << "they are unfolded again";
   choose("Menu/View", "Reset the layout");
-  xdotool("mousemove 600 510");
+  goAside();
   ASSERT_TRUE(settles(left, [&](const ScreenPart& p) { return !black(p) && !background(); })) << "not reset";
   quit();
 }
@@ -148,11 +306,36 @@ TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
   std::ofstream(config / "irad/window.json") << "{\"format\": 1, \"left\": \"wide\"}";
   start();
   EXPECT_TRUE(says("left is \"wide\""));
-  xdotool("mousemove 360 510");
+  goAside();
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart before = viewport();
   key("o");
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(before) > 0.5; })) << "no dialog";
+  // A wrong file leaves it open, with the reason in it.
+  std::ofstream(folder_.path / "wrong.glb") << "not a scene";
+  enter("Open a scene/path", folder_.path.string());
+  enter("Open a scene/filter", "RONG");
+  EXPECT_TRUE(appears("Open a scene/a.glb", false)) << "not filtered";
+  click("Open a scene/wrong.glb");
+  click("Open a scene/Open");
+  EXPECT_TRUE(says("wrong.glb"));
+  EXPECT_TRUE(appears("Open a scene/error")) << "the error is not in the dialog";
+  EXPECT_FALSE(has("messages/1/dismiss")) << "only the lost layout is said elsewhere";
+  // By kind and by size, and by a place.
+  click("Open a scene/filter");
+  hold("ctrl", "a");
+  hold("BackSpace");
+  choose("Open a scene/kind", "skies, references: .exr .hdr .pfm");
+  EXPECT_TRUE(appears("Open a scene/a.glb", false)) << "not of that kind";
+  choose("Open a scene/kind", "all that can be opened");
+  click("Open a scene/size");
+  rests();
+  EXPECT_LT(control("Open a scene/wrong.glb").area.y, control("Open a scene/a.glb").area.y) << "not by size";
+  click("Open a scene/size");
+  rests();
+  EXPECT_GT(control("Open a scene/wrong.glb").area.y, control("Open a scene/a.glb").area.y) << "not turned around";
+  click("Open a scene/places/Built-in scenes");
+  EXPECT_TRUE(appears("Open a scene/park.glb"));
   enter("Open a scene/path", (folder_.path / "a.glb").string());
   ASSERT_TRUE(viewportSettles([&](const ScreenPart&) {
     return slurp(config / "irad/window.json").find("a.glb") != std::string::npos;
@@ -179,14 +362,14 @@ TEST_F(WindowTest, FollowsItsSize) {
   resize(1280, 720);
   ASSERT_TRUE(viewportSettles(lit));
 
-  xdotool("mousemove 360 510");
+  goAside();
   quit();
 }
 
 TEST_F(WindowTest, SurvivesBeingUnmappedAndResizedInAHurry) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
-  xdotool("mousemove 360 510");
+  goAside();
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart first = viewport();
   xdotool("search --onlyvisible --name irad windowunmap --sync");

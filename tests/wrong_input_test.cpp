@@ -5,10 +5,14 @@
 #include <map>
 
 #include "app/arguments.h"
+#include "gi/picture.h"
+#include "renderer/base/console.h"
 #include "renderer/base/json_extent.h"
+#include "renderer/base/output_file.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/image_header.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/srgb.h"
 #include "tests/scene_files.h"
 
 namespace irad::test::wrong_input_suite {
@@ -46,7 +50,7 @@ TEST(DeepJson, IsRefusedByEveryReader) {
   EXPECT_NE(refusal([&] { cameraFromJson(R"({"position": )" + deep + "}"); }).find("too deeply"), std::string::npos);
   TemporaryFolder folder;
   std::ofstream(folder.path / "deep.json") << R"({"settings": {}, "cameras": )" << deep << "}";
-  const std::string config = refusal([&] { app::readConfigFile(folder.path / "deep.json"); });
+  const std::string config = refusal([&] { readConfigFile(folder.path / "deep.json"); });
   EXPECT_NE(config.find("deep.json: JSON nested too deeply"), std::string::npos) << config;
 }
 
@@ -70,7 +74,7 @@ TEST(Manifest, CountsThatAreNoWholeNumbersAreRefused) {
   TemporaryFolder folder;
   const auto read = [&](const char* name, const json& value) {
     std::ofstream(folder.path / "m.json") << json{{"settings", json::object()}, {name, value}};
-    return refusal([&] { app::readConfigFile(folder.path / "m.json"); });
+    return refusal([&] { readConfigFile(folder.path / "m.json"); });
   };
   EXPECT_EQ(read("frames", 3), "");
   EXPECT_EQ(read("size", {640, 480}), "");
@@ -81,10 +85,58 @@ TEST(Manifest, CountsThatAreNoWholeNumbersAreRefused) {
   EXPECT_NE(read("size", 640).find("m.json: size: "), std::string::npos);
 }
 
+TEST(Manifest, ATimeThatIsNoneIsRefused) {
+  TemporaryFolder folder;
+  const auto read = [&](const json& time) {
+    std::ofstream(folder.path / "m.json") << json{{"settings", json::object()}, {"time", time}};
+    return refusal([&] { readConfigFile(folder.path / "m.json"); });
+  };
+  EXPECT_EQ(read("2026-11-25T23:50:07Z"), "");
+  EXPECT_EQ(readConfigFile(folder.path / "m.json").time, 1795650607);
+  EXPECT_EQ(timeText(1795650607), "2026-11-25T23:50:07Z");
+  for (const json& bad :
+       {json("2026-11-25T23:50:07"), json("2026-02-30T00:00:00Z"), json("yesterday"), json(""), json(7), json(nullptr)})
+    EXPECT_NE(read(bad).find("m.json: time: "), std::string::npos) << bad;
+}
+
 TEST(Manifest, ASceneWithAnImpossibleNameIsNoSuchFile) {
-  app::Config config;
+  Config config;
   const std::string text = refusal([&] { app::findScene(std::string(10000, 'x') + ".glb", config, std::nullopt); });
   EXPECT_NE(text.find("no such file"), std::string::npos) << text;
+}
+
+TEST(Printable, QuotesWhatATerminalCannotTake) {
+  EXPECT_EQ(printable("plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1"),
+            "plain \t\n\xC3\xBC \xE2\x82\xAC \xF0\x9F\x92\xA1");
+  EXPECT_EQ(printable("a\xFF"
+                      "b"),
+            "a\\xFFb");
+  EXPECT_EQ(printable("\x1b[31m\r\x7f"), "\\x1B[31m\\x0D\\x7F");
+  EXPECT_EQ(printable("\xC2\x9B"), "\\xC2\\x9B") << "a control character of two bytes";
+  EXPECT_EQ(printable("\xC3"), "\\xC3") << "a character cut off";
+  EXPECT_EQ(printable("\xC0\xAF \xE0\x80\xAF"), "\\xC0\\xAF \\xE0\\x80\\xAF") << "overlong";
+  EXPECT_EQ(printable("\xED\xA0\x80 \xF4\x90\x80\x80"), "\\xED\\xA0\\x80 \\xF4\\x90\\x80\\x80")
+      << "surrogates, too large";
+}
+
+TEST(MadeFolder, GoesWhereNothingWasWritten) {
+  TemporaryFolder folder;
+  const std::filesystem::path there = folder.path / "there", made = there / "a" / "b";
+  std::filesystem::create_directory(there);
+  {
+    const MadeFolder work(made);
+    std::filesystem::create_directory(made / "pictures");
+  }
+  EXPECT_TRUE(std::filesystem::exists(there));
+  EXPECT_FALSE(std::filesystem::exists(there / "a"));
+  {
+    const MadeFolder work(made);
+    std::ofstream(made / "result") << "x";
+  }
+  EXPECT_TRUE(std::filesystem::exists(made / "result"));
+  { const MadeFolder work(there / "a"); }
+  EXPECT_TRUE(std::filesystem::exists(made / "result"));
+  EXPECT_THROW(MadeFolder(made / "result"), WorkError);
 }
 
 /// A PNG's first 29 bytes.
@@ -236,6 +288,22 @@ TEST(SceneCache, UnsoundScenesAreRefused) {
     expectRefused(path, damage.said);
   }
 }
+
+#ifdef IRAD_OIIO
+TEST(ReferencePicture, IntegersAreDecodedAndSaid) {
+  TemporaryFolder folder;
+  const glm::uvec2 size(4, 1);
+  const std::vector<glm::u8vec4> codes{{0, 0, 0, 255}, {10, 128, 188, 255}, {255, 255, 255, 255}, {1, 2, 3, 255}};
+  const ReferencePicture png = readReference(writeDisplay(folder.path / "shown", size, codes));
+  for (size_t i = 0; i < codes.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(png.picture.pixels[i][c], linearFromSrgb(codes[i][c]), 1e-6);
+  EXPECT_NE(png.note.find("shown.png holds integers and is decoded from sRGB"), std::string::npos) << png.note;
+  const std::vector<glm::vec4> light{{0.5f, 2, 0.25f, 1}, glm::vec4(0), glm::vec4(7), glm::vec4(1)};
+  const ReferencePicture exr = readReference(writeLinear(folder.path / "light", size, light));
+  EXPECT_EQ(exr.note, "");
+  EXPECT_EQ(exr.picture.pixels[0].y, 2.0f);
+}
+#endif
 
 }  // namespace
 }  // namespace irad::test::wrong_input_suite

@@ -11,6 +11,7 @@
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
+#include "renderer/scene/camera_json.h"
 #include "ui/imgui_layer.h"
 #include "ui/session.h"
 
@@ -30,6 +31,7 @@ bool ready(const std::future<T>& future) {
 
 }  // namespace
 
+Accuracy::Accuracy() : saveAs(std::string("out/reference") + linearExtension()) {}
 Accuracy::~Accuracy() = default;
 
 bool Accuracy::ofComputed() const {
@@ -41,13 +43,16 @@ bool Accuracy::ofComputed() const {
 Accuracy::Subject Accuracy::subjectOf(const Session& session) {
   const Pipeline& pipeline = *session.pipeline;
   const Scene& scene = pipeline.scene();
-  return {scene.path, scene.sha256, pipeline.settings().scene, scene.lights, pipeline.sky(), session.camera.camera()};
+  return {scene.path,   scene.sha256,   pipeline.settings().scene, scene.lights, scene.materialEdits,
+          scene.hidden, pipeline.sky(), session.camera.camera()};
 }
 
 std::string Accuracy::Subject::changedIn(const Session& session) const {
   const Subject now = subjectOf(session);
   if (now.scene != scene || now.sha256 != sha256 || now.settings != settings) return "the scene is another";
   if (now.lights != lights) return "the lights have changed";
+  if (now.materials != materials) return "a material has changed";
+  if (now.hidden != hidden) return "other objects are hidden";
   if (now.sky != sky) return "the sky has changed";
   if (now.camera != camera) return "the camera has moved";
   return "";
@@ -63,6 +68,8 @@ void Accuracy::startReference(Session& session) {
   load.lambertian = subject_->settings.lambertian;
   load.doubleSided = subject_->settings.doubleSided;
   load.lights.reset();
+  load.materials = subject_->materials;
+  load.hidden = subject_->hidden;
   load.progress = {};
   tracer_.start({.scene =
                      [load, subject = *subject_] {
@@ -114,6 +121,7 @@ bool Accuracy::serveReference(Session& session) {
   }
   if (std::shared_ptr<const TracedReference> better = tracer_.take()) {
     traced_ = std::move(better);
+    tracedFrom_ = subject_->camera;
     session.reference = ReferencePicture{.path = {},
                                          .sha256 = {},
                                          .picture = {.size = traced_->size, .pixels = traced_->mean},
@@ -128,7 +136,30 @@ bool Accuracy::serveReference(Session& session) {
   return changed;
 }
 
+/// On a thread of its own: compressing a large picture would hold the window up.
+bool Accuracy::serveSave(Session& session) {
+  if (std::exchange(wantSave, false) && traced_ && !saving_.valid()) {
+    const PictureSubject subject{cameraToJson(tracedFrom_), viewInfo(session.reference->of)->name};
+    saving_ = std::async(std::launch::async, [to = std::filesystem::path(saveAs), traced = traced_, subject] {
+      return saveReference(to, *traced, subject);
+    });
+    return true;
+  }
+  if (!ready(saving_)) return false;
+  try {
+    session.note(fmt::format("wrote {}: --reference takes it", saving_.get().string()));
+  } catch (const std::exception& error) {
+    session.error(error.what());
+  }
+  return true;
+}
+
 // ---- The study ----
+
+Misfit Accuracy::studyMisfit(const Session& session) const {
+  if (!study || !session.pipeline) return {};
+  return misfit(*study, session.pipeline->scene().sha256, session.camera.camera(), session.targets.size);
+}
 
 bool Accuracy::serveStudy() {
   std::error_code ignored;
@@ -164,6 +195,8 @@ std::string Accuracy::whyUnmeasured(const Session& session) const {
   if (!session.reference) return "no reference";
   if (!session.built || session.halted) return "nothing is built";
   if (traced_ && !outdated.empty()) return "the reference is outdated: " + outdated;
+  if (const std::string other = otherCamera(session.reference->camera, session.camera.camera()); !other.empty())
+    return "the reference is from another camera: " + other;
   if (session.edited.writeback.mode != WritebackMode::off && session.view != session.reference->of)
     return "with writeback.mode another picture would change the light: show the reference's view";
   const glm::uvec2 size = session.reference->picture.size;
@@ -203,8 +236,7 @@ bool Accuracy::serveMeasurement(Session& session) {
     awaiting_ = false;
     if (session.reference && pixels_->size() == session.reference->picture.pixels.size()) {
       const ReferencePicture& reference = *session.reference;
-      const std::optional<double> exposure =
-          asked_->flip ? std::optional(std::exp2(double{session.edited.camera.exposureEv})) : std::nullopt;
+      const std::optional<double> exposure = asked_->flip ? std::optional(session.exposure()) : std::nullopt;
       measuring_ = std::async(
           std::launch::async, [pixels = pixels_, size = reference.picture.size, traced = traced_,
                                given = traced_ ? std::vector<glm::vec4>() : reference.picture.pixels, exposure] {
@@ -245,6 +277,7 @@ bool Accuracy::serve(Session& session) {
   }
   if (!session.pipeline) return false;
   bool changed = serveReference(session);
+  changed |= serveSave(session);
   changed |= serveStudy();
   changed |= serveMeasurement(session);
   wasOpen_ = true;

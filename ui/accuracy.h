@@ -23,7 +23,7 @@ struct Session;
 
 class Accuracy {
  public:
-  Accuracy() = default;
+  Accuracy();
   ~Accuracy();
 
   bool open = false;  ///< the panel was drawn in the last frame
@@ -42,21 +42,26 @@ class Accuracy {
   BackgroundReference::State tracing() const { return tracer_.state(); }
   bool tracingNow() const { return open && tracer_.atWork(); }
 
+  std::string saveAs;  ///< file that a reference made here is saved to
+  bool saving() const { return saving_.valid(); }
+
   // ---- A study ----
   std::string folder = "out/study";
   std::optional<LoadedStudy> study;
   uint64_t studies = 0;  ///< that were read
   std::string studyError;
   bool loading() const { return loading_.valid(); }
+  /// What of the study does not hold for what is shown; in order where there is none.
+  Misfit studyMisfit(const Session& session) const;
 
   // ---- Requests ----
-  bool wantReference = false, cancelReference = false, wantFlip = false, wantStudy = false;
+  bool wantReference = false, cancelReference = false, wantFlip = false, wantStudy = false, wantSave = false;
   std::optional<View> referenceOf;  ///< what the reference is a picture of
 
   /// Does what is wanted. True where something that the panel shows has changed.
   bool serve(Session& session);
   /// Something is on its way that the next frames bring.
-  bool measuring() const { return open && (awaiting_ || measuring_.valid() || loading_.valid()); }
+  bool measuring() const { return open && (awaiting_ || measuring_.valid() || loading_.valid() || saving_.valid()); }
 
  private:
   /// What the reference that is made here belongs to.
@@ -65,6 +70,8 @@ class Accuracy {
     std::string sha256;
     SceneSettings settings;
     std::vector<Light> lights;
+    std::vector<MaterialEdit> materials;
+    HiddenNodes hidden;
     Sky sky;
     Camera camera;
     std::string changedIn(const Session& session) const;  ///< in words; empty: nothing
@@ -72,6 +79,7 @@ class Accuracy {
   static Subject subjectOf(const Session& session);
   void startReference(Session& session);
   bool serveReference(Session& session);
+  bool serveSave(Session& session);
   bool serveStudy();
   bool serveMeasurement(Session& session);
   std::string whyUnmeasured(const Session& session) const;
@@ -81,6 +89,8 @@ class Accuracy {
   std::optional<Subject> subject_;
   bool indirect_ = true;  ///< of the reference at work
   std::shared_ptr<const TracedReference> traced_;
+  Camera tracedFrom_;
+  std::future<std::filesystem::path> saving_;
 
   // A measurement: the picture comes back with a frame, a thread compares it.
   struct Stamp {

@@ -1,5 +1,6 @@
 #include "ui/background_reference.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -7,6 +8,9 @@
 #include <cmath>
 #include <exception>
 #include <utility>
+
+#include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 
 namespace irad {
 namespace {
@@ -19,6 +23,16 @@ double secondsSince(std::chrono::steady_clock::time_point began) {
 }
 
 }  // namespace
+
+std::filesystem::path saveReference(const std::filesystem::path& file, const TracedReference& reference,
+                                    const PictureSubject& subject) {
+  if (file.extension() != linearExtension() || !file.has_stem())
+    throw InputError(fmt::format("the reference's name '{}' does not end in {}, as this build writes pictures",
+                                 file.string(), linearExtension()));
+  makeFolder(file.has_parent_path() ? file.parent_path() : std::filesystem::path("."));
+  const PictureLayer layers[] = {{"", reference.mean}, {"error", reference.error}};
+  return writeLayers(file.parent_path() / file.stem(), reference.size, layers, subject).front();
+}
 
 struct BackgroundReference::Shared {
   Task task;

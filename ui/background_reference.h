@@ -4,6 +4,7 @@
 
 #include <array>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "gi/check/path_tracer.h"
+#include "renderer/image_io.h"
 #include "renderer/scene/scene.h"
 
 namespace irad {
@@ -25,6 +27,11 @@ struct TracedReference {
   std::array<std::vector<glm::vec4>, 2> halves;  ///< means of every other sample: of independent noise
   double noise = 0;                              ///< sqrt(relMSE) by its own noise (docs/accuracy.md)
 };
+
+/// Writes it as `irad reference` does: the mean, and its standard error as the layer `error`. Returns the file's path.
+/// InputError where the name does not end in linearExtension(), WorkError where it cannot be written.
+std::filesystem::path saveReference(const std::filesystem::path& file, const TracedReference& reference,
+                                    const PictureSubject& subject);
 
 class BackgroundReference {
  public:

@@ -9,6 +9,9 @@ enum class Action {
   None,
   Help,
   HideUi,
+  FillWindow,
+  LargerUi,
+  SmallerUi,
   ReloadShaders,
   Capture,
   CaptureAll,
@@ -17,14 +20,23 @@ enum class Action {
   Quit,
   NextCamera,
   Open,
-  Flicker
+  FindSetting,
+  Flicker,
+  Undo,
+  Redo,
+  FrameSelected,
+  FrameAll,
+  HideObject,
+  IsolateObject,
+  ShowAllObjects,
+  WholePicture
 };
 
 struct Binding {
   int key;  ///< GLFW key; 0: listed in the help only
   Action action;
   const char* keys;
-  const char* does;
+  const char* does;                     ///< null: another row of the help says so
   bool shift = false, control = false;  ///< only with it; listed before the row of the same key without
 };
 std::span<const Binding> bindings();

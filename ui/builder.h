@@ -2,6 +2,8 @@
 // frames. Blocking, but the window keeps answering: every step calls back.
 #pragma once
 
+#include <array>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -40,18 +42,37 @@ class Builder {
  private:
   bool adopt(const Scene& scene);
   void applyLights();
+  Redo applyMaterials(bool held);
+  Redo applyHidden(bool held);
+  void hide();
+  void timeMaterials();
   void giveReference(Pipeline& pipeline);
   void rebuild(Side& side, std::string what);
+  void giveUp(Side& side);
   void prepare(Side& side, Pipeline& pipeline);
   void follow();
   void begin(std::string what);
   bool progress(const char* stage, float fraction);
+  bool waitsForApply(const Side& side) const;
+  void showWhilePending();
+  void foresee(Redo first);
+  void runs(std::optional<BuildTimes::Part> part);
   void forgetTimes();
 
   Context& context_;
   Session& session_;
   std::function<void()> breathe_;
-  SceneSettings loaded_;            ///< as the scene that is shown was read
+  SceneSettings loaded_;              ///< as the scene that is shown was read
+  BuildTimes times_;                  ///< of the scene that is shown
+  std::optional<Settings> foreseen_;  ///< what session_.forecast is of
+  bool timing_ = false;               ///< the next prepare() is a rebuild's first: its stages are timed
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    Clock::time_point since;
+    std::optional<BuildTimes::Part> part;  ///< that runs since then
+    std::array<std::optional<double>, BuildTimes::kParts> ms{};
+  };
+  std::optional<Running> running_;
   bool stale_ = false;              ///< shaders that made the pipeline's products have changed
   Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced
 };

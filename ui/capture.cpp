@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
+#include <utility>
+
 #include "gi/picture.h"
 #include "gi/plan.h"
 #include "renderer/base/error.h"
@@ -17,17 +20,8 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
   Context& context = session.context;
   if (!pipeline.current())
     throw WorkError("Not saved: the picture is not of these settings, what they call for has not been rebuilt.");
-  Manifest manifest{.program = program,
-                    .subcommand = "render",
-                    .device = &context.device.info,
-                    .scene = &pipeline.scene(),
-                    .settings = &pipeline.settings(),
-                    .cpuDevice = context.device.isCpu,
-                    .size = session.targets.size,
-                    .frames = 1,
-                    .cameras = {session.camera.camera()},
-                    .reference = session.reference && !session.reference->path.empty() ? &*session.reference : nullptr,
-                    .shaders = context.shaders.modified()};
+  Manifest manifest = manifestOf(session, pipeline, "render", program);
+  manifest.frames = 1;
   Targets targets(context, session.targets.size);
   pipeline.solvedAfresh(progress, [&] {
     pipeline.settleReflections(manifest.cameras.front(), targets, progress);
@@ -60,22 +54,41 @@ std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen
   } else {
     saveSide(session, *session.pipeline, chosen, folder.temporary(), program, progress);
   }
-  return folder.commit();
+  return std::filesystem::absolute(folder.commit()).lexically_normal();
 }
 
 }  // namespace
+
+Manifest manifestOf(const Session& session, const Pipeline& pipeline, std::string subcommand, const Program& program) {
+  return {.program = program,
+          .subcommand = std::move(subcommand),
+          .time = std::time(nullptr),
+          .device = &session.context.device.info,
+          .scene = &pipeline.scene(),
+          .settings = &pipeline.settings(),
+          .cpuDevice = session.context.device.isCpu,
+          .size = session.targets.size,
+          .cameras = {session.camera.camera()},
+          .reference = session.reference && !session.reference->path.empty() ? &*session.reference : nullptr,
+          .shaders = session.context.shaders.modified()};
+}
 
 void saveCapture(Session& session, bool allViews, const std::filesystem::path& parent, const Program& program,
                  const Progress& progress) {
   if (!session.built) return;
   std::vector<ViewInfo> chosen;
+  const auto drawable = [&](const ViewInfo& view) {
+    return (!view.isFrom(FROM_PICTURE) || session.pipeline->hasReference()) &&
+           (!view.isFrom(FROM_ORACLE) || session.pipeline->knowsIrradiance());
+  };
   for (const ViewInfo& view : views())
-    if (allViews || view.view == session.view) chosen.push_back(view);
+    if (view.view == session.view || (allViews && drawable(view))) chosen.push_back(view);
   try {
     const std::filesystem::path folder = save(session, chosen, parent, program, progress);
     for (const Side* side : session.sides()) session.settingsSaved(side->pipeline->settings());  // the manifest's
     session.note(fmt::format("Saved {}{} to {}", allViews ? fmt::format("{} views", chosen.size()) : chosen[0].label,
-                             session.comparison ? " of both sides" : "", folder.string()));
+                             session.comparison ? " of both sides" : "", folder.string()),
+                 folder);
   } catch (const Error& error) {
     if (session.work->cancel)
       session.note("Saving was cancelled; no folder was made.");

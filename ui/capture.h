@@ -8,6 +8,9 @@
 
 namespace irad {
 
+/// What made the picture that `pipeline` shows: settings, scene with all edits, device, view, camera, now.
+Manifest manifestOf(const Session& session, const Pipeline& pipeline, std::string subcommand, const Program& program);
+
 /// Makes a new folder `parent`/SCENE.NNN of the view shown, or of all: VIEW.png as shown, VIEW.exr linear, at the
 /// viewport's size, and the manifest.json from which `irad render --config` makes the same bits. The pictures are drawn
 /// from light that is solved as it does (Pipeline::solvedAfresh). In a comparison the folders a and b in it hold all

@@ -22,8 +22,7 @@ void measureComparison(Context& context, Session& session) {
   const auto irradiance = [&](const Pipeline& p) {
     return readVolume(context, Volume::irradiance, p.facets(), p.field(), p.lighting());
   };
-  const std::optional<double> exposure =
-      comparison.wantFlip ? std::optional(std::exp2(double{session.edited.camera.exposureEv})) : std::nullopt;
+  const std::optional<double> exposure = comparison.wantFlip ? std::optional(session.exposure()) : std::nullopt;
   comparison.result = Comparison::Result{.picture = measurePicture(a.targets.size, linearPixels(context, b.targets),
                                                                    linearPixels(context, a.targets), {}, exposure),
                                          .voxels = compareVoxels(irradiance(*b.pipeline), irradiance(*a.pipeline))};

@@ -39,6 +39,16 @@ void Controls::leave() {
 }
 
 void Controls::add(std::string_view label, bool on) {
+  const bool disabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  tell(label, on, disabled, {low.x, low.y}, {high.x, high.y});
+}
+
+void Controls::place(std::string_view label, bool on, glm::vec2 low, glm::vec2 high) {
+  tell(label, on, /*disabled=*/false, low, high);
+}
+
+void Controls::tell(std::string_view label, bool on, bool disabled, glm::vec2 low, glm::vec2 high) {
   const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
   if (window.SkipItems || window.Hidden) return;  // hidden: its first frame, in which it finds its size and place
   std::string name;
@@ -47,15 +57,20 @@ void Controls::add(std::string_view label, bool on) {
   };
   for (const std::string& part : path_) add(part);
   add(controlName(label));
-  const auto rect = [](ImVec2 low, ImVec2 high) {
-    return fmt::format("{:.0f} {:.0f} {:.0f} {:.0f} ", low.x, low.y, high.x - low.x, high.y - low.y);
+  const auto rect = [](glm::vec2 from, glm::vec2 to) {
+    return fmt::format("{:.0f} {:.0f} {:.0f} {:.0f} ", from.x, from.y, to.x - from.x, to.y - from.y);
   };
-  const bool disabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
-  lines_ += rect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()) + rect(window.ClipRect.Min, window.ClipRect.Max) +
+  const ImRect& clip = window.ClipRect;
+  lines_ += rect(low, high) + rect({clip.Min.x, clip.Min.y}, {clip.Max.x, clip.Max.y}) +
             fmt::format("{:d} {:d}\t{}\n", on, disabled, name);
 }
 
 void Controls::write() {
+  // Where the mouse was and whether it was pressed in this frame, so that a test knows when it has been seen.
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsMousePosValid())
+    lines_ += fmt::format("{:.0f} {:.0f} 0 0 0 0 0 0 {:d} 0\tpointer\n", io.MousePos.x, io.MousePos.y,
+                          ImGui::IsAnyMouseDown());
   std::filesystem::path whole = file_;
   whole += ".part";
   std::ofstream(whole) << lines_;

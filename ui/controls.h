@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,13 +26,16 @@ class Controls {
   void leave();
   /// The item that ImGui has just been given. `on`: ticked, chosen, unfolded.
   void add(std::string_view label, bool on);
+  /// Something that is drawn, not an item: where it can be taken with the mouse (screen pixels).
+  void place(std::string_view label, bool on, glm::vec2 low, glm::vec2 high);
 
   /// Those of the frame that has been drawn, one per line: the control's rectangle, the part of the window that its
   /// region shows (x, y, width, height in pixels), 1 where it is on, 1 where it is disabled, and after a tab its name.
-  /// The file is replaced as a whole.
+  /// "pointer" is the mouse, on while a button of it is pressed. The file is replaced as a whole.
   void write();
 
  private:
+  void tell(std::string_view label, bool on, bool disabled, glm::vec2 low, glm::vec2 high);
   std::filesystem::path file_;
   std::vector<std::string> path_;
   std::string lines_;

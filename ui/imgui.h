@@ -16,6 +16,10 @@ using namespace ::ImGui;
 inline void tellControl(const char* label, bool on = false) {
   if (Controls* controls = Controls::current()) controls->add(label, on);
 }
+/// Something that is drawn and can be taken with the mouse, but is no item.
+inline void tellPlace(const char* label, glm::vec2 low, glm::vec2 high, bool on = false) {
+  if (Controls* controls = Controls::current()) controls->place(label, on, low, high);
+}
 inline void enterControls(const char* id) {
   if (Controls* controls = Controls::current()) controls->enter(id);
 }
@@ -30,6 +34,11 @@ inline bool Button(const char* label, const ImVec2& size = ImVec2(0, 0)) {
   tellControl(label);
   return pressed;
 }
+inline bool SmallButton(const char* label) {
+  const bool pressed = ::ImGui::SmallButton(label);
+  tellControl(label);
+  return pressed;
+}
 inline bool InvisibleButton(const char* label, const ImVec2& size, ImGuiButtonFlags flags = 0) {
   const bool pressed = ::ImGui::InvisibleButton(label, size, flags);
   tellControl(label);
@@ -40,8 +49,9 @@ inline bool ArrowButton(const char* label, ImGuiDir direction) {
   tellControl(label);
   return pressed;
 }
-inline bool Selectable(const char* label, bool selected = false, ImGuiSelectableFlags flags = 0) {
-  const bool pressed = ::ImGui::Selectable(label, selected, flags);
+inline bool Selectable(const char* label, bool selected = false, ImGuiSelectableFlags flags = 0,
+                       const ImVec2& size = ImVec2(0, 0)) {
+  const bool pressed = ::ImGui::Selectable(label, selected, flags, size);
   tellControl(label, selected);
   return pressed;
 }
@@ -77,6 +87,27 @@ inline void TableHeader(const char* label) {
   ::ImGui::TableHeader(label);
   tellControl(label);
 }
+/// The place of a slider's value: a bar along its lower edge, where a grab would cover the number.
+void markSlider(const char* label, ImGuiDataType type, void* value, const void* low, const void* high,
+                const char* format, ImGuiSliderFlags flags);
+inline bool SliderScalar(const char* label, ImGuiDataType type, void* value, const void* low, const void* high,
+                         const char* format = nullptr, ImGuiSliderFlags flags = 0) {
+  for (const ImGuiCol color : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive})
+    ::ImGui::PushStyleColor(color, IM_COL32_BLACK_TRANS);
+  const bool edited = ::ImGui::SliderScalar(label, type, value, low, high, format, flags);
+  ::ImGui::PopStyleColor(2);
+  markSlider(label, type, value, low, high, format ? format : "%.3f", flags);
+  tellControl(label);
+  return edited;
+}
+inline bool SliderFloat(const char* label, float* value, float low, float high, const char* format = "%.3f",
+                        ImGuiSliderFlags flags = 0) {
+  return SliderScalar(label, ImGuiDataType_Float, value, &low, &high, format, flags);
+}
+inline bool SliderInt(const char* label, int* value, int low, int high, const char* format = "%d",
+                      ImGuiSliderFlags flags = 0) {
+  return SliderScalar(label, ImGuiDataType_S32, value, &low, &high, format, flags);
+}
 #define IRAD_CONTROL(function)                                                           \
   template <class... Arguments>                                                          \
   bool function(const char* label, Arguments&&... arguments) {                           \
@@ -92,9 +123,6 @@ IRAD_CONTROL(InputInt)
 IRAD_CONTROL(InputScalar)
 IRAD_CONTROL(InputText)
 IRAD_CONTROL(InputTextWithHint)
-IRAD_CONTROL(SliderFloat)
-IRAD_CONTROL(SliderInt)
-IRAD_CONTROL(SliderScalar)
 #undef IRAD_CONTROL
 
 // ---- Controls that open: what they open has their names in front ----

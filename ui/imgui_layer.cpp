@@ -2,6 +2,7 @@
 
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,17 @@ ImGuiLayer::ImGuiLayer(Context& context, GLFWwindow* window) : context_(context)
   ImGui_ImplGlfw_InitForOther(window, /*install_callbacks=*/true);
 }
 
+Image imageOf(Context& context, const char* name, glm::uvec2 size, std::span<const glm::u8vec4> pixels) {
+  Image image(context.device, ImageDesc{.name = name,
+                                        .subsystem = Subsystem::Ui,
+                                        .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                        .width = size.x,
+                                        .height = size.y,
+                                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+  upload(context, image, std::as_bytes(pixels));
+  return image;
+}
+
 ImGuiLayer::~ImGuiLayer() {
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -49,25 +61,44 @@ void ImGuiLayer::buildFonts() {
   unsigned char* pixels = nullptr;
   int width = 0, height = 0;
   fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
-  atlas_ = Image(context_.device, ImageDesc{.name = "ui font atlas",
-                                            .subsystem = Subsystem::Ui,
-                                            .format = VK_FORMAT_R8G8B8A8_UNORM,
-                                            .width = static_cast<uint32_t>(width),
-                                            .height = static_cast<uint32_t>(height),
-                                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-  const size_t bytes = static_cast<size_t>(width) * static_cast<size_t>(height) * 4;
-  upload(context_, atlas_, std::as_bytes(std::span(pixels, bytes)));
+  const size_t count = static_cast<size_t>(width) * static_cast<size_t>(height);
+  atlas_ = imageOf(context_, "ui font atlas", {width, height}, {reinterpret_cast<const glm::u8vec4*>(pixels), count});
   fonts.SetTexID(nullptr);  // slot 0
 }
 
 void ImGuiLayer::beginFrame() {
-  textures_.assign(1, &atlas_);
+  textures_.assign(1, {&atlas_, {.blends = true}});
   ImGui_ImplGlfw_NewFrame();
+  ImGuiIO& io = ImGui::GetIO();
+  // Tab is a key of the window's own but in a text field, from which it leads to the next.
+  if (!io.WantTextInput) io.KeysDown[io.KeyMap[ImGuiKey_Tab]] = false;
+  passWheelOn();
   ImGui::NewFrame();
 }
 
-void* ImGuiLayer::texture(const Image& image) {
-  textures_.push_back(&image);
+void ImGuiLayer::passWheelOn() {
+  ImGuiIO& io = ImGui::GetIO();
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (io.MouseWheel == 0 || io.KeyCtrl) return;
+  const auto scrolls = [](const ImGuiWindow& w) {
+    return w.ScrollMax.y > 0 && (w.Flags & ImGuiWindowFlags_NoScrollWithMouse) == 0;
+  };
+  ImGuiWindow* window = g.WheelingWindow ? g.WheelingWindow : g.HoveredWindow;
+  const auto child = [](const ImGuiWindow& w) { return (w.Flags & ImGuiWindowFlags_ChildWindow) && w.ParentWindow; };
+  while (window && child(*window) && !scrolls(*window)) window = window->ParentWindow;
+  if (!window || !child(*window)) return;
+  const bool ends = io.MouseWheel > 0 ? window->Scroll.y <= 0 : window->Scroll.y >= window->ScrollMax.y;
+  if (!ends) return;
+  ImGuiWindow* outer = window->ParentWindow;
+  while (child(*outer) && !scrolls(*outer)) outer = outer->ParentWindow;
+  if (!scrolls(*outer)) return;
+  const float lines = 5 * ImGui::GetFontSize() * io.MouseWheel;  // ImGui's own pace
+  ImGui::SetScrollY(outer, std::clamp(outer->Scroll.y - lines, 0.0f, outer->ScrollMax.y));
+  io.MouseWheel = 0;
+}
+
+void* ImGuiLayer::texture(const Image& image, ImageUse use) {
+  textures_.push_back({&image, use});
   return reinterpret_cast<void*>(textures_.size() - 1);
 }
 
@@ -105,6 +136,8 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
   // and a branch over images would have it sample each of them.
   const glm::vec2 size(static_cast<float>(target.desc.width), static_cast<float>(target.desc.height));
   const VkSampler linear = sampler(context_.device, {.u = Wrap::Clamp, .v = Wrap::Clamp, .mips = false});
+  const VkSampler nearest = sampler(
+      context_.device, {.u = Wrap::Clamp, .v = Wrap::Clamp, .linearMag = false, .linearMin = false, .mips = false});
   const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
   std::optional<ClearColor> clear = ClearColor{background.x, background.y, background.z, 1.0f};
   for (size_t begin = 0, end = 0; begin < ranges.size(); begin = end) {
@@ -114,7 +147,7 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
     pass.shaders({"ui/imgui.vert", "ui/imgui.frag"})
         .color(target, std::exchange(clear, std::nullopt))
         .alphaBlend()
-        .sample(*textures_.at(texture), linear);
+        .sample(*textures_.at(texture).image, textures_[texture].use.nearest ? nearest : linear);
     const uint64_t vertexArray = pass.in(vertices_), indexArray = pass.in(indices_);
     pass.run([&](Commands& commands) {
       for (size_t i = begin; i < end; ++i) {
@@ -124,7 +157,7 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
         if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
         const glm::uvec2 corner(low), extent(high - low);
         commands.scissor(corner.x, corner.y, extent.x, extent.y);
-        commands.push(UiDraw{vertexArray, indexArray, 2.0f / size, texture == 0 ? 0.0f : 1.0f});
+        commands.push(UiDraw{vertexArray, indexArray, 2.0f / size, textures_.at(texture).use.blends ? 0.0f : 1.0f});
         commands.draw(range.count, range.first);
       }
     });

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "renderer/frame/frame.h"
@@ -14,6 +15,15 @@ namespace irad {
 namespace Subsystem {
 inline constexpr SubsystemName Ui{"ui"};
 }
+
+/// How a window shows an image.
+struct ImageUse {
+  bool blends = false;   ///< by its alpha, which pictures have for other ends
+  bool nearest = false;  ///< its texels are told apart, however large they are shown
+};
+
+/// A picture for texture(), of bytes as screens show them, top row first. Between frames.
+Image imageOf(Context& context, const char* name, glm::uvec2 size, std::span<const glm::u8vec4> pixels);
 
 class ImGuiLayer {
  public:
@@ -28,18 +38,24 @@ class ImGuiLayer {
 
   void beginFrame();
   /// Registers an image for this frame and returns what ImGui::Image takes. It must live until the frame is submitted.
-  void* texture(const Image& image);
+  void* texture(const Image& image, ImageUse use = {});
   /// Ends ImGui's frame and records it onto `target`, cleared to the theme's background first: one pass for each run of
   /// draws with the same image, two or three in all.
   void draw(Frame& frame, const Image& target);
 
  private:
   void buildFonts();
+  /// The wheel over a list that has come to its end turns the list or column around it, in which ImGui would trap it.
+  void passWheelOn();
 
   Context& context_;
   float scale_ = 0;
   Image atlas_;
-  std::vector<const Image*> textures_;
+  struct Texture {
+    const Image* image;
+    ImageUse use;
+  };
+  std::vector<Texture> textures_;
   Buffer vertices_, indices_;  ///< of the last frame; freed when the device has finished with it
 };
 

@@ -10,14 +10,21 @@ namespace irad {
 namespace {
 constexpr double kShortestTap = 1.0 / 30.0;  ///< seconds
 Input& of(GLFWwindow* window);
+
+/// GLFW names keys by their place on a US keyboard, where others have Z and Y, or A and Q, the other way round.
+int printedKey(int key, int scancode) {
+  const char* name = glfwGetKeyName(key, scancode);
+  return name && name[1] == 0 && name[0] >= 'a' && name[0] <= 'z' ? GLFW_KEY_A + (name[0] - 'a') : key;
+}
 }  // namespace
 
 Input::Input(GLFWwindow* window)
     : window_(window), held_{Held{GLFW_KEY_D, {1, 0, 0}},  Held{GLFW_KEY_A, {-1, 0, 0}}, Held{GLFW_KEY_E, {0, 1, 0}},
                              Held{GLFW_KEY_Q, {0, -1, 0}}, Held{GLFW_KEY_W, {0, 0, 1}},  Held{GLFW_KEY_S, {0, 0, -1}}} {
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window,
-                     [](GLFWwindow* w, int key, int, int action, int modifiers) { of(w).key(key, action, modifiers); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    of(w).key(key, scancode, action, modifiers);
+  });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w).event_ = true; });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { of(w).event_ = true; });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w).event_ = true; });
@@ -27,7 +34,7 @@ Input::Input(GLFWwindow* window)
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     of(w).event_ = true;
     if (!focused)  // releases are not delivered to a window without focus
-      for (Held& held : of(w).held_) of(w).key(held.key, GLFW_RELEASE, 0);
+      for (Held& held : of(w).held_) of(w).key(held.key, 0, GLFW_RELEASE, 0);
   });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     of(w).event_ = true;
@@ -41,14 +48,15 @@ Input& of(GLFWwindow* window) {
 }
 }  // namespace
 
-void Input::key(int key, int action, int modifiers) {
+void Input::key(int key, int scancode, int action, int modifiers) {
   event_ = true;
+  const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
   if (action == GLFW_PRESS)
-    presses_.push_back({key, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+    presses_.push_back({control ? printedKey(key, scancode) : key, (modifiers & GLFW_MOD_SHIFT) != 0, control});
   const double now = glfwGetTime();
   for (Held& held : held_) {
     if (held.key != key) continue;
-    const bool quits = key == GLFW_KEY_Q && (modifiers & GLFW_MOD_CONTROL) != 0;
+    const bool quits = control && printedKey(key, scancode) == GLFW_KEY_Q;
     if (action == GLFW_PRESS && !quits) held.since = now;
     if (action == GLFW_RELEASE && held.since >= 0) {
       held.held += std::max(now - held.since, held.held > 0 ? 0.0 : kShortestTap);

@@ -18,7 +18,7 @@ class Input {
 
   bool takeEvent();  ///< anything happened since the last call
   struct Press {
-    int key;              ///< GLFW's
+    int key;              ///< GLFW's; with Ctrl that of the letter that is printed on it, whatever the layout
     bool shift, control;  ///< was held
   };
   std::vector<Press> takePresses();  ///< since the last call
@@ -31,7 +31,7 @@ class Input {
   bool control() const;
 
  private:
-  void key(int key, int action, int modifiers);
+  void key(int key, int scancode, int action, int modifiers);
   struct Held {
     int key;
     glm::vec3 direction;

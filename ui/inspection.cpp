@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <glm/gtc/packing.hpp>
 #include <utility>
 
 #include "gi/inspect.h"
 #include "renderer/base/error.h"
-#include "renderer/forward.h"
+#include "renderer/scene/nearest_triangle.h"
+#include "renderer/scene/nodes.h"
+#include "ui/pixel_ray.h"
 #include "ui/session.h"
 
 namespace irad {
@@ -37,6 +38,11 @@ Inspector& Inspection::inspector(Session& session) {
   return *inspector_;
 }
 
+void Inspection::leavePipeline() {
+  inspector_.reset();  // another pipeline may come to lie where this one is
+  of_ = nullptr;
+}
+
 void Inspection::reset() {
   voxel.reset();
   chosen = 0;
@@ -61,35 +67,35 @@ void Inspection::open(Session& session, const glm::uvec3& at) {
   Inspector& in = inspector(session);
   in.requireFacets(at);
   trail.clear();
-  pickFacet(in.facetsOf(at).front());
+  pickFacet(in.places().facetsOf(at).front());
   ++serial;
 }
 
-/// Picks from the picture as it is shown: the cell of a slice, the first cube on the way, or the surface in the pixel.
-std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
+/// None where there is no surface.
+std::optional<SurfacePoint> Inspection::surfaceUnder(Session& session, const glm::uvec2& pixel) {
   const Targets& targets = session.targets;
-  const GpuCamera camera = makeGpuCamera(session.pipeline->scene(), session.shown, targets.size);
-  const glm::dmat4 inverse = glm::inverse(glm::dmat4(camera.viewProjection));
-  const glm::dvec2 share = (glm::dvec2(pixel) + 0.5) / glm::dvec2(targets.size);
-  const auto at = [&](double depth) {
-    const glm::dvec4 p = inverse * glm::dvec4(share.x * 2 - 1, 1 - share.y * 2, depth, 1);
-    return glm::dvec3(p) / p.w + session.pipeline->scene().origin;
-  };
-  const auto cell = [&](std::optional<uint32_t> facet) {
-    return facet ? std::optional(SliceCell{inspector_->voxelOf(*facet), facet}) : std::nullopt;
-  };
-  const glm::dvec3 start = at(1), direction = glm::normalize(at(0) - start);  // 1: the near plane
-  if (const auto shape = resolveShape(session.view, session.edited.view.shape)) {
-    if (*shape != ViewShape::slice) return cell(inspector_->facetAlong(start, direction));
-    const glm::dvec3 forward(session.shown.orientation * glm::vec3(0, 0, -1));
-    return inspector_->inSlice(start, direction, forward, session.edited.view);
-  }
   float depth = 0;
   std::memcpy(&depth, downloadTexel(session.context, targets.depth, pixel).data(), sizeof(depth));
-  if (depth <= 0) return std::nullopt;
   uint64_t packed = 0;
   std::memcpy(&packed, downloadTexel(session.context, targets.geometric, pixel).data(), sizeof(packed));
-  return cell(inspector_->facetAt(at(depth), glm::dvec3(glm::unpackHalf4x16(packed))));
+  return surfaceBehind(session, pixel, depth, packed);
+}
+
+/// Picks from the picture as it is shown.
+std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
+  return cellBehind(session, inspector_->places(), pixel,
+                    showsSurfaces(session) ? surfaceUnder(session, pixel) : std::optional<SurfacePoint>());
+}
+
+/// That of the surface in the pixel; of a view of voxels that of the facet that has just been picked.
+std::optional<uint32_t> Inspection::triangleUnder(Session& session, const glm::uvec2& pixel) {
+  if (!showsSurfaces(session)) {
+    if (facet() == nullptr || !facet()->mesh) return std::nullopt;
+    return facet()->mesh->triangle;
+  }
+  const std::optional<SurfacePoint> surface = surfaceUnder(session, pixel);
+  if (!surface) return std::nullopt;
+  return nearestTriangle(session.pipeline->scene(), surface->position, surface->normal);
 }
 
 void Inspection::compareWith(uint32_t facet) {
@@ -115,6 +121,10 @@ void Inspection::serveRequests(Session& session) {
         pickFacet(*found->facet);
       else if (found)
         voxel = in.voxel(found->voxel);
+      const Scene& scene = session.pipeline->scene();
+      const std::optional<uint32_t> triangle = triangleUnder(session, wanted->pixel);
+      session.material = triangle ? std::optional(materialOf(scene, *triangle)) : std::nullopt;
+      session.object = triangle ? nodeOf(scene, *triangle) : std::nullopt;
     }
   }
   if (const auto wanted = std::exchange(follow, std::nullopt)) {
@@ -145,7 +155,7 @@ bool Inspection::update(Session& session) {
   Inspector& in = inspector(session);
   if (rebuilt) {
     const std::optional<uint32_t> same =
-        sameScene && before ? in.facetAt(before->position, before->normal) : std::optional<uint32_t>();
+        sameScene && before ? in.places().facetAt(before->position, before->normal) : std::optional<uint32_t>();
     reset();
     trail.clear();
     if (same) pickFacet(*same);

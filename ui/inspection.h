@@ -11,11 +11,13 @@
 
 #include "gi/inspected.h"
 #include "gi/pipeline.h"
+#include "ui/link_filter.h"
 
 namespace irad {
 
 class Inspector;
 struct Session;
+struct SurfacePoint;
 
 class Inspection {
  public:
@@ -42,6 +44,8 @@ class Inspection {
   // ---- How ----
   enum class Show { Row, Column, Comparison } shown = Show::Row;
   std::optional<uint32_t> highlighted;  ///< far end of the link that the mouse is on in the table
+  LinkFilter linkFilter;                ///< of the table, and so of the lines in the picture
+  uint64_t linkFilterEdits = 0;         ///< raised when that changes
   std::vector<uint32_t> trail;          ///< facets that were left by following links
 
   // ---- Requests ----
@@ -61,6 +65,8 @@ class Inspection {
   void open(Session& session, const glm::uvec3& voxel);
   /// Does what is wanted, and takes over what the pipeline has changed. True where something changed; errors are shown.
   bool serve(Session& session);
+  /// The pipeline is about to be another one: nothing of the old one is kept but what is shown.
+  void leavePipeline();
   /// The voxel's edge length, m.
   double edge() const;
 
@@ -68,6 +74,8 @@ class Inspection {
   void serveRequests(Session& session);
   bool update(Session& session);
   Inspector& inspector(Session& session);
+  std::optional<SurfacePoint> surfaceUnder(Session& session, const glm::uvec2& pixel);
+  std::optional<uint32_t> triangleUnder(Session& session, const glm::uvec2& pixel);
   std::optional<SliceCell> under(Session& session, const glm::uvec2& pixel);
   void pickFacet(uint32_t facet);
   void compareWith(uint32_t facet);

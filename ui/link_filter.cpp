@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include "renderer/base/near_match.h"
@@ -75,6 +76,17 @@ double quantityOf(const Link& l, LinkQuantity quantity) {
 
 std::string voxelText(const Link& l) {
   return fmt::format("{} {} {}", l.voxel.x, l.voxel.y, l.voxel.z);
+}
+
+float LinkScale::at(float strength) const {
+  if (!(strength > 0 && high > 0)) return 0;
+  const float share = logarithmic ? std::log(strength / low) / std::log(high / low) : strength / high;
+  return std::clamp(share, 0.0f, 1.0f);
+}
+
+LinkScale linkScale(float least, float largest) {
+  if (!(least > 0 && largest >= 100 * least)) return {0, largest, false};
+  return {std::max(least, 1e-6f * largest), largest, true};
 }
 
 LinkFilter::LinkFilter(std::string_view text) {

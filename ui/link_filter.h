@@ -17,6 +17,17 @@ enum class LinkQuantity { voxel, x, y, z, hits, dist, FB, F, B, back, facet };
 double quantityOf(const Link& link, LinkQuantity quantity);
 std::string voxelText(const Link& link);  ///< "12 3 40"
 
+/// How links get their colours: by their strength as a share of the largest or, where they span two decades and more,
+/// by its logarithm.
+struct LinkScale {
+  float low = 0, high = 0;  ///< that the ends of the colour map stand for
+  bool logarithmic = false;
+  /// 0 to 1; what is not positive is at 0.
+  float at(float strength) const;
+};
+/// Of the largest strength and the least that is above 0; of more than six decades the upper six.
+LinkScale linkScale(float least, float largest);
+
 /// Terms between commas. NAME OP NUMBER ("hits>=3", "dist < 10", "B>.1"; names of LinkQuantity, OP one of < <= > >= =
 /// !=) must hold, all of them. Of the other terms, a link's "x y z" must contain one at least, and none of those that
 /// begin with "-".

@@ -24,7 +24,7 @@ const std::array kColumns{
     Column{"hits", "Rays of the receiver that met the sender", "000000", LinkQuantity::hits, false},
     Column{"m", "Distance between the two facets", "00.00", LinkQuantity::dist, false},
     Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2", "0.00e-00", LinkQuantity::FB, false},
-    Column{"F", "Form factor: share of the receiver's rays", "0.00e-00", LinkQuantity::F, true},
+    Column{"F", "Form factor: share of the receiver's rays", "0.00e-00", LinkQuantity::F, false},
     Column{"B", "Radiosity of the sender, luminance, W/m\u00B2", "0.00e-00", LinkQuantity::B, true},
     Column{"back", "Reciprocity: A F the other way round over A F, 1 but for the noise of few rays", "00.00",
            LinkQuantity::back, true},
@@ -60,6 +60,7 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
   if (ImGui::InputTextWithHint("##filter", "filter: 12 3, -40, hits>=3 \u2026", &typed_)) {
     filter_ = LinkFilter(typed_);
     filtered_ = true;
+    ++edits_;
   }
   if (!ImGui::IsItemActive()) helpTooltip(LinkFilter::help());  // while typing, people look at the table
   for (const std::string& error : filter_.errors()) {
@@ -114,7 +115,8 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
       }
     }
   ImGui::EndTable();
-  ImGui::TextColored(theme::dim, "%zu of %zu links; double click: follow", rows_.size(), links.links.size());
+  ImGui::TextColored(theme::dim, "%zu of %zu %s; double click: follow", rows_.size(), links.links.size(),
+                     links.links.size() == 1 ? "link" : "links");
   return result;
 }
 

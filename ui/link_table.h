@@ -19,6 +19,8 @@ class LinkTable {
   };
   /// `serial` changes when the links do.
   Result draw(const Links& links, uint64_t serial);
+  const LinkFilter& filter() const { return filter_; }  ///< as typed
+  uint64_t edits() const { return edits_; }             ///< raised when the filter changes
 
  private:
   void order(const Links& links, const ImGuiTableSortSpecs& specs);
@@ -26,6 +28,7 @@ class LinkTable {
   LinkFilter filter_;           ///< as typed
   std::vector<uint32_t> rows_;  ///< of links.links: those shown, in order
   uint64_t serial_ = ~uint64_t{0};
+  uint64_t edits_ = 0;
   bool filtered_ = false;
 };
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "ui/history_list.h"
 #include "ui/imgui.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -21,13 +23,14 @@ State stateOf(const Session& session) {
   if (session.work) return {theme::accent, session.work->what};
   if (!session.pipeline) return {theme::dim, "no scene"};
   if (session.halted) return {theme::warning, "not rebuilt"};
+  if (session.pending) return {theme::warning, "not applied yet"};
   if (session.next < Redo::Shade) return {theme::accent, "next: " + stagesFrom(session.next, arrowGlyph())};
   if (session.built && session.built->faulty()) return {theme::error, "numerical watch"};
   if (session.paused) return {theme::warning, "paused"};
   if (session.asleep()) return {theme::good, "asleep"};
   if (session.built && session.built->solve.frames > 0)
-    return {theme::accent, fmt::format("brute force: {} frames", withThousands(session.built->solve.frames))};
-  return {theme::accent, fmt::format("solving: {} sweeps", withThousands(session.sweepsSinceWake))};
+    return {theme::accent, "brute force: " + counted(session.built->solve.frames, "frame")};
+  return {theme::accent, "solving: " + counted(session.sweepsSinceWake, "sweep")};
 }
 
 /// An item that does what a key does.
@@ -47,12 +50,37 @@ void drawFile(Session& session) {
   if (ImGui::MenuItem("Load again", nullptr, false, session.pipeline != nullptr))
     session.open(session.pipeline->scene().path);
   ImGui::Separator();
-  if (ImGui::MenuItem("Save lights and bookmarks", nullptr, false, session.edits.modified())) session.saveEdits();
+  if (ImGui::MenuItem("Save lights, materials, objects, bookmarks", nullptr, false, session.edits.modified()))
+    session.saveEdits();
   actionItem(session, "Save this view", Action::Capture, false, session.built.has_value());
   actionItem(session, "Save all views", Action::CaptureAll, false, session.built.has_value());
+  if (ImGui::MenuItem("Captures\u2026", nullptr, session.captures.shown)) session.captures.shown = true;
+  helpTooltip("Captures and recordings of the output folder: look at them, take one back into the window, compare two");
   if (session.underRenderDoc && ImGui::MenuItem("Capture a frame with RenderDoc")) session.captureFrame = true;
   ImGui::Separator();
   actionItem(session, "Quit", Action::Quit);
+}
+
+/// Undo and redo with the names of their steps, and all of them.
+void drawEdit(Session& session) {
+  const History& history = session.history;
+  const float width = 24 * ImGui::GetFontSize();
+  const auto item = [&](const char* what, Action action, bool can, size_t step) {
+    const std::string label = can ? fmt::format("{}: {}", what, history.steps()[step].name) : what;
+    actionItem(session, fmt::format("{}###{}", clipped(label, width), what).c_str(), action, false, can);
+  };
+  item("Undo", Action::Undo, history.canUndo(), history.at());
+  item("Redo", Action::Redo, history.canRedo(), history.at() + 1);
+  ImGui::Separator();
+  actionItem(session, "Find a setting", Action::FindSetting);
+  ImGui::Separator();
+  if (ImGui::BeginMenu("History", !history.steps().empty())) {
+    const float rows = std::min(static_cast<float>(history.steps().size()), 16.0f);
+    ImGui::BeginChild("##list", {width, rows * ImGui::GetTextLineHeightWithSpacing()});
+    historyList(session, ImGui::GetContentRegionAvail().x);
+    ImGui::EndChild();
+    ImGui::EndMenu();
+  }
 }
 
 void drawView(Session& session, const Panels& panels) {
@@ -68,14 +96,26 @@ void drawView(Session& session, const Panels& panels) {
   }
   if (ImGui::BeginMenu("Panels")) {
     std::set<std::string>& folded = session.preferences.folded;
-    for (const auto& panel : panels) {
-      if (panel->region() == Region::Bottom) continue;
-      const bool open = !folded.contains(panel->title());
-      if (ImGui::MenuItem(panel->title(), nullptr, open)) keepFolded(folded, panel->title(), !open);
+    const auto item = [&](const char* title) {
+      const bool open = !folded.contains(title);
+      if (ImGui::MenuItem(title, nullptr, open)) keepFolded(folded, title, !open);
+    };
+    for (const auto& panel : panels) item(panel->title());
+    ImGui::Separator();
+    item(kLeftColumn);
+    item(kRightColumn);
+    ImGui::EndMenu();
+  }
+  actionItem(session, "Fill the window with the picture", Action::FillWindow, session.fillWindow);
+  actionItem(session, "Hide panels and menus", Action::HideUi, session.hideUi);
+  if (ImGui::BeginMenu("Size of text and panels")) {
+    for (const int percent : {75, 100, 125, 150, 175, 200, 250, 300}) {
+      const float scale = 0.01f * static_cast<float>(percent);
+      if (ImGui::MenuItem(fmt::format("{} %", percent).c_str(), nullptr, session.scale == scale))
+        session.preferences.scale = scale;
     }
     ImGui::EndMenu();
   }
-  actionItem(session, "Hide panels", Action::HideUi, session.hideUi);
   if (ImGui::MenuItem("Reset the layout")) session.preferences.resetLayout();
 }
 
@@ -107,9 +147,13 @@ void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
       ImGui::EndMenu();
     };
     menu("File", [&] { drawFile(session); });
+    menu("Edit", [&] { drawEdit(session); });
     menu("View", [&] { drawView(session, panels); });
     menu("Solver", [&] { drawSolver(session); });
-    menu("Help", [&] { actionItem(session, "Keys and mouse", Action::Help, session.showHelp); });
+    menu("Help", [&] {
+      actionItem(session, "Keys and mouse", Action::Help, session.showHelp);
+      if (ImGui::MenuItem("Glossary", nullptr, session.showGlossary)) session.showGlossary = !session.showGlossary;
+    });
 
     // The scene's file between the menus and the state.
     const State state = stateOf(session);

@@ -58,12 +58,25 @@ void drawBanner(const Session& session, const Rect& viewport) {
 }
 
 void drawMessages(Session& session, const Rect& viewport) {
+  const auto now = std::chrono::steady_clock::now();
+  std::erase_if(session.messages,
+                [&](const Message& m) { return m.kind == Message::Kind::Note && now >= m.said + Message::kNoteStays; });
   if (session.messages.empty()) return;
-  const float em = ImGui::GetFontSize();
-  const float width = std::max(std::min(36 * em, viewport.size.x - 2 * em), 8 * em);
-  floatAt(viewport, {0, 1}, em);
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, viewport.size.y});
+  const float em = ImGui::GetFontSize(), left = viewport.position.x + em;
+  float width = std::max(std::min(36 * em, viewport.size.x - 2 * em), 8 * em);
+  float bottom = viewport.position.y + viewport.size.y - em;
+  // Beside a legend where there is room enough for lines to be read, else above it.
+  for (const Rect& legend : session.legends) {
+    if (legend.position.x >= left + 20 * em)
+      width = std::min(width, legend.position.x - 0.5f * em - left);
+    else
+      bottom = std::min(bottom, legend.position.y - 0.5f * em);
+  }
+  ImGui::SetNextWindowPos({left, bottom}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(0.6f * (bottom - viewport.position.y), 4 * em)});
   ImGui::Begin("##messages", nullptr, kFloating & ~ImGuiWindowFlags_NoScrollbar);
+  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows))
+    for (Message& message : session.messages) message.said = now;
   ImGui::PushID("messages");
   std::optional<size_t> dismissed;
   for (size_t i = 0; i < session.messages.size(); ++i) {
@@ -79,15 +92,47 @@ void drawMessages(Session& session, const Rect& viewport) {
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
-    const float bottom = ImGui::GetCursorPosY();
+    if (!message.folder.empty()) {
+      if (ImGui::SmallButton("Copy path")) ImGui::SetClipboardText(message.folder.c_str());
+      helpTooltip(fmt::format("Puts {} on the clipboard", message.folder.string()));
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Open folder")) session.openFolder = message.folder;
+      helpTooltip("In the desktop's file manager, by xdg-open");
+    }
+    const float end = ImGui::GetCursorPosY();
     ImGui::SetCursorPos({start + row - button, top});
     if (ImGui::Button("\u00D7###dismiss", {button, button})) dismissed = i;
-    ImGui::SetCursorPosY(std::max(bottom, ImGui::GetCursorPosY()));
+    ImGui::SetCursorPosY(std::max(end, ImGui::GetCursorPosY()));
     ImGui::PopID();
   }
+  const bool clear = session.messages.size() > 1 && ImGui::Button("Clear all", {-1, 0});
   ImGui::PopID();
   ImGui::End();
-  if (dismissed) session.messages.erase(session.messages.begin() + static_cast<ptrdiff_t>(*dismissed));
+  if (clear)
+    session.messages.clear();
+  else if (dismissed)
+    session.messages.erase(session.messages.begin() + static_cast<ptrdiff_t>(*dismissed));
+}
+
+std::string frameTime(const Session& session) {
+  const std::deque<FrameSample>& frames = session.context.timings.frames();
+  for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame)
+    if (frame->kind != WorkKind::Setup) return fmt::format("last frame {} ms", milliseconds(frame->gpuMs()));
+  return {};
+}
+
+void drawFrameTime(const Session& session, const Rect& viewport) {
+  const std::string text = frameTime(session);
+  if (text.empty()) return;
+  const float em = ImGui::GetFontSize();
+  floatAt(viewport, {1, 0}, 0.5f * em);
+  ImGui::SetNextWindowBgAlpha(0.7f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.5f * em, 0.2f * em));
+  ImGui::Begin("##frame-time", nullptr, kFloating | ImGuiWindowFlags_NoInputs);
+  ImGui::PopStyleVar();
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::tellControl("frame time");
+  ImGui::End();
 }
 
 void drawProgress(Session& session, const Rect& viewport) {
@@ -113,16 +158,19 @@ void drawProgress(Session& session, const Rect& viewport) {
   ImGui::End();
 }
 
-void drawHelp(Session& session, const Rect& viewport) {
+void drawHelp(Session& session) {
   if (!session.showHelp) return;
   const float em = ImGui::GetFontSize();
-  floatAt(viewport, {0.5f, 0.5f}, em);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  floatAt({{0, 0}, {window.x, window.y}}, {0.5f, 0.5f}, em);
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(0.3f * em, 0));  // all rows in a low window, too
   ImGui::Begin("##help", nullptr, kFloating);
   pushHeadingFont();
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::PopFont();
   if (ImGui::BeginTable("bindings", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const Binding& binding : bindings()) {
+      if (!binding.does) continue;
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::TextColored(theme::accent, "%s", binding.keys);
@@ -133,6 +181,7 @@ void drawHelp(Session& session, const Rect& viewport) {
   }
   ImGui::TextColored(theme::dim, "Keys are ignored while a text field has the keyboard.");
   ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace irad

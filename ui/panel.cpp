@@ -41,11 +41,22 @@ void drawPanels(Session& session, const Panels& panels, const Layout& layout) {
                         {Region::Right, "##right", layout.right},
                         {Region::Bottom, "##bottom", layout.bottom}};
   for (const Tile& tile : tiles) {
-    beginTile(tile.name, tile.where);
+    if (tile.where.size.x < 1 || tile.where.size.y < 1) continue;  // folded to the edge
+    const bool strip = tile.region == Region::Bottom;
+    // Folded, the strip is no more than its header.
+    if (strip) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ImGui::GetStyle().WindowPadding.x, 3));
+    beginTile(tile.name, tile.where, /*filled=*/false, /*scrolls=*/!strip);
+    if (strip) ImGui::PopStyleVar();
     for (const auto& panel : panels) {
       if (panel->region() != tile.region) continue;
-      // The strip is low: its table begins at once.
-      if (tile.region != Region::Bottom && !drawHeader(panel->title(), session.preferences.folded)) continue;
+      const bool open = drawHeader(panel->title(), session.preferences.folded);
+      if (strip && !open) {
+        ImGui::SameLine(ImGui::GetWindowWidth() * 0.5f);
+        ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+        rightText(frameTime(session) + "  ");
+        ImGui::PopStyleColor();
+      }
+      if (!open) continue;
       ImGui::PushID(panel->title());
       panel->draw(session);
       ImGui::PopID();

@@ -24,9 +24,12 @@ class Panel {
 #define IRAD_PANELS(X) \
   X(Scene)             \
   X(Lights)            \
-  X(Cameras)           \
   X(Settings)          \
   X(Effects)           \
+  X(Materials)         \
+  X(Objects)           \
+  X(Cameras)           \
+  X(History)           \
   X(View)              \
   X(Compare)           \
   X(Accuracy)          \

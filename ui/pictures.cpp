@@ -17,11 +17,16 @@ void drawDifference(Session& session, Frame& frame) {
   irad::drawDifference(frame, *info, session.edited, b, a, difference);
 }
 
+/// What the picture of the edited side was drawn with is in its targets.
+bool hasRange(const ViewInfo& info, const Session& session) {
+  return info.hasRange() || (info.toneMapped() && session.pipeline->settings().camera.autoExposure);
+}
+
 /// What the legend needs comes back with the frame.
 void readRange(Session& session, Frame& frame) {
   const View view = session.view;
   const bool difference = session.showsDifference();
-  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(info->hasRange() || difference)) return;
+  if (const ViewInfo* info = viewInfo(view); info == nullptr || !(hasRange(*info, session) || difference)) return;
   const Targets& targets = difference ? session.comparison->difference : session.targets;
   frame.readback(targets.viewRange, 0, sizeof(ViewRange), [&session, view, difference](std::span<const uint8_t> bytes) {
     session.range.emplace();
@@ -36,10 +41,11 @@ void readRange(Session& session, Frame& frame) {
 void drawPictures(Session& session, Frame& frame) {
   session.shown = session.camera.camera();
   // Both sides of a comparison share one range: the same colour is the same value.
+  const ViewInfo* info = viewInfo(session.view);
   const Buffer* range = nullptr;
   for (Side* side : session.sides()) {
     side->pipeline->render(frame, session.shown, session.view, side->targets, range);
-    range = &session.targets.viewRange;
+    if (info != nullptr && hasRange(*info, session)) range = &session.targets.viewRange;
   }
   if (session.comparison) session.comparison->result.reset(), session.comparison->wantFlip = false;
   // Beside another view the reference says nothing.
@@ -47,7 +53,7 @@ void drawPictures(Session& session, Frame& frame) {
   if (session.split && !session.comparison) {
     Targets& targets = session.split->targets;
     if (targets.size != session.targets.size) targets = Targets(session.context, session.targets.size);
-    session.pipeline->render(frame, session.shown, VIEW_REFERENCE_PICTURE, targets);
+    session.pipeline->render(frame, session.shown, VIEW_REFERENCE_PICTURE, targets, range);
   }
   drawDifference(session, frame);
   readRange(session, frame);

@@ -29,11 +29,24 @@ struct Scale {
   }
 };
 
-/// Values from 0, or whole decades around what is above 0.
-void fitValues(Scale& scale, std::span<const PlotLine> lines, std::optional<float> mark) {
+/// The largest value of each place, NaN where there is none.
+std::vector<float> largest(std::span<const PlotLine> lines) {
+  std::vector<float> most;
+  for (const PlotLine& line : lines) {
+    most.resize(std::max(most.size(), line.y.size()), std::numeric_limits<float>::quiet_NaN());
+    for (size_t i = 0; i < line.y.size(); ++i)
+      if (!std::isnan(line.y[i]) && !(most[i] >= line.y[i])) most[i] = line.y[i];
+  }
+  return most;
+}
+
+/// Values from 0, or whole decades around what is above 0. `beyond`: values that are not made room for.
+void fitValues(Scale& scale, std::span<const PlotLine> lines, std::optional<float> mark, std::optional<float> beyond) {
   float least = std::numeric_limits<float>::infinity(), most = 0;
+  // All values at the outlier's place are below it, and at other places below a third of it.
+  const float end = beyond ? *beyond / 3 : std::numeric_limits<float>::infinity();
   const auto take = [&](float v) {
-    if (!std::isfinite(v) || v <= 0) return;
+    if (!std::isfinite(v) || v <= 0 || v > end) return;
     least = std::min(least, v);
     most = std::max(most, v);
   };
@@ -105,6 +118,15 @@ void read(size_t at, std::span<const PlotLine> lines, const PlotAxes& axes) {
 
 }  // namespace
 
+std::optional<float> outlier(std::span<const PlotLine> lines) {
+  std::vector<float> values;
+  for (const float v : largest(lines))
+    if (std::isfinite(v)) values.push_back(v);
+  if (values.size() < 8) return std::nullopt;
+  std::partial_sort(values.begin(), values.begin() + 2, values.end(), std::greater());
+  return values[0] >= 3 * values[1] && values[1] > 0 ? std::optional(values[0]) : std::nullopt;
+}
+
 std::optional<size_t> plot(glm::vec2 size, std::span<const PlotLine> lines, const PlotAxes& axes) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::Dummy({size.x, size.y});
@@ -116,7 +138,9 @@ std::optional<size_t> plot(glm::vec2 size, std::span<const PlotLine> lines, cons
 
   Scale scale;
   scale.logarithmic = axes.logarithmic;
-  fitValues(scale, lines, axes.mark);
+  const std::optional<float> beyond =
+      axes.ignoresOutlier && !axes.logarithmic ? outlier(lines) : std::optional<float>();
+  fitValues(scale, lines, axes.mark, beyond);
   scale.x0 = axes.x.front();
   scale.x1 = std::max(axes.x.back(), scale.x0 + 1e-6f);
   scale.low.y = corner.y + 0.5f * text;
@@ -140,6 +164,11 @@ std::optional<size_t> plot(glm::vec2 size, std::span<const PlotLine> lines, cons
 
   if (axes.mark) drawMark(list, scale, *axes.mark);
   for (const PlotLine& line : lines) drawLine(list, scale, line, axes);
+  if (beyond) {
+    const std::string said = fmt::format("one peak of {} is cut", axes.yText(*beyond));
+    const float x = scale.high.x - pad - ImGui::CalcTextSize(said.c_str()).x;
+    list.AddText({std::max(x, scale.low.x + pad), scale.low.y}, ImGui::GetColorU32(theme::warning), said.c_str());
+  }
 
   const ImVec2 mouse = ImGui::GetMousePos();
   if (!hovered || mouse.x < scale.low.x || mouse.x > scale.high.x || mouse.y > scale.high.y) return std::nullopt;

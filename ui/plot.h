@@ -21,8 +21,13 @@ struct PlotAxes {
   std::function<std::string(float)> xText;  ///< at both ends, and in the reading
   std::function<std::string(float)> yText;  ///< ticks and values, with their unit
   std::optional<float> mark;                ///< a dashed line across
-  size_t bridge = 1;                        ///< values at most this many places apart are joined by a line
+  bool ignoresOutlier = false;  ///< one place whose values would leave no room for the others is cut, and said so
+  size_t bridge = 1;            ///< values at most this many places apart are joined by a line
 };
+
+/// The largest value of the one place that exceeds all others by a factor of 3 or more; none where there is no such
+/// place, or there are fewer than 8 with a value.
+std::optional<float> outlier(std::span<const PlotLine> lines);
 
 /// Draws into the next `size` pixels. Where the mouse is over it, its nearest x is marked and read in a tooltip, and
 /// its index returned.

@@ -47,13 +47,18 @@ std::vector<std::string> strings(const std::filesystem::path& file, const Json& 
 }  // namespace
 
 std::set<std::string> Preferences::foldedAtFirst() {
-  std::set<std::string> titles{"Accuracy", "Cameras", "Lights"};
+  std::set<std::string> titles{"Accuracy", "Cameras", "History", "Lights", "Materials", "Objects", "Scene", "Timings"};
   for (const std::string& group : settingGroups()) titles.insert("Settings/" + group);
   return titles;
 }
 
+Folding Preferences::folding() const {
+  return {folded.contains(kLeftColumn), folded.contains(kRightColumn), folded.contains("Timings")};
+}
+
 void Preferences::resetLayout() {
   sizes = {};
+  scale = 0;
   folded = Preferences().folded;
 }
 
@@ -88,6 +93,16 @@ Preferences readPreferences(const std::filesystem::path& file) {
     if (!size.is_number() || !(size >= 0) || !(size <= kLargest)) fail(file, member.name, size, "from 0 to 4000");
     preferences.sizes.*member.size = size;
   }
+  if (json.contains("scale")) {
+    const Json& scale = json["scale"];
+    const bool chosen = scale.is_number() && scale >= Preferences::kSmallest && scale <= Preferences::kLargest;
+    if (!chosen && scale != 0) fail(file, "scale", scale, "0, or from 0.75 to 3");
+    preferences.scale = scale;
+  }
+  if (json.contains("apply_by_hand")) {
+    if (!json["apply_by_hand"].is_boolean()) fail(file, "apply_by_hand", json["apply_by_hand"], "true or false");
+    preferences.applyByHand = json["apply_by_hand"];
+  }
   preferences.folded.clear();
   for (const std::string& title : strings(file, json, "folded")) preferences.folded.insert(title);
   for (const std::string& path : strings(file, json, "recent")) preferences.recent.emplace_back(path);
@@ -99,6 +114,8 @@ void writePreferences(const std::filesystem::path& file, const Preferences& pref
   Json json;
   json["format"] = kFormat;
   for (const Member& member : kSizes) json[member.name] = preferences.sizes.*member.size;
+  json["scale"] = preferences.scale;
+  json["apply_by_hand"] = preferences.applyByHand;
   json["folded"] = preferences.folded;
   json["recent"] = Json::array();
   for (const std::filesystem::path& path : preferences.recent) json["recent"].push_back(path.string());

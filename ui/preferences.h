@@ -12,12 +12,19 @@ namespace irad {
 
 struct Preferences {
   PanelSizes sizes;
-  /// Titles of panels, and "Settings/GROUP". At first those are folded that would push the settings and the effects
-  /// out of a window of 720 lines.
+  /// Titles of panels and columns, and "Settings/GROUP". At first those panels are folded that would push the settings
+  /// and the effects out of a window of 720 lines, and the strip, which would take a third of the picture.
   std::set<std::string> folded = foldedAtFirst();
   std::vector<std::filesystem::path> recent;  ///< scenes, absolute, the last one first
 
+  /// Times the monitor's own scale, from kSmallest to kLargest; 0: as the command line says, or 1.
+  float scale = 0;
+  static constexpr float kSmallest = 0.75f, kLargest = 3;
+
+  bool applyByHand = false;  ///< settings that rebuild wait for the button Apply
+
   bool operator==(const Preferences&) const = default;
+  Folding folding() const;
   void resetLayout();  ///< as on the first start; the scenes stay
   void opened(const std::filesystem::path& scene);
 

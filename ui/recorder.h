@@ -8,15 +8,19 @@
 #include <vector>
 
 #include "renderer/base/compare_timings.h"
+#include "ui/edit_state.h"
 
 namespace irad {
 
+struct Program;
 struct Session;
 
 struct Recorder {
   std::optional<double> began;                    ///< while a recording runs: Timings::now() of its start
+  std::optional<EditState> from;                  ///< likewise: what was recorded then
   std::vector<std::filesystem::path> recordings;  ///< in the captures folder, as of the start or the last one written
   std::vector<StageChange> changes;               ///< of the last comparison
+  std::string problem;                            ///< why there are none
 
   // Requests.
   bool toggle = false;  ///< starts a recording, or ends and writes it
@@ -24,8 +28,9 @@ struct Recorder {
   std::optional<std::pair<std::filesystem::path, std::filesystem::path>> compare;
 };
 
-/// Does what is asked for; new folders in `folder`. While a recording runs pictures follow each other without pause.
+/// Does what is asked for; new folders in `folder`. A recording's manifest says what was shown when it ended, and what
+/// changed while it ran. While a recording runs pictures follow each other without pause.
 /// What goes wrong is said in the window.
-void serveRecorder(Session& session, const std::filesystem::path& folder);
+void serveRecorder(Session& session, const std::filesystem::path& folder, const Program& program);
 
 }  // namespace irad

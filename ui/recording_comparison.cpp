@@ -59,12 +59,27 @@ void RecordingComparison::draw(Recorder& recorder) {
     ImGui::PopID();
   }
   if (ImGui::Button("Compare", {button, 0})) recorder.compare = {folders_[0].data(), folders_[1].data()};
+  drawRecordingChanges(recorder);
+}
+
+void drawRecordingChanges(const Recorder& recorder) {
+  if (!recorder.problem.empty()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextColored(theme::error, "%s", recorder.problem.c_str());
+    ImGui::PopTextWrapPos();
+    return;
+  }
   if (recorder.changes.empty()) {
     ImGui::TextColored(theme::dim, "The second recording's times over the first's, stage by stage");
     return;
   }
-  if (!beginNumberTable("changes", {"stage", "kind", "first ms", "second", "ratio", "interval", "verdict"},
-                        {0, 1, 5, 6}))
+  if (!beginNumberTable("changes", {{"stage", "What both recordings have times of", true},
+                                    {"kind", "What the stage was run for", true},
+                                    {"first ms", "Median of the first recording's samples, ms"},
+                                    {"second", "Median of the second recording's samples, ms"},
+                                    {"ratio", "The second's median over the first's"},
+                                    {"interval", "Where the ratio lies, 5 % of error for all rows together", true},
+                                    {"verdict", "Whether the interval holds 1, which is within noise", true}}))
     return;
   for (const StageChange& c : recorder.changes) drawChange(c);
   ImGui::EndTable();

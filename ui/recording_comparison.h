@@ -7,6 +7,9 @@
 
 namespace irad {
 
+/// The table of what the last comparison has found, in the rest of the region.
+void drawRecordingChanges(const Recorder& recorder);
+
 class RecordingComparison {
  public:
   /// Fills the rest of the region.

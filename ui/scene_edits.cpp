@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
+#include "renderer/scene/material_edits.h"
+#include "renderer/scene/nodes.h"
 
 namespace irad {
 
@@ -23,9 +26,11 @@ void SceneEdits::begin(const Scene& scene, std::filesystem::path file, std::stri
   file_ = std::move(file);
   reason_ = std::move(reason);
   lights = scene.lights;
+  materials = scene.materialEdits;
+  hidden = scene.hidden;
   bookmarks = scene.bookmarks;
   again(scene);
-  saved_ = current();
+  saved_ = content();
 }
 
 void SceneEdits::again(const Scene& scene) {
@@ -49,23 +54,39 @@ void SceneEdits::add(Light light) {
 }
 
 void SceneEdits::remove() {
-  const Light* chosen = light();
-  if (chosen == nullptr) return;
-  removed_.emplace_back(selected, *chosen);
+  if (light() == nullptr) return;
   lights.erase(lights.begin() + selected);
   selected = std::min(selected, static_cast<int>(lights.size()) - 1);
 }
 
-const Light* SceneEdits::removed() const {
-  return removed_.empty() ? nullptr : &removed_.back().second;
+MaterialEdit SceneEdits::material(const std::string& name) const {
+  const auto at = std::ranges::lower_bound(materials, name, {}, &MaterialEdit::material);
+  return at != materials.end() && at->material == name ? *at : MaterialEdit{.material = name};
 }
 
-void SceneEdits::undoRemoval() {
-  if (removed_.empty()) return;
-  const size_t at = std::min(removed_.back().first, lights.size());
-  lights.insert(lights.begin() + static_cast<ptrdiff_t>(at), std::move(removed_.back().second));
-  removed_.pop_back();
-  selected = static_cast<int>(at);
+void SceneEdits::setMaterial(MaterialEdit edit) {
+  const auto at = std::ranges::lower_bound(materials, edit.material, {}, &MaterialEdit::material);
+  const bool there = at != materials.end() && at->material == edit.material;
+  if (isEmpty(edit)) {
+    if (there) materials.erase(at);
+  } else if (there) {
+    *at = std::move(edit);
+  } else {
+    materials.insert(at, std::move(edit));
+  }
+}
+
+void SceneEdits::hide(std::span<const SceneNode> nodes, uint32_t node, bool hide) {
+  const std::string path = nodePath(nodes, node);
+  const auto at = std::ranges::lower_bound(hidden.paths, path);
+  const bool there = at != hidden.paths.end() && *at == path;
+  if (hide && !there) hidden.paths.insert(at, path);
+  if (!hide && there) hidden.paths.erase(at);
+}
+
+void SceneEdits::isolate(std::span<const SceneNode> nodes, uint32_t node) {
+  for (uint32_t at = node; at != SceneNode::kNoParent; at = nodes[at].parent) hide(nodes, at, false);
+  hidden.isolated = nodePath(nodes, node);
 }
 
 size_t SceneEdits::addBookmark(const Camera& camera, const std::string& name) {
@@ -85,10 +106,11 @@ void SceneEdits::rename(size_t bookmark, const std::string& name) {
   if (!name.empty() && freeName(name, cameraNames()) == name) bookmarks.at(bookmark).name = name;
 }
 
-/// Lights that are the file's own are not saved: the file may yet change.
-Sidecar SceneEdits::current() const {
+Sidecar SceneEdits::content() const {
   Sidecar sidecar;
   if (lights != fileLights_) sidecar.lights = lights;
+  sidecar.materials = materials;
+  sidecar.hidden = hidden;
   sidecar.bookmarks = bookmarks;
   sidecar.sceneSha256 = sceneSha256_;
   return sidecar;
@@ -96,36 +118,44 @@ Sidecar SceneEdits::current() const {
 
 bool SceneEdits::modified() const {
   const bool changed = lights == fileLights_ ? saved_.lights.has_value() : saved_.lights != lights;
-  return changed || bookmarks != saved_.bookmarks;
+  return changed || materials != saved_.materials || hidden != saved_.hidden || bookmarks != saved_.bookmarks;
 }
 
 void SceneEdits::save() {
   if (file_.empty()) throw WorkError(reason_);
-  Sidecar sidecar = current();
+  Sidecar sidecar = content();
   writeSidecar(file_, sidecar);
   saved_ = std::move(sidecar);
 }
 
 void SceneEdits::saveAs(const std::filesystem::path& file) {
-  Sidecar sidecar = current();
+  Sidecar sidecar = content();
   if (file.has_parent_path()) makeFolder(file.parent_path());
   writeSidecar(file, sidecar);
   saved_ = std::move(sidecar);
   file_ = file;
 }
 
+void SceneEdits::restore(Sidecar content) {
+  const std::vector<Light> before = std::exchange(lights, content.lights ? std::move(*content.lights) : fileLights_);
+  materials = std::move(content.materials);
+  hidden = std::move(content.hidden);
+  bookmarks = std::move(content.bookmarks);
+  const auto count = static_cast<int>(lights.size());
+  if (lights.size() == before.size() + 1)
+    selected = static_cast<int>(std::mismatch(before.begin(), before.end(), lights.begin()).first - before.begin());
+  selected = std::min(selected, count - 1);
+}
+
 void SceneEdits::take(Sidecar sidecar) {
-  lights = std::move(sidecar.lights).value_or(fileLights_);
-  bookmarks = std::move(sidecar.bookmarks);
+  restore(std::move(sidecar));
   selected = -1;
-  removed_.clear();
 }
 
 void SceneEdits::revert() {
-  lights = saved_.lights.value_or(fileLights_);
-  bookmarks = saved_.bookmarks;
-  selected = std::min(selected, static_cast<int>(lights.size()) - 1);
-  removed_.clear();
+  Sidecar to = saved_;
+  if (!modified()) to.lights.reset();
+  restore(std::move(to));
 }
 
 }  // namespace irad

@@ -1,10 +1,10 @@
-// What the window's user has made of a scene beside its file: lights and camera bookmarks. Panels and handles edit
-// them, the builder hands the lights to the pipeline, the sidecar keeps them.
+// What the window's user has made of a scene beside its file: lights, edits of materials, hidden nodes, camera
+// bookmarks. Panels and handles edit them, the builder makes a picture of them, the sidecar keeps them.
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "renderer/scene/sidecar.h"
@@ -17,6 +17,8 @@ std::string freeName(const std::string& wanted, const std::vector<std::string>& 
 class SceneEdits {
  public:
   std::vector<Light> lights;
+  std::vector<MaterialEdit> materials;  ///< sorted by name; none that changes nothing
+  HiddenNodes hidden;
   std::vector<Camera> bookmarks;
   int selected = -1;        ///< the light that has handles and whose fields are shown; -1: none
   bool showHandles = true;  ///< in the picture; of other scenes too
@@ -30,29 +32,49 @@ class SceneEdits {
   /// Appends under a free name and selects it.
   void add(Light light);
   void remove();  ///< the selected one
-  /// The light that undoRemoval() would bring back; null: none.
-  const Light* removed() const;
-  void undoRemoval();
+
+  /// The edit of a material; one that changes nothing where there is none.
+  MaterialEdit material(const std::string& name) const;
+  /// Puts it in place of the edit of the same material.
+  void setMaterial(MaterialEdit edit);
+
+  /// A node of the scene is hidden, or no longer by its own name.
+  void hide(std::span<const SceneNode> nodes, uint32_t node, bool hide);
+  /// Nothing else is shown, whatever of it was hidden before.
+  void isolate(std::span<const SceneNode> nodes, uint32_t node);
+  void showAll() { hidden = {}; }
 
   /// A copy of `camera` under a free name: its index.
   size_t addBookmark(const Camera& camera, const std::string& name);
   /// Nothing happens where the name is empty or taken.
   void rename(size_t bookmark, const std::string& name);
 
-  bool modified() const;                                                    ///< changed since it was loaded or saved
-  bool kept() const { return saved_.lights || !saved_.bookmarks.empty(); }  ///< the file holds something
+  bool modified() const;  ///< changed since it was loaded or saved
+  /// The file holds something.
+  bool kept() const {
+    return saved_.lights || !saved_.materials.empty() || !saved_.hidden.empty() || !saved_.bookmarks.empty();
+  }
   const std::filesystem::path& file() const { return file_; }
   const std::string& whyNowhere() const { return reason_; }
   /// Writes the sidecar; WorkError where that fails or there is nowhere to write: the edits stay as they are.
   void save();
   /// The same in a place of the user's choice, which is save()'s from then on.
   void saveAs(const std::filesystem::path& file);
-  /// Lights and bookmarks of another sidecar in place of these; nothing is saved.
+  /// All that a user has made of the scene, as it would be saved: what undo goes back to (ui/edit_state.h), what is
+  /// kept against a crash (ui/autosave.h). Lights that are the file's own are not in it: the file may yet change.
+  Sidecar content() const;
+  /// That in place of these; nothing is saved. The chosen light stays chosen where there still is one of that number;
+  /// one that comes back is chosen.
+  void restore(Sidecar content);
+  /// The same of another sidecar: no light is chosen.
   void take(Sidecar sidecar);
-  void revert();  ///< to what was saved
+  /// Whether revert() would change anything: away from what was saved or, from there, from the scene file's own lights.
+  bool canRevert() const { return modified() || !lightsAreTheFiles(); }
+  bool lightsAreTheFiles() const { return lights == fileLights_; }
+  /// To what was saved; where that is what there is, to the scene file's own lights. Bookmarks that were saved stay.
+  void revert();
 
  private:
-  Sidecar current() const;
   std::vector<std::string> cameraNames() const;  ///< of the scene's and the bookmarks
   std::vector<Light> fileLights_;
   std::vector<std::string> fileCameras_;  ///< names
@@ -60,7 +82,6 @@ class SceneEdits {
   Sidecar saved_;
   std::filesystem::path file_;
   std::string reason_;
-  std::vector<std::pair<size_t, Light>> removed_;  ///< and where they were in the list, the last one at the end
 };
 
 }  // namespace irad

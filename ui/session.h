@@ -10,18 +10,26 @@
 #include <string>
 #include <vector>
 
+#include "gi/build_cost.h"
 #include "gi/compare.h"
 #include "gi/picture.h"
 #include "gi/pipeline.h"
+#include "gi/region.h"
 #include "gi/solve_report.h"
 #include "gi/watch.h"
 #include "renderer/scene/scene.h"
 #include "renderer/targets.h"
 #include "shaders/shared/view.h"
 #include "ui/accuracy.h"
+#include "ui/autosave.h"
 #include "ui/bindings.h"
+#include "ui/captures.h"
 #include "ui/fly_camera.h"
+#include "ui/histogram.h"
+#include "ui/history.h"
 #include "ui/inspection.h"
+#include "ui/outline.h"
+#include "ui/pointing.h"
 #include "ui/preferences.h"
 #include "ui/presets.h"
 #include "ui/recorder.h"
@@ -33,6 +41,10 @@ namespace irad {
 struct Message {
   enum class Kind { Note, Error } kind;
   std::string text;
+  std::filesystem::path folder = {};  ///< that it tells of, absolute: to be copied and opened; empty: none
+  std::chrono::steady_clock::time_point said = std::chrono::steady_clock::now();
+  /// Errors stay until they are dismissed. (Of a note that the mouse is on the time begins anew.)
+  static constexpr std::chrono::seconds kNoteStays{10};
 };
 
 /// A rebuild or a load that is running: shown as a bar with its stage, cancelled by a button.
@@ -41,6 +53,7 @@ struct Work {
   std::string stage = {};
   float fraction = 0;
   bool cancel = false;
+  bool ofSettings = false;  ///< a rebuild: what it was begun for may be undone
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 };
 
@@ -49,10 +62,13 @@ struct Work {
 struct Built {
   glm::uvec3 dims{0};
   uint32_t facets = 0, solidVoxels = 0, clampedAlbedo = 0;
-  double edge = 0;  ///< of a voxel
+  double edge = 0;     ///< of a voxel
+  SceneRegion region;  ///< that has voxels
   SolveReport solve;
-  std::vector<Finding> findings;     ///< of the numerical watch, errors first
-  std::vector<std::string> noLight;  ///< EffectPlan::noLight
+  std::vector<Finding> findings;            ///< of the numerical watch, errors first
+  std::vector<std::string> noLight;         ///< EffectPlan::noLight
+  std::vector<std::string> nothingDiffuse;  ///< EffectPlan::nothingDiffuse
+  Settings settings;                        ///< that it was made with
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
 };
 
@@ -60,6 +76,14 @@ struct Built {
 struct SolveSample {
   uint32_t sweeps;
   float residual, bound;  ///< bound: by brute force the standard error
+};
+
+/// What the last edit of a material took.
+struct MaterialTimes {
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+  Redo from = Redo::Materials;  ///< first stage that it redid
+  double shown = 0;             ///< until there was a picture's worth of light, ms; 0: not yet
+  double settled = 0;           ///< until the light was at rest, ms; 0: not yet
 };
 
 /// One set of settings, and what the pipeline made of them.
@@ -108,11 +132,24 @@ struct Session : Side {
   explicit Session(Context& c) : context(c) {}
 
   Context& context;
-  Settings defaults;          ///< of this device class, for the reset buttons
-  Redo next = Redo::Nothing;  ///< first stage that a pending edit will redo
-  bool halted = false;        ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
+  Settings defaults;                  ///< of this device class, for the reset buttons
+  Redo next = Redo::Nothing;          ///< first stage that a pending edit will redo
+  bool pending = false;               ///< it waits for Apply (Preferences::applyByHand)
+  std::optional<BuildCost> forecast;  ///< of what is due; none: nothing is, or no such stage has been timed yet
+  struct LastBuild {
+    std::optional<BuildCost> predicted;  ///< before it was begun
+    BuildCost took;
+  };
+  std::optional<LastBuild> lastBuild;
+  bool halted = false;  ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild
 
-  SceneEdits edits;  ///< lights and bookmarks; the loop hands the lights to the pipeline
+  SceneEdits edits;                  ///< lights, materials, hidden objects, bookmarks; the loop sees to the former
+  History history;                   ///< of the edits of settings, scene, view and camera (ui/edit_state.h)
+  bool returned = false;             ///< an edit was taken back by the loop: what it was for was cancelled, or failed
+  std::optional<uint32_t> material;  ///< whose fields are shown: an index of the scene's
+  std::optional<uint32_t> object;    ///< that is chosen: an index of the scene's nodes
+  Outline outline;                   ///< of it
+  std::optional<MaterialTimes> materialEdit;  ///< of the last one
 
   View view = 0;
   std::optional<ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it
@@ -128,12 +165,18 @@ struct Session : Side {
   std::optional<ViewRange> range;  ///< that the picture in targets was drawn with; none until it has come back
 
   bool underRenderDoc = false;  ///< captureFrame can be served
-  bool paused = false, hideUi = false, showHelp = false, showOpen = false;
+  bool paused = false, hideUi = false, fillWindow = false, showHelp = false, showGlossary = false, showOpen = false;
   std::optional<Leaving> asking;  ///< Save, Discard or Cancel before this
+  std::optional<Autosave> found;  ///< an earlier run's, which is offered
   Preferences preferences;
+  float scale = 1;  ///< of text and panels, times the monitor's own: the user's, else the command line's
+  Filling filling() const { return hideUi ? Filling::PictureAlone : fillWindow ? Filling::Picture : Filling::Panels; }
+  void showPanel(const char* title, const char* column);  ///< unfolded, whatever hid it
   Presets presets;
   std::optional<Work> work;
   std::vector<Message> messages;
+  std::optional<std::chrono::steady_clock::time_point> nextMessageEnds() const;  ///< of the notes; none: there is none
+  std::vector<Rect> legends;  ///< over the picture, of this frame: messages keep off them
 
   std::optional<Comparison> comparison;
   Side& sideA() { return comparison && comparison->editsB ? comparison->other : *this; }
@@ -144,41 +187,79 @@ struct Session : Side {
   bool showsDifference() const { return comparison && comparison->show == Comparison::Show::Difference; }
   bool allAsleep() const { return asleep() && (!comparison || comparison->other.asleep()); }
   Recorder recorder;
+  Captures captures;
 
   LoadOptions load;                            ///< of scenes; `lights` are the first one's
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
+  bool exposes = false;                        ///< WindowOptions::exposes
   Inspection inspection;
+  Pointing pointing;
+  ShownHistogram histogram;
 
   // Requests; those that may lose work come from leave().
   std::optional<std::filesystem::path> openScene, openPicture;
+  std::optional<std::filesystem::path> openFolder;  ///< in the desktop's file manager
   bool reloadShaders = false, capture = false, captureAll = false, captureFrame = false, quit = false, rebuild = false;
-  std::optional<bool> compare;        ///< begin or end a comparison
+  std::optional<bool> compare;  ///< begin or end a comparison
+  enum class Offer { Take, Discard, Later };
+  std::optional<Offer> answer;        ///< to what was found
+  bool applyNow = false;              ///< what is pending
+  bool findSetting = false;           ///< the panel Settings takes the keys to its search
   bool step = false, darken = false;  ///< of the paused solver: a sweep; of any: from H = 0 again
 
-  // Shown until dismissed, and printed on standard error.
-  void note(std::string text) { say(Message::Kind::Note, std::move(text)); }
+  // Notes are shown for a while, errors until dismissed; both are printed on standard error.
+  void note(std::string text, std::filesystem::path folder = {}) {
+    say(Message::Kind::Note, std::move(text), std::move(folder));
+  }
   void error(std::string text) { say(Message::Kind::Error, std::move(text)); }
   void act(Action action);  ///< what its key does
+  /// After a frame: what has changed in it becomes a step of the history, unless the edit is `held` (History::see).
+  void seeEdits(bool held);
+  /// Undo and redo: the state of a step of the history. A rebuild that this makes pointless is given up.
+  void goToStep(size_t step);
+  /// Linear factor that the light shown is displayed with, camera.auto_exposure's included once its picture is there.
+  double exposure() const;
+  bool isOurs(const std::filesystem::path& scene) const;  ///< built in, or a check's
+  /// Before another scene is shown: camera.auto_exposure as suits it, where the user has not chosen.
+  void expose(const std::filesystem::path& scene);
   /// After a scene was loaded: edits begin with what it came with, or are `kept`.
   void beginEdits(bool kept);
   std::vector<Camera> cameras() const;  ///< the scene's, then the bookmarks
   void startAt(const Camera& from);     ///< the window's camera
   void useSceneCamera(int index);       ///< of cameras()
-  /// A scene, a sidecar, or a picture (a sky or a reference), by its extension. It may be asked first.
-  void open(const std::filesystem::path& path);
+  /// Around what is chosen: the object, unless it is all there is, or a light was chosen after it; else the inspected
+  /// facet, the light, the surfaces of the material; none where none is.
+  struct Sphere {
+    glm::dvec3 centre{0};  ///< world
+    double radius = 1;     ///< > 0
+  };
+  std::optional<Sphere> chosenSphere() const;
+  Sphere sceneSphere() const;
+  /// A scene, a sidecar, or a picture (a sky or a reference), by its extension. It may be asked first. Errors are said
+  /// by openFailed(): in the dialog, where it is what opens the file.
+  void open(const std::filesystem::path& path, bool fromDialog = false);
+  void openFailed(const std::string& text);
+  std::string openError;                   ///< for the dialog
   void saveEdits();                        ///< reports what became of it
   void settingsSaved(const Settings& as);  ///< the sides that have these
 
   void leave(Leaving what);            ///< at once, or after it was asked what becomes of what is unsaved
   void leaveNow(const Leaving& what);  ///< whatever is unsaved
   void stay();                         ///< the answer was Cancel
-  bool dialogOpen() const { return showOpen || asking; }  ///< one that takes mouse and keys
+  bool dialogOpen() const { return showOpen || asking || found || captures.shown; }  ///< one that takes mouse and keys
 
  private:
-  void say(Message::Kind kind, std::string text);
+  bool openedInDialog_ = false;         ///< what was opened last
+  std::optional<uint32_t> objectSeen_;  ///< by the last seeEdits()
+  int lightSeen_ = -1;                  ///< likewise
+  bool lightLast_ = false;              ///< of light and object the light was chosen last
+  void say(Message::Kind kind, std::string text, std::filesystem::path folder = {});
   void closeTopmost();
   void openSidecar(const std::filesystem::path& path);
 };
+
+/// A scene's path as it can be opened from any folder.
+std::filesystem::path lastingPath(const std::filesystem::path& scene);
 
 /// Its name, or its number where it has none.
 std::string cameraName(const Camera& camera, int index);

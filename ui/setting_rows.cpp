@@ -9,6 +9,7 @@
 #include "ui/imgui.h"
 #include "ui/session.h"
 #include "ui/theme.h"
+#include "ui/unsaved.h"
 #include "ui/widgets.h"
 
 namespace irad {
@@ -102,15 +103,37 @@ std::set<std::string_view> editedGroups(const Settings& settings, const Settings
   return groups;
 }
 
-/// In the colour of edited settings where it holds an edited one. True while the group is unfolded.
-bool groupHeader(const std::string& group, bool edited, std::set<std::string>& folded) {
+/// Its right end is at `end`.
+bool resetButton(float end, float height, const char* help) {
+  const float width = ImGui::GetFrameHeight();
+  ImGui::SameLine(end - width);
+  const float padding = std::max(0.5f * (height - ImGui::GetFontSize()), 0.0f);  // the glyph stays in the middle
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, padding});
+  const bool pressed = ImGui::Button((std::string(resetGlyph()) + "###reset").c_str(), {width, height});
+  ImGui::PopStyleVar();
+  helpTooltip(help);
+  return pressed;
+}
+
+/// In the colour of edited settings where it holds an edited one, and then with a button that resets them. True while
+/// the group is unfolded.
+bool groupHeader(const std::string& group, bool edited, bool found, Settings& settings, const Settings& defaults,
+                 std::set<std::string>& folded) {
   const std::string title = "Settings/" + group;
-  ImGui::SetNextItemOpen(!folded.contains(title));
+  const float end = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  ImGui::SetNextItemOpen(found || !folded.contains(title));
   ImGui::PushStyleColor(ImGuiCol_Text, edited ? theme::accent : theme::text);
   const bool open =
-      ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+      ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
+                                           ImGuiTreeNodeFlags_AllowItemOverlap);
   ImGui::PopStyleColor();
-  keepFolded(folded, title, open);
+  if (!found) keepFolded(folded, title, open);
+  if (!edited) return open;
+  ImGui::PushID(group.c_str());
+  if (resetButton(end, ImGui::GetTextLineHeight(), "All of this group back to their defaults"))
+    for (const Setting& setting : settingTable())
+      if (setting.group() == group) setting.set(settings, setting.get(defaults));
+  ImGui::PopID();
   return open;
 }
 
@@ -122,7 +145,8 @@ std::string label(std::string_view name) {
 }
 
 /// Label, widget, reset.
-void row(const Setting& setting, Settings& settings, const Settings& defaults) {
+void row(const Setting& setting, Settings& settings, const Settings& defaults, const Settings* built = nullptr) {
+  const bool waits = built && setting.redo < Redo::Shade && setting.get(settings) != setting.get(*built);
   const bool edited = setting.get(settings) != setting.get(defaults);
   ImGui::PushID(setting.name);
   const float start = ImGui::GetCursorPosX();
@@ -130,22 +154,21 @@ void row(const Setting& setting, Settings& settings, const Settings& defaults) {
   const float button = ImGui::GetFrameHeight();
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::AlignTextToFramePadding();
-  if (edited) ImGui::PushStyleColor(ImGuiCol_Text, theme::accent);
-  clippedText(label(setting.name), width * kLabelShare - gap);
-  if (edited) ImGui::PopStyleColor();
-  const std::string help = fmt::format("{}\n{}", setting.name, setting.help);
+  if (edited || waits) ImGui::PushStyleColor(ImGuiCol_Text, waits ? theme::warning : theme::accent);
+  clippedText((waits ? "\u00B7 " : "") + label(setting.name), width * kLabelShare - gap);
+  if (edited || waits) ImGui::PopStyleColor();
+  std::string help = fmt::format("{}\n{}\nAllowed: {}. Default: {}", setting.name, setting.help, setting.allowed(),
+                                 setting.text(defaults));
+  if (waits) help += fmt::format("\nNot applied yet: built with {}", setting.text(*built));
   helpTooltip(help);
   ImGui::SameLine(start + width * kLabelShare);
   ImGui::SetNextItemWidth(width * (1 - kLabelShare) - button - gap);
   edit(setting, settings);
   helpTooltip(setting.redo == Redo::Nothing ? help
                                             : fmt::format("{}\nA change redoes: {}", help, nameOf(setting.redo)));
-  if (edited) {
-    ImGui::SameLine(start + width - button);
-    if (ImGui::Button((std::string(resetGlyph()) + "###reset").c_str(), {button, button}))
-      setting.set(settings, setting.get(defaults));
-    helpTooltip("Back to the default");
-  }
+  if (edited &&
+      resetButton(start + width, button, fmt::format("Back to the default, {}", setting.text(defaults)).c_str()))
+    setting.set(settings, setting.get(defaults));
   ImGui::PopID();
 }
 
@@ -158,17 +181,66 @@ std::vector<std::string> settingGroups() {
   return groups;
 }
 
-void settingRows(Settings& settings, const Settings& defaults, std::set<std::string>& folded) {
+bool SettingFilter::passes(const Setting& setting, const Settings& settings, const Settings& defaults) const {
+  if (changedOnly && setting.get(settings) == setting.get(defaults)) return false;
+  const auto lower = [](std::string text) {
+    for (char& c : text)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+  };
+  // "jfa_pass" is found by "jfa pass" too.
+  const std::string text =
+      lower(fmt::format("{} {} {} {}", setting.name, setting.group(), label(setting.name), setting.help));
+  std::string wanted = lower(words);
+  while (!wanted.empty()) {
+    const size_t end = std::min(wanted.find(' '), wanted.size());
+    if (text.find(wanted.substr(0, end)) == std::string::npos) return false;
+    wanted.erase(0, std::min(end + 1, wanted.size()));
+  }
+  return true;
+}
+
+bool settingRows(Settings& settings, const Settings& defaults, std::set<std::string>& folded,
+                 const SettingFilter& filter, const Settings* built) {
   const std::set<std::string_view> edited = editedGroups(settings, defaults);
   std::string_view group;
-  bool open = true;
+  bool open = true, any = false;
   for (const Setting& setting : settingTable()) {
+    if (filter.on() && !filter.passes(setting, settings, defaults)) continue;
+    any = true;
     if (setting.group() != group) {
       group = setting.group();
-      open = groupHeader(std::string(group), edited.contains(group), folded);
+      open = groupHeader(std::string(group), edited.contains(group), filter.on(), settings, defaults, folded);
     }
-    if (open) row(setting, settings, defaults);
+    if (open) row(setting, settings, defaults, built);
   }
+  return any;
+}
+
+bool differenceTable(const char* id, const Settings& a, const Settings& b, const char* titleA, const char* titleB) {
+  const std::vector<const Setting*> differing = differingSettings(a, b);
+  if (differing.empty()) return false;
+  if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return true;
+  ImGui::TableSetupColumn("setting", 0, 2.2f);
+  ImGui::TableSetupColumn(titleA);
+  ImGui::TableSetupColumn(titleB);
+  ImGui::TableHeadersRow();
+  for (const Setting* setting : differing)
+    for (const std::string& text : {std::string(setting->name), setting->text(a), setting->text(b)}) {
+      ImGui::TableNextColumn();
+      clippedText(text, ImGui::GetContentRegionAvail().x);
+      helpTooltip(text);
+    }
+  ImGui::EndTable();
+  return true;
+}
+
+void sideLine(const Session& session) {
+  if (!session.comparison) return;
+  ImGui::TextColored(theme::accent, "Of side %s", session.comparison->editsB ? "B" : "A");
+  helpTooltip(
+      "Two sets of settings are compared: what is set and shown here is this side's alone. The panel Compare chooses "
+      "the other one.");
 }
 
 void settingRow(Settings& settings, const Settings& defaults, std::string_view name) {

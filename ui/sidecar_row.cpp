@@ -14,11 +14,19 @@ void sidecarRow(Session& session) {
   const bool modified = edits.modified();
   ImGui::BeginDisabled(!modified);
   if (ImGui::Button("Save")) session.saveEdits();
-  helpTooltip(edits.file().empty() ? edits.whyNowhere()
-                                   : fmt::format("Lights and bookmarks, to {}", edits.file().string()));
+  helpTooltip(edits.file().empty()
+                  ? edits.whyNowhere()
+                  : fmt::format("Lights, materials, objects and bookmarks, to {}", edits.file().string()));
+  ImGui::EndDisabled();
   ImGui::SameLine();
-  if (ImGui::Button("Revert")) edits.revert();
-  helpTooltip("Back to lights and bookmarks as they were saved");
+  const bool toFile = !modified && edits.canRevert();
+  ImGui::BeginDisabled(!edits.canRevert());
+  if (ImGui::Button(toFile ? "File's lights###Revert" : "Revert###Revert")) {
+    session.history.call(toFile ? "the file's own lights" : "revert to what was saved");
+    edits.revert();
+  }
+  helpTooltip(toFile ? "Back to the lights of the scene's own file; materials, objects and bookmarks stay"
+                     : "Back to lights, materials, objects and bookmarks as they were saved");
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();

@@ -14,13 +14,14 @@ struct Side;
 
 /// Something that may lose work.
 struct Leaving {
-  enum class What { Quit, OpenScene, OpenSidecar, EndComparison } what;
-  std::filesystem::path path = {};  ///< of what is opened
+  enum class What { Quit, OpenScene, OpenSidecar, EndComparison, Replay } what;
+  std::filesystem::path path = {};      ///< of what is opened; Replay: of the scene
+  std::filesystem::path manifest = {};  ///< that is replayed
 };
 
 /// What is lost by it.
 struct Unsaved {
-  bool edits = false;           ///< lights and bookmarks
+  bool edits = false;           ///< lights, materials, objects and bookmarks
   std::vector<Side*> settings;  ///< sides whose settings are nowhere else
   bool any() const { return edits || !settings.empty(); }
 };
@@ -28,5 +29,7 @@ Unsaved unsavedBefore(Session& session, const Leaving& leaving);
 
 /// All but what picking a facet sets.
 bool sameSettings(Settings a, Settings b);
+/// Those in which they are not, in their table's order.
+std::vector<const Setting*> differingSettings(Settings a, Settings b);
 
 }  // namespace irad

@@ -23,6 +23,8 @@ std::string questionFor(const Leaving& leaving) {
       return fmt::format("{} is about to be opened. Not saved yet:", file);
     case Leaving::What::OpenSidecar:
       return fmt::format("{} is about to replace what is not saved yet:", file);
+    case Leaving::What::Replay:
+      return fmt::format("{} is about to be opened, for a replay. Not saved yet:", file);
     case Leaving::What::EndComparison:
       return "The comparison is about to end. Not saved yet:";
   }
@@ -64,10 +66,10 @@ bool UnsavedDialog::drawRows(Session& session, const Unsaved& unsaved) {
     entered |= ImGui::InputText(id, &text, ImGuiInputTextFlags_EnterReturnsTrue);
   };
   if (unsaved.edits && session.edits.file().empty())
-    field("Lights and bookmarks, as",
-          session.edits.whyNowhere() + "\nDrop the file into the window to have them again.", "##file", file_);
+    field("Scene edits, as", session.edits.whyNowhere() + "\nDrop the file into the window to have them again.",
+          "##file", file_);
   else if (unsaved.edits)
-    valueRow("Lights and bookmarks, as", session.edits.file().string());
+    valueRow("Scene edits, as", session.edits.file().string());
   for (const Side* side : unsaved.settings) {
     std::string& name = typedName(session, *side, presetA_, presetB_);
     const bool isB = &name == &presetB_;
@@ -88,7 +90,7 @@ void UnsavedDialog::save(Session& session, const Unsaved& unsaved) {
         session.edits.saveAs(file_);
       else
         session.edits.save();
-      session.note(fmt::format("Saved lights and bookmarks to {}", session.edits.file().string()));
+      session.note(fmt::format("Saved lights, materials, objects and bookmarks to {}", session.edits.file().string()));
     }
     for (Side* side : unsaved.settings) {
       const std::filesystem::path preset =

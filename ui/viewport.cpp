@@ -6,13 +6,15 @@
 #include "renderer/forward.h"
 #include "ui/imgui.h"
 #include "ui/imgui_layer.h"
+#include "ui/outline.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
 
 namespace irad {
 
-Picture::Picture(const Rect& rect, const Scene& scene, const Camera& camera, glm::uvec2 size)
+Picture::Picture(const Rect& rect, const Rect& window, const Scene& scene, const Camera& camera, glm::uvec2 size)
     : rect_(rect),
+      window_(window),
       size_(size),
       origin_(scene.origin),
       viewProjection_(makeGpuCamera(scene, camera, size).viewProjection) {}
@@ -52,8 +54,25 @@ std::pair<glm::dvec3, glm::dvec3> Picture::ray(glm::vec2 screen) const {
 }
 
 glm::uvec2 Picture::pixel(glm::vec2 screen) const {
-  const glm::vec2 share = (screen - rect_.position) / rect_.size;
-  return glm::uvec2(glm::clamp(share * glm::vec2(size_), glm::vec2(0), glm::vec2(size_ - 1u)));
+  // Multiplied first: where a pixel is one of the screen's, nothing is rounded.
+  const glm::vec2 at = (screen - rect_.position) * glm::vec2(size_) / rect_.size;
+  return glm::uvec2(glm::clamp(at, glm::vec2(0), glm::vec2(size_ - 1u)));
+}
+
+std::pair<glm::vec2, glm::vec2> Picture::area(glm::uvec2 pixel) const {
+  const glm::vec2 one = rect_.size / glm::vec2(size_), low = rect_.position + one * glm::vec2(pixel);
+  return {low, low + one};
+}
+
+Rect Picture::clear() const {
+  return {window_.position, {window_.size.x, std::max(window_.size.y - statusHeight(window_.size.x), 1.0f)}};
+}
+
+float statusLine() {
+  return std::ceil(1.6f * ImGui::GetFontSize());
+}
+float statusHeight(float width) {
+  return statusLine() * (width < 44 * ImGui::GetFontSize() ? 2.0f : 1.0f);
 }
 
 Viewport::Viewport() {
@@ -82,14 +101,24 @@ PictureMouse Viewport::mouse() {
 
 namespace {
 
-/// The picture; in a comparison A's left and B's right part, or one of the two.
-void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
-  const auto both = [&](const Image& left, const Image& right, float split) {
-    const float edge = std::round(split * size.x);
-    if (edge > 0) ImGui::Image(layer.texture(left), {edge, size.y}, {0, 0}, {edge / size.x, 1});
-    ImGui::SetCursorPos({edge, 0});
-    if (edge < size.x) ImGui::Image(layer.texture(right), {size.x - edge, size.y}, {edge / size.x, 0}, {1, 1});
+/// The picture; in a comparison A's left and B's right part, or one of the two. Of the whole one in `picture` what is
+/// in `window`.
+void drawPictures(Session& session, ImGuiLayer& layer, const Rect& picture, const Rect& window) {
+  const ImVec2 size{window.size.x, window.size.y};
+  const glm::vec2 first = (window.position - picture.position) / picture.size, part = window.size / picture.size;
+  const bool zoomed = session.pointing.zoom.on();
+  const auto image = [&](const Image& of, float from, float to) {
+    const auto share = [&](float x) { return first.x + x / size.x * part.x; };
+    ImGui::SetCursorPos({from, 0});
+    if (from < to)
+      ImGui::Image(layer.texture(of, {.nearest = zoomed}), {to - from, size.y}, {share(from), first.y},
+                   {share(to), first.y + part.y});
     ImGui::SetCursorPos({0, 0});
+  };
+  const auto both = [&](const Image& left, const Image& right, float split) {
+    const float edge = std::clamp(std::round((split - first.x) / part.x * size.x), 0.0f, size.x);
+    image(left, 0, edge);
+    image(right, edge, size.x);
   };
   if (!session.comparison) {
     if (!session.targets.display) return;
@@ -101,8 +130,7 @@ void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
   if (!a || !b) return;
   const Comparison& comparison = *session.comparison;
   if (comparison.show == Comparison::Show::Difference && comparison.difference.display) {
-    ImGui::Image(layer.texture(comparison.difference.display), size);
-    return ImGui::SetCursorPos({0, 0});
+    return image(comparison.difference.display, 0, size.x);
   }
   const float split = comparison.show == Comparison::Show::Split ? comparison.split
                       : comparison.show == Comparison::Show::A   ? 1.0f
@@ -111,7 +139,7 @@ void drawPictures(Session& session, ImGuiLayer& layer, ImVec2 size) {
 }
 
 /// The line between A and B, or the picture and the reference, with their names; true while it has the mouse.
-bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, bool& dragging) {
+bool drawSplit(Session& session, const Rect& picture, const Rect& where, const PictureMouse& mouse, bool& dragging) {
   const bool reference = !session.comparison && session.split && session.split->targets.display;
   if ((!session.comparison && !reference) || !session.targets.display) return false;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -125,12 +153,13 @@ bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, b
   };
   float& split = reference ? session.split->share : session.comparison->split;
   const auto line = [&](const char* left, bool leftEdited, const char* right, bool rightEdited) {
-    const float x = where.position.x + std::round(split * where.size.x);
+    const float x = picture.position.x + std::round(split * picture.size.x);
     const bool near = mouse.hovered && std::abs(mouse.position.x - x) < em * 0.5f;
     if (mouse.pressed) dragging = near;
     if (!mouse.hovered) dragging = false;
     if (near || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    if (dragging && mouse.dragged) split = std::clamp((mouse.position.x - where.position.x) / where.size.x, 0.0f, 1.0f);
+    if (dragging && mouse.dragged)
+      split = std::clamp((mouse.position.x - picture.position.x) / picture.size.x, 0.0f, 1.0f);
     list.AddLine({x, where.position.y}, {x, where.position.y + where.size.y},
                  ImGui::GetColorU32(dragging ? theme::accent : theme::text), std::max(1.0f, em / 14));
     const auto away = [&](const char* text) {
@@ -154,6 +183,24 @@ bool drawSplit(Session& session, const Rect& where, const PictureMouse& mouse, b
   return line("A", !comparison.editsB, "B", comparison.editsB);
 }
 
+/// The pixel at a point of the screen, and whose.
+Pointing::Over under(const Session& session, const Picture& picture, glm::vec2 screen) {
+  const float share = (screen.x - picture.rect().position.x) / picture.rect().size.x;
+  return {picture.pixel(screen), session.comparison && session.comparison->showsOther(share),
+          !session.comparison && session.split && session.split->targets.display && share >= session.split->share};
+}
+
+/// Turns the camera as the mouse moves, with Alt about what is chosen.
+void look(Session& session, glm::vec2 delta) {
+  if (ImGui::GetIO().KeyAlt && session.built)
+    session.camera.orbit(delta.x, delta.y, session.chosenSphere().value_or(session.sceneSphere()).centre);
+  else
+    session.camera.look(delta.x, delta.y);
+  session.viewDirty = true;
+  // While a rebuild runs the last picture stays, and what lies over it.
+  if (session.built && !session.work) session.shown = session.camera.camera();
+}
+
 }  // namespace
 
 void Viewport::draw(Session& session, ImGuiLayer& layer, const Rect& where) {
@@ -162,14 +209,26 @@ void Viewport::draw(Session& session, ImGuiLayer& layer, const Rect& where) {
   beginTile("##viewport", where, /*filled=*/false, /*scrolls=*/false);
   ImGui::PopStyleVar(2);
   const ImVec2 size{std::max(where.size.x, 1.0f), std::max(where.size.y, 1.0f)};
-  drawPictures(session, layer, size);
-  ImGui::InvisibleButton("##viewport", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  Zoom& zoom = session.pointing.zoom;
+  const Rect whole = zoom.picture(where);
+  drawPictures(session, layer, whole, where);
+  showOutline(session, layer, whole);
+  ImGui::InvisibleButton(
+      "##viewport", size,
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
   PictureMouse m = mouse();
 
-  bool taken = drawSplit(session, where, m, dragsSplit_);
+  bool taken = drawSplit(session, whole, where, m, dragsSplit_);
+  const bool middle = active && ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+  // Before the overlays, so that they are drawn for the camera that this frame's picture gets. What the press gave to
+  // an overlay is not looked around with.
+  if (!taken && active && held_ == nullptr && !middle && m.delta != glm::vec2(0)) look(session, m.delta);
+  session.pointing.over.reset();
+  session.legends.clear();
   if (session.built && session.targets.display) {
-    const Picture picture(where, session.pipeline->scene(), session.shown, session.targets.size);
+    const Picture picture(whole, where, session.pipeline->scene(), session.shown, session.targets.size);
+    if (hovered) session.pointing.over = under(session, picture, m.position);
     for (const auto& overlay : overlays_) {
       const bool offered = !taken && (held_ == nullptr || held_ == overlay.get());
       if (!overlay->draw(session, picture, offered ? m : PictureMouse{}) || !offered) continue;
@@ -179,12 +238,14 @@ void Viewport::draw(Session& session, ImGuiLayer& layer, const Rect& where) {
   }
   if (!active) held_ = nullptr;
 
-  if (!taken && active && m.delta != glm::vec2(0)) {
-    session.camera.look(m.delta.x, m.delta.y);
-    session.viewDirty = true;
-  }
+  // A slow frame sees the press when the mouse has moved on: what was under it has been pressed.
+  if (middle && zoom.on()) zoom.pan(where, m.position - lastMouse_);
+  if (middle || (hovered && !active)) lastMouse_ = m.position;
   const float wheel = ImGui::GetIO().MouseWheel;
-  if (hovered && wheel != 0) session.camera.changeSpeed(wheel);
+  if (hovered && wheel != 0 && m.control)
+    zoom.turn(where, m.position, wheel);
+  else if (hovered && wheel != 0)
+    session.camera.changeSpeed(wheel);
   endTile();
 }
 

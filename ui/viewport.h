@@ -15,9 +15,13 @@ class ImGuiLayer;
 /// Where the picture is on the screen, and how the scene was projected onto it.
 class Picture {
  public:
-  Picture(const Rect& rect, const Scene& scene, const Camera& camera, glm::uvec2 size);
+  /// `rect`: of the whole picture, of which `window` is in view.
+  Picture(const Rect& rect, const Rect& window, const Scene& scene, const Camera& camera, glm::uvec2 size);
 
   const Rect& rect() const { return rect_; }
+  const Rect& window() const { return window_; }
+  /// What of the window is above the status line.
+  Rect clear() const;
   /// Screen position of a point of the world; none behind the near plane.
   std::optional<glm::vec2> project(const glm::dvec3& world) const;
   /// Both ends of a segment, cut at the near plane; none where all of it is behind.
@@ -26,11 +30,13 @@ class Picture {
   std::pair<glm::dvec3, glm::dvec3> ray(glm::vec2 screen) const;
   /// The picture's pixel under a point of the screen.
   glm::uvec2 pixel(glm::vec2 screen) const;
+  /// A pixel's corners on the screen.
+  std::pair<glm::vec2, glm::vec2> area(glm::uvec2 pixel) const;
 
  private:
   glm::dvec4 clip(const glm::dvec3& world) const;
   glm::vec2 onScreen(const glm::dvec4& clip) const;
-  Rect rect_;
+  Rect rect_, window_;
   glm::uvec2 size_;
   glm::dvec3 origin_;          ///< the scene's, world
   glm::dmat4 viewProjection_;  ///< local space (relative to the origin) to clip space
@@ -58,13 +64,19 @@ class Overlay {
 // In the order in which they are drawn and offered the mouse. X(Name) stands for makeNameOverlay() in ui/overlays/.
 #define IRAD_OVERLAYS(X) \
   X(Lights)              \
+  X(Region)              \
   X(Row)                 \
   X(Legend)              \
-  X(NoLight)
+  X(NoLight)             \
+  X(Pointing)
 
 #define IRAD_DECLARE_OVERLAY(name) std::unique_ptr<Overlay> make##name##Overlay();
 IRAD_OVERLAYS(IRAD_DECLARE_OVERLAY)
 #undef IRAD_DECLARE_OVERLAY
+
+/// Height of the status line (ui/overlays/pointing.cpp), of a viewport of this width, pixels: one or two lines.
+float statusLine();
+float statusHeight(float width);
 
 class Viewport {
  public:
@@ -77,6 +89,7 @@ class Viewport {
   std::vector<std::unique_ptr<Overlay>> overlays_;
   bool dragsSplit_ = false;
   bool moved_ = false;       ///< the left button's drag has begun
+  glm::vec2 lastMouse_{0};   ///< where the mouse was over the picture before a button was pressed
   Overlay* held_ = nullptr;  ///< has the mouse until the button comes up
 };
 

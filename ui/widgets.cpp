@@ -11,12 +11,32 @@
 
 namespace irad {
 
+void ImGui::markSlider(const char* label, ImGuiDataType type, void* value, const void* low, const void* high,
+                       const char* format, ImGuiSliderFlags flags) {
+  const ImGuiID id = ImGui::GetItemID();
+  if (!ImGui::IsItemVisible() || ImGui::TempInputIsActive(id)) return;
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  const float text = ImGui::CalcTextSize(label, nullptr, /*hide_text_after_double_hash=*/true).x;
+  const float right = to.x - (text > 0 ? text + ImGui::GetStyle().ItemInnerSpacing.x : 0);
+  const ImRect frame(from, {right, to.y});
+  ImRect grab;
+  constexpr ImGuiID kNobody = 1;  // it only asks where the grab is: no item that the mouse holds has this name
+  ImGui::SliderBehavior(frame, kNobody, type, value, low, high, format, flags, &grab);
+  const float thick = std::max(0.2f * ImGui::GetFontSize(), 2.0f);
+  ImVec4 color = theme::accent;
+  color.w = ImGui::GetActiveID() == id ? 1.0f : 0.75f;
+  ImGui::GetWindowDrawList()->AddRectFilled({grab.Min.x, to.y - thick}, {grab.Max.x, to.y}, ImGui::GetColorU32(color),
+                                            0.5f * thick);
+}
+
 void valueRow(const char* label, const std::string& value) {
-  const float start = ImGui::GetCursorPosX();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::TextColored(theme::dim, "%s", label);
-  ImGui::SameLine(start + width * kLabelShare);
+  ImGui::BeginGroup();  // a tooltip that follows is of the label too
+  ImGui::TextColored(theme::dim, "%s",
+                     clipped(label, width * kLabelShare - 0.5f * ImGui::GetStyle().ItemSpacing.x).c_str());
+  ImGui::SameLine(width * kLabelShare);  // from the group's start
   clippedText(value, width * (1 - kLabelShare));
+  ImGui::EndGroup();
 }
 
 void fieldLabel(const char* label, const std::string& help) {
@@ -74,25 +94,37 @@ void rightText(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
-bool beginNumberTable(const char* id, const std::vector<const char*>& columns, const std::vector<size_t>& words) {
-  if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
+bool beginNumberTable(const char* id, const std::vector<TableColumn>& columns) {
+  // Where words would be left less than can be read, the table is wider than its region, and scrolls.
+  const float number = ImGui::CalcTextSize("00000.0").x, word = 7 * ImGui::GetFontSize();
+  const auto least = [&](const TableColumn& c) {
+    return c.words ? word : std::max(number, ImGui::CalcTextSize(c.title).x);
+  };
+  float all = 2 * static_cast<float>(columns.size()) * ImGui::GetStyle().CellPadding.x;
+  for (const TableColumn& column : columns) all += least(column);
+  const bool narrow = all > ImGui::GetContentRegionAvail().x;
+  if (!ImGui::BeginTable(id, static_cast<int>(columns.size()),
+                         ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | (narrow ? ImGuiTableFlags_ScrollX : 0),
                          ImGui::GetContentRegionAvail()))
     return false;
-  const auto isWord = [&](size_t i) { return std::find(words.begin(), words.end(), i) != words.end(); };
-  const float number = ImGui::CalcTextSize("00000.0").x;
   ImGui::TableSetupScrollFreeze(0, 1);
-  for (size_t i = 0; i < columns.size(); ++i)
-    ImGui::TableSetupColumn(columns[i],
-                            isWord(i) ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed,
-                            isWord(i) ? 1.0f : number);
+  for (const TableColumn& column : columns) {
+    const bool stretches = column.words && !narrow;
+    ImGui::TableSetupColumn(column.title,
+                            stretches ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed,
+                            stretches ? 1.0f : least(column));
+  }
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-  for (size_t i = 0; i < columns.size(); ++i) {
+  for (const TableColumn& column : columns) {
     ImGui::TableNextColumn();
-    if (isWord(i))
-      clippedText(columns[i], ImGui::GetContentRegionAvail().x);
+    if (column.words)
+      ImGui::TextUnformatted(clipped(column.title, ImGui::GetContentRegionAvail().x).c_str());
     else
-      rightText(columns[i]);
+      rightText(column.title);
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::text);
+    helpTooltip(column.help);
+    ImGui::PopStyleColor();
   }
   ImGui::PopStyleColor();
   return true;

@@ -37,9 +37,14 @@ void clippedText(const std::string& text, float width);
 /// Right-aligned in the current table cell or region.
 void rightText(const std::string& text);
 
-/// A table in the rest of the region whose columns hold numbers, but for those whose indices are in `words`, which
-/// share what the numbers leave. True: end it with ImGui::EndTable().
-bool beginNumberTable(const char* id, const std::vector<const char*>& columns, const std::vector<size_t>& words);
+struct TableColumn {
+  const char* title;
+  const char* help;    ///< what it holds, with its unit: a tooltip on the title
+  bool words = false;  ///< no number
+};
+/// A table in the rest of the region, whose columns of words share what those of numbers leave. True: end it with
+/// ImGui::EndTable().
+bool beginNumberTable(const char* id, const std::vector<TableColumn>& columns);
 
 /// When to recompute what is costly: four times a second while frames follow each other, and in the last of them.
 class Refresh {

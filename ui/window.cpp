@@ -6,20 +6,29 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/base/output_file.h"
 #include "renderer/presenter.h"
 #include "renderer/renderdoc.h"
+#include "renderer/scene/material_edits.h"
+#include "renderer/scene/nodes.h"
+#include "ui/autosave_dialog.h"
 #include "ui/bindings.h"
 #include "ui/builder.h"
 #include "ui/capture.h"
+#include "ui/captures_dialog.h"
 #include "ui/comparison.h"
+#include "ui/glossary.h"
 #include "ui/imgui.h"
 #include "ui/imgui_layer.h"
 #include "ui/input.h"
+#include "ui/missing_input.h"
 #include "ui/open_dialog.h"
+#include "ui/open_folder.h"
+#include "ui/outline.h"
 #include "ui/overlay.h"
 #include "ui/panel.h"
 #include "ui/pictures.h"
@@ -32,9 +41,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames while a load or a rebuild runs
-constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
-constexpr double kWatchInterval = 0.2;   ///< seconds between frames while all that goes on is a reference
-constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
+constexpr double kHiddenInterval = 0.1;           ///< seconds between looks whether a window without area has one again
+constexpr double kWatchInterval = 0.2;            ///< seconds between frames while all that goes on is a reference
+constexpr int kFramesPerEvent = 3;                ///< ImGui needs a few to settle after an event
+constexpr std::chrono::seconds kKeepInterval{2};  ///< between two writes of what is unsaved
 
 /// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
 double threadMilliseconds() {
@@ -59,6 +69,13 @@ class Window {
   void captureFrame();
   void readPreferences();
   void savePreferences();
+  void offerFound();
+  void answerOffer(Session::Offer answer);
+  bool take(const Autosave& found);
+  bool bringBack(const std::filesystem::path& scene, const Settings& settings, const std::optional<Settings>& other,
+                 const std::string& step, const std::function<void(EditState&)>& give);
+  void replay(const std::filesystem::path& manifest);
+  void keepWork();
   void fly();
   void drawFrame();
   bool working() const;
@@ -77,6 +94,7 @@ class Window {
   Viewport viewport_;
   OpenDialog openDialog_;
   UnsavedDialog unsavedDialog_;
+  CapturesDialog capturesDialog_;
   Panels panels_ = makePanels();
   std::optional<RenderDoc> renderDoc_ = RenderDoc::find();
   Image image_;          ///< the whole window
@@ -89,6 +107,13 @@ class Window {
   Preferences saved_;         ///< as the file has them
   bool compiling_ = false;    ///< the context has variants to compile
   bool toldUnsaved_ = false;  ///< the user was told that it cannot be written
+  Autosaves autosaves_;
+  std::optional<EditState> kept_;  ///< what the autosave holds; none: nothing is unsaved
+  bool keepDue_ = false;           ///< it is to be written, at keepNext_
+  Clock::time_point keepNext_;
+  bool keepFailed_ = false;          ///< the last time
+  bool toldNotKept_ = false;         ///< the user was told that it cannot be written
+  std::filesystem::path historyOf_;  ///< the scene whose edits session_.history holds
 };
 
 Window::Window(Context& context, const WindowOptions& options)
@@ -99,7 +124,9 @@ Window::Window(Context& context, const WindowOptions& options)
       input_(presenter_.window()),
       layer_(context, presenter_.window()),
       builder_(context, session_, [this] { breathe(); }),
-      unsavedDialog_(options.captures) {
+      unsavedDialog_(options.captures),
+      autosaves_(options.preferences.empty() ? std::filesystem::path()
+                                             : options.preferences.parent_path() / "autosave") {
   presenter_.attach(context);
   context.bridgeVariants(true);
   session_.edited = session_.saved = options.settings;
@@ -108,6 +135,7 @@ Window::Window(Context& context, const WindowOptions& options)
   session_.reference = options.reference;
   session_.load = options.load;
   session_.builtIn = options.builtIn;
+  session_.exposes = options.exposes;
   session_.underRenderDoc = renderDoc_.has_value();
   session_.presets = options.presets;
   if (!options.controls.empty()) controls_.emplace(options.controls);
@@ -136,6 +164,136 @@ void Window::savePreferences() {
   }
 }
 
+void Window::offerFound() {
+  try {
+    session_.found = autosaves_.find();
+  } catch (const Error& error) {
+    session_.error(fmt::format("Unsaved work of an earlier run cannot be offered. {}", error.what()));
+  }
+  framesLeft_ = kFramesPerEvent;
+}
+
+void Window::answerOffer(Session::Offer answer) {
+  if (!session_.found) return;
+  const Autosave found = *std::exchange(session_.found, std::nullopt);
+  if (answer == Session::Offer::Discard) {
+    autosaves_.removeFound();
+    return offerFound();
+  }
+  if (answer == Session::Offer::Take && take(found)) {
+    keepNext_ = {};
+    keepWork();  // first, so that it is in a file at every moment
+    if (!keepFailed_) autosaves_.removeFound();
+  }
+  autosaves_.leaveFound();
+}
+
+/// Opens the scene, and makes what was kept of it one step of the history: these settings (of B, too, where there are
+/// `other` ones; else of the edited side), and what is `give`n. False, after the reason was shown: it cannot be opened.
+bool Window::bringBack(const std::filesystem::path& scene, const Settings& settings,
+                       const std::optional<Settings>& other, const std::string& step,
+                       const std::function<void(EditState&)>& give) {
+  const auto shown = [&] { return session_.pipeline && lastingPath(session_.pipeline->scene().path) == scene; };
+  if (!shown()) {
+    const Settings before = std::exchange(session_.edited, settings);
+    open(scene);
+    if (!shown()) session_.edited = before;
+  }
+  if (!shown()) return false;
+  session_.seeEdits(/*held=*/false);
+  if (other && !session_.comparison) builder_.compare();
+  EditState state = editStateOf(session_);
+  const bool editsB = state.b && !other && session_.comparison->editsB;
+  (editsB ? *state.b : state.a).settings = settings;
+  if (state.b && other) state.b->settings = *other;
+  give(state);
+  restore(session_, state);
+  session_.history.call(step);
+  session_.seeEdits(/*held=*/false);
+  return true;
+}
+
+bool Window::take(const Autosave& found) {
+  const auto give = [&](EditState& state) {
+    state.edits = found.edits;
+    state.view = found.view;
+    state.camera = found.camera;
+  };
+  if (!bringBack(found.scene, found.settings, found.other, fmt::format("unsaved work of {}", timeInWords(found.time)),
+                 give))
+    return false;
+  if (found.edits.sceneSha256 != session_.pipeline->scene().sha256)
+    session_.note(fmt::format("{} has changed since this was kept", found.scene.filename().string()));
+  return true;
+}
+
+/// What a capture or a recording was made of, in one step. Bookmarks stay: they are no part of a picture.
+void Window::replay(const std::filesystem::path& manifest) {
+  try {
+    const CaptureEntry entry = readCapture(manifest, session_.defaults);
+    const Config& config = entry.config;
+    const std::filesystem::path scene = lastingPath(*config.scene);
+    const auto give = [&](EditState& state) {
+      const std::vector<SceneNode>& nodes = session_.pipeline->scene().nodes;
+      state.edits.lights = config.lights;
+      state.edits.materials = config.materials;
+      state.edits.hidden = hiddenPaths(nodes, config.hidden);
+      if (entry.view) state.view = *entry.view;
+      if (!config.cameras.empty()) state.camera = config.cameras.front();
+      for (SideEdits* side : {&state.a, state.b ? &*state.b : nullptr})
+        if (side && (side->settings == entry.settings || (entry.other && side->settings == *entry.other)))
+          side->saved = side->settings;  // the manifest holds them
+      for (const auto& unknown :
+           {unknownMaterials(session_.pipeline->scene(), config.materials), unknownNodes(nodes, config.hidden)})
+        for (const std::string& words : unknown) session_.note(fmt::format("{}: {}", entry.name, words));
+    };
+    if (!bringBack(scene, entry.settings, entry.other, "replay " + entry.name, give)) return;
+    // Pictures are no edits: they stay where the step is undone.
+    const Scene& shown = session_.pipeline->scene();
+    if (config.sky && !(shown.sky && shown.sky->sha256 == config.skySha256)) builder_.openPicture(*config.sky);
+    if (config.reference && !(session_.reference && session_.reference->sha256 == config.referenceSha256))
+      builder_.openPicture(*config.reference);
+    session_.note(fmt::format("The window is as it was for {}, {}", entry.name, timeInWords(entry.time)));
+    if (config.sceneSha256 && *config.sceneSha256 != shown.sha256)
+      session_.note(fmt::format("{} has changed since then", scene.filename().string()));
+  } catch (const Error& error) {
+    session_.error(error.what());
+  }
+  framesLeft_ = kFramesPerEvent;
+}
+
+/// What is unsaved is in a file soon after an edit, and not there any more once it is saved.
+void Window::keepWork() {
+  if (options_.preferences.empty() || !session_.pipeline || session_.history.steps().empty()) return;
+  if (!unsavedBefore(session_, {Leaving::What::Quit}).any()) {
+    keepDue_ = false;
+    kept_.reset();
+    keepNext_ = {};  // there is no file: what is edited, or redone, next goes into one at once
+    return autosaves_.removeKept();
+  }
+  const EditState& now = session_.history.steps()[session_.history.at()].state;
+  keepDue_ = !kept_ || !kept_->sameWork(now);
+  if (!keepDue_ || Clock::now() < keepNext_) return;
+  Autosave autosave{.scene = lastingPath(session_.pipeline->scene().path),
+                    .time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()),
+                    .edits = session_.edits.content(),
+                    .settings = now.a.settings,
+                    .view = now.view,
+                    .camera = now.camera};
+  if (now.b) autosave.other = now.b->settings;
+  kept_ = now;  // where it fails, until the next edit
+  keepDue_ = false;
+  keepNext_ = Clock::now() + kKeepInterval;
+  keepFailed_ = true;
+  try {
+    autosaves_.keep(autosave);
+    keepFailed_ = false;
+  } catch (const Error& error) {
+    if (!std::exchange(toldNotKept_, true))
+      session_.error(fmt::format("Unsaved work is not kept against a crash. {}", error.what()));
+  }
+}
+
 void Window::run() {
   builder_.load(options_.scene);
   sceneOpened();
@@ -149,6 +307,7 @@ void Window::run() {
     session_.useSceneCamera(static_cast<int>(named - cameras.begin()));
   }
   if (options_.inspect && session_.pipeline) session_.inspection.open(session_, *options_.inspect);
+  offerFound();
   while (!session_.quit) {
     wait();
     takeKeys();
@@ -167,6 +326,7 @@ void Window::run() {
     if (options_.exitAfter > 0 && settled() && ++settledFrames_ >= options_.exitAfter) break;
     if (options_.measuredFrames > 0 && measured()) break;
   }
+  if (session_.quit) autosaves_.removeKept();  // saved, or discarded
   if (!options_.screenshot.empty() && image_) saveScreenshot(context_, image_, options_.screenshot);
 }
 
@@ -180,15 +340,16 @@ bool Window::measured() {
 /// There is something to do that needs no frame.
 bool Window::working() const {
   return session_.work || session_.openScene || session_.openPicture || session_.capture || session_.captureAll ||
-         session_.captureFrame || session_.reloadShaders || session_.rebuild || session_.compare ||
-         session_.inspection.wanted() || session_.accuracy.measuring() || builder_.stale() ||
-         (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
+         session_.captureFrame || session_.captures.replay || session_.answer || session_.reloadShaders ||
+         session_.rebuild || session_.compare || session_.inspection.wanted() || session_.accuracy.measuring() ||
+         builder_.stale() || (session_.pipeline && !session_.halted && !session_.paused && !session_.allAsleep());
 }
 
 bool Window::settled() const {
   // What waits for a slider to be let go, or for a number to be typed to its end, takes an event to go on.
-  const bool due = session_.next != Redo::Nothing && !ImGui::IsAnyItemActive();
-  return !working() && !session_.viewDirty && !due && context_.variantsCompiling() == 0;
+  const bool due = session_.next != Redo::Nothing && !session_.pending && !ImGui::IsAnyItemActive();
+  // Variants that have come in the last frame call for a picture, which is not asked for yet.
+  return !working() && !session_.viewDirty && !due && !compiling_ && context_.variantsCompiling() == 0;
 }
 
 /// Sleeps until there is an event, when nothing is left to do: an idle window does no work on either processor.
@@ -197,8 +358,11 @@ void Window::wait() {
   const bool hidden = !visible_ && !working();
   const bool typing = ImGui::GetIO().WantTextInput || session_.dialogOpen();  // keys that are held fly nowhere
   const bool idle = settled() && framesLeft_ <= 0 && (typing || !input_.flying()) && options_.exitAfter == 0;
-  const bool blinks = idle && ImGui::GetIO().WantTextInput;     // the text cursor
-  const bool watches = idle && session_.accuracy.tracingNow();  // its progress
+  const bool blinks = idle && ImGui::GetIO().WantTextInput;                                   // the text cursor
+  const bool watches = idle && (session_.accuracy.tracingNow() || session_.captures.busy());  // their progress
+  const auto message = session_.nextMessageEnds();
+  std::optional<Clock::time_point> due = message;
+  if (keepDue_) due = std::min(keepNext_, due.value_or(keepNext_));
   if (hidden)
     glfwWaitEventsTimeout(kHiddenInterval);
   else if (!idle)
@@ -207,9 +371,11 @@ void Window::wait() {
     glfwWaitEventsTimeout(kWatchInterval);
   else if (blinks)
     glfwWaitEventsTimeout(0.4);
+  else if (due)
+    glfwWaitEventsTimeout(std::max(std::chrono::duration<double>(*due - Clock::now()).count(), 0.01));
   else
     glfwWaitEvents();
-  if (input_.takeEvent())
+  if (input_.takeEvent() || (message && Clock::now() >= *message))
     framesLeft_ = kFramesPerEvent;
   else if (blinks || watches || hidden)
     framesLeft_ = 1;
@@ -230,6 +396,9 @@ void Window::takeKeys() {
       return b.key == press.key && (press.shift || !b.shift) && (press.control || !b.control);
     });
     if (session_.dialogOpen() && press.key != GLFW_KEY_ESCAPE) continue;
+    // What the mouse holds would be edited on from where it has been taken back to.
+    const bool steps = binding != all.end() && (binding->action == Action::Undo || binding->action == Action::Redo);
+    if (steps && ImGui::IsAnyItemActive()) continue;
     if (binding != all.end()) session_.act(binding->action);
     const auto number = static_cast<size_t>(press.key - GLFW_KEY_1);
     if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_9 && number < views().size()) {
@@ -241,8 +410,22 @@ void Window::takeKeys() {
 
 void Window::takeRequests() {
   savePreferences();
+  if (const auto answer = std::exchange(session_.answer, std::nullopt)) answerOffer(*answer);
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
-  serveRecorder(session_, options_.captures);
+  serveRecorder(session_, options_.captures, options_.program);
+  if (session_.openFolder) {
+    try {
+      openFolder(*std::exchange(session_.openFolder, std::nullopt));
+    } catch (const Error& error) {
+      if (session_.captures.shown)
+        session_.captures.said = error.what();  // a message would lie under the dialog
+      else
+        session_.error(error.what());
+    }
+    framesLeft_ = kFramesPerEvent;
+  }
+  if (session_.captures.serve(session_, options_.captures)) framesLeft_ = kFramesPerEvent;
+  if (session_.captures.replay) replay(*std::exchange(session_.captures.replay, std::nullopt));
   if (session_.openPicture) builder_.openPicture(*std::exchange(session_.openPicture, std::nullopt));
   if (std::exchange(session_.darken, false)) builder_.darken();
   if (std::exchange(session_.rebuild, false)) session_.halted = false;
@@ -254,6 +437,7 @@ void Window::takeRequests() {
   }
   if (session_.comparison && !session_.viewDirty) measureComparison(context_, session_);
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
+  keepWork();
 }
 
 /// What the settings call for, and a picture of it.
@@ -276,7 +460,8 @@ void Window::captureFrame() {
     makeFolder(options_.captures);
     const std::filesystem::path file =
         renderDoc_->capture(context_.device, options_.captures / scene, [this] { frame(); });
-    session_.note(fmt::format("RenderDoc saved {}", file.string()));
+    session_.note(fmt::format("RenderDoc saved {}", file.string()),
+                  std::filesystem::absolute(file).lexically_normal().parent_path());
   } catch (const WorkError& error) {
     session_.error(error.what());
   }
@@ -311,6 +496,7 @@ void Window::sceneOpened() {
   std::error_code ignored;
   const std::filesystem::path& path = session_.pipeline->scene().path;
   if (std::filesystem::exists(path, ignored)) session_.preferences.opened(path);
+  if (std::exchange(historyOf_, path) != path) session_.history.clear();
   const std::string file = session_.pipeline->scene().path.filename().string();
   glfwSetWindowTitle(presenter_.window(), fmt::format("irad \u2014 {}", file).c_str());
 }
@@ -320,7 +506,7 @@ void Window::open(const std::filesystem::path& path) {
     builder_.load(path);
     sceneOpened();
   } catch (const Error& error) {
-    session_.error(error.what());
+    session_.openFailed(error.what());
   }
   framesLeft_ = kFramesPerEvent;
 }
@@ -347,6 +533,8 @@ void Window::drawFrame() {
   if (!visible_) return;
   lastDraw_ = Clock::now();
   const bool busy = session_.work.has_value();
+  // What is drawn over the picture goes by the camera that keys have left for this frame's picture.
+  if (!busy && session_.built && session_.viewDirty) session_.shown = session_.camera.camera();
   // The last frame before the sleep shows the times of all others: only it waits for them.
   if (framesLeft_ <= 1 && settled())
     context_.finish();
@@ -362,9 +550,11 @@ void Window::drawFrame() {
                                                        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
   float contentScale = 1, ignored = 1;
   glfwGetWindowContentScale(presenter_.window(), &contentScale, &ignored);
-  layer_.setScale(contentScale * options_.scale);
+  session_.scale = session_.preferences.scale > 0 ? session_.preferences.scale : options_.scale;
+  layer_.setScale(contentScale * session_.scale);
 
-  const Layout where = layout(size, layer_.scale(), session_.hideUi, session_.preferences.sizes);
+  const Layout where =
+      layout(size, layer_.scale(), session_.filling(), session_.preferences.sizes, session_.preferences.folding());
   const glm::uvec2 picture = glm::max(glm::uvec2(where.viewport.size), glm::uvec2(1));
   // While a rebuild runs the last picture is shown, stretched if need be.
   if (!busy && session_.built)
@@ -373,28 +563,48 @@ void Window::drawFrame() {
         side->targets = Targets(context_, picture);
         session_.viewDirty = true;
       }
+  if (!busy) session_.pointing.take(session_);
   double uiBegan = threadMilliseconds();
   layer_.beginFrame();
   // Drawn first: among windows that focus does not raise, ImGui keeps the order in which they were drawn.
-  if (!session_.hideUi) dragEdges(where, layer_.scale(), session_.preferences.sizes);
+  const Filling filling = session_.filling();
+  if (filling == Filling::Panels)
+    drawEdges(where, layer_.scale(), session_.preferences.sizes, session_.preferences.folded);
   viewport_.draw(session_, layer_, where.viewport);
   session_.accuracy.open = false;
-  if (!session_.hideUi) drawPanels(session_, panels_, where);
+  session_.histogram.wanted = false;
+  if (filling != Filling::PictureAlone) drawPanels(session_, panels_, where);
+  if (filling != Filling::Panels) drawFrameTime(session_, where.viewport);
   drawBanner(session_, where.viewport);
-  drawMessages(session_, where.viewport);
+  Rect above = where.viewport;  // the status line
+  if (!session_.hideUi) above.size.y = std::max(above.size.y - statusHeight(above.size.x), 1.0f);
+  drawMessages(session_, above);
   drawProgress(session_, where.viewport);
-  drawHelp(session_, where.viewport);
+  drawHelp(session_);
   openDialog_.draw(session_);
+  capturesDialog_.draw(session_, layer_);
   unsavedDialog_.draw(session_);
+  drawAutosaveDialog(session_);
+  drawMissingInput(session_, where.viewport);
+  drawGlossary(session_, {{0, 0}, glm::vec2(size)});
   builder_.announced();
+  session_.seeEdits(/*held=*/ImGui::IsAnyItemActive() || input_.flying());
+  keepWork();
   double uiMs = threadMilliseconds() - uiBegan;
 
-  // Frames of the progress bar stay out of the timings, where the rebuild's own passes are being summed.
-  Frame frame = busy ? context_.beginUntimed() : context_.begin(frameIndex_);
-  if (!busy) frame.sampled(frameIndex_++, lastDraw_);
-  if (!busy && session_.built && session_.viewDirty) {
+  // Frames that draw nothing but panels stay out of the timings: they say nothing of the method, and while a rebuild
+  // runs its own passes are being summed.
+  const bool pictured = !busy && session_.built && session_.viewDirty;
+  Frame frame = pictured ? context_.begin(frameIndex_) : context_.beginUntimed();
+  if (pictured) {
+    frame.sampled(frameIndex_++, lastDraw_);
     drawPictures(session_, frame);
     framesLeft_ = std::max(framesLeft_, 2);  // one more frame, for this one's times
+  }
+  if (!busy && session_.built) {
+    drawOutline(session_, frame, layer_.scale());
+    session_.pointing.record(session_, frame);
+    session_.histogram.record(session_, frame);
   }
   uiBegan = threadMilliseconds();
   layer_.draw(frame, image_);

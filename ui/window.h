@@ -23,7 +23,8 @@ struct WindowOptions {
   LoadOptions load;                            ///< of it and those opened later; `lights` are its own
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
   Settings settings;
-  Settings defaults;  ///< of this device class, for the reset buttons
+  bool exposes = false;  ///< scenes that are files of the user's get camera.auto_exposure
+  Settings defaults;     ///< of this device class, for the reset buttons
   View view = 0;
   std::optional<ReferencePicture> reference;  ///< for the views that compare with one
   std::optional<glm::uvec3> inspect;          ///< voxel to begin with in the inspector

@@ -16,6 +16,7 @@ std::vector<CheckCase> rangeCases();       ///< emission, scale, rotation, posit
 std::vector<CheckCase> inputCases();       ///< degenerate and damaged geometry
 std::vector<CheckCase> leakCases();
 std::vector<CheckCase> roomCases();       ///< families of rooms by seed, against 0 and a path tracer
+std::vector<CheckCase> glassCases();      ///< blended surfaces, against a path tracer
 std::vector<CheckCase> samplingCases();   ///< encodings, sampler, traversals
 std::vector<CheckCase> writebackCases();  ///< reflections as a source
 std::vector<CheckCase> stabilityCases();  ///< the same bits over time, under toggling, in other memory and processes

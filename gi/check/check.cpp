@@ -10,6 +10,8 @@
 #include "gi/check/cases.h"
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
+#include "renderer/scene/material_edits.h"
+#include "renderer/scene/nodes.h"
 
 namespace irad {
 namespace {
@@ -19,8 +21,9 @@ constexpr std::string_view kScheme = "check:";
 std::span<const CheckCase> checkCases() {
   static const std::vector<CheckCase> all = [] {
     std::vector<CheckCase> cases;
-    for (const auto group : {furnaceCases, skyCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases,
-                             leakCases, roomCases, samplingCases, writebackCases, stabilityCases, guardCases}) {
+    for (const auto group :
+         {furnaceCases, skyCases, formFactorCases, energyCases, limitCases, rangeCases, inputCases, leakCases,
+          roomCases, glassCases, samplingCases, writebackCases, stabilityCases, guardCases}) {
       const std::vector<CheckCase> more = group();
       cases.insert(cases.end(), more.begin(), more.end());
     }
@@ -50,6 +53,10 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   scene.path = path;
   scene.fileLights = scene.lights;
   if (options.lights) replaceLights(scene, *options.lights);
+  if (options.materials) replaceMaterialEdits(scene, *options.materials);
+  for (const std::string& unknown : unknownMaterials(scene, scene.materialEdits)) scene.warnings.push_back(unknown);
+  for (const std::string& unknown : unknownNodes(scene.nodes, options.hidden.value_or(HiddenNodes{})))
+    scene.warnings.push_back(unknown);
   scene.sky = options.sky;
   return scene;
 }

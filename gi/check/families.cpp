@@ -16,6 +16,12 @@ std::span<const Family> families() {
       Family{"half-filled", "boards, cubes and blinds whose faces fill half a voxel", halfFilled},
       Family{"near-lamp", "a lamp nearer to the ceiling than a voxel: one-sided, two-sided, both orders",
              lampAtCeiling},
+      Family{"object-on-plane", "boxes as large as a car on a plane of 120 to 240 m, in the sun", objectOnPlane,
+             /*dark=*/false, /*outside=*/true},
+      Family{"under-dome", "the same on a deck in the middle of an emissive sphere of 140 to 260 m", underDome,
+             /*dark=*/false, /*outside=*/true},
+      Family{"room-in-desert", "a room with a door on such a plane, the sun at the door", roomInDesert,
+             /*dark=*/false, /*outside=*/true},
   };
   return all;
 }

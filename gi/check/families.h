@@ -24,7 +24,8 @@ struct Family {
   const char* setup;
   /// Builds the member of this seed with voxels of this edge, m. Pure.
   FamilyMember (*build)(uint64_t seed, double voxel);
-  bool dark = false;  ///< truth is 0 inside
+  bool dark = false;     ///< truth is 0 inside
+  bool outside = false;  ///< most of it is far around: scene.region = auto is held against whole
 };
 
 std::span<const Family> families();
@@ -39,5 +40,8 @@ FamilyMember doorAjar(uint64_t seed, double voxel);
 FamilyMember doubleShell(uint64_t seed, double voxel);
 FamilyMember halfFilled(uint64_t seed, double voxel);
 FamilyMember lampAtCeiling(uint64_t seed, double voxel);
+FamilyMember objectOnPlane(uint64_t seed, double voxel);
+FamilyMember underDome(uint64_t seed, double voxel);
+FamilyMember roomInDesert(uint64_t seed, double voxel);
 
 }  // namespace irad

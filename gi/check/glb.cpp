@@ -55,8 +55,10 @@ Json toJson(const Material& m) {
 
 Json toJson(const Light& light) {
   const LightKind& kind = lightKind(light.type);
-  Json out = {
-      {"name", light.name}, {"type", kind.gltf}, {"color", numbers(light.color)}, {"intensity", light.intensity}};
+  Json out = {{"name", light.name},
+              {"type", kind.gltf},
+              {"color", numbers(light.color)},
+              {"intensity", light.on ? light.intensity : 0}};
   if (light.range > 0) out["range"] = light.range;
   if (kind.has(LIGHT_CONE))
     out["spot"] = {{"innerConeAngle", std::acos(light.innerCos)}, {"outerConeAngle", std::acos(light.outerCos)}};

@@ -198,6 +198,7 @@ EmitterPoint Surfaces::drawEmitter(Random& random) const {
 
 std::optional<Arriving> Surfaces::arriving(size_t light, const glm::dvec3& position, Random& random) const {
   const Light& l = scene_.lights[light];
+  if (!l.on) return std::nullopt;
   Arriving a;
   a.irradiance = double{l.intensity} * glm::dvec3(l.color);
   // A point of the disc of this radius about the light's middle, across the way to it.

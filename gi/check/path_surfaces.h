@@ -2,6 +2,7 @@
 // its own, in double precision.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -18,7 +19,8 @@ class Random {
  public:
   Random(uint64_t seed, uint64_t index) : state_(mixed(seed) + mixed(~index)) {}
   /// Uniform in [0, 1), 53 bits.
-  double next() { return static_cast<double>(mixed(state_ += kStep) >> 11) * 0x1p-53; }
+  double next() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  uint64_t bits() { return mixed(state_ += kStep); }
 
  private:
   static constexpr uint64_t kStep = 0x9e3779b97f4a7c15;
@@ -85,6 +87,9 @@ class Surfaces {
   bool masked(uint32_t triangle) const { return material(triangle).alpha == AlphaMode::Mask; }
   /// Whether the mask cuts this point out.
   bool cutOut(uint32_t triangle, glm::dvec2 uv) const;
+  bool blended(uint32_t triangle) const { return material(triangle).alpha == AlphaMode::Blend; }
+  /// The share of light that a blended surface keeps from what is behind this point: its alpha.
+  double cover(uint32_t triangle, glm::dvec2 uv) const { return std::clamp(baseColor(triangle, uv).w, 0.0, 1.0); }
   /// A point of a triangle as a ray along `direction` sees it.
   SurfacePoint at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
   /// Nothing where the material is Lambertian, and on the back of a single-sided face.

@@ -24,16 +24,27 @@ using truth::SkyLight;
 using truth::SurfacePoint;
 using truth::Surfaces;
 
+/// Keeps what decides at blended surfaces apart from a path's other random numbers, which are the same without them.
+constexpr uint64_t kChance = 0x6a09e667f3bcc909;
+
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
-/// What a ray passes through: the triangle that it leaves, the one that it goes to, holes of masks, and from some
-/// distance on hidden backs, those of single-sided faces.
+/// What a ray passes through: the triangle that it leaves, the one that it goes to, holes of masks, blended surfaces by
+/// chance, and from some distance on hidden backs, those of single-sided faces.
 struct Passing {
   RTCIntersectContext context;  // first: Embree hands back its address
   const Surfaces* surfaces;
   uint32_t from = kNoTriangle, to = kNoTriangle;
-  float shownFrom = kFar;  ///< passes such backs from here on, lengths of the direction
+  uint64_t chance = 0, segment = 0;  ///< of the path, and of its rays: what decides at blended surfaces
+  float shownFrom = kFar;            ///< passes such backs from here on, lengths of the direction
+
+  bool goesBy(uint32_t triangle, glm::dvec2 uv) const;
 };
+
+/// At each triangle anew, by its alpha.
+bool Passing::goesBy(uint32_t triangle, glm::dvec2 uv) const {
+  return Random(chance, segment << 32 | triangle).next() >= surfaces->cover(triangle, uv);
+}
 
 bool atHiddenBack(const Surfaces& surfaces, uint32_t triangle, const glm::dvec3& direction) {
   return surfaces.singleSided(triangle) && glm::dot(direction, surfaces.triangles()[triangle].normal) >= 0;
@@ -52,7 +63,7 @@ void pass(const RTCFilterFunctionNArguments* arguments) {
     const bool through = triangle == passing.from || triangle == passing.to ||
                          (RTCRayN_tfar(arguments->ray, arguments->N, i) >= passing.shownFrom &&
                           atHiddenBack(surfaces, triangle, direction)) ||
-                         surfaces.cutOut(triangle, uv);
+                         surfaces.cutOut(triangle, uv) || (surfaces.blended(triangle) && passing.goesBy(triangle, uv));
     if (through) arguments->valid[i] = 0;
   }
 }
@@ -164,6 +175,7 @@ class EmbreeTracer : public PathTracer {
     const glm::uvec2 size;
     const TraceOptions& options;
     uint64_t rays = 0;
+    uint64_t chance = 0, segment = 0;             ///< Passing's, of the path in hand
     glm::dvec3 lit{0}, indirect{0}, specular{0};  ///< of the path in hand
     std::vector<glm::dvec3> bounces = std::vector<glm::dvec3>(options.bounces);
     glm::dvec3 diffuseShare{1};  ///< of its throughput: by the diffuse part of what is seen
@@ -172,6 +184,8 @@ class EmbreeTracer : public PathTracer {
       const size_t index = size_t{at.y} * size.x + at.x;
       for (uint32_t s = sums.samples; s < sums.samples + options.samples; ++s) {
         Random random(options.seed, uint64_t{s} << 32 | index);
+        chance = Random(options.seed ^ kChance, uint64_t{s} << 32 | index).bits();
+        segment = 0;
         lit = indirect = specular = glm::dvec3(0);
         diffuseShare = glm::dvec3(1);
         std::ranges::fill(bounces, glm::dvec3(0));
@@ -192,7 +206,13 @@ class EmbreeTracer : public PathTracer {
       return EmbreeScene::ray(origin, direction, near, far);
     }
     Passing passing(uint32_t from, uint32_t to, float shownFrom) const {
-      Passing p{.context = {}, .surfaces = &surfaces, .from = from, .to = to, .shownFrom = shownFrom};
+      Passing p{.context = {},
+                .surfaces = &surfaces,
+                .from = from,
+                .to = to,
+                .chance = chance,
+                .segment = segment,
+                .shownFrom = shownFrom};
       rtcInitIntersectContext(&p.context);
       p.context.filter = pass;
       return p;
@@ -216,6 +236,7 @@ class EmbreeTracer : public PathTracer {
     /// From triangle `from` on. Of two faces in one plane the side that shows is met, whatever the distances round to.
     Met meetNext(const glm::dvec3& origin, const glm::dvec3& direction, uint32_t from) {
       float t;
+      ++segment;
       const Met met = meet(origin, direction, 0, kFar, from, kFar, t);
       if (met.triangle == kNoTriangle || !atHiddenBack(surfaces, met.triangle, direction)) return met;
       const float d = around(from, met.triangle, glm::dot(direction, surfaces.triangles()[met.triangle].normal));
@@ -225,6 +246,7 @@ class EmbreeTracer : public PathTracer {
     /// Whether nothing lies on the first `far` lengths of `direction`, but for hidden backs from `shownFrom` on.
     bool clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to,
                float shownFrom) {
+      ++segment;
       Passing p = passing(from, to, shownFrom);
       RTCRay shadow = ray(origin, direction, 0, far);
       rtcOccluded1(tracer.scene_.handle(), &p.context, &shadow);
@@ -415,7 +437,8 @@ class EmbreeTracer : public PathTracer {
       const glm::dvec3 towards = way / distance;
       const double cosine = glm::dot(v.point.normal, towards);
       if (cosine <= 0 || glm::dot(v.point.face, towards) <= 0 || surfaces.cutOut(drawn.triangle, drawn.uv)) return;
-      const SurfacePoint there = surfaces.at(drawn.triangle, drawn.uv, towards);
+      SurfacePoint there = surfaces.at(drawn.triangle, drawn.uv, towards);
+      if (surfaces.blended(drawn.triangle)) there.emission *= surfaces.cover(drawn.triangle, drawn.uv);
       const double cosineThere = -glm::dot(there.face, towards);
       if (there.emission == glm::dvec3(0) || !(cosineThere > 0)) return;
       // Just short of the other triangle, lest its neighbour in the same plane is in the way.

@@ -1,9 +1,9 @@
 // A path tracer on the triangles: what pictures are judged by. It shares the scene with the program and nothing else:
 // no facets, no shaders or headers of theirs, no sampler; its rays are Embree's, its random numbers its own.
 //
-// Surfaces are Lambertian with the albedo of docs/method.md (base colour x (1 - metallic), clamped to [0, .98]), and
-// what blends is opaque. With TraceOptions::glossy they have the specular lobe, too (path_lobe.h).
-// Texels that a mask cuts out let every ray through.
+// Surfaces are Lambertian with the albedo of docs/method.md (base colour x (1 - metallic), clamped to [0, .98]). With
+// TraceOptions::glossy they have the specular lobe, too (path_lobe.h).
+// Texels that a mask cuts out let every ray through; where a surface blends it is there with the probability alpha.
 // The back of a single-sided face stops all rays and is black, but for those of the camera, which see through it.
 // Cosines, at lights and of bounces, are taken with the vertices' interpolated normal, turned to the side that was
 // met, and the normal map about it; what comes from behind the face itself adds nothing, and of the diffuse part what

@@ -10,6 +10,9 @@
 
 namespace irad {
 
+/// Among the folders of PATH, as a shell finds it; empty: it is not installed.
+std::filesystem::path findProgram(const std::string& name);
+
 /// A running program; killed with its object. Its standard input is empty.
 class Process {
  public:

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <numeric>
 
 #include "gi/check/cases.h"
@@ -13,6 +12,7 @@
 #include "gi/check/scenes.h"
 #include "gi/lighting.h"
 #include "renderer/base/error.h"
+#include "renderer/base/output_file.h"
 #include "renderer/base/temporary_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/targets.h"
@@ -166,11 +166,6 @@ void poisonCase(CheckRun& run) {
   run.none("facets whose H poison changes", facets);
 }
 
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A table's text without its times: everything but numbers with a fraction.
 std::string withoutTimes(const std::string& csv) {
   std::string out;
@@ -202,7 +197,7 @@ void repeatCase(CheckRun& run) {
     const fs::path name = entry.path().filename();
     if (name == "manifest.json") continue;  // names its folder
     const bool times = name == "timings.csv";
-    const std::string a = contents(entry.path()), b = contents(folder.path / "b" / name);
+    const std::string a = readFile(entry.path()), b = readFile(folder.path / "b" / name);
     differing += times ? withoutTimes(a) != withoutTimes(b) : a != b;
     ++files;
   }

@@ -40,16 +40,15 @@ dvec3 Facets::normal(uint32_t facet) const {
 }
 
 uint32_t Facets::Cuts::facet(uint32_t part, bool back) const {
-  for (const uint32_t point : points)
-    if (const uint32_t found = (point >> (back ? 8 : 0)) & 0xFFu; point >> 16 == part && found != PIECE_UNKNOWN)
-      return found;
+  for (const uint32_t known : parts)
+    if (known >> 16 == part) return (known >> (back ? 8 : 0)) & 0xFFu;
   return PIECE_UNKNOWN;
 }
 
 Facets::Cuts Facets::cutsOf(uint32_t piece) const {
   const std::span<const uint32_t> record = std::span(cuts).subspan(sides.at(piece) & ~PIECE_CUT);
-  const size_t first = (record[0] & CUT_MASKED) != 0 ? 3 : 1, count = record[0] & ~CUT_MASKED;
-  return {record.subspan(first, count), record.subspan(first + count, CUT_POINTS)};
+  const size_t first = (record[0] & CUT_MASKED) != 0 ? 3 : 1, count = cutTriangles(record[0]);
+  return {record.subspan(first, count), record.subspan(first + count, cutParts(record[0]))};
 }
 
 bool Facets::maskLeaves(uint32_t piece, uint32_t bit) const {

@@ -28,9 +28,9 @@ struct Facets {
   bool hasHoles(uint32_t triangle) const { return corners.at(3 * triangle + 1).w > 0; }  ///< cut by a mask
   bool showsBack(uint32_t triangle) const { return corners.at(3 * triangle).w > 0; }
   bool repeats(uint32_t triangle) const { return corners.at(3 * triangle + 2).w > 0; }  ///< another: has no pieces
-  /// What stands on a cut piece, and its points (SurfaceArrays::cuts).
+  /// What stands on a cut piece, and its parts (SurfaceArrays::cuts).
   struct Cuts {
-    std::span<const uint32_t> triangles, points;
+    std::span<const uint32_t> triangles, parts;
     /// The facet of the side of a part, counted from the voxel's first, or PIECE_*.
     uint32_t facet(uint32_t part, bool back) const;
   };

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 #include "gi/study/plot.h"
+#include "renderer/base/output_file.h"
 
 namespace irad {
 namespace {
@@ -22,11 +21,6 @@ std::string base64(const std::string& bytes) {
     for (size_t k = 0; k < 4; ++k) out += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return out;
-}
-
-std::string fileText(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// The bytes of an .npy file's picture, height x width x 3, as a .bmp, which browsers show.
@@ -51,9 +45,9 @@ std::string bitmapOf(const std::string& npy, glm::uvec2 size) {
 
 /// As a data URI; empty where there is none.
 std::string pictureUri(const std::filesystem::path& stem, glm::uvec2 size) {
-  if (const std::string png = fileText(stem.string() + ".png"); !png.empty())
+  if (const std::string png = readFile(stem.string() + ".png"); !png.empty())
     return "data:image/png;base64," + base64(png);
-  const std::string bitmap = bitmapOf(fileText(stem.string() + ".npy"), size);
+  const std::string bitmap = bitmapOf(readFile(stem.string() + ".npy"), size);
   return bitmap.empty() ? "" : "data:image/bmp;base64," + base64(bitmap);
 }
 

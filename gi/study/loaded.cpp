@@ -8,9 +8,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gi/picture.h"
 #include "gi/study/sweep.h"
 #include "renderer/base/csv.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/camera_json.h"
 
 namespace irad {
 namespace {
@@ -39,6 +41,27 @@ void readPoints(LoadedStudy& study, const StudyIdentity& identity) {
 std::vector<bool> LoadedStudy::measured() const {
   std::vector<bool> out;
   for (const PointSummary& p : points) out.push_back(p.failure.empty() && std::isfinite(p.relMse.mean));
+  return out;
+}
+
+std::optional<Camera> cameraOf(const LoadedStudy& study) {
+  if (study.camera.empty()) return std::nullopt;
+  try {
+    return cameraFromJson(study.camera);
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+Misfit misfit(const LoadedStudy& study, const std::string& sceneSha256, const Camera& camera, glm::uvec2 size) {
+  Misfit out;
+  if (!study.sceneSha256.empty() && study.sceneSha256 != sceneSha256) out.scene = study.scene;
+  if (const std::optional<Camera> of = cameraOf(study))
+    out.camera = otherCamera(of, camera);
+  else if (!study.camera.empty())
+    out.camera = "study.json does not say it as cameras are written";
+  if (study.size != glm::uvec2(0) && study.size != size)
+    out.size = fmt::format("{} \u00D7 {} pixels, not {} \u00D7 {}", study.size.x, study.size.y, size.x, size.y);
   return out;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gi/settings.h"
 #include "gi/study/results.h"
+#include "renderer/scene/scene.h"
 
 namespace irad {
 
@@ -29,6 +31,16 @@ struct LoadedStudy {
 /// Reads study.json with its rows, attribution.csv, or both. InputError names file, member or line and what is wrong,
 /// also where the folder holds neither.
 LoadedStudy loadStudy(const std::filesystem::path& folder);
+
+/// What of a study does not hold for a picture, in words; empty: it does, or the study does not say.
+struct Misfit {
+  std::string scene, camera;  ///< none of its figures are this picture's
+  std::string size;           ///< its costs that grow with the picture are not (CostKind::ofPicture)
+  bool usable() const { return scene.empty() && camera.empty(); }
+};
+Misfit misfit(const LoadedStudy& study, const std::string& sceneSha256, const Camera& camera, glm::uvec2 size);
+/// None where the folder does not say, or not as cameras are written.
+std::optional<Camera> cameraOf(const LoadedStudy& study);
 
 /// Of an attribution.csv, by its columns `row` (or `stage`), `gain` (or `relmse`), what is gained where that stage
 /// alone is ideal, and for the row `model` `relmse`, what is left where all are. Rows without a number are left out.

@@ -260,21 +260,23 @@ std::string pointTables(const std::vector<PointSummary>& points, std::optional<s
   };
   const std::vector<std::optional<size_t>> by = dominators(pairsOf(points, costKinds().front()));
   std::string out = "<h2>Errors of all points</h2>\n<p>Blue: on the front of error against first picture.</p>\n";
-  out += tableOf(points, given,
-                 {"relMSE", "±", "RMSE", "±", "mean error", "±", "PSNR, dB", "FLIP", "±", "facets", "entries"},
-                 [&](const PointSummary& p) {
-                   return std::vector<std::string>{cell(p.relMse.mean),
-                                                   cell(p.relMse.half),
-                                                   cell(p.rmse.mean),
-                                                   cell(p.rmse.half),
-                                                   cell(p.meanError.mean),
-                                                   cell(p.meanError.half),
-                                                   cell(p.psnr.mean),
-                                                   cell(p.flip.mean),
-                                                   cell(p.flip.half),
-                                                   withThousands(static_cast<uint64_t>(p.facets)),
-                                                   withThousands(static_cast<uint64_t>(p.entries))};
-                 });
+  const bool ofFacets = std::ranges::any_of(points, [](const PointSummary& p) { return !std::isnan(p.hRelMse.mean); });
+  std::vector<const char*> columns{"relMSE", "±", "RMSE", "±", "mean error", "±", "PSNR, dB", "FLIP", "±"};
+  if (ofFacets) columns.insert(columns.end(), {"relMSE of H", "±", "RMSE of H, W/m²", "±"});
+  columns.insert(columns.end(), {"facets", "entries"});
+  out += tableOf(points, given, columns, [&](const PointSummary& p) {
+    std::vector<std::string> cells{cell(p.relMse.mean), cell(p.relMse.half),    cell(p.rmse.mean),
+                                   cell(p.rmse.half),   cell(p.meanError.mean), cell(p.meanError.half),
+                                   cell(p.psnr.mean),   cell(p.flip.mean),      cell(p.flip.half)};
+    if (ofFacets)
+      for (const MeanInterval& m : {p.hRelMse, p.hRmse}) {
+        cells.push_back(cell(m.mean));
+        cells.push_back(std::isnan(m.mean) ? "–" : cell(m.half));
+      }
+    cells.push_back(withThousands(static_cast<uint64_t>(p.facets)));
+    cells.push_back(withThousands(static_cast<uint64_t>(p.entries)));
+    return cells;
+  });
   out += "<h2>Costs of all points</h2>\n";
   out += tableOf(points, given,
                  {"build, ms", "p5–p95", "wall", "relight, ms", "p5–p95", "frame, ms", "p5–p95", "matrix, MiB",

@@ -22,7 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const kErrorHead = "point,seed,relmse,rmse,mean_error,psnr,flip,facets,entries,matrix_mib,device_mib";
+const char* const kErrorHead =
+    "point,seed,relmse,rmse,mean_error,psnr,flip,facets,entries,matrix_mib,device_mib,"
+    "h_relmse,h_rmse";
 const char* const kTimeHead = "point,repeat,kind,stage,ms";
 const char* const kFailureHead = "point,message";
 const char* const kPeerHead = "peer,samples,seconds,relmse,rmse,mean_error,psnr,flip";
@@ -49,6 +51,12 @@ class RowReader {
     return true;
   }
   std::string text() { return fields_[at_++]; }
+  /// A double, where the field is empty NaN: not measured.
+  double numberOrNone() {
+    if (!fields_[at_].empty()) return number<double>();
+    ++at_;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   template <class T>
   T number() {
     const std::string& field = fields_[at_++];
@@ -166,8 +174,9 @@ void StudyFolder::save() {
   std::string errors = fmt::format("{}\n", kErrorHead), times = fmt::format("{}\n", kTimeHead),
               failures = fmt::format("{}\n", kFailureHead), peers = fmt::format("{}\n", kPeerHead);
   for (const ErrorRow& r : results.errors)
-    errors += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", r.point, r.seed, r.relMse, r.rmse, r.meanError, r.psnr,
-                          r.flip, r.facets, r.entries, r.matrixMib, r.deviceMib);
+    errors +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.point, r.seed, r.relMse, r.rmse, r.meanError, r.psnr,
+                    r.flip, r.facets, r.entries, r.matrixMib, r.deviceMib, number(r.hRelMse), number(r.hRmse));
   for (const TimeRow& r : results.times)
     times += fmt::format("{},{},{},{},{}\n", r.point, r.repeat, r.kind, csvField(r.stage), r.ms);
   for (const FailureRow& r : results.failures)
@@ -189,6 +198,7 @@ StudyResults readResults(const fs::path& folder) {
     for (double* value : {&r.relMse, &r.rmse, &r.meanError, &r.psnr, &r.flip}) *value = rows.number<double>();
     r.facets = rows.number<uint64_t>(), r.entries = rows.number<uint64_t>();
     r.matrixMib = rows.number<double>(), r.deviceMib = rows.number<double>();
+    r.hRelMse = rows.numberOrNone(), r.hRmse = rows.numberOrNone();
     out.errors.push_back(r);
   }
   for (RowReader rows(folder / "times.csv", kTimeHead); rows.next();) {
@@ -253,6 +263,9 @@ void merge(StudyResults& into, const StudyResults& from, const std::string& name
     else if (same->relMse != r.relMse || same->rmse != r.rmse || same->flip != r.flip)
       throw InputError(fmt::format("{}: point {}, seed {}: relMSE {} is {} in another shard", nameOfFrom, r.point,
                                    r.seed, r.relMse, same->relMse));
+    else if (number(same->hRelMse) != number(r.hRelMse))
+      throw InputError(fmt::format("{}: point {}, seed {}: relMSE of H {} is {} in another shard", nameOfFrom, r.point,
+                                   r.seed, r.hRelMse, same->hRelMse));
   }
   const StudyResults before = into;  // a shard's own repeats do not stand in each other's way
   for (const TimeRow& r : from.times)
@@ -292,7 +305,7 @@ std::vector<PointSummary> summarize(const StudyResults& results, const std::vect
     PointSummary& p = out[point];
     p.point = point;
     p.label = labels[point];
-    std::vector<double> relMse, rmse, meanError, psnr, flip;
+    std::vector<double> relMse, rmse, meanError, psnr, flip, hRelMse, hRmse;
     for (const ErrorRow& r : results.errors) {
       if (r.point != point) continue;
       if (relMse.empty()) {
@@ -301,15 +314,17 @@ std::vector<PointSummary> summarize(const StudyResults& results, const std::vect
       }
       relMse.push_back(r.relMse), rmse.push_back(r.rmse), meanError.push_back(r.meanError);
       psnr.push_back(r.psnr), flip.push_back(r.flip);
+      hRelMse.push_back(r.hRelMse), hRmse.push_back(r.hRmse);
     }
     p.seeds = relMse.size();
     if (p.seeds == 0) {
       p.failure = "not measured";
-      for (MeanInterval* m : {&p.relMse, &p.rmse, &p.meanError, &p.psnr, &p.flip})
+      for (MeanInterval* m : {&p.relMse, &p.rmse, &p.meanError, &p.psnr, &p.flip, &p.hRelMse, &p.hRmse})
         m->mean = std::numeric_limits<double>::quiet_NaN();
     } else {
       p.relMse = meanInterval(relMse), p.rmse = meanInterval(rmse), p.meanError = meanInterval(meanError);
       p.psnr = meanInterval(psnr), p.flip = meanInterval(flip);
+      p.hRelMse = meanInterval(hRelMse), p.hRmse = meanInterval(hRmse);
     }
     for (const FailureRow& r : results.failures)
       if (r.point == point) p.failure = r.message;
@@ -340,11 +355,11 @@ std::vector<PointSummary> summarize(const StudyResults& results, const std::vect
 const std::vector<CostKind>& costKinds() {
   static const std::vector<CostKind> kinds{
       {"first_picture", "first picture (build, solve, frame), ms", "ms",
-       [](const PointSummary& p) { return p.firstPictureMs(); }, true},
-      {"build", "build, ms", "ms", [](const PointSummary& p) { return p.gpuMs("setup"); }, true},
-      {"relight", "relight, ms", "ms", [](const PointSummary& p) { return p.gpuMs("relight"); }, true},
-      {"frame", "frame, ms", "ms", [](const PointSummary& p) { return p.gpuMs("camera"); }, true},
-      {"memory", "device memory, MiB", "MiB", [](const PointSummary& p) { return p.deviceMib; }, false}};
+       [](const PointSummary& p) { return p.firstPictureMs(); }, true, true},
+      {"build", "build, ms", "ms", [](const PointSummary& p) { return p.gpuMs("setup"); }, true, false},
+      {"relight", "relight, ms", "ms", [](const PointSummary& p) { return p.gpuMs("relight"); }, true, false},
+      {"frame", "frame, ms", "ms", [](const PointSummary& p) { return p.gpuMs("camera"); }, true, true},
+      {"memory", "device memory, MiB", "MiB", [](const PointSummary& p) { return p.deviceMib; }, false, true}};
   return kinds;
 }
 
@@ -353,8 +368,8 @@ std::string pointsCsv(const std::vector<PointSummary>& points, const std::vector
   std::string out = "point";
   for (const std::string& name : names) out += "," + csvField(name);
   out +=
-      ",status,seeds,relmse,relmse_ci95,rmse,rmse_ci95,mean_error,mean_error_ci95,psnr,psnr_ci95,flip,flip_ci95,facets,"
-      "entries,matrix_mib,device_mib";
+      ",status,seeds,relmse,relmse_ci95,rmse,rmse_ci95,mean_error,mean_error_ci95,psnr,psnr_ci95,flip,flip_ci95,"
+      "h_relmse,h_relmse_ci95,h_rmse,h_rmse_ci95,facets,entries,matrix_mib,device_mib";
   const std::pair<const char*, const char*> kinds[] = {
       {"build", "setup"}, {"first_solve", "cold"}, {"relight", "relight"}, {"frame", "camera"}};
   for (const auto& [name, kind] : kinds) out += fmt::format(",{0}_p5_ms,{0}_p50_ms,{0}_p95_ms,{0}_wall_p50_ms", name);
@@ -371,8 +386,8 @@ std::string pointsCsv(const std::vector<PointSummary>& points, const std::vector
     out += std::to_string(p.point);
     for (const std::string& value : values[p.point]) out += "," + csvField(value);
     out += fmt::format(",{},{}", csvField(p.failure.empty() ? "done" : p.failure), p.seeds);
-    for (const MeanInterval& m : {p.relMse, p.rmse, p.meanError, p.psnr, p.flip})
-      out += fmt::format(",{},{}", number(m.mean), p.seeds > 0 ? number(m.half) : "");
+    for (const MeanInterval& m : {p.relMse, p.rmse, p.meanError, p.psnr, p.flip, p.hRelMse, p.hRmse})
+      out += fmt::format(",{},{}", number(m.mean), p.seeds > 0 && !std::isnan(m.mean) ? number(m.half) : "");
     if (p.seeds > 0)
       out += fmt::format(",{},{},{},{}", p.facets, p.entries, p.matrixMib, p.deviceMib);
     else

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct ErrorRow {
   double rmse = 0, meanError = 0, psnr = 0, flip = 0;
   uint64_t facets = 0, entries = 0;
   double matrixMib = 0, deviceMib = 0;
+  /// Of the facets' H against the truth of H (PairedMetrics); NaN where there is none.
+  double hRelMse = std::numeric_limits<double>::quiet_NaN(), hRmse = std::numeric_limits<double>::quiet_NaN();
 };
 /// One stage of one call; "wall" is all of it, on the CPU's clock.
 struct TimeRow {
@@ -103,6 +106,7 @@ struct PointSummary {
   std::string failure;  ///< empty: it was computed
   size_t seeds = 0;
   MeanInterval relMse, rmse, meanError, psnr, flip;
+  MeanInterval hRelMse, hRmse;                                      ///< of the facets' H; NaN where it was not measured
   double facets = 0, entries = 0, matrixMib = 0, deviceMib = 0;     ///< of the first seed
   std::map<std::string, TimeSpread> gpu, wall;                      ///< by kind: "setup", "cold", "relight", "camera"
   std::map<std::string, std::map<std::string, TimeSpread>> stages;  ///< by kind and stage
@@ -120,6 +124,7 @@ struct CostKind {
   const char* unit;
   double (*of)(const PointSummary&);
   bool time;
+  bool ofPicture;  ///< it grows with the picture's pixels
 };
 const std::vector<CostKind>& costKinds();
 

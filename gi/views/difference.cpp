@@ -30,6 +30,10 @@ Quantity differenceQuantity(const ViewInfo& info, const Settings& settings) {
   return {of.name + (info.hasRange() ? ": B \u2212 A" : ": luminance, B \u2212 A"), of.unit};
 }
 
+const ViewInfo& differenceInfo() {
+  return kDifference;
+}
+
 void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings, const Targets& values,
                     const Targets& reference, Targets& out) {
   frame.pass("View")

@@ -12,14 +12,12 @@
 
 namespace irad {
 
-VkSampler pointSampler(const Device& device) {
-  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
-  nearest.linearMips = false;
-  return sampler(device, nearest);
-}
-
 float linearExposure(const Settings& settings) {
   return settings.camera.gpu.exposure * std::exp2(settings.camera.exposureEv);
+}
+
+bool exposesItself(const ViewInfo& info, const Settings& settings) {
+  return info.toneMapped() && settings.camera.autoExposure;
 }
 
 void drawTargets(Frame& frame, View view, const ViewInputs& inputs, const Buffer& camera, const Settings& settings,
@@ -31,6 +29,7 @@ void drawTargets(Frame& frame, View view, const ViewInputs& inputs, const Buffer
   push.camera = pass.in(camera);
   if (sky != nullptr) push.sky = pass.in(*sky);
   push.kind = info != nullptr ? info->kind : VIEW_KIND_COLOR;
+  push.linearOnly = info != nullptr && (info->hasRange() || exposesItself(*info, settings)) ? 1 : 0;
   push.exposure = linearExposure(settings);
   push.toneCurve = settings.camera.gpu.toneCurve;
   if (inputs.facets != nullptr) {
@@ -58,20 +57,22 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
   if (known == nullptr) return drawTargets(frame, view, inputs, camera, settings, targets);
 
   const ViewInfo& info = *known;
+  const bool needsRange = info.hasRange() || exposesItself(info, settings);
   if (info.shape) {
     drawVoxels(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_PICTURE)) {
-    if (info.isFrom(FROM_TARGETS)) drawTargets(frame, inputs.pictureOf, inputs, camera, settings, targets);
+    if (info.isFrom(FROM_TARGETS) && !inputs.composed)
+      drawTargets(frame, inputs.pictureOf, inputs, camera, settings, targets);
     drawReference(frame, info, inputs, targets);
   } else if (info.isFrom(FROM_SHADOW_MAPS)) {
     drawShadowView(frame, info, inputs, camera, settings, targets);
   } else if (info.isFrom(FROM_FACETS)) {
     drawPinHoles(frame, inputs, camera, targets);
   } else {
-    drawTargets(frame, view, inputs, camera, settings, targets);
-    if (!info.hasRange()) return;  // the display picture is there
+    if (!inputs.composed) drawTargets(frame, view, inputs, camera, settings, targets);
+    if (!needsRange && !inputs.composed) return;  // the display picture is there
   }
-  if (info.hasRange()) {
+  if (needsRange) {
     if (inputs.range != nullptr)
       frame.pass("View range").copy(*inputs.range, targets.viewRange, sizeof(ViewRange));
     else

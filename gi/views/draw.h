@@ -35,6 +35,7 @@ struct ViewInputs {
   const Image* picture = nullptr;  ///< RGBA32F: the reference picture, radiance
   View pictureOf = VIEW_LIT;       ///< the view that it is a picture of
   const Buffer* sky = nullptr;     ///< a SkyPicture
+  bool composed = false;           ///< targets.linear holds the picture already (gi/glass.h)
   ViewFields* fields = nullptr;    ///< of `facets`
   const Buffer* range = nullptr;   ///< a ViewRange to draw with in place of the picture's own
 };
@@ -47,5 +48,8 @@ void drawView(Frame& frame, View view, const ViewInputs& inputs, const Buffer& c
 /// between normals the angle in degrees. Into the linear, range and display targets of `out`, by the diverging map.
 void drawDifference(Frame& frame, const ViewInfo& info, const Settings& settings, const Targets& values,
                     const Targets& reference, Targets& out);
+
+/// What such a difference is shown as: a view that is not in the list.
+const ViewInfo& differenceInfo();
 
 }  // namespace irad

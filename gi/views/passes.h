@@ -22,13 +22,18 @@ void drawShadowView(Frame& frame, const ViewInfo& info, const ViewInputs& inputs
 /// The reference picture, or what targets.linear holds against it. Empty without one.
 void drawReference(Frame& frame, const ViewInfo& info, const ViewInputs& inputs, Targets& targets);
 
-/// Finds the range that a view is drawn with, from targets.linear and settings.view, into targets.viewRange.
+/// Finds the range that a view is drawn with, or that of a view of light's luminances (autoExposure()), from
+/// targets.linear and settings.view, into targets.viewRange.
 void findRange(Frame& frame, const ViewInfo& info, const Settings& settings, Targets& targets);
+/// The same of any linear picture, with what `push` says beside the addresses: into `range`, with `bins` for
+/// percentiles.
+void measureRange(Frame& frame, const char* stage, RangePush push, const Image& linear, const Buffer& range,
+                  const Buffer& bins);
 /// targets.linear -> targets.display. `dims`: of the grid, for views of its voxels' coordinates.
 void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, glm::uvec3 dims, Targets& targets);
 
-/// Nearest texel, no mips.
-VkSampler pointSampler(const Device& device);
 float linearExposure(const Settings& settings);
+/// A view of light with camera.auto_exposure: its display picture needs the whole linear one first.
+bool exposesItself(const ViewInfo& info, const Settings& settings);
 
 }  // namespace irad

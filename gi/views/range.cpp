@@ -19,20 +19,28 @@ void findRange(Frame& frame, const ViewInfo& info, const Settings& settings, Tar
   push.low = view.low;
   push.high = view.high;
   push.percentile = view.percentile;
-  if (view.range == RangeMode::standard) {
+  if (!info.hasRange()) {  // luminances, of which camera.auto_exposure wants the upper end
+    push.mode = RangeMode::percentile;
+    push.percentile = AUTO_EXPOSURE_PERCENTILE;
+  } else if (view.range == RangeMode::standard) {
     push.mode = info.rangeMin < info.rangeMax ? RangeMode::manual : RangeMode::automatic;
     push.low = info.rangeMin;
     push.high = info.rangeMax;
   }
-  frame.pass("View range").update(targets.viewRange, ViewRange{.least = UINT32_MAX});
-  if (push.mode == RangeMode::percentile) frame.pass("View range").fill(targets.viewBins, 0);
-  Pass measure = frame.pass("View range");
-  push.range = measure.out(targets.viewRange);
-  push.bins = measure.out(targets.viewBins);
-  measure.shader("view/range_measure.comp").read(targets.linear).push(push).dispatch(targets.size);
-  Pass resolve = frame.pass("View range");
-  push.range = resolve.out(targets.viewRange);
-  push.bins = resolve.in(targets.viewBins);
+  measureRange(frame, "View range", push, targets.linear, targets.viewRange, targets.viewBins);
+}
+
+void measureRange(Frame& frame, const char* stage, RangePush push, const Image& linear, const Buffer& range,
+                  const Buffer& bins) {
+  frame.pass(stage).update(range, ViewRange{.least = UINT32_MAX});
+  if (push.mode == RangeMode::percentile) frame.pass(stage).fill(bins, 0);
+  Pass measure = frame.pass(stage);
+  push.range = measure.out(range);
+  push.bins = measure.out(bins);
+  measure.shader("view/range_measure.comp").read(linear).push(push).dispatch(push.size);
+  Pass resolve = frame.pass(stage);
+  push.range = resolve.out(range);
+  push.bins = resolve.in(bins);
   resolve.shader("view/range_resolve.comp").push(push).dispatchWorkgroups(1);
 }
 
@@ -43,6 +51,7 @@ void finishView(Frame& frame, const ViewInfo& info, const Settings& settings, gl
   push.size = targets.size;
   push.kind = info.kind;
   push.colorMap = colorMapOf(info, settings);
+  push.automatic = exposesItself(info, settings) ? 1 : 0;
   push.exposure = linearExposure(settings);
   push.toneCurve = settings.camera.gpu.toneCurve;
   push.dims = dims;

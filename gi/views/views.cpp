@@ -65,6 +65,17 @@ std::optional<ViewShape> resolveShape(View view, ViewShape wanted) {
   return wanted;
 }
 
+uint32_t sourcesOf(View view, const Settings& settings, View pictureOf) {
+  const ViewInfo* info = viewInfo(view);
+  if (info == nullptr) return FROM_TARGETS;  // shown in magenta
+  uint32_t from = info->from;
+  if (info->isFrom(FROM_PICTURE) && info->isFrom(FROM_TARGETS) && viewInfo(pictureOf) != nullptr)
+    from |= viewInfo(pictureOf)->from;
+  if (resolveShape(view, settings.view.shape) == ViewShape::slice)
+    from |= FROM_TARGETS | FROM_DIRECT_LIGHT | FROM_INDIRECT_LIGHT;  // the lit scene around it
+  return from;
+}
+
 std::string whatIsMissing(const ViewInfo& info, const Settings& settings) {
   const bool framewise = settings.solver.method == SolverMethod::bruteForce;
   if (framewise && info.isFrom(FROM_MATRIX | FROM_MATRIX_ROW))

@@ -51,6 +51,10 @@ std::optional<ViewShape> resolveShape(View view, ViewShape wanted);
 /// Why there is nothing to draw a view from with these settings, in a sentence; empty: there is.
 std::string whatIsMissing(const ViewInfo& info, const Settings& settings);
 
+/// What a picture of the view is drawn from, FROM_*: what its row says, what is shown around it, and what the reference
+/// is a picture of where it is compared with it.
+uint32_t sourcesOf(View view, const Settings& settings, View pictureOf);
+
 /// What the colours of a view with a range stand for, in the shape that it is shown in: "Chebyshev field" in "voxels".
 struct Quantity {
   std::string name, unit;

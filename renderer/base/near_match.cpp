@@ -22,6 +22,11 @@ std::string_view member(std::string_view name) {
 
 }  // namespace
 
+bool containsAnyCase(std::string_view text, std::string_view part) {
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end() || part.empty();
+}
+
 unsigned editDistance(std::string_view a, std::string_view b) {
   // Three rows of the usual table: two back (for swaps), one back, current.
   std::vector<unsigned> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);

@@ -7,6 +7,9 @@
 
 namespace irad {
 
+/// Whether `text` has `part` in it, capital letters or not; an empty one always.
+bool containsAnyCase(std::string_view text, std::string_view part);
+
 /// Optimal-string-alignment distance: insertions, deletions, substitutions and swaps of neighbours, each 1.
 unsigned editDistance(std::string_view a, std::string_view b);
 

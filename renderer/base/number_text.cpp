@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace irad {
 
 std::string prettyUnit(std::string_view unit) {
@@ -39,6 +41,10 @@ std::string withThousands(uint64_t value) {
   std::string digits = fmt::format("{}", value);
   for (auto i = static_cast<ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) digits.insert(static_cast<size_t>(i), 1, ',');
   return digits;
+}
+
+double unsignedZero(double value, int decimals) {
+  return std::abs(value) < 0.5 * std::pow(10.0, -decimals) ? 0 : value;
 }
 
 }  // namespace irad

@@ -15,5 +15,7 @@ std::string mebibytes(uint64_t bytes);  ///< "0.12 MiB", "12.3 MiB"
 /// 3 significant digits, exponent where needed: "0.0123", "1.2e-06".
 std::string shortNumber(double value);
 std::string withThousands(uint64_t value);
+/// 0 for what is printed as zero with so many decimals, so that it has no sign: no "-0.00".
+double unsignedZero(double value, int decimals);
 
 }  // namespace irad

@@ -9,6 +9,8 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -127,6 +129,11 @@ void writeFile(const std::filesystem::path& path, std::span<const std::byte> byt
   file.write(bytes);
   file.commit();
 }
+std::string readFile(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void writeFile(const std::filesystem::path& path, std::string_view text) {
   writeFile(path, std::as_bytes(std::span(text)));
 }
@@ -145,6 +152,36 @@ void makeFolder(const std::filesystem::path& path) {
   if (error) throw WorkError(fmt::format("cannot create folder {}: {}", path.string(), error.message()));
   if (::access(path.c_str(), W_OK | X_OK) != 0)
     throw WorkError(fmt::format("cannot write into {}: {}", path.string(), std::strerror(errno)));
+}
+
+namespace {
+
+/// Removes a folder and those in it as far as they hold no file.
+void removeEmpty(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> inside;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->is_symlink(error) || !entry->is_directory(error)) return;
+    inside.push_back(entry->path());
+  }
+  for (const fs::path& path : inside) removeEmpty(path);
+  fs::remove(folder, error);  // does so where it is empty
+}
+
+}  // namespace
+
+MadeFolder::MadeFolder(const fs::path& path) {
+  std::error_code error;
+  for (fs::path folder = fs::absolute(path, error).lexically_normal(); !error && !fs::exists(folder, error);
+       folder = folder.parent_path()) {
+    if (!folder.has_relative_path()) break;
+    made_ = folder;
+  }
+  makeFolder(path);
+}
+
+MadeFolder::~MadeFolder() {
+  if (!made_.empty()) removeEmpty(made_);
 }
 
 template <class T>

@@ -48,11 +48,25 @@ class OutputFolder {
 
 void writeFile(const std::filesystem::path& path, std::string_view text);
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// A file's bytes; none where it cannot be read.
+std::string readFile(const std::filesystem::path& path);
 /// Removes a file if there is one.
 void removeFile(const std::filesystem::path& path);
 /// Makes a folder and its parents, and checks that it can be written into: better to know before the work than after
 /// it.
 void makeFolder(const std::filesystem::path& path);
+
+/// makeFolder() for the time of some work. Where that leaves nothing behind, because it failed, the folders that were
+/// made for it go again: those that hold nothing but such folders.
+class MadeFolder {
+ public:
+  explicit MadeFolder(const std::filesystem::path& path);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+
+ private:
+  std::filesystem::path made_;  ///< the uppermost one that was not there; empty: all of them were
+};
 
 /// numpy's type strings of the element types that exports use.
 template <class T>

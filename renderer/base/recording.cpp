@@ -96,8 +96,9 @@ std::string traceJson(const Recording& recording) {
   constexpr int kProcess = 1, kCpu = 1, kGpu = 2;
   std::string out = fmt::format(
       R"({{"displayTimeUnit":"ms","otherData":{{"device":{},"scene":{},)"
-      R"("clocks":"GPU times are shifted so that no pass begins before the CPU began its group"}},"traceEvents":[)",
-      quoted(recording.device), quoted(recording.scene));
+      R"("clocks":"GPU times are shifted so that no pass begins before the CPU began its group"{}}},"traceEvents":[)",
+      quoted(recording.device), quoted(recording.scene),
+      recording.manifest.empty() ? "" : ",\"manifest\":" + recording.manifest);
   const auto name = [&](const char* what, int thread, const std::string& is) {
     out += fmt::format(R"({{"ph":"M","pid":{},"tid":{},"name":"{}","args":{{"name":{}}}}})", kProcess, thread, what,
                        quoted(is));
@@ -129,6 +130,7 @@ void writeRecording(const std::filesystem::path& folder, const Recording& record
   writeCsv(summary, timingRows(stageSamples(recording.frames)));
   writeFile(folder / "summary.csv", summary.str());
   writeFile(folder / "trace.json", traceJson(recording));
+  if (!recording.manifest.empty()) writeFile(folder / "manifest.json", recording.manifest);
 }
 
 std::deque<FrameSample> readRecording(const std::filesystem::path& folder) {

@@ -3,7 +3,8 @@
 //                stage did not run
 //   summary.csv  statistics per stage (renderer/timings.h, writeCsv)
 //   trace.json   Chrome's trace event format, which Perfetto opens: a track of the CPU's groups, one of the GPU's
-//   passes
+//   passes; the manifest in its metadata
+//   manifest.json what was recorded, where it is known: as the maker of the recording says it
 #pragma once
 
 #include <deque>
@@ -18,6 +19,7 @@ namespace irad {
 struct Recording {
   std::string device, scene;  ///< said in the trace
   std::deque<FrameSample> frames;
+  std::string manifest = {};  ///< JSON; empty: none
 };
 
 /// Makes the folder; each file appears whole or not at all. Throws WorkError naming the file.

@@ -1,4 +1,8 @@
-// SHA-256, FIPS 180-4.
+// FIPS 180-4.
+#include "renderer/base/sha256.h"
+
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 #include <cstring>
@@ -6,7 +10,6 @@
 #include <vector>
 
 #include "renderer/base/error.h"
-#include "renderer/base/sha256.h"
 
 namespace irad {
 namespace {

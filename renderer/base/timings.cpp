@@ -93,6 +93,7 @@ void Timings::add(std::string_view stage, double gpuMs, std::optional<double> be
 void Timings::endFrame(uint64_t frame, bool setup, double cpuMs, Clock::time_point ended) {
   open_.frame = frame;
   open_.kind = setup ? WorkKind::Setup : WorkKind::Frame;
+  if (setup) open_.of = subject_;
   open_.began = std::chrono::duration<double, std::milli>(ended - made_).count() - cpuMs;
   open_.cpuMs = cpuMs;
   frames_.push_back(std::exchange(open_, {}));

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace irad {
@@ -36,6 +37,7 @@ struct FrameSample {
     double began, ended;
   };
   uint64_t frame = 0;
+  std::string of;  ///< set-up work: what was set up (Timings::about())
   WorkKind kind = WorkKind::Frame;
   double began = 0;                                    ///< ms since the Timings were made, on the CPU's clock
   double cpuMs = 0;                                    ///< from there until its work was handed over, or done
@@ -68,6 +70,8 @@ class Timings {
   /// Closes the group: each stage seen since the last call gets one sample. `setup`: the group is one-time work (a
   /// rebuild), listed apart from per-frame stages.
   void endFrame(uint64_t frame, bool setup, double cpuMs, Clock::time_point ended = Clock::now());
+  /// What is set up from now on, in words for a table: scene and resolution.
+  void about(std::string subject) { subject_ = std::move(subject); }
   void forget();  ///< drops what was added since the last group: the work was given up
   void reset();
 
@@ -86,6 +90,7 @@ class Timings {
   size_t window_;
   Clock::time_point made_ = Clock::now();
   FrameSample open_;
+  std::string subject_;
   std::deque<FrameSample> frames_;
   std::array<size_t, 2> kept_{};  ///< of frames_: set-up, others
   uint64_t recorded_ = 0;

@@ -151,6 +151,7 @@ void Context::Impl::destroy(FrameSlot& slot) {
 
 void Context::collect() {
   impl->collect(timings);
+  impl->pipelines.collect();  // frames that are untimed go on without begin()
 }
 
 void Context::finish() {

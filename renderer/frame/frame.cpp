@@ -5,6 +5,7 @@
 
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/format.h"
 #include "renderer/frame/frame_impl.h"
 #include "renderer/vulkan_check.h"
 
@@ -85,6 +86,30 @@ void Frame::readback(const Buffer& buffer, uint64_t offset, uint64_t bytes,
       .record([&, staging = staging, stagingOffset = stagingOffset](VkCommandBuffer commands) {
         const VkBufferCopy region{offset, stagingOffset, bytes};
         if (bytes > 0) vkCmdCopyBuffer(commands, buffer.handle, staging->handle, 1, &region);
+      });
+  impl_->slot->readbacks.push_back({mapped, bytes, std::move(done)});
+}
+
+void Frame::readback(const Image& image, glm::uvec2 corner, glm::uvec2 size,
+                     std::function<void(std::span<const uint8_t>)> done) {
+  const ImageDesc& d = image.desc;
+  IRAD_CHECK(corner.x + size.x <= d.width && corner.y + size.y <= d.height && size.x > 0 && size.y > 0,
+             "readback of {} x {} from {}, {} of {}, {} x {}", size.x, size.y, corner.x, corner.y, d.name, d.width,
+             d.height);
+  const FormatInfo format = formatInfo(d.format);
+  const uint64_t bytes = uint64_t{size.x} * size.y * format.bytes;
+  const std::byte* mapped = nullptr;
+  const auto [staging, stagingOffset] = impl_->stage(bytes, mapped);
+  pass("Readback")
+      .declare(image, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT})
+      .record([&, staging = staging, stagingOffset = stagingOffset](VkCommandBuffer commands) {
+        const VkImageAspectFlags aspect =
+            format.kind == TexelKind::Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+        const VkBufferImageCopy region{.bufferOffset = stagingOffset,
+                                       .imageSubresource = {aspect, 0, 0, 1},
+                                       .imageOffset = {static_cast<int32_t>(corner.x), static_cast<int32_t>(corner.y)},
+                                       .imageExtent = {size.x, size.y, 1}};
+        vkCmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_GENERAL, staging->handle, 1, &region);
       });
   impl_->slot->readbacks.push_back({mapped, bytes, std::move(done)});
 }

@@ -21,6 +21,9 @@ class Frame {
   /// Deferred: `done` is called with the bytes by whoever first notices that the frame has finished.
   void readback(const Buffer& buffer, uint64_t offset, uint64_t bytes,
                 std::function<void(std::span<const uint8_t>)> done);
+  /// The same of a part of a 2D image: texels from `corner` on, row by row, as the image stores them.
+  void readback(const Image& image, glm::uvec2 corner, glm::uvec2 size,
+                std::function<void(std::span<const uint8_t>)> done);
   /// Makes the frame a sample of its own in the timing table. It is closed when its times are collected, so nobody has
   /// to wait for it. Its CPU time runs from `began` until it is submitted.
   void sampled(uint64_t frameIndex, std::chrono::steady_clock::time_point began);

@@ -46,4 +46,10 @@ VkSampler sampler(const Device& device, const SamplerDesc& desc) {
   return sampler;
 }
 
+VkSampler pointSampler(const Device& device) {
+  SamplerDesc nearest{Wrap::Clamp, Wrap::Clamp, /*linearMag*/ false, /*linearMin*/ false, /*mips*/ false};
+  nearest.linearMips = false;
+  return sampler(device, nearest);
+}
+
 }  // namespace irad

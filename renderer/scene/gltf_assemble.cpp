@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/nodes.h"
 
 namespace irad::gltf {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 /// A primitive somewhere in the world, its positions still to be transformed.
 struct Placed {
   const Primitive* primitive = nullptr;
+  uint32_t node = 0;  ///< of Scene::nodes
   glm::dmat4 world{1.0};
   const std::vector<glm::dmat4>* joints = nullptr;  ///< skinned: these instead of `world`
   std::vector<bool> keep;                           ///< per triangle; empty: all
@@ -51,6 +53,19 @@ bool zeroArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 e1 = b - a, e2 = c - a, e3 = c - b;
   const double longest = std::max({glm::dot(e1, e1), glm::dot(e2, e2), glm::dot(e3, e3)});
   return !(glm::length(glm::cross(e1, e2)) > 1e-12 * longest);
+}
+
+/// What is the matter where nothing is drawn: ": …", as far as the file's structure says it.
+std::string whyNone(const Document& doc, const Flattened& flat, uint64_t triangles) {
+  const tinygltf::Model& model = doc.model;
+  const size_t meshes = model.meshes.size(), scene = static_cast<size_t>(std::max(model.defaultScene, 0));
+  if (meshes == 0) return ": the file has no meshes";
+  if (!flat.instances.empty()) return triangles == 0 ? ": its meshes have none" : "";
+  const std::string none = fmt::format(": none of the file's {} meshes is shown: ", meshes);
+  if (model.nodes.empty()) return none + "it has no nodes";
+  if (!model.scenes.empty() && model.scenes[scene].nodes.empty())
+    return none + fmt::format("scenes[{}] lists no nodes", scene);
+  return none + (model.scenes.empty() ? "no node names one" : fmt::format("no node of scenes[{}] names one", scene));
 }
 
 struct Counts {
@@ -104,7 +119,8 @@ void append(const Document& doc, const Placed& placed, Scene& scene) {
                                   : anyTangent(n);
     // A vertex of dropped triangles only may be anywhere: it still has to be finite.
     const glm::dvec3 world(m * glm::dvec4(glm::dvec3(p.positions[i]), 1.0));
-    scene.positions.emplace_back(usable(world) ? glm::vec3(world - scene.origin) : glm::vec3(0.0f));
+    scene.positions.push_back(localPosition(world, scene.origin));
+    scene.world.push_back(usable(world) ? world : glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
     scene.normals.push_back(n);
     scene.tangents.push_back(tangent);
     scene.uv0.push_back(p.uv0[i]);
@@ -144,7 +160,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
       }
     }
     for (const auto& primitive : entry->second) {
-      Placed place{primitive.get(), instance.world, nullptr, {}, 0};
+      Placed place{primitive.get(), instance.sceneNode, instance.world, nullptr, {}, 0};
       if (instance.skin >= 0 && primitive->influences > 0) {
         doc.warn("skins are shown in their rest pose; they are not animated");
         if (!joints.contains(instance.skin)) joints[instance.skin] = jointMatrices(doc, instance.skin, flat.nodeWorld);
@@ -169,7 +185,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
     doc.warn(fmt::format("{} normals of length 0 are replaced by those of the faces", counts.zeroNormals));
   std::erase_if(placed, [](const Placed& p) { return p.kept == 0; });
   if (placed.empty()) {
-    doc.warn("the scene has no triangles");
+    doc.warn("the scene has no triangles" + whyNone(doc, flat, triangles));
     return;
   }
   scene.origin = 0.5 * (lo + hi);
@@ -179,15 +195,22 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
                    [](const Placed& a, const Placed& b) { return a.primitive->material < b.primitive->material; });
   uint64_t vertexCount = 0, indexCount = 0;
   for (const Placed& place : placed) vertexCount += place.primitive->positions.size(), indexCount += place.kept * 3;
-  doc.take(vertexCount * 72 + indexCount * 4, "meshes");
+  doc.take(vertexCount * 96 + indexCount * 4, "meshes");
   scene.positions.reserve(vertexCount), scene.normals.reserve(vertexCount), scene.tangents.reserve(vertexCount);
   scene.uv0.reserve(vertexCount), scene.uv1.reserve(vertexCount), scene.colors.reserve(vertexCount);
-  scene.indices.reserve(indexCount);
+  scene.world.reserve(vertexCount), scene.indices.reserve(indexCount);
   for (const Placed& place : placed) {
     const uint32_t first = static_cast<uint32_t>(scene.indices.size());
+    const uint32_t firstVertex = static_cast<uint32_t>(scene.positions.size());
     append(doc, place, scene);
     const uint32_t added = static_cast<uint32_t>(scene.indices.size()) - first;
-    if (scene.draws.empty() || scene.draws.back().material != place.primitive->material) {
+    const uint32_t vertices = static_cast<uint32_t>(scene.positions.size()) - firstVertex;
+    const bool newDraw = scene.draws.empty() || scene.draws.back().material != place.primitive->material;
+    if (newDraw || scene.pieces.back().node != place.node)
+      scene.pieces.push_back({place.node, firstVertex, vertices, first, added});
+    else
+      scene.pieces.back().vertexCount += vertices, scene.pieces.back().indexCount += added;
+    if (newDraw) {
       scene.draws.push_back({place.primitive->material, first, added});
     } else {
       scene.draws.back().indexCount += added;
@@ -195,6 +218,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
   }
   scene.boundsMin = glm::vec3(lo - scene.origin);
   scene.boundsMax = glm::vec3(hi - scene.origin);
+  measureNodes(scene);
 }
 
 }  // namespace irad::gltf

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "renderer/base/json_extent.h"
@@ -11,7 +12,8 @@ namespace irad::gltf {
 namespace {
 
 constexpr uint64_t kMaxJsonBytes = 64ull << 20;
-constexpr uint64_t kMaxJsonElements = 2'500'000;
+constexpr uint64_t kMaxJsonElements = 8'000'000;  // 300,000 nodes have up to 7 million
+constexpr uint64_t kJsonElementBytes = 48;        // about what one takes as a value
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
 uint32_t readU32(ByteSpan bytes, size_t at) {
@@ -24,6 +26,7 @@ void readGlb(Document& doc) {
   const ByteSpan all = doc.file;
   if (all.size() < 20) doc.fail("GLB header", fmt::format("the file ends after {} bytes", all.size()));
   const uint32_t version = readU32(all, 4), length = readU32(all, 8);
+  if (version == 1) doc.fail("GLB header", fmt::format("version 1: {}", kOldFormat));
   if (version != 2) doc.fail("GLB header", fmt::format("version {} is not 2", version));
   if (length > all.size() || length < 20)
     doc.fail("GLB header", fmt::format("states {} bytes, the file has {}", length, all.size()));
@@ -50,14 +53,40 @@ void readGlb(Document& doc) {
   }
 }
 
+/// Stops at the first key that its object has already.
+struct KeyWatch : nlohmann::json::json_sax_t {
+  std::optional<std::string> duplicate;
+
+  bool key(string_t& name) override {
+    if (!keys_.back().insert(name).second) duplicate = name;
+    return !duplicate;
+  }
+  bool start_object(size_t) override { return keys_.emplace_back(), true; }
+  bool end_object() override { return keys_.pop_back(), true; }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_array(size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
+
+ private:
+  std::vector<std::set<std::string>> keys_;  ///< of each object that is open
+};
+
 /// Depth and size of the JSON before any parser sees it.
-void checkJson(const Document& doc) {
+void checkJson(Document& doc) {
   if (doc.json.size() > kMaxJsonBytes)
     doc.fail("JSON", fmt::format("{} bytes, at most {} are accepted", doc.json.size(), kMaxJsonBytes));
   const JsonExtent extent = jsonExtent({reinterpret_cast<const char*>(doc.json.data()), doc.json.size()});
   if (extent.depth > kMaxJsonDepth)
     doc.fail("JSON", fmt::format("nested deeper than {} levels ({})", kMaxJsonDepth, extent.depth));
   if (extent.elements > kMaxJsonElements) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonElements));
+  doc.take(extent.elements * kJsonElementBytes, "JSON");
 }
 
 }  // namespace
@@ -83,12 +112,20 @@ void Document::take(uint64_t bytes, const std::string& object) {
   used_ += bytes;
 }
 
+std::string whyNoFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_regular_file(status)) return "";
+  if (std::filesystem::is_directory(status)) return "is a folder, not a file";
+  if (std::filesystem::exists(status)) return "is a device or a pipe, not a file";
+  if (status.type() == std::filesystem::file_type::none && error) return error.message();
+  return "no such file";
+}
+
 Bytes readFile(const std::filesystem::path& path, uint64_t maxBytes, std::string& why) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    why = "no such file";
-    return {};
-  }
+  why = whyNoFile(path);
+  if (!why.empty()) return {};
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error || size > maxBytes) {
     why = error ? error.message() : fmt::format("{} bytes, at most {} are accepted", size, maxBytes);
@@ -118,18 +155,13 @@ void readContainer(Document& doc) {
     doc.json = doc.file;
   }
   checkJson(doc);
-  // Parse; duplicate keys would make two readers see two scenes, the specification forbids them.
-  std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
-    using Event = nlohmann::json::parse_event_t;
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::object_end) keys.pop_back();
-    if (event == Event::key && !keys.back().insert(value.get<std::string>()).second)
-      doc.fail("JSON", fmt::format("duplicate key \"{}\"", value.get<std::string>()));
-    return true;
-  };
+  // Duplicate keys would make two readers see two scenes; the specification forbids them. They are looked for in a pass
+  // of its own: the parser's callback while a document is made walks all elements of a container at each element's end.
   try {
-    doc.root = std::make_unique<nlohmann::json>(nlohmann::json::parse(doc.json.begin(), doc.json.end(), watch));
+    KeyWatch watch;
+    nlohmann::json::sax_parse(doc.json.begin(), doc.json.end(), &watch);  // what is no JSON is said by parse(), below
+    if (watch.duplicate) doc.fail("JSON", fmt::format("duplicate key \"{}\"", *watch.duplicate));
+    doc.root = std::make_unique<nlohmann::json>(nlohmann::json::parse(doc.json.begin(), doc.json.end()));
   } catch (const nlohmann::json::exception& error) {
     doc.fail("JSON", error.what());
   }

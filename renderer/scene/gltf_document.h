@@ -31,6 +31,9 @@ constexpr uint64_t kMaxImageBytes = 1ull << 30;      ///< decoded, all images to
 constexpr uint64_t kMaxImageScratch = 600ull << 20;  ///< beside them while decoding, all images in progress together
 constexpr uint32_t kMaxImageExtent = 16384;          ///< pixels per side
 
+/// What is said of files of the format's first version.
+constexpr const char* kOldFormat = "this is glTF 1.0, and glTF 2.0 is read; converters from one to the other exist";
+
 /// The bytes of a bufferView; `present` is false where its buffer is a placeholder without data.
 struct View {
   ByteSpan bytes;
@@ -83,6 +86,8 @@ bool isDataUri(const std::string& uri);
 /// Decodes a data URI; false when malformed.
 bool decodeDataUri(const std::string& uri, Bytes& out, std::string& mime);
 Bytes readFile(const std::filesystem::path& path, uint64_t maxBytes, std::string& why);
+/// Why a path cannot be read as a file ("no such file", "is a folder, not a file"); empty: it is one.
+std::string whyNoFile(const std::filesystem::path& path);
 
 // gltf_accessors.cpp
 struct Elements {
@@ -135,9 +140,10 @@ struct Primitive {
 bool loadPrimitive(Document&, const tinygltf::Mesh&, uint32_t meshIndex, uint32_t primitiveIndex,
                    const std::vector<double>& morphWeights, const Scene& scene, Primitive& out);
 
-// gltf_nodes.cpp: world transforms, instances, lights, cameras.
+// gltf_nodes.cpp: world transforms, instances, lights, cameras, the list of nodes that have meshes.
 struct Instance {
   int mesh = -1, node = -1, skin = -1;
+  uint32_t sceneNode = 0;  ///< of Scene::nodes
   glm::dmat4 world{1.0};
 };
 struct Flattened {

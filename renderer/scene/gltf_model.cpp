@@ -45,10 +45,57 @@ void strip(Json& value) {
   }
 }
 
+std::vector<double> numbers(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() ? found->get<std::vector<double>>() : std::vector<double>();
+}
+
+tinygltf::Node nodeOf(const Json& json) {
+  tinygltf::Node node;
+  node.name = json.value("name", std::string());
+  node.mesh = json.value("mesh", -1), node.skin = json.value("skin", -1), node.camera = json.value("camera", -1);
+  if (const auto children = json.find("children"); children != json.end())
+    node.children = children->get<std::vector<int>>();
+  node.matrix = numbers(json, "matrix"), node.weights = numbers(json, "weights");
+  node.rotation = numbers(json, "rotation"), node.scale = numbers(json, "scale");
+  node.translation = numbers(json, "translation");
+  const auto extensions = json.find("extensions");
+  if (extensions == json.end()) return node;
+  using tinygltf::Value;
+  if (const auto light = extensions->find("KHR_lights_punctual"); light != extensions->end())
+    node.extensions["KHR_lights_punctual"] = Value(Value::Object{{"light", Value(light->at("light").get<int>())}});
+  if (const auto many = extensions->find("EXT_mesh_gpu_instancing"); many != extensions->end()) {
+    Value::Object attributes;
+    for (const auto& [name, accessor] : many->at("attributes").items()) attributes.emplace(name, accessor.get<int>());
+    node.extensions["EXT_mesh_gpu_instancing"] = Value(Value::Object{{"attributes", Value(std::move(attributes))}});
+  }
+  return node;
+}
+
+/// A few bytes of JSON are a few hundred of a model.
+void takeModel(Document& doc) {
+  const auto take = [&](const char* name, uint64_t each) {
+    if (doc.root->contains(name)) doc.take(doc.root->at(name).size() * each, name);
+  };
+  take("nodes", sizeof(tinygltf::Node)), take("materials", sizeof(tinygltf::Material));
+  take("meshes", sizeof(tinygltf::Mesh)), take("accessors", sizeof(tinygltf::Accessor));
+  take("bufferViews", sizeof(tinygltf::BufferView)), take("textures", sizeof(tinygltf::Texture));
+  take("samplers", sizeof(tinygltf::Sampler)), take("skins", sizeof(tinygltf::Skin));
+  take("cameras", sizeof(tinygltf::Camera)), take("scenes", sizeof(tinygltf::Scene));
+  if (doc.root->contains("meshes"))
+    for (const Json& mesh : doc.root->at("meshes"))
+      doc.take(mesh.at("primitives").size() * sizeof(tinygltf::Primitive), "meshes");
+}
+
 }  // namespace
 
 void parseModel(Document& doc) {
+  takeModel(doc);
+  // Nodes, of which there may be very many, are read here, the rest by tinygltf, which wants a text of its own.
+  Json nodes;
+  if (const auto found = doc.root->find("nodes"); found != doc.root->end()) nodes.swap(*found);
   Json json = *doc.root;
+  if (!nodes.is_null()) nodes.swap(doc.root->at("nodes")), json.erase("nodes");
   for (const char* name : {"buffers", "images", "animations"}) json.erase(name);
   strip(json);
   // The file's bounds may be wrong or infinite; the data itself is measured.
@@ -96,8 +143,11 @@ void parseModel(Document& doc) {
     const size_t want = doc.root->contains(name) ? doc.root->at(name).size() : 0;
     if (want != size) doc.fail(name, fmt::format("{} objects in the file, {} understood", want, size));
   };
-  same("scenes", doc.model.scenes.size()), same("nodes", doc.model.nodes.size()),
-      same("meshes", doc.model.meshes.size());
+  if (doc.root->contains("nodes")) {
+    doc.model.nodes.reserve(doc.root->at("nodes").size());
+    for (const Json& node : doc.root->at("nodes")) doc.model.nodes.push_back(nodeOf(node));
+  }
+  same("scenes", doc.model.scenes.size()), same("meshes", doc.model.meshes.size());
   same("accessors", doc.model.accessors.size()), same("bufferViews", doc.model.bufferViews.size());
   same("materials", doc.model.materials.size()), same("textures", doc.model.textures.size());
   same("samplers", doc.model.samplers.size()), same("skins", doc.model.skins.size()),

@@ -1,7 +1,10 @@
 // The node tree: world transforms in double precision, mesh instances, lights and cameras.
 #include <cmath>
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "renderer/scene/gltf_document.h"
 
@@ -15,13 +18,22 @@ glm::dmat4 compose(const glm::dvec3& t, const glm::dquat& r, const glm::dvec3& s
   return m;
 }
 
-glm::dquat rotation(double x, double y, double z, double w) {
+/// Unit, from any length; `where` is said of one that has none.
+glm::dquat rotation(Document& doc, const std::function<std::string()>& where, double x, double y, double z, double w) {
   const double length = std::sqrt(x * x + y * y + z * z + w * w);
-  return length > 0.0 && std::isfinite(length) ? glm::dquat(w / length, x / length, y / length, z / length)
-                                               : glm::dquat(1, 0, 0, 0);
+  if (length > 0.0 && std::isfinite(length)) return glm::dquat(w / length, x / length, y / length, z / length);
+  doc.warn(fmt::format("{}: ({:g}, {:g}, {:g}, {:g}) is no rotation; none is taken", where(), x, y, z, w));
+  return glm::dquat(1, 0, 0, 0);
 }
 
-glm::dmat4 localTransform(const tinygltf::Node& node) {
+/// 'nodes[3] "lamp"'
+std::string nameOf(const Document& doc, size_t node) {
+  const std::string& name = doc.model.nodes[node].name;
+  return name.empty() ? fmt::format("nodes[{}]", node) : fmt::format("nodes[{}] \"{}\"", node, name.substr(0, 40));
+}
+
+glm::dmat4 localTransform(Document& doc, size_t index) {
+  const tinygltf::Node& node = doc.model.nodes[index];
   if (node.matrix.size() == 16) {
     glm::dmat4 m;
     for (int c = 0; c < 4; ++c)
@@ -33,7 +45,10 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
   };
   const auto& q = node.rotation;
   return compose(vector(node.translation, 0.0),
-                 q.size() == 4 ? rotation(q[0], q[1], q[2], q[3]) : glm::dquat(1, 0, 0, 0), vector(node.scale, 1.0));
+                 q.size() == 4 ? rotation(
+                                     doc, [&] { return nameOf(doc, index) + ".rotation"; }, q[0], q[1], q[2], q[3])
+                               : glm::dquat(1, 0, 0, 0),
+                 vector(node.scale, 1.0));
 }
 
 bool finite(const glm::dmat4& m) {
@@ -77,7 +92,7 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   Light light;
   light.name = !in.name.empty() ? in.name : !node.name.empty() ? node.name : fmt::format("light {}", index);
   const LightKind* kind = findGltfLightKind(in.type);
-  IRAD_CHECK(kind != nullptr, "gltf_precheck has let \"{}\" pass", in.type);
+  if (kind == nullptr) return;  // gltf_precheck has said so
   light.type = kind->type;
   light.position = place(doc, node, world);
   light.direction = glm::vec3(-orthonormal(world)[2]);
@@ -151,7 +166,9 @@ std::vector<glm::dmat4> instanceTransforms(Document& doc, const tinygltf::Node& 
     };
     const glm::dquat q = r.count == 0
                              ? glm::dquat(1, 0, 0, 0)
-                             : rotation(r.values[4 * i], r.values[4 * i + 1], r.values[4 * i + 2], r.values[4 * i + 3]);
+                             : rotation(
+                                   doc, [&] { return fmt::format("{}.ROTATION[{}]", where, i); }, r.values[4 * i],
+                                   r.values[4 * i + 1], r.values[4 * i + 2], r.values[4 * i + 3]);
     out[i] = compose(vector(t, 0.0), q, vector(s, 1.0));
   }
   return out;
@@ -171,44 +188,93 @@ std::vector<int> rootNodes(const Document& doc) {
   return roots;
 }
 
+/// A node of the file's scene.
+struct Shown {
+  size_t node = 0;  ///< of the file
+  uint32_t parent = SceneNode::kNoParent;
+  uint32_t instances = 0;  ///< of its mesh
+};
+
+/// Those that have meshes, and those above them, as Scene::nodes, which the instances name from then on.
+void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Flattened& flat) {
+  std::vector<bool> wanted(shown.size());
+  for (size_t i = shown.size(); i-- > 0;) {
+    if (shown[i].instances > 0) wanted[i] = true;
+    if (wanted[i] && shown[i].parent != SceneNode::kNoParent) wanted[shown[i].parent] = true;
+  }
+  doc.take(static_cast<uint64_t>(std::count(wanted.begin(), wanted.end(), true)) * 2 * sizeof(SceneNode), "nodes");
+  std::vector<uint32_t> number(shown.size());
+  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones, and the next number to try, by
+  // parent and name, so that a thousand of one name do not ask a thousand times each.
+  std::unordered_set<std::string> taken;
+  std::unordered_map<std::string, int> next;
+  for (size_t i = 0; i < shown.size(); ++i) {
+    if (!wanted[i]) continue;
+    number[i] = static_cast<uint32_t>(scene.nodes.size());
+    SceneNode& node = scene.nodes.emplace_back();
+    if (shown[i].parent != SceneNode::kNoParent) node.parent = number[shown[i].parent];
+    node.instances = shown[i].instances;
+    const std::string& own = doc.model.nodes[shown[i].node].name;
+    const std::string name = own.empty() ? fmt::format("node {}", shown[i].node) : own;
+    const std::string of = fmt::format("{}:", node.parent);
+    node.name = name;
+    int& n = next.try_emplace(of + name, 2).first->second;
+    while (!taken.insert(of + node.name).second) node.name = fmt::format("{} {}", name, n++);
+  }
+  for (size_t i = scene.nodes.size(); i-- > 0;) {
+    SceneNode& node = scene.nodes[i];
+    node.end = std::max(node.end, static_cast<uint32_t>(i) + 1);
+    if (node.parent == SceneNode::kNoParent) continue;
+    SceneNode& parent = scene.nodes[node.parent];
+    parent.end = std::max(parent.end, node.end);
+  }
+  for (Instance& instance : flat.instances) instance.sceneNode = number[instance.sceneNode];
+}
+
 }  // namespace
 
 Flattened flattenNodes(Document& doc, Scene& scene) {
   Flattened out;
   out.nodeWorld.assign(doc.model.nodes.size(), glm::dmat4(1.0));
   // World transforms of all nodes (skins may use joints outside the scene); the tree was checked, the stack is ours.
-  std::vector<bool> child(doc.model.nodes.size(), false), shown(doc.model.nodes.size(), false);
+  std::vector<bool> child(doc.model.nodes.size(), false);
   for (const tinygltf::Node& node : doc.model.nodes)
     for (const int c : node.children) child[static_cast<size_t>(c)] = true;
   std::vector<int> stack;
   for (size_t i = child.size(); i-- > 0;)
     if (!child[i]) stack.push_back(static_cast<int>(i));
   for (const int root : stack)
-    out.nodeWorld[static_cast<size_t>(root)] = localTransform(doc.model.nodes[static_cast<size_t>(root)]);
+    out.nodeWorld[static_cast<size_t>(root)] = localTransform(doc, static_cast<size_t>(root));
   while (!stack.empty()) {
     const size_t n = static_cast<size_t>(stack.back());
     stack.pop_back();
     for (const int c : doc.model.nodes[n].children) {
-      out.nodeWorld[static_cast<size_t>(c)] =
-          out.nodeWorld[n] * localTransform(doc.model.nodes[static_cast<size_t>(c)]);
+      out.nodeWorld[static_cast<size_t>(c)] = out.nodeWorld[n] * localTransform(doc, static_cast<size_t>(c));
       stack.push_back(c);
     }
   }
+  std::vector<Shown> shown;  // in the order in which they are met: what lies under a node comes right behind it
+  std::vector<std::pair<int, uint32_t>> open;  // nodes, and their parents in that order
   const std::vector<int> roots = rootNodes(doc);
-  stack.assign(roots.rbegin(), roots.rend());
-  while (!stack.empty()) {
-    const size_t n = static_cast<size_t>(stack.back());
-    stack.pop_back();
+  for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.emplace_back(*it, SceneNode::kNoParent);
+  while (!open.empty()) {
+    const size_t n = static_cast<size_t>(open.back().first);
+    const auto own = static_cast<uint32_t>(shown.size());
+    shown.push_back({.node = n, .parent = open.back().second});
+    open.pop_back();
     const tinygltf::Node& node = doc.model.nodes[n];
     const glm::dmat4& world = out.nodeWorld[n];
     if (!finite(world)) doc.fail(fmt::format("nodes[{}]", n), "its world transform is not finite");
     if (node.mesh >= 0)
-      for (const glm::dmat4& instance : instanceTransforms(doc, node, n))
-        out.instances.push_back({node.mesh, static_cast<int>(n), node.skin, world * instance});
+      for (const glm::dmat4& instance : instanceTransforms(doc, node, n)) {
+        out.instances.push_back({node.mesh, static_cast<int>(n), node.skin, own, world * instance});
+        ++shown[own].instances;
+      }
     addLight(doc, node, world, scene);
     addCamera(doc, node, world, scene);
-    for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) stack.push_back(*it);
+    for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) open.emplace_back(*it, own);
   }
+  listNodes(doc, shown, scene, out);
   return out;
 }
 

@@ -1,8 +1,10 @@
 // What must hold before tinygltf reads the JSON: it takes wrong types, indices and counts silently. A table says what
 // each property is (glTF 2.0 schema, as far as the loader reads it); the rest are relations between properties.
+#include <array>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 #include "renderer/scene/gltf_document.h"
@@ -21,71 +23,91 @@ struct Rule {
 
 constexpr double kHuge = 1e30, kMaxOffset = 1099511627776.0 /* 2^40 */, kMaxCount = 4294967295.0;
 
+/// Where in the file a value is, put into words only where something is wrong: a file has a million values.
+struct Where {
+  const Where* parent = nullptr;
+  const std::string* member = nullptr;  ///< null: element `index` of an array
+  size_t index = 0;
+
+  std::string text() const {
+    const std::string before = parent != nullptr ? parent->text() : "";
+    if (member == nullptr) return parent == nullptr ? "" : fmt::format("{}[{}]", before, index);
+    return before.empty() ? *member : before + "." + *member;
+  }
+};
+
 class Checker {
  public:
   explicit Checker(Document& doc) : doc_(doc), root_(*doc.root) {}
-  void apply(const Rule& rule) { walk(root_, rule, 0, ""); }
+  void apply(const Rule& rule) {
+    segments_.clear();
+    for (size_t at = 0; at <= rule.path.size();) {
+      const size_t end = std::min(rule.path.find('/', at), rule.path.size());
+      segments_.push_back(rule.path.substr(at, end - at));
+      at = end + 1;
+    }
+    const auto pointer = Json::json_pointer("/" + rule.target);
+    targets_ =
+        !rule.target.empty() && root_.contains(pointer) && root_.at(pointer).is_array() ? root_.at(pointer).size() : 0;
+    walk(root_, rule, 0, {});
+  }
 
  private:
   Document& doc_;
   Json& root_;
+  std::vector<std::string> segments_;  ///< of the rule's path
+  size_t targets_ = 0;                 ///< elements of the array that the rule's indices point into
 
-  void walk(Json& value, const Rule& rule, size_t at, const std::string& where) {
-    if (at > rule.path.size()) return leaf(value, rule, where);
-    const size_t end = std::min(rule.path.find('/', at), rule.path.size());
-    const std::string segment = rule.path.substr(at, end - at);
+  void walk(Json& value, const Rule& rule, size_t depth, const Where& where) {
+    if (depth == segments_.size()) return leaf(value, rule, where);
+    const std::string& segment = segments_[depth];
     if (segment == "[]") {
-      if (!value.is_array()) doc_.fail(where, "is not an array");
-      for (size_t i = 0; i < value.size(); ++i) walk(value[i], rule, end + 1, fmt::format("{}[{}]", where, i));
+      if (!value.is_array()) doc_.fail(where.text(), "is not an array");
+      for (size_t i = 0; i < value.size(); ++i) walk(value[i], rule, depth + 1, {&where, nullptr, i});
       return;
     }
-    if (!value.is_object()) doc_.fail(where.empty() ? "root" : where, "is not an object");
+    if (!value.is_object()) doc_.fail(depth == 0 ? "root" : where.text(), "is not an object");
     const auto found = value.find(segment);
-    const std::string name = where.empty() ? segment : where + "." + segment;
-    if (found != value.end()) return walk(*found, rule, end + 1, name);
-    if (rule.required && end == rule.path.size()) doc_.fail(name, "is missing");
-  }
-
-  size_t targetSize(const std::string& path) const {
-    const auto pointer = Json::json_pointer("/" + path);
-    return root_.contains(pointer) && root_.at(pointer).is_array() ? root_.at(pointer).size() : 0;
+    const Where name{depth == 0 ? nullptr : &where, &segment};
+    if (found != value.end()) return walk(*found, rule, depth + 1, name);
+    if (rule.required && depth + 1 == segments_.size()) doc_.fail(name.text(), "is missing");
   }
 
   /// Integers may be written as 1.0 (the specification says so); tinygltf then wants them rewritten.
-  void integer(Json& value, double lo, double hi, const std::string& where) const {
-    if (!value.is_number()) doc_.fail(where, fmt::format("is not an integer ({})", value.dump().substr(0, 40)));
+  void integer(Json& value, double lo, double hi, const Where& where) const {
+    if (!value.is_number()) doc_.fail(where.text(), fmt::format("is not an integer ({})", value.dump().substr(0, 40)));
     const double number = value.get<double>();
     if (number != std::floor(number) || number < lo || number > hi)
-      doc_.fail(where, fmt::format("{} is not an integer from {} to {}", value.dump(), lo, hi));
+      doc_.fail(where.text(), fmt::format("{} is not an integer from {} to {}", value.dump(), lo, hi));
     value = static_cast<uint64_t>(number);
   }
 
-  void index(Json& value, const std::string& target, const std::string& where) const {
-    const size_t size = targetSize(target);
+  void index(Json& value, const std::string& target, const Where& where) const {
     integer(value, 0, kMaxCount, where);
-    if (value.get<uint64_t>() >= size)
-      doc_.fail(where, fmt::format("{} points past \"{}\", which has {}", value.dump(), target, size));
+    if (value.get<uint64_t>() >= targets_)
+      doc_.fail(where.text(), fmt::format("{} points past \"{}\", which has {}", value.dump(), target, targets_));
   }
 
-  void number(const Json& value, double lo, double hi, const std::string& where) const {
-    if (!value.is_number()) doc_.fail(where, fmt::format("is not a number ({})", value.dump().substr(0, 40)));
+  void number(const Json& value, double lo, double hi, const Where& where) const {
+    if (!value.is_number()) doc_.fail(where.text(), fmt::format("is not a number ({})", value.dump().substr(0, 40)));
     const double n = value.get<double>();
-    if (!(n >= lo && n <= hi)) doc_.fail(where, fmt::format("{} is out of range ({} to {})", value.dump(), lo, hi));
+    if (!(n >= lo && n <= hi))
+      doc_.fail(where.text(), fmt::format("{} is out of range ({} to {})", value.dump(), lo, hi));
   }
 
-  void leaf(Json& value, const Rule& rule, const std::string& where) {
+  void leaf(Json& value, const Rule& rule, const Where& where) {
     switch (rule.kind) {
       case Kind::Object:
-        if (!value.is_object()) doc_.fail(where, "is not an object");
+        if (!value.is_object()) doc_.fail(where.text(), "is not an object");
         break;
       case Kind::Array:
-        if (!value.is_array()) doc_.fail(where, "is not an array");
+        if (!value.is_array()) doc_.fail(where.text(), "is not an array");
         break;
       case Kind::String:
-        if (!value.is_string()) doc_.fail(where, "is not a string");
+        if (!value.is_string()) doc_.fail(where.text(), "is not a string");
         break;
       case Kind::Bool:
-        if (!value.is_boolean()) doc_.fail(where, "is neither true nor false");
+        if (!value.is_boolean()) doc_.fail(where.text(), "is neither true nor false");
         break;
       case Kind::UInt:
         integer(value, rule.lo, rule.hi, where);
@@ -95,20 +117,20 @@ class Checker {
         break;
       case Kind::Numbers:
         if (!value.is_array() || value.size() < rule.lo || value.size() > rule.hi)
-          doc_.fail(where, rule.lo == rule.hi ? fmt::format("is not an array of {} numbers", rule.lo)
-                                              : "is not an array of numbers");
-        for (size_t i = 0; i < value.size(); ++i) number(value[i], -kHuge, kHuge, fmt::format("{}[{}]", where, i));
+          doc_.fail(where.text(), rule.lo == rule.hi ? fmt::format("is not an array of {} numbers", rule.lo)
+                                                     : "is not an array of numbers");
+        for (size_t i = 0; i < value.size(); ++i) number(value[i], -kHuge, kHuge, {&where, nullptr, i});
         break;
       case Kind::Index:
         index(value, rule.target, where);
         break;
       case Kind::Indices:
-        if (!value.is_array()) doc_.fail(where, "is not an array");
-        for (size_t i = 0; i < value.size(); ++i) index(value[i], rule.target, fmt::format("{}[{}]", where, i));
+        if (!value.is_array()) doc_.fail(where.text(), "is not an array");
+        for (size_t i = 0; i < value.size(); ++i) index(value[i], rule.target, {&where, nullptr, i});
         break;
       case Kind::IndexMap:
-        if (!value.is_object()) doc_.fail(where, "is not an object");
-        for (auto& [key, element] : value.items()) index(element, rule.target, where + "." + key);
+        if (!value.is_object()) doc_.fail(where.text(), "is not an object");
+        for (auto& [key, element] : value.items()) index(element, rule.target, {&where, &key});
         break;
     }
   }
@@ -210,7 +232,7 @@ std::vector<Rule> rules() {
   add("skins/[]", Object), ref("skins/[]/joints", "nodes", Indices, true), ref("skins/[]/skeleton", "nodes");
   ref("skins/[]/inverseBindMatrices", "accessors");
   add("cameras/[]", Object), add("cameras/[]/name", String), add("cameras/[]/type", String, 0, 0, true);
-  add("cameras/[]/perspective/yfov", Number, 1e-4, 3.1415, true),
+  add("cameras/[]/perspective/yfov", Number, -kHuge, kHuge, true),
       add("cameras/[]/perspective/aspectRatio", Number, 1e-4, 1e4);
   add("cameras/[]/perspective/znear", Number, 1e-30, kHuge, true),
       add("cameras/[]/perspective/zfar", Number, 1e-30, kHuge);
@@ -225,11 +247,22 @@ std::vector<Rule> rules() {
   r.push_back({light + "/name", String, 0, 0, "", false});
   r.push_back({light + "/color", Numbers, 3, 3, "", false});
   r.push_back({light + "/intensity", Number, 0, 1e39, "", false});
-  r.push_back({light + "/range", Number, 0, kHuge, "", false});
+  r.push_back({light + "/range", Number, -kHuge, kHuge, "", false});
   r.push_back({light + "/spot", Object, 0, 0, "", false});
   r.push_back({light + "/spot/innerConeAngle", Number, 0, 1.5707964, "", false});
   r.push_back({light + "/spot/outerConeAngle", Number, 0, 1.5707964, "", false});
   return r;
+}
+
+/// glTF 1.0 names its objects, in place of counting them, and may say nothing of its version.
+bool isOldFormat(const Json& root) {
+  if (root.contains("asset") && root.at("asset").is_object() && root.at("asset").contains("version")) {
+    const Json& version = root.at("asset").at("version");
+    if (version.is_string()) return version.get<std::string>().starts_with("1.");
+    return version.is_number() && version.get<double>() < 2.0;
+  }
+  return std::ranges::any_of(std::array{"scenes", "nodes", "meshes", "accessors"},
+                             [&](const char* name) { return root.contains(name) && root.at(name).is_object(); });
 }
 
 /// "2.0" or "2.5"; a file that needs more than 2.0 says so in minVersion.
@@ -264,6 +297,8 @@ void checkExtensions(Document& doc) {
                                                       "KHR_materials_volume",     "KHR_materials_iridescence",
                                                       "KHR_materials_anisotropy", "KHR_materials_dispersion",
                                                       "KHR_techniques_webgl",     "KHR_technique_webgl"};
+  constexpr const char *kKtx = "KHR_texture_basisu",
+                       *kNoKtx = ": KTX2 images are not decoded here; PNG, JPEG and WebP are";
   for (const char* list : {"extensionsRequired", "extensionsUsed"}) {
     if (!doc.root->contains(list)) continue;
     for (const Json& entry : doc.root->at(list)) {
@@ -272,7 +307,9 @@ void checkExtensions(Document& doc) {
       if (kApproximated.contains(name)) {
         doc.warn(fmt::format("{} is not rendered: the plain material stands in for it", name));
       } else if (std::string_view(list) == "extensionsRequired") {
-        doc.fail(list, fmt::format("\"{}\" is not supported", name));
+        doc.fail(list, fmt::format("\"{}\" is not supported{}", name, name == kKtx ? kNoKtx : ""));
+      } else if (name == kKtx) {
+        doc.warn(fmt::format("{} is ignored{}", name, kNoKtx));
       } else {
         doc.warn(fmt::format("extension {} is not known and ignored", name));
       }
@@ -280,8 +317,57 @@ void checkExtensions(Document& doc) {
   }
 }
 
+/// Takes a node that the scene shown lists twice, or beside one of those that it lies under, out of the list: it is
+/// shown once, where the tree has it. `parent`: of each node, or -1.
+void takeOnce(Document& doc, const std::vector<int64_t>& parent) {
+  if (!doc.root->contains("scenes") || doc.root->at("scenes").empty()) return;
+  const size_t s = doc.root->value("scene", size_t{0});
+  Json& scene = doc.root->at("scenes")[s];
+  if (!scene.contains("nodes")) return;
+  Json& nodes = scene.at("nodes");
+  enum class State : uint8_t { Unknown, Shown, NotShown };
+  std::vector<bool> listed(parent.size(), false), taken(parent.size(), false);
+  for (const Json& node : nodes) listed[node.get<size_t>()] = true;
+  // Whether a node or one that it lies under is listed: found once for each.
+  std::vector<State> state(parent.size(), State::Unknown);
+  std::vector<size_t> path;
+  const auto shown = [&](int64_t from) {
+    State found = State::NotShown;
+    path.clear();
+    for (int64_t n = from; n >= 0 && found != State::Shown; n = parent[static_cast<size_t>(n)]) {
+      const size_t node = static_cast<size_t>(n);
+      found = state[node];
+      if (found != State::Unknown) break;
+      path.push_back(node);
+      found = listed[node] ? State::Shown : State::NotShown;
+    }
+    for (const size_t n : path) state[n] = found;
+    return found == State::Shown;
+  };
+  Json kept = Json::array();
+  std::string first;
+  size_t more = 0;
+  for (const Json& node : nodes) {
+    const size_t n = node.get<size_t>();
+    const bool child = shown(parent[n]);
+    if (!child && !taken[n]) {
+      kept.push_back(node);
+      taken[n] = true;
+    } else if (first.empty()) {
+      first = child ? fmt::format("lists node {}, which is a child of node {}", n, parent[n])
+                    : fmt::format("lists node {} twice", n);
+    } else {
+      ++more;
+    }
+  }
+  if (first.empty()) return;
+  nodes = std::move(kept);
+  doc.warn(fmt::format("scenes[{}]: {}{}; it is taken once", s, first,
+                       more > 0 ? fmt::format(", and {} more like it", more) : ""));
+}
+
 /// Every node has one parent and no node is its own ancestor: then the nodes are trees and can be walked.
-void checkNodeTree(const Document& doc) {
+void checkNodeTree(Document& doc) {
   if (!doc.root->contains("nodes")) return;
   const Json& nodes = doc.root->at("nodes");
   std::vector<int64_t> parent(nodes.size(), -1);
@@ -308,18 +394,12 @@ void checkNodeTree(const Document& doc) {
       if (parent[n] >= 0 && visited[parent[n]] == mark) doc.fail(fmt::format("nodes[{}]", n), "is part of a cycle");
     }
   }
-  if (!doc.root->contains("scenes")) return;
-  const Json& scenes = doc.root->at("scenes");
-  for (size_t s = 0; s < scenes.size(); ++s) {
-    if (!scenes[s].contains("nodes")) continue;
-    std::set<size_t> seen;
-    for (const Json& node : scenes[s].at("nodes")) {
-      const size_t n = node.get<size_t>();
-      if (parent[n] >= 0)
-        doc.fail(fmt::format("scenes[{}]", s), fmt::format("lists node {}, which is a child of node {}", n, parent[n]));
-      if (!seen.insert(n).second) doc.fail(fmt::format("scenes[{}]", s), fmt::format("lists node {} twice", n));
-    }
-  }
+  takeOnce(doc, parent);
+}
+
+/// ' "lamp"', or nothing.
+std::string quoted(const std::string& name) {
+  return name.empty() ? "" : fmt::format(" \"{}\"", name.substr(0, 40));
 }
 
 /// "directional, point or spot"
@@ -331,15 +411,36 @@ std::string knownLightTypes() {
   return out;
 }
 
-void checkLightsAndCameras(const Document& doc) {
+/// What others write and readers take: yfov in degrees, and worse.
+void mendLens(Document& doc, const std::string& where, Json& lens) {
+  if (!lens.contains("yfov")) return;
+  constexpr double kLeast = 1e-4, kMost = 3.1415;
+  const double yfov = lens.at("yfov").get<double>();
+  if (yfov >= kLeast && yfov <= kMost) return;
+  const bool degrees = yfov > std::numbers::pi && yfov < 180.0;
+  const double taken = degrees ? yfov * std::numbers::pi / 180.0 : double{Camera{}.yfov};
+  lens["yfov"] = taken;
+  doc.warn(fmt::format("{}.perspective.yfov: {} is not from {} to {} radians; {:.6g} is taken{}", where, yfov, kLeast,
+                       kMost, taken, degrees ? ", as if it were degrees" : ""));
+}
+
+void checkLightsAndCameras(Document& doc) {
   const Json::json_pointer lightsPath("/extensions/KHR_lights_punctual/lights");
   if (doc.root->contains(lightsPath)) {
-    const Json& lights = doc.root->at(lightsPath);
+    Json& lights = doc.root->at(lightsPath);
     for (size_t i = 0; i < lights.size(); ++i) {
       const std::string where = fmt::format("lights[{}]", i), type = lights[i].at("type").get<std::string>();
       const LightKind* kind = findGltfLightKind(type);
-      if (kind == nullptr)
-        doc.fail(where + ".type", fmt::format("\"{}\" is not {}", type.substr(0, 40), knownLightTypes()));
+      if (kind == nullptr) {
+        doc.warn(fmt::format("{}.type: \"{}\" is not {}; the light{} is left out", where, type.substr(0, 40),
+                             knownLightTypes(), quoted(lights[i].value("name", ""))));
+        continue;
+      }
+      if (const auto range = lights[i].find("range"); range != lights[i].end() && !(range->get<double>() > 0.0)) {
+        doc.warn(fmt::format("{}.range: {} is not above 0; the light{} reaches without limit", where, range->dump(),
+                             quoted(lights[i].value("name", ""))));
+        lights[i].erase(range);
+      }
       // Extras may be anything; a size is a number.
       const Json extras = lights[i].value("extras", Json::object());
       for (const auto& [member, most] : {std::pair("angle", kMaxLightAngle), std::pair("radius", kMaxCoordinate)})
@@ -356,13 +457,14 @@ void checkLightsAndCameras(const Document& doc) {
     }
   }
   if (!doc.root->contains("cameras")) return;
-  const Json& cameras = doc.root->at("cameras");
+  Json& cameras = doc.root->at("cameras");
   for (size_t i = 0; i < cameras.size(); ++i) {
     const std::string where = fmt::format("cameras[{}]", i), type = cameras[i].at("type").get<std::string>();
     if (type != "perspective" && type != "orthographic")
       doc.fail(where + ".type", fmt::format("\"{}\" is neither perspective nor orthographic", type.substr(0, 40)));
     if (!cameras[i].contains(type)) doc.fail(where, fmt::format("has no \"{}\"", type));
-    const Json& lens = cameras[i].at(type);
+    Json& lens = cameras[i].at(type);
+    if (type == "perspective") mendLens(doc, where + quoted(cameras[i].value("name", "")), lens);
     for (const char* mag : {"xmag", "ymag"})
       if (const double size = std::abs(lens.value(mag, 1.0)); size < 1e-15 || size > kMaxCoordinate)
         doc.fail(where + "." + mag, fmt::format("{} is not from 1e-15 to {}", size, kMaxCoordinate));
@@ -374,6 +476,7 @@ void checkLightsAndCameras(const Document& doc) {
 }  // namespace
 
 void precheck(Document& doc) {
+  if (isOldFormat(*doc.root)) doc.fail("asset.version", kOldFormat);
   for (const char* name : {"scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "images", "textures",
                            "samplers", "materials", "skins", "cameras", "extensionsUsed", "extensionsRequired"})
     if (doc.root->contains(name) && !doc.root->at(name).is_array()) doc.fail(name, "is not an array");

@@ -22,6 +22,7 @@ OrderedJson toJson(const Light& light) {
   json["type"] = kind.name;
   json["position"] = {light.position.x, light.position.y, light.position.z};
   if (kind.has(LIGHT_DIRECTION)) json["direction"] = vector(light.direction);
+  if (!light.on) json["on"] = false;
   json["color"] = vector(light.color);
   json["intensity"] = jsonNumber(light.intensity);
   if (light.range > 0) json["range"] = jsonNumber(light.range);
@@ -59,12 +60,17 @@ float coneCosine(const JsonObject& json, const char* member, double otherwise) {
 
 Light fromJson(const OrderedJson& parsed, const std::string& label) {
   const JsonObject json(parsed, label,
-                        {"name", "type", "position", "direction", "color", "intensity", "range", "innerConeAngle",
+                        {"name", "type", "on", "position", "direction", "color", "intensity", "range", "innerConeAngle",
                          "outerConeAngle", "angle", "radius"});
   Light light;
   const LightKind& kind = kindOf(json);
   light.type = kind.type;
   if (json.has("name")) light.name = json.text("name");
+  if (json.has("on")) {
+    const OrderedJson& on = json.at("on");
+    if (!on.is_boolean()) json.refuse("on", "expected true or false", on);
+    light.on = on.get<bool>();
+  }
   const auto belongs = [&](const char* member, bool to) {
     if (!to && json.has(member)) json.refuse(member, fmt::format("a {} has none", json.text("type")));
     return json.has(member);

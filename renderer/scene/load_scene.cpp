@@ -4,6 +4,8 @@
 
 #include "renderer/base/sha256.h"
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/material_edits.h"
+#include "renderer/scene/nodes.h"
 #include "renderer/scene/sidecar.h"
 
 namespace irad {
@@ -53,6 +55,14 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     scene.fileLights = scene.lights;
     if (options.sidecar) takeSidecar(scene);
     if (options.lights) replaceLights(scene, *options.lights);
+    if (options.materials) replaceMaterialEdits(scene, *options.materials);
+    const std::string from = options.materials ? "" : scene.sidecar.filename().string() + ": ";
+    for (const std::string& unknown : unknownMaterials(scene, scene.materialEdits))
+      scene.warnings.push_back(from + unknown);
+    const HiddenNodes hidden = hiddenPaths(scene.nodes, options.hidden ? *options.hidden : scene.hidden);
+    for (const std::string& unknown : unknownNodes(scene.nodes, hidden))
+      scene.warnings.push_back((options.hidden ? "" : scene.sidecar.filename().string() + ": ") + unknown);
+    hideNodes(scene, hidden);
     scene.sky = options.sky;
     if (options.progress) options.progress(1.0f, "scene");
     return scene;

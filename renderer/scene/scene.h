@@ -57,6 +57,18 @@ struct Material {
   TextureUse baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
 };
 
+/// What a user has made of a material beside the scene's file; what is absent is the file's.
+struct MaterialEdit {
+  std::string material;                      ///< its name, of materialNames()
+  std::optional<glm::vec3> baseColor;        ///< linear, 0 to 1; alpha stays the file's
+  std::optional<float> metallic, roughness;  ///< 0 to 1; nothing to a Lambertian one
+  std::optional<glm::vec3> emissionColor;    ///< linear, 0 to 1
+  std::optional<float> emissionStrength;     ///< W/(m^2 sr) where the colour is 1: radiance = colour x strength
+  std::optional<float> alphaCutoff;          ///< 0 to 1; nothing to one without an alpha mask
+  uint32_t texturesOff = 0;                  ///< bit i: texture i of kMaterialTextures is left out
+  bool operator==(const MaterialEdit&) const = default;
+};
+
 struct Light {
   std::string name;
   LightType type = LightType::Sun;
@@ -68,6 +80,7 @@ struct Light {
   float innerCos = 1.0f, outerCos = 0.70710678f;  ///< of a cone: cosines of the half-angles
   float angle = 0.0f;                             ///< distant ones: as they are seen, across, degrees; 0: a point
   float radius = 0.0f;                            ///< the others: of the lamp's sphere, m; 0: a point
+  bool on = true;                                 ///< false: it gives no light, and costs nothing
   bool operator==(const Light&) const = default;
 };
 
@@ -87,9 +100,34 @@ struct Draw {
   uint32_t material = 0, firstIndex = 0, indexCount = 0;
 };
 
-struct Scene {
-  std::filesystem::path path;
-  std::string sha256;                          ///< of the scene file itself
+/// What lies in a row in the arrays of a geometry, of one node and one material.
+struct Piece {
+  uint32_t node = 0;  ///< of Scene::nodes
+  uint32_t firstVertex = 0, vertexCount = 0, firstIndex = 0, indexCount = 0;
+};
+
+/// A node of the scene's file that has a mesh, or under which some node has one.
+struct SceneNode {
+  static constexpr uint32_t kNoParent = ~0u;
+  std::string name;             ///< among those of one parent no other has it; never empty
+  uint32_t parent = kNoParent;  ///< before it in the list
+  uint32_t end = 0;             ///< it and all under it are the nodes from its own number to before this one
+  uint32_t instances = 0;       ///< of its own mesh; 0: it has none
+  // Of it and all under it, also of what is hidden (measureNodes()):
+  uint64_t triangles = 0;
+  glm::dvec3 boundsMin{0.0}, boundsMax{0.0};  ///< world; 0 where there is no triangle
+};
+
+/// What a user has hidden of a scene's nodes, by paths (scene/nodes.h). A node that is hidden hides all under it.
+struct HiddenNodes {
+  std::vector<std::string> paths;  ///< sorted, each once
+  std::string isolated;            ///< of all others nothing is shown; empty: no such node
+  bool empty() const { return paths.empty() && isolated.empty(); }
+  bool operator==(const HiddenNodes&) const = default;
+};
+
+/// The surfaces of a scene.
+struct Geometry {
   glm::dvec3 origin{0.0};                      ///< world position of local (0,0,0): the centre of the bounds
   glm::vec3 boundsMin{0.0f}, boundsMax{0.0f};  ///< local
 
@@ -103,7 +141,24 @@ struct Scene {
       indices;              ///< three per triangle, counter-clockwise seen from the front (mirrored nodes rewound)
   std::vector<Draw> draws;  ///< at most one per material, in material order; empty ones left out
 
-  std::vector<Material> materials;  ///< at least one
+  // Where the scene's file has nodes; else empty.
+  std::vector<Piece> pieces;      ///< one after the other all of the arrays, within a draw in the order of nodes
+  std::vector<glm::dvec3> world;  ///< positions before the origin was taken off, which is another where bounds are; not
+                                  ///< finite where a vertex belongs to no triangle
+
+  uint32_t triangleCount() const { return static_cast<uint32_t>(indices.size() / 3); }
+};
+
+struct Scene : Geometry {
+  std::filesystem::path path;
+  std::string sha256;                     ///< of the scene file itself
+  std::vector<SceneNode> nodes;           ///< from the roots on, what lies under a node right behind it
+  HiddenNodes hidden;                     ///< left out of the geometry, and names that no node has
+  std::shared_ptr<const Geometry> whole;  ///< with what is hidden, where something is
+
+  std::vector<Material> materials;          ///< at least one
+  std::vector<Material> fileMaterials;      ///< those of the scene file, where edits changed them; empty: `materials`
+  std::vector<MaterialEdit> materialEdits;  ///< that `materials` are made with, and those of names that none has
   std::vector<SceneImage> images;
   std::vector<Light> lights;
   std::vector<Light> fileLights;  ///< those of the scene file (or the default sun), where others took their place
@@ -111,12 +166,10 @@ struct Scene {
   std::vector<Camera> bookmarks;  ///< further cameras, the sidecar's
   std::shared_ptr<const SkyImage>
       sky;                        ///< a picture of what is around (renderer/scene/sky_image.h), where one was given
-  std::filesystem::path sidecar;  ///< that lights and bookmarks come from; empty: none
+  std::filesystem::path sidecar;  ///< that lights, materials, objects and bookmarks come from; empty: none
 
   std::vector<std::string> warnings;  ///< in words, each once
   bool defaultCamera = false, defaultLight = false;
-
-  uint32_t triangleCount() const { return static_cast<uint32_t>(indices.size() / 3); }
 };
 
 struct LoadOptions {
@@ -127,7 +180,9 @@ struct LoadOptions {
   bool doubleSided = false;
   bool sidecar = false;                      ///< take the sidecar beside the file (scene/sidecar.h), if there is one
   std::optional<std::vector<Light>> lights;  ///< in place of the file's and the sidecar's
-  std::shared_ptr<const SkyImage> sky;       ///< Scene::sky
+  std::optional<std::vector<MaterialEdit>> materials;              ///< in place of the sidecar's
+  std::optional<HiddenNodes> hidden;                               ///< in place of the sidecar's
+  std::shared_ptr<const SkyImage> sky;                             ///< Scene::sky
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };
 
@@ -148,10 +203,9 @@ void writeSceneCache(const Scene& scene, const std::filesystem::path& path);
 /// What is wrong with a scene, in words; empty where it is sound, that is: arrays of one length, indices inside them,
 /// numbers finite and in range, directions unit. loadScene returns sound scenes only.
 std::string unsound(const Scene& scene);
+/// The same for a material: "material "wall": emits -1".
+std::string unsound(const Material& material, size_t images);
 /// The same for a light: "light "lamp": its intensity -1 is not from 0 to 1e+12".
 std::string unsound(const Light& light);
-
-/// SHA-256 of a file as 64 hex digits; throws InputError when it cannot be read.
-std::string sha256File(const std::filesystem::path& path);
 
 }  // namespace irad

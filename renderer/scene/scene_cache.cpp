@@ -1,6 +1,7 @@
 // .irscene: a loaded scene with its images decoded, for machines without image decoders. Little-endian, fields in the
-// order of Scene. Reading trusts nothing: every length is checked against the bytes left, and the whole
-// against what a scene must be.
+// order of Scene, with nothing of what is hidden. Version 2 had no nodes, and is read as a scene without; up to
+// version 3 lights had no switch, and are on. Reading trusts nothing: every length is checked against the bytes left,
+// and the whole against what a scene must be.
 #include <bit>
 #include <cstring>
 #include <type_traits>
@@ -8,13 +9,14 @@
 #include "renderer/base/output_file.h"
 #include "renderer/base/sha256.h"
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/nodes.h"
 
 namespace irad {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the cache is written as it lies in memory");
 constexpr char kMagic[8] = {'I', 'R', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 4, kOldestVersion = 2;
 
 class Writer {
  public:
@@ -128,7 +130,7 @@ void transferMaterial(Io& io, Ops ops, M& m) {
     transferUse(io, ops, *use);
 }
 template <class Io, class Ops, class S>
-void transferScene(Io& io, Ops ops, S& s) {
+void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
   io(s.sha256), io(s.origin), io(s.boundsMin), io(s.boundsMax);
   io.array(s.positions), io.array(s.normals), io.array(s.tangents), io.array(s.uv0), io.array(s.uv1),
       io.array(s.colors);
@@ -139,6 +141,7 @@ void transferScene(Io& io, Ops ops, S& s) {
     io(l.name), ops.choice(l.type, LIGHT_KINDS), io(l.position), io(l.direction), io(l.color), io(l.intensity),
         io(l.range);
     io(l.innerCos), io(l.outerCos), io(l.angle), io(l.radius);
+    if (version >= 4) ops.choice(l.on, 2);
   });
   io.list(s.cameras, [&](auto& c) {
     io(c.name), io(c.position), io(c.orientation), ops.choice(c.orthographic, 2), io(c.yfov), io(c.ymag), io(c.aspect);
@@ -146,6 +149,9 @@ void transferScene(Io& io, Ops ops, S& s) {
   });
   io.list(s.warnings, [&](auto& w) { io(w); });
   ops.choice(s.defaultCamera, 2), ops.choice(s.defaultLight, 2);
+  if (version < 3) return;
+  io.list(s.nodes, [&](auto& n) { io(n.name), io(n.parent), io(n.end), io(n.instances); });
+  io.array(s.pieces), io.array(s.world);
 }
 
 }  // namespace
@@ -153,7 +159,7 @@ void transferScene(Io& io, Ops ops, S& s) {
 void writeSceneCache(const Scene& scene, const std::filesystem::path& path) {
   Writer io;
   io(kMagic), io(kVersion);
-  transferScene(io, WriteOps{io}, scene);
+  transferScene(io, WriteOps{io}, scene, kVersion);
   writeFile(path, io.data);
 }
 
@@ -166,12 +172,14 @@ Scene readSceneCache(const std::filesystem::path& path) {
   uint32_t version = 0;
   io(magic), io(version);
   if (std::memcmp(magic, kMagic, sizeof magic) != 0) io.fail("is not an .irscene file");
-  if (version != kVersion) io.fail(fmt::format("version {}; this program reads {}", version, kVersion));
+  if (version < kOldestVersion || version > kVersion)
+    io.fail(fmt::format("version {}; this program reads {} to {}", version, kOldestVersion, kVersion));
   Scene scene;
-  transferScene(io, ReadOps{io}, scene);
+  transferScene(io, ReadOps{io}, scene, version);
   if (!io.atEnd()) io.fail("bytes follow the end of the scene");
   if (const std::string problem = unsound(scene); !problem.empty())
     throw InputError(fmt::format("{}: {}", path.string(), problem));
+  measureNodes(scene);
   scene.path = path;
   return scene;
 }

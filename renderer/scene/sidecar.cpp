@@ -1,7 +1,9 @@
 #include "renderer/scene/sidecar.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
 
 #include "renderer/base/error.h"
@@ -9,6 +11,7 @@
 #include "renderer/base/output_file.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 namespace fs = std::filesystem;
@@ -25,12 +28,31 @@ void checkFormat(const OrderedJson& json, const std::string& file) {
                                  file, format.get<uint64_t>(), kSidecarFormat));
 }
 
+HiddenNodes readHidden(const JsonObject& json) {
+  HiddenNodes hidden;
+  if (json.has("isolated")) hidden.isolated = json.text("isolated");
+  if (!json.has("hidden")) return hidden;
+  const OrderedJson& paths = json.at("hidden");
+  if (!paths.is_array()) json.refuse("hidden", "expected an array of nodes' paths", paths);
+  for (const OrderedJson& path : paths) {
+    if (!path.is_string()) json.refuse("hidden", "expected the path of a node", path);
+    hidden.paths.push_back(path.get<std::string>());
+  }
+  std::ranges::sort(hidden.paths);
+  hidden.paths.erase(std::unique(hidden.paths.begin(), hidden.paths.end()), hidden.paths.end());
+  return hidden;
+}
+
 Sidecar parse(const OrderedJson& parsed, const std::string& file) {
   checkFormat(parsed, file);
-  const JsonObject json(parsed, file, {"format", "scene_sha256", "lights", "cameras"});
+  const JsonObject json(parsed, file,
+                        {"format", "scene_sha256", "lights", "materials", "hidden", "isolated", "cameras"});
   Sidecar sidecar;
   if (json.has("scene_sha256")) sidecar.sceneSha256 = json.text("scene_sha256");
   if (json.has("lights")) sidecar.lights = lightsFromJson(json.at("lights").dump(), file + ": lights");
+  if (json.has("materials"))
+    sidecar.materials = materialEditsFromJson(json.at("materials").dump(), file + ": materials");
+  sidecar.hidden = readHidden(json);
   if (json.has("cameras")) sidecar.bookmarks = camerasFromJson(json.at("cameras").dump(), file + ": cameras");
   std::set<std::string> names;
   for (size_t i = 0; i < sidecar.bookmarks.size(); ++i) {
@@ -63,14 +85,25 @@ Sidecar readSidecar(const fs::path& path) {
   }
 }
 
-void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
+std::string sidecarToJson(const Sidecar& sidecar) {
   OrderedJson json;
   json["format"] = kSidecarFormat;
   if (!sidecar.sceneSha256.empty()) json["scene_sha256"] = sidecar.sceneSha256;
   if (sidecar.lights) json["lights"] = OrderedJson::parse(lightsToJson(*sidecar.lights));
+  if (!sidecar.materials.empty()) json["materials"] = OrderedJson::parse(materialEditsToJson(sidecar.materials));
+  if (!sidecar.hidden.paths.empty()) json["hidden"] = sidecar.hidden.paths;
+  if (!sidecar.hidden.isolated.empty()) json["isolated"] = sidecar.hidden.isolated;
   json["cameras"] = OrderedJson::array();
   for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(OrderedJson::parse(cameraToJson(camera)));
-  writeFile(path, json.dump(2) + "\n");
+  return json.dump(2);
+}
+
+Sidecar sidecarFromJson(std::string_view json, const std::string& label) {
+  return parse(parseJson(json, label), label);
+}
+
+void writeSidecar(const fs::path& path, const Sidecar& sidecar) {
+  writeFile(path, sidecarToJson(sidecar) + "\n");
 }
 
 void takeSidecar(Scene& scene) {
@@ -80,6 +113,8 @@ void takeSidecar(Scene& scene) {
   Sidecar sidecar = readSidecar(path);
   scene.sidecar = path;
   if (sidecar.lights) replaceLights(scene, std::move(*sidecar.lights));
+  replaceMaterialEdits(scene, std::move(sidecar.materials));
+  scene.hidden = std::move(sidecar.hidden);
   scene.bookmarks = std::move(sidecar.bookmarks);
   if (!sidecar.sceneSha256.empty() && sidecar.sceneSha256 != scene.sha256)
     scene.warnings.push_back(
@@ -87,13 +122,13 @@ void takeSidecar(Scene& scene) {
 }
 
 std::string sidecarNote(const Scene& scene) {
-  const bool lights = scene.lights != scene.fileLights, cameras = !scene.bookmarks.empty();
-  return fmt::format("{} of {}",
-                     lights && cameras ? "lights and cameras"
-                     : lights          ? "lights"
-                     : cameras         ? "cameras"
-                                       : "nothing",
-                     scene.sidecar.filename().string());
+  std::vector<std::string> what;
+  if (scene.lights != scene.fileLights) what.emplace_back("lights");
+  if (!scene.materialEdits.empty()) what.emplace_back("materials");
+  if (!scene.hidden.empty()) what.emplace_back("hidden objects");
+  if (!scene.bookmarks.empty()) what.emplace_back("cameras");
+  if (what.empty()) what.emplace_back("nothing");
+  return fmt::format("{} of {}", fmt::join(what, " and "), scene.sidecar.filename().string());
 }
 
 }  // namespace irad

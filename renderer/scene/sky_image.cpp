@@ -9,6 +9,7 @@
 #include <set>
 
 #include "renderer/base/error.h"
+#include "renderer/base/sha256.h"
 #include "renderer/image_io.h"
 #include "renderer/scene/scene.h"
 

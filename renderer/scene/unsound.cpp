@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "renderer/scene/gltf_document.h"
+#include "renderer/scene/material_edits.h"
 
 namespace irad {
 namespace {
@@ -60,21 +61,44 @@ std::string ofDraws(const Scene& s) {
   return next == s.indices.size() ? "" : "the draws do not cover the triangles";
 }
 
+/// After ofVertices and ofDraws.
+std::string ofNodes(const Scene& s) {
+  const size_t nodes = s.nodes.size(), vertices = s.positions.size();
+  std::vector<uint32_t> above;  // that the next node may lie under
+  for (uint32_t i = 0; i < nodes; ++i) {
+    const SceneNode& node = s.nodes[i];
+    while (!above.empty() && s.nodes[above.back()].end <= i) above.pop_back();
+    const uint32_t parent = above.empty() ? SceneNode::kNoParent : above.back();
+    const size_t most = above.empty() ? nodes : s.nodes[parent].end;
+    if (node.name.empty() || node.parent != parent || node.end <= i || node.end > most)
+      return fmt::format("node {} is out of place", i);
+    above.push_back(i);
+  }
+  if (nodes == 0) return s.pieces.empty() && s.world.empty() ? "" : "pieces without nodes";
+  if (s.world.size() != vertices) return "vertex arrays of different lengths";
+  uint64_t vertex = 0, index = 0;
+  size_t draw = 0;
+  for (size_t i = 0; i < s.pieces.size(); ++i) {
+    const Piece& piece = s.pieces[i];
+    while (draw < s.draws.size() && index >= uint64_t{s.draws[draw].firstIndex} + s.draws[draw].indexCount) ++draw;
+    const bool first = draw < s.draws.size() && index == s.draws[draw].firstIndex;
+    if (draw == s.draws.size() || piece.node >= nodes || piece.firstVertex != vertex || piece.firstIndex != index ||
+        piece.indexCount == 0 || piece.indexCount % 3 != 0 || vertex + piece.vertexCount > vertices ||
+        index + piece.indexCount > uint64_t{s.draws[draw].firstIndex} + s.draws[draw].indexCount ||
+        (!first && piece.node <= s.pieces[i - 1].node))
+      return fmt::format("piece {} is out of range", i);
+    vertex += piece.vertexCount;
+    for (const uint64_t end = index + piece.indexCount; index < end; ++index)
+      if (const uint32_t at = s.indices[index]; at < piece.firstVertex || at >= vertex || !position(s.world[at]))
+        return fmt::format("index {} of piece {} is out of range", at, i);
+  }
+  return vertex == vertices && index == s.indices.size() ? "" : "the pieces do not cover the triangles";
+}
+
 std::string ofMaterials(const Scene& s) {
   if (s.materials.empty()) return "no material";
-  for (const Material& m : s.materials) {
-    const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, 0.0f);
-    if (!within(m.baseColor, 0.0, 1.0)) return fmt::format("material \"{}\": its base colour is out of range", m.name);
-    if (!within(factors, 0.0, 1.0) || !std::isfinite(m.normalScale) || !std::isfinite(m.alphaCutoff))
-      return fmt::format("material \"{}\": a factor is out of range", m.name);
-    for (int c = 0; c < 3; ++c)
-      if (!brightness(m.emission[c])) return fmt::format("material \"{}\": emits {}", m.name, m.emission[c]);
-    for (const TextureUse* use :
-         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
-      if (use->image < -1 || use->image >= static_cast<int>(s.images.size()) || use->uvSet > 1 ||
-          !finite(use->transform[0]) || !finite(use->transform[1]) || !finite(use->transform[2]))
-        return fmt::format("material \"{}\": a texture is out of range", m.name);
-  }
+  for (const Material& m : s.materials)
+    if (const std::string problem = unsound(m, s.images.size()); !problem.empty()) return problem;
   for (const SceneImage& image : s.images)
     if (image.width == 0 || image.height == 0 || image.width > gltf::kMaxImageExtent ||
         image.height > gltf::kMaxImageExtent || image.rgba.size() != uint64_t{image.width} * image.height * 4)
@@ -102,6 +126,20 @@ std::string ofCameras(const Scene& s) {
 
 }  // namespace
 
+std::string unsound(const Material& m, size_t images) {
+  const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, 0.0f);
+  if (!within(m.baseColor, 0.0, 1.0)) return fmt::format("material \"{}\": its base colour is out of range", m.name);
+  if (!within(factors, 0.0, 1.0) || !std::isfinite(m.normalScale) || !std::isfinite(m.alphaCutoff))
+    return fmt::format("material \"{}\": a factor is out of range", m.name);
+  for (int c = 0; c < 3; ++c)
+    if (!brightness(m.emission[c])) return fmt::format("material \"{}\": emits {}", m.name, m.emission[c]);
+  for (const TextureUse* use : texturesOf(m))
+    if (use->image < -1 || use->image >= static_cast<int>(images) || use->uvSet > 1 || !finite(use->transform[0]) ||
+        !finite(use->transform[1]) || !finite(use->transform[2]))
+      return fmt::format("material \"{}\": a texture is out of range", m.name);
+  return "";
+}
+
 std::string unsound(const Light& light) {
   const auto is = [&](const auto& what) { return fmt::format("light \"{}\": {}", light.name, what); };
   const auto list = [](const auto& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); };
@@ -125,7 +163,7 @@ std::string unsound(const Light& light) {
 }
 
 std::string unsound(const Scene& scene) {
-  for (const auto check : {ofVertices, ofMaterials, ofDraws, ofLights, ofCameras})
+  for (const auto check : {ofVertices, ofMaterials, ofDraws, ofNodes, ofLights, ofCameras})
     if (const std::string problem = check(scene); !problem.empty()) return problem;
   return "";
 }

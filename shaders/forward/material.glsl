@@ -36,8 +36,10 @@ vec4 materialBaseColor(GpuMaterial m, vec4 uv, vec4 tint) {
   return c;
 }
 
-bool materialCutOut(GpuMaterial m, float alpha) {
-  return (m.flags & MATERIAL_ALPHA_MASK) != 0u && alpha < m.alphaCutoff;
+/// `threshold`: a blended surface is there where its alpha is above it.
+bool materialCutOut(GpuMaterial m, float alpha, float threshold) {
+  if ((m.flags & MATERIAL_ALPHA_MASK) == 0u) return false;
+  return (m.flags & MATERIAL_BLEND) != 0u ? alpha <= threshold : alpha < m.alphaCutoff;
 }
 
 #endif

@@ -10,6 +10,7 @@ layout(constant_id = FORWARD_EMISSION) const bool EMISSION = true;
 layout(constant_id = FORWARD_HIGHLIGHTS) const bool HIGHLIGHTS = true;
 layout(constant_id = FORWARD_F0) const bool F0 = true;
 layout(constant_id = FORWARD_INDIRECT) const bool INDIRECT = true;
+layout(constant_id = FORWARD_GLASS) const bool GLASS = true;
 layout(constant_id = FORWARD_PCF) const uint PCF = 3u;
 layout(constant_id = FORWARD_MANY_LIGHTS) const bool MANY_LIGHTS = true;
 
@@ -181,6 +182,7 @@ Shaded shade(Interpolants v) {
   Shaded o;
   o.normal = vec4(n, roughness);
   o.geometric = vec4(face, metallic);
+  if (GLASS && (m.flags & MATERIAL_BLEND) != 0u) o.geometric.w = packCover(metallic, base.a);
   o.albedo = vec4(albedo, occlusion);
   if (F0) o.f0 = vec4(f0, lambertian ? 0.0 : 1.0);
   o.direct = vec4(direct, 1.0);

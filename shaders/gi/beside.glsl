@@ -47,17 +47,23 @@ bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint f
   return true;
 }
 
-/// The surfel of a facet that is nearest to a point.
-SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2) {
+/// The surfel of a facet that is nearest to a point, and which it is.
+SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2, out uint nearest) {
+  FacetSurfels surfels = surfelsOf(surface, facet);
   distance2 = 1e30;
-  uint nearest = 0u;
+  nearest = 0u;
   for (uint k = 0u; k < FACET_SURFELS; ++k) {
-    vec3 d = surfelOf(surface, facet, k).position - point;
+    vec3 d = surfelOf(surface, surfels, k).position - point;
     if (dot(d, d) >= distance2) continue;
     distance2 = dot(d, d);
     nearest = k;
   }
-  return surfelOf(surface, facet, nearest);
+  return surfelOf(surface, surfels, nearest);
+}
+
+SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2) {
+  uint nearest;
+  return nearestSurfel(surface, facet, point, distance2, nearest);
 }
 
 #endif

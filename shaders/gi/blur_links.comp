@@ -1,5 +1,6 @@
-// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (docs/method.md 7): averaged with
-// tent weights over the facets of the 3 x 3 x 3 voxels around that continue the surface, each as much as it has area.
+// "GI Scatter": H as shading samples it, once per relight instead of once per pixel (docs/method.md 7): between the
+// facet's own and the mean with tent weights over the facets of the 3 x 3 x 3 voxels around that continue the surface,
+// each as much as it has area; by how much of what they differ by the noise of their rays accounts for.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/surface_point.glsl"
@@ -7,31 +8,48 @@
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;        ///< F M too
 layout(constant_id = CONSTANT_SCATTER_STORES) const bool STORES = true;  ///< false: it only measures the change
+layout(constant_id = CONSTANT_BLUR_WEIGHS) const bool WEIGHS = true;     ///< false: the noise is not known; the mean alone
 layout(push_constant, scalar) uniform Push { BlurLinksPush p; };
+
+float sumOf(vec3 v) { return v.x + v.y + v.z; }
 
 void main() {
   uint facet = irad_index();
   if (facet >= p.count) return;
   SurfaceArrays surface = p.surface.at[0];
   ivec3 voxel = ivec3(unpackVoxel(p.voxel.at[facet]));
-  vec3 unblurred = p.indirect.at[facet].xyz;
+  vec3 own = p.indirect.at[facet].xyz;
   vec3 sumH = vec3(0.0), sumE = vec3(0.0);
-  float total = 0.0;
+  float sumSquares = 0.0, sumNoise = 0.0, total = 0.0;
   for (uint i = 0u; i < 27u; ++i) {
-    uint link = facetLink(surface, facet, i);
-    if (link == NO_LINK) continue;
+    uint other = linkedFacet(surface, p.reverse, p.dims, facet, voxel, i);
+    if (other == NO_FACET) continue;
     ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-    uint other = firstFacet(p.reverse.at[voxelIndex(uvec3(voxel + step_), p.dims)]) + link;
     float weight = (step_.x == 0 ? 2.0 : 1.0) * (step_.y == 0 ? 2.0 : 1.0) * (step_.z == 0 ? 2.0 : 1.0) *
                    max(surface.area.at[other], 1e-6);
-    sumH += weight * p.indirect.at[other].xyz;
+    vec3 h = p.indirect.at[other].xyz;
+    sumH += weight * h;
     if (EMITTED) sumE += weight * p.emitted.at[other].xyz;
+    if (WEIGHS) {
+      // About the facet's own H: sums of squares of H itself would lose what small differences there are.
+      vec3 off = h - own, error = p.error.at[other].xyz;
+      sumSquares += weight * dot(off, off);
+      sumNoise += weight * dot(error, error);
+    }
     total += weight;
   }
-  vec3 h = sumH / total;  // the facet itself is always linked
-  if (STORES) p.blurred.at[facet] = vec4(h, 0.0);
-  if (STORES && EMITTED) p.blurredEmitted.at[facet] = vec4(sumE / total, 0.0);
-  vec3 change = abs(h - unblurred);
+  vec3 mean = sumH / total;  // the facet itself is always linked
+  // Lee 1980: the share of the variance that noise does not account for is kept.
+  float keep = 0.0;
+  if (WEIGHS) {
+    vec3 shift = mean - own;
+    float variance = sumSquares / total - dot(shift, shift), noise = sumNoise / total;
+    if (variance > noise) keep = 1.0 - noise / variance;
+  }
+  if (STORES) p.blurred.at[facet] = vec4(mix(mean, own, keep), 0.0);
+  if (STORES && EMITTED) p.blurredEmitted.at[facet] = vec4(mix(sumE / total, p.emitted.at[facet].xyz, keep), 0.0);
+  // At most: what is kept is not known where nothing is stored, and the plan wants one number either way.
+  vec3 change = abs(mean - own);
   uint bits = floatBitsToUint(max(change.r, max(change.g, change.b)));
   if (bits > p.change.at[0]) atomicMax(p.change.at[0], bits);
 }

@@ -6,6 +6,11 @@ layout(local_size_x = 64) in;
 
 shared uint next;
 shared uint leaders[LAST_CLASS + 1u];
+/// By blocks of the voxel's points those that belong to no class yet, and of these those that may belong to the
+/// leader's: far fewer, so that all invocations take turns at them.
+const uint BLOCK = 16u * gl_WorkGroupSize.x;
+shared uint open[BLOCK], likely[BLOCK];
+shared uint opened, likelies;
 
 void main() {
   uint voxel = irad_workgroup();
@@ -40,16 +45,31 @@ void main() {
       continue;
     }
     if (me == 0u) leaders[classes] = lead;
-    ClassPoint leader = classPoint(surface, lead);
-    for (uint i = first + me * stride; i < end; i += step_)
-      if (push.classes.at[i] == NO_CLASS && (i == lead || sameSide(pieces, leader.point, classPoint(surface, i).point)))
-        push.classes.at[i] = classes | (i == lead ? CLASS_LEADER : 0u);
+    SidePoint leader = classPoint(surface, lead).point;
+    for (uint block = first; block < end; block += BLOCK * stride) {
+      if (me == 0u) opened = likelies = 0u;
+      barrier();
+      uint endBlock = min(end, block + BLOCK * stride);
+      for (uint i = block + me * stride; i < endBlock; i += step_)
+        if (push.classes.at[i] == NO_CLASS && i != lead) open[atomicAdd(opened, 1u)] = i;
+      barrier();
+      for (uint q = me; q < opened; q += gl_WorkGroupSize.x)
+        if (mayContinue(leader.at, classPoint(surface, open[q]).point.at)) likely[atomicAdd(likelies, 1u)] = open[q];
+      barrier();
+      for (uint q = me; q < likelies; q += gl_WorkGroupSize.x)
+        if (sameSide(pieces, leader, classPoint(surface, likely[q]).point)) push.classes.at[likely[q]] = classes;
+      barrier();
+    }
+    if (me == 0u) push.classes.at[lead] = classes | CLASS_LEADER;
+    memoryBarrierBuffer();
+    barrier();
     ++classes;
   }
   if (me == 0u) {
     // Every voxel has a facet: its pieces end where the next one's begin.
     if (classes == 0u) push.classes.at[first] = CLASS_LEADER;
     push.facets.at[voxel] = max(classes, 1u);
+    push.wide.at[voxel] = pieces.end - pieces.first > MOST_NARROW ? max(classes, 1u) : 0u;
   }
   memoryBarrierBuffer();
   barrier();
@@ -62,7 +82,7 @@ void main() {
       uint near = compared + (k % 2u == 0u ? -(k / 2u) * stride : (k / 2u + 1u) * stride);
       if (near < first || near >= end) continue;
       uint found = push.classes.at[near];
-      if (found == NO_CLASS || found == CLASS_OF_PART) continue;
+      if (found == NO_CLASS || isOfPart(found)) continue;
       if (dot(classPoint(surface, near).point.at.facing, facing) < SAME_SIDE_COSINE) continue;
       push.classes.at[i] = found & ~CLASS_LEADER;
       break;

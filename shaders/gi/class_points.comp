@@ -33,4 +33,5 @@ void main() {
   // Every voxel has a facet: its pieces end where the next one's begin.
   if (classes == 0u) push.classes.at[first] = CLASS_LEADER;
   push.facets.at[voxel] = max(classes, 1u);
+  push.wide.at[voxel] = 0u;  // a piece has a point at least
 }

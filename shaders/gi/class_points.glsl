@@ -13,6 +13,7 @@ ClassPoint classPoint(SurfaceArrays surface, uint i) {
   PiecePoint p = push.points.at[i];
   uint piece = p.side & ~SURFEL_BACK;
   uint triangle = triangleOf(surface.pieces, piece);
-  vec3 facing = facingOf(triangleAt(surface.corners, triangle), (p.side & SURFEL_BACK) != 0u);
+  vec3 front = push.facings.at[piece];
+  vec3 facing = (p.side & SURFEL_BACK) != 0u ? -front : front;
   return ClassPoint(SidePoint(SurfelPoint(p.position, facing, triangle), p.lift), push.area.at[piece]);
 }

@@ -36,7 +36,7 @@ bool seesLight(ivec2 pixel, uint triangle) {
   for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
     GpuLight light = scene.lights.at[i];
     if (lightIrradiance(light, local, from.facing) == vec3(0.0)) continue;
-    if (lightShare(world, surface, from, light, local, push.edge, 0u, 1u, light.points, shift) > 0.0) return true;
+    if (lightSeen(world, surface, from, light, local, push.edge, light.points, shift)) return true;
   }
   return false;
 }

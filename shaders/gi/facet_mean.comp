@@ -15,8 +15,9 @@ void main() {
 
   // Normal and plane from the surfels, which stand for equal areas.
   vec3 normal = vec3(0.0), middle = vec3(0.0);
+  FacetSurfels surfels = surfelsOf(surface, facet);
   for (uint k = 0u; k < FACET_SURFELS; ++k) {
-    SurfelPoint s = surfelOf(surface, facet, k);
+    SurfelPoint s = surfelOf(surface, surfels, k);
     normal += s.facing;
     middle += s.position - vec3(voxel) - 0.5;
   }

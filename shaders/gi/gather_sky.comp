@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // "GI Gather" from the sky (docs/method.md 6): pi x the share of a facet's rays that escape into each bin of directions x
-// the bin's mean radiance. One invocation per row.
+// the bin's mean radiance; and the mean of the squares of what its rays bring from there, over the channels together, for
+// the noise of H. One invocation per row.
 #include "shared/sky.h"
 
 layout(local_size_x = 64) in;
@@ -15,9 +16,14 @@ void main() {
   UintArray segment = m.segments.at[row >> m.segmentShift];
   uint start = m.rowStart.at[row] + rowEntries(info), count = m.rowSky.at[row];
   vec3 sum = vec3(0.0f);
+  float squares = 0.0f;
   for (uint i = 0u; i < count; ++i) {
     uint entry = segment.at[start + i];
-    sum += float(entry >> SKY_BIN_BITS) * p.bins.at[entry & ((1u << SKY_BIN_BITS) - 1u)].xyz;
+    float hits = float(entry >> SKY_BIN_BITS);
+    vec3 radiance = p.bins.at[entry & ((1u << SKY_BIN_BITS) - 1u)].xyz;
+    sum += hits * radiance;
+    squares += hits * dot(radiance, radiance);
   }
-  p.sky.at[row] = vec4(sum * (uintBitsToFloat(info.y) * IRAD_PI), 0.0f);
+  float weight = uintBitsToFloat(info.y);
+  p.sky.at[row] = vec4(sum * (weight * IRAD_PI), squares * (weight * IRAD_PI * IRAD_PI));
 }

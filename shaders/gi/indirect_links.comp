@@ -24,6 +24,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D emittedTarget;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D directTarget;
 
 #include "gi/sought_facet.glsl"
+#include "gi/outer_irradiance.glsl"
 
 /// How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
 float spread(SurfaceTaps taps) {
@@ -68,6 +69,13 @@ void main() {
   vec3 p = (position.xyz - grid.origin) * grid.inverseEdge;
   bool back = dot(triangleFacing(surface, triangle), viewer) < 0.0;
   uint side = triangle | (back ? SURFEL_BACK : 0u), facet;
+  if (!SEEKS && beyondGrid(surface, grid.dims, p)) {
+    if (KEEPS_POSITION) imageStore(lookupTarget, pixel, vec4(position.xyz, seen));
+    keepFacet(pixel, NO_FACET);
+    if (EMITTED) imageStore(emittedTarget, pixel, vec4(0.0));
+    imageStore(indirectTarget, pixel, vec4(lookup.x * outerIrradiance(surface, side, p), seen));
+    return;
+  }
   if (SEEKS) {
     facet = soughtFacet(surface, push.reverse, grid.dims, p, side, listed);
     if (!listed || soughtLane() != 0u) return;

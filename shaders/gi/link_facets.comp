@@ -10,7 +10,6 @@ layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 // A workgroup takes some facets, and each of these the voxels around it: places. Most of them hold no facet whose way
 // has to be looked at, so that all invocations take turns at those that do: one facet of each place a round.
 const uint PLACES = 27u * LINK_FACETS;
-const uint MIDDLE = 13u;
 const uint NOTHING_STANDS = 0xFFFFu;
 shared uint sides[LINK_FACETS];                        ///< triangle | SURFEL_BACK of each facet
 shared vec3 facings[LINK_FACETS];
@@ -20,7 +19,10 @@ shared uint entries[PLACES], whole[PLACES];
 shared uint link[PLACES], next[PLACES];           ///< best so far, and the facet to look at next
 shared float best[PLACES];
 shared uint queue[PLACES];                        ///< places with a facet to look at in this round
-shared uint queued[2];
+shared uint likely[PLACES];                       ///< of these, those whose facet may continue the surface
+shared uint pairs[PLACES];                        ///< of both facets the nearest surfels, own + FACET_SURFELS * other
+shared float apart[PLACES];                       ///< the square of their distance
+shared uint queued[2], likelies[2];
 
 /// The facet of a side of a triangle in a voxel, counted from the first; NO_LINK where others stand on it, or it is too
 /// small to have one; NOTHING_STANDS where the triangle has no piece.
@@ -51,11 +53,10 @@ bool goesOn(uint own, ivec3 step_) {
 }
 
 /// The next facet of a place whose normal is like the facet's own; facetsOf where there is none.
-uint nextAlike(SurfaceArrays surface, uint place, uint k) {
+uint nextAlike(uint place, uint k) {
   uint entry = entries[place];
   for (; k < facetsOf(entry); ++k) {
-    uint side = surface.surfels.at[FACET_SURFELS * (firstFacet(entry) + k) + FACET_SURFELS / 2u].triangle;
-    if (dot(facings[place / 27u], triangleFacing(surface, side)) >= SAME_SIDE_COSINE) break;
+    if (dot(facings[place / 27u], push.facings.at[firstFacet(entry) + k]) >= SAME_SIDE_COSINE) break;
   }
   return k;
 }
@@ -73,16 +74,27 @@ uint ownSurfel(uint own, vec3 point) {
   return nearest;
 }
 
-void lookAt(SurfaceArrays surface, uint place) {
-  uint own = place / 27u, facet = LINK_FACETS * irad_workgroup() + own, k = next[place];
+/// The facet to look at in this round.
+uint otherFacet(uint place) { return firstFacet(entries[place]) + next[place]; }
+
+/// Finds the surfels between which the way is to be, and whether there may be one that is nearer than the best.
+bool findPair(SurfaceArrays surface, uint place) {
+  uint own = place / 27u, facet = LINK_FACETS * irad_workgroup() + own;
   vec3 border = vec3(unpackVoxel(push.voxel.at[facet])) + 0.5 + 0.5 * vec3(stepOf(place));
-  uint nearest = ownSurfel(own, border);
-  SidePoint from = SidePoint(surfelOf(surface, facet, nearest), lifts[own][nearest]);
-  float distance2;
-  SurfelPoint to = nearestSurfel(surface, firstFacet(entries[place]) + k, from.at.position, distance2);
-  if (distance2 >= best[place] || !continues(surface, push.reverse, push.dims, from, to)) return;
-  best[place] = distance2;
-  link[place] = k;
+  uint nearest = ownSurfel(own, border), other;
+  SurfelPoint from = surfelOf(surface, facet, nearest);
+  SurfelPoint to = nearestSurfel(surface, otherFacet(place), from.position, apart[place], other);
+  pairs[place] = nearest + FACET_SURFELS * other;
+  return apart[place] < best[place] && mayContinue(from, to);
+}
+
+void lookAt(SurfaceArrays surface, uint place) {
+  uint own = place / 27u, nearest = pairs[place] % FACET_SURFELS;
+  SidePoint from = SidePoint(surfelOf(surface, LINK_FACETS * irad_workgroup() + own, nearest), lifts[own][nearest]);
+  SurfelPoint to = surfelOf(surface, otherFacet(place), pairs[place] / FACET_SURFELS);
+  if (!continues(surface, push.reverse, push.dims, from, to)) return;
+  best[place] = apart[place];
+  link[place] = next[place];
 }
 
 void main() {
@@ -90,15 +102,15 @@ void main() {
   uint count = min(LINK_FACETS, push.count - firstFacet_), places = 27u * count;
   SurfaceArrays surface = push.surface.at[0];
   for (uint i = lane; i < count; i += gl_WorkGroupSize.x) {
-    sides[i] = surface.surfels.at[FACET_SURFELS * (firstFacet_ + i) + FACET_SURFELS / 2u].triangle;
-    facings[i] = triangleFacing(surface, sides[i]);
+    sides[i] = surfelAt(surface, surfelsOf(surface, firstFacet_ + i), FACET_SURFELS / 2u).triangle;
+    facings[i] = push.facings.at[firstFacet_ + i];
   }
   for (uint i = lane; i < FACET_SURFELS * count; i += gl_WorkGroupSize.x) {
     SurfelPoint p = surfelOf(surface, firstFacet_ + i / FACET_SURFELS, i % FACET_SURFELS);
     surfels[i / FACET_SURFELS][i % FACET_SURFELS] = p.position;
     lifts[i / FACET_SURFELS][i % FACET_SURFELS] = liftOf(surface, push.reverse, push.dims, p);
   }
-  if (lane < 2u) queued[lane] = 0u;
+  if (lane < 2u) queued[lane] = likelies[lane] = 0u;
   barrier();
   for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
     ivec3 voxel = ivec3(unpackVoxel(push.voxel.at[firstFacet_ + i / 27u]));
@@ -107,7 +119,7 @@ void main() {
   }
   barrier();
   for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
-    uint own = i / 27u, middle = 27u * own + MIDDLE;
+    uint own = i / 27u, middle = 27u * own + OWN_VOXEL;
     uint inVoxel = firstFacet_ + own - firstFacet(entries[middle]);
     link[i] = NO_LINK;
     best[i] = 1e30;
@@ -115,7 +127,7 @@ void main() {
     if (i == middle) link[i] = inVoxel;
     else if (entries[i] != NO_FACET) {
       if (whole[middle] == inVoxel && goesOn(own, stepOf(i))) link[i] = min(whole[i], NO_LINK);
-      if (link[i] == NO_LINK) next[i] = nextAlike(surface, i, 0u);
+      if (link[i] == NO_LINK) next[i] = nextAlike(i, 0u);
     }
   }
   for (uint round = 0u;; ++round) {
@@ -124,14 +136,24 @@ void main() {
     barrier();
     uint all_ = queued[round & 1u];
     if (all_ == 0u) break;
-    if (lane == 0u) queued[(round + 1u) & 1u] = 0u;
-    for (uint i = lane; i < all_; i += gl_WorkGroupSize.x) lookAt(surface, queue[i]);
+    if (lane == 0u) queued[(round + 1u) & 1u] = likelies[(round + 1u) & 1u] = 0u;
+    for (uint i = lane; i < all_; i += gl_WorkGroupSize.x)
+      if (findPair(surface, queue[i])) likely[atomicAdd(likelies[round & 1u], 1u)] = queue[i];
+    barrier();
+    all_ = likelies[round & 1u];
+    for (uint i = lane; i < all_; i += gl_WorkGroupSize.x) lookAt(surface, likely[i]);
     barrier();
     for (uint i = lane; i < places; i += gl_WorkGroupSize.x)
-      if (next[i] < facetsOf(entries[i])) next[i] = nextAlike(surface, i, next[i] + 1u);
+      if (next[i] < facetsOf(entries[i])) next[i] = nextAlike(i, next[i] + 1u);
   }
   for (uint i = lane; i < FACET_LINKS * count; i += gl_WorkGroupSize.x) {
     uint own = i / FACET_LINKS, at = i % FACET_LINKS;
-    push.links.at[FACET_LINKS * firstFacet_ + i] = uint8_t(at < 27u ? link[27u * own + at] : NO_LINK);
+    push.found.at[FACET_LINKS * firstFacet_ + i] = uint8_t(at < 27u ? link[27u * own + at] : NO_LINK);
+  }
+  for (uint i = lane; i < count; i += gl_WorkGroupSize.x) {
+    uint mask = 0u;
+    for (uint at = 0u; at < 27u; ++at) mask |= at != OWN_VOXEL && link[27u * i + at] != NO_LINK ? 1u << at : 0u;
+    push.masks.at[firstFacet_ + i] = mask;
+    push.counts.at[firstFacet_ + i] = bitCount(mask);
   }
 }

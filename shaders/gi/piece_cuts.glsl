@@ -20,15 +20,16 @@ uint partAt(Vec4Array corners, UintArray cuts, uint place, uint count, vec3 at) 
 }
 
 struct PieceCuts {
-  uint count;              ///< triangles that stand on the piece
-  uint triangles, points;  ///< places in `cuts`
+  uint count;             ///< triangles that stand on the piece
+  uint triangles, parts;  ///< places in `cuts`
+  uint endParts;
 };
 
 PieceCuts cutsOf(UintArray cuts, uint sides) {
   uint place = sides & ~PIECE_CUT;
-  uint word = cuts.at[place], count = word & ~CUT_MASKED;
+  uint word = cuts.at[place], count = cutTriangles(word);
   uint triangles = place + ((word & CUT_MASKED) != 0u ? 3u : 1u);
-  return PieceCuts(count, triangles, triangles + count);
+  return PieceCuts(count, triangles, triangles + count, triangles + count + cutParts(word));
 }
 
 /// Whether a piece with a mask is there at a point relative to its voxel's lower corner.
@@ -45,10 +46,9 @@ uint classAt(SurfaceArrays surface, uint piece, bool back, vec3 at) {
   if ((sides & PIECE_CUT) == 0u) return (sides >> shift) & 0xFFu;
   PieceCuts cuts = cutsOf(surface.cuts, sides);
   uint part = partAt(surface.corners, surface.cuts, cuts.triangles, cuts.count, at);
-  for (uint i = 0u; i < CUT_POINTS && part != NO_PART; ++i) {
-    uint point = surface.cuts.at[cuts.points + i];
-    uint found = (point >> shift) & 0xFFu;
-    if ((point >> 16) == part && found != PIECE_UNKNOWN) return found;
+  for (uint i = cuts.parts; i < cuts.endParts && part != NO_PART; ++i) {
+    uint known = surface.cuts.at[i];
+    if ((known >> 16) == part) return (known >> shift) & 0xFFu;
   }
   return PIECE_UNKNOWN;
 }

@@ -1,9 +1,10 @@
-// Where a material's alpha mask leaves a piece: a bit for each of its squares (docs/method.md 2). One dispatch per
-// material, whose set 1 is bound.
+// Where a material's alpha mask leaves a piece, or a blended one's screen: a bit for each of its squares (docs/method.md
+// 4). One dispatch per textured material, whose set 1 is bound, and one for all others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_material.glsl"
+#include "shared/glass.h"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceMaskPush push; };
@@ -14,16 +15,24 @@ void main() {
   uint piece = push.order.at[push.first + index];
   uint triangle = push.pieces.at[piece] & ~PIECE_SMALL;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  vec3 cell = vec3(unpackVoxel(push.solid.at[push.pieceVoxel.at[piece]]));
+  uint packedVoxel = push.solid.at[push.pieceVoxel.at[piece]];
+  vec3 cell = vec3(unpackVoxel(packedVoxel));
+  bool screen = (triangleFlags(push.scene, triangle) & MATERIAL_BLEND) != 0u;
+  uint seed = hashUint(packedVoxel ^ hashUint(triangle));
   uint left = 0u, right = 0u;
   for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
     vec3 at = cell + maskPoint(t.normal, t.v[0] - cell, bit);
-    if (masked(push.scene, t, triangle, MATERIAL_ALPHA_MASK, at, float(MASK_EDGE * MASK_EDGE))) continue;
+    if (screen) {
+      float cover = coverAt(push.scene, t, triangle, at, float(MASK_EDGE * MASK_EDGE));
+      if (cover <= screenThreshold(bit, seed)) continue;
+    } else if (masked(push.scene, t, triangle, MATERIAL_ALPHA_MASK, at, float(MASK_EDGE * MASK_EDGE))) {
+      continue;
+    }
     if (bit < 32u) left |= 1u << bit;
     else right |= 1u << (bit - 32u);
   }
   uint place = push.firstCut.at[piece];
-  push.cuts.at[place] = CUT_MASKED;
+  push.cuts.at[place] = CUT_MASKED | (screen ? CUT_SCREEN : 0u);
   push.cuts.at[place + 1u] = left;
   push.cuts.at[place + 2u] = right;
 }

@@ -25,6 +25,7 @@ void main() {
   vec3 facing = facingOf(t, false);
   VoxelPieces others =
       voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+  push.sides.at[piece] = count == 0u ? 0u : PIECE_CUT | cut;
   if (count == 0u) {
     vec3 middle = (t.a + t.b + t.c) * (1.0 / 3.0) - cell;
     if (n > 0u) polygonArea(from, n, middle);
@@ -37,16 +38,17 @@ void main() {
     return;
   }
 
-  push.sides.at[piece] = PIECE_CUT | cut;
   bool mask = hasHoles(surface.corners, triangle);
+  // Where anything is there of a screen its points stand for all of it: they may all fall between the squares.
+  uint kind = mask ? surface.cuts.at[cut] & (CUT_MASKED | CUT_SCREEN) : 0u;
+  bool screen = (kind & CUT_SCREEN) != 0u && (surface.cuts.at[cut + 1u] | surface.cuts.at[cut + 2u]) != 0u;
   uint triangles = cut + (mask ? 3u : 1u);
-  count -= triangles - cut + CUT_POINTS;
-  uint found = 0u;
-  for (uint i = others.first; i < others.endLarge && found < count; ++i)
+  uint found = 0u;  // as many as gi/piece_shape.comp has made room for
+  for (uint i = others.first;
+       i < others.endLarge && triangles + found + 1u + mostParts(found + 1u) <= cut + count; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(surface.corners, surface.pieces.at[i]), t, back))
       push.cuts.at[triangles + found++] = surface.pieces.at[i];
-  push.cuts.at[cut] = found | (mask ? CUT_MASKED : 0u);
-  uint points = triangles + found;
+  uint parts = triangles + found, endParts = parts;
   for (uint k = 0u; k < CUT_POINTS; ++k) {
     vec3 at;
     uint part = NO_PART;
@@ -54,16 +56,18 @@ void main() {
       at = cell + polygonPoint(from, n, push.area.at[piece], cutPlace(piece, k, again));
       part = partAt(surface.corners, push.cuts, triangles, found, at);
     }
-    if (mask && !isThere(surface, piece, facing, at - cell)) part = NO_PART;
-    // Nothing is between two points of one part: one is enough.
-    bool first = part != NO_PART;
-    for (uint j = 0u; j < k && first; ++j) first = push.cuts.at[points + j] >> 16 != part;
-    push.cuts.at[points + k] = part << 16;
+    if (mask && !screen && !isThere(surface, piece, facing, at - cell)) part = NO_PART;
+    // Nothing is between two points of one part: one is enough, which is left there for the part's facets.
+    uint first = part == NO_PART ? CUT_POINTS : k;
+    for (uint j = parts; j < endParts && first == k; ++j)
+      if (push.cuts.at[j] >> 16 == part) first = push.cuts.at[j] & 0xFFFFu;
+    if (first == k && endParts < cut + count) push.cuts.at[endParts++] = (part << 16) | k;
     for (uint side = 0u; side < (back ? 2u : 1u); ++side) {
       uint i = place + side * CUT_POINTS + k;
-      float lift = first ? clearAbove(others, at, side == 0u ? facing : -facing, triangle) : 0.0;
+      float lift = first == k ? clearAbove(others, at, side == 0u ? facing : -facing, triangle) : 0.0;
       push.points.at[i] = PiecePoint(at, piece | (side == 0u ? 0u : SURFEL_BACK), lift);
-      push.classes.at[i] = first ? NO_CLASS : CLASS_OF_PART;
+      push.classes.at[i] = first == k ? NO_CLASS : CLASS_OF_PART | first;
     }
   }
+  push.cuts.at[cut] = cutCounts(found, endParts - parts) | kind;
 }

@@ -17,6 +17,7 @@ void main() {
   uint from;
   uint n = clipPolygon(t.a - cell, t.b - cell, t.c - cell, 0.0, from);
   vec3 centre, low = vec3(1.0), high = vec3(0.0);
+  push.facings.at[piece] = facingOf(t, false);
   push.area.at[piece] = n > 0u ? polygonArea(from, n, centre) : 0.0;
   for (uint i = 0u; i < n; ++i) {
     vec3 corner = clipCorners[clipPlace(from, i)];
@@ -34,5 +35,5 @@ void main() {
   uint maskWords = hasHoles(push.corners, triangle) ? 2u : 0u;
   bool cut = cuts > 0u || maskWords > 0u;
   push.points.at[piece] = (cut ? CUT_POINTS : 1u) * (back ? 2u : 1u);
-  push.cuts.at[piece] = cut ? 1u + maskWords + cuts + CUT_POINTS : 0u;
+  push.cuts.at[piece] = cut ? 1u + maskWords + cuts + mostParts(cuts) : 0u;
 }

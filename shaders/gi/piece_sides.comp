@@ -26,29 +26,33 @@ void main() {
   if (perSide == 1u) {
     surface.sides.at[piece] = facetOfPoint(first) | (back ? facetOfPoint(first + 1u) : PIECE_BLACK) << 8;
   } else {
-    uint place = cutsOf(surface.cuts, sides).points;
-    for (uint k = 0u; k < CUT_POINTS; ++k) {
-      uint part = surface.cuts.at[place + k] >> 16;
-      for (uint s = first + k; s < first + points; s += CUT_POINTS) {
-        if (push.classes.at[s] != CLASS_OF_PART) continue;
-        uint found = NO_CLASS;
-        for (uint j = 0u; j < k && part != NO_PART; ++j)
-          if (surface.cuts.at[place + j] >> 16 == part) {
-            found = push.classes.at[s - k + j] & ~CLASS_LEADER;
-            break;
-          }
-        push.classes.at[s] = found;
-      }
-      surface.cuts.at[place + k] |=
-          facetOfPoint(first + k) | (back ? facetOfPoint(first + CUT_POINTS + k) : PIECE_BLACK) << 8;
+    PieceCuts cuts = cutsOf(surface.cuts, sides);
+    for (uint s = first; s < first + points; ++s) {
+      uint class_ = push.classes.at[s];
+      if (!isOfPart(class_)) continue;
+      uint k = class_ & 31u;
+      push.classes.at[s] =
+          k < CUT_POINTS ? push.classes.at[s - (s - first) % CUT_POINTS + k] & ~CLASS_LEADER : NO_CLASS;
+    }
+    for (uint i = cuts.parts; i < cuts.endParts; ++i) {
+      uint part = surface.cuts.at[i], point = first + (part & 0xFFFFu);
+      surface.cuts.at[i] = (part & 0xFFFF0000u) | facetOfPoint(point) |
+                           (back ? facetOfPoint(point + CUT_POINTS) : PIECE_BLACK) << 8;
     }
   }
   // A side's area is that of its points which have a facet; where a mask leaves nothing there is none.
   bool mask = perSide > 1u && (surface.cuts.at[sides & ~PIECE_CUT] & CUT_MASKED) != 0u;
+  float there = 1.0;
+  if (mask && (surface.cuts.at[sides & ~PIECE_CUT] & CUT_SCREEN) != 0u) {
+    uint place = (sides & ~PIECE_CUT) + 1u;
+    there = float(bitCount(surface.cuts.at[place]) + bitCount(surface.cuts.at[place + 1u])) /
+            float(MASK_EDGE * MASK_EDGE);
+    mask = false;
+  }
   for (uint s = first; s < first + points; s += perSide) {
     uint counted = 0u;
     for (uint k = s; k < s + perSide; ++k) counted += push.classes.at[k] != NO_CLASS ? 1u : 0u;
-    float share = push.pieceArea.at[piece] / float(mask ? CUT_POINTS : max(counted, 1u));
+    float share = there * push.pieceArea.at[piece] / float(mask ? CUT_POINTS : max(counted, 1u));
     for (uint k = s; k < s + perSide; ++k) push.pointArea.at[k] = push.classes.at[k] != NO_CLASS ? share : 0.0;
   }
   for (uint i = first; i < first + points; ++i) {
@@ -56,7 +60,6 @@ void main() {
     if ((class_ & CLASS_LEADER) == 0u) continue;
     uint facet = base + (class_ & ~CLASS_LEADER);
     push.voxel.at[facet] = packedVoxel;
-    push.triangle.at[facet] = triangleOf(surface.pieces, piece) | (push.points.at[i].side & SURFEL_BACK);
     push.facetPiece.at[facet] = push.firstPiece.at[voxel];
     if (facet == base)
       push.reverse.at[voxelIndex(unpackVoxel(packedVoxel), push.grid.at[0].dims)] = facetEntryOf(base, end - base);

@@ -21,22 +21,36 @@ bool near(uvec3 a, uvec3 b) {
   return dot(d, d) < EMITTERS_NEAR * EMITTERS_NEAR;
 }
 
+/// A mean of what rays or samples bring, and the mean's variance were they independent, over the channels together.
+struct Estimate {
+  vec3 mean;
+  float variance;
+};
+Estimate estimate(vec3 sum, float squares, float each) {
+  vec3 mean = sum * each;
+  return Estimate(mean, each * max(squares * each - dot(mean, mean), 0.0f));
+}
+
 /// F M of the nearby emitters among the row's entries.
-vec3 nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
+Estimate nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
   Row r = openRow(m, row);
   vec3 sum = vec3(0.0f);
+  float squares = 0.0f;
   for (uint i = 0u; i < r.count; ++i) {
     RowEntry e = rowEntry(r, m.columnBits, i);
     vec3 exitance = f.emission.at[e.column];
-    if (exitance != vec3(0.0f) && near(voxel, unpackVoxel(f.voxel.at[e.column]))) sum += e.weight * exitance;
+    if (exitance == vec3(0.0f) || !near(voxel, unpackVoxel(f.voxel.at[e.column]))) continue;
+    sum += e.weight * exitance;
+    squares += e.weight * dot(exitance, exitance);
   }
-  return sum * r.weight;
+  return estimate(sum, squares, r.weight);
 }
 
 /// E = 1/n sum of M cos cos' / (pi r^2) / density, the density of points being luminance(M) / power.
-vec3 sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArrays surface, uint facet, uvec3 voxel,
+Estimate sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArrays surface, uint facet, uvec3 voxel,
                    uvec4 shifts) {
   vec3 sum = vec3(0.0f);
+  float squares = 0.0f;
   for (uint k = 0u; k < p.samples; ++k) {
     float x;
     uint emitter = emitterFacet(table, shifts.x + (2u * k + 1u) * (0x80000000u / p.samples), x);
@@ -50,9 +64,11 @@ vec3 sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArrays 
     if (cosines == 0.0f) continue;
     if (!reaches(world, surface, from, direction, reach)) continue;
     vec3 exitance = f.emission.at[emitter];
-    sum += exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
+    vec3 brought = exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
+    sum += brought;
+    squares += dot(brought, brought);
   }
-  return sum / float(p.samples);
+  return estimate(sum, squares, 1.0f / float(p.samples));
 }
 
 void main() {
@@ -65,8 +81,9 @@ void main() {
   uvec3 voxel = unpackVoxel(packedVoxel);
   uvec4 shifts = rayShifts(packedVoxel, p.seed ^ 0x5A3D9E71u, 1u);
 
-  vec3 light = nearEmitters(f, p.matrix.at[0], facet, voxel) +
-               sampled(table, f, world, p.surface.at[0], facet, voxel, shifts);
+  Estimate close = nearEmitters(f, p.matrix.at[0], facet, voxel);
+  Estimate far = sampled(table, f, world, p.surface.at[0], facet, voxel, shifts);
+  vec3 light = close.mean + far.mean;
   p.correction.at[facet] = vec4(light - p.emitted.at[facet].xyz, 0.0f);
-  p.emitted.at[facet] = vec4(light, 0.0f);
+  p.emitted.at[facet] = vec4(light, close.variance + far.variance);
 }

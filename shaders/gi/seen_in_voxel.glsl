@@ -43,24 +43,51 @@ const float SAME_SIDE_LEVEL = 0.02;             ///< voxels: a face this far abo
 const float ABOVE_SURFACE = 1.0 / 256.0;        ///< voxels: ways are at most this far above the surface
 const float AROUND_CELL = 2.0 * ABOVE_SURFACE;  ///< ways from points on a cell's border pass outside it
 
-/// Whether a segment comes near a piece's box: nearer than ways are above the surface. What is cut off at the voxel's
-/// faces goes on beyond, and so may the segment.
-bool nearBox(VoxelPieces voxel, uint piece, vec3 a, vec3 b) {
-  uint box = voxel.boxes.at[piece];
+/// The boxes that a segment comes near, nearer than ways are above the surface: by the largest of each of their numbers
+/// from 0 to 31, where those of upper corners are counted from 31 down. The six are in two words, ten bits apart, so that
+/// all are compared at once.
+struct NearBoxes {
+  uint even, odd;
+};
+const uint BOX_UPPER = 0x3FFF8000u;  ///< bits of a packed box's upper corner
+const uint BOX_EVEN = 0x01F07C1Fu;   ///< of its numbers 0, 2 and 4
+const uint BOX_ABOVE = 0x02008020u;  ///< the bits above these
+
+/// What is cut off at the voxel's faces goes on beyond, and so may the segment.
+NearBoxes boxesNear(VoxelPieces voxel, vec3 a, vec3 b) {
   vec3 low = min(min(a, b) - voxel.cell, vec3(1.0)) - AROUND_CELL;
   vec3 high = max(max(a, b) - voxel.cell, vec3(0.0)) + AROUND_CELL;
-  return all(lessThanEqual(low, boxHigh(box))) && all(greaterThanEqual(high, boxLow(box)));
+  uvec3 lower = uvec3(min(floor(high * BOX_STEPS), vec3(BOX_STEPS - 1.0)));
+  uvec3 upper = uvec3(BOX_STEPS - max(ceil(low * BOX_STEPS), vec3(1.0)));
+  return NearBoxes(lower.x | (lower.z << 10) | (upper.y << 20), lower.y | (upper.x << 10) | (upper.z << 20));
+}
+
+bool isNear(NearBoxes near, uint box) {
+  box ^= BOX_UPPER;
+  uint even = (near.even | BOX_ABOVE) - (box & BOX_EVEN), odd = (near.odd | BOX_ABOVE) - ((box >> 5) & BOX_EVEN);
+  return (even & odd & BOX_ABOVE) == BOX_ABOVE;
+}
+
+/// The large pieces whose boxes a segment comes near, a bit for each from the voxel's first on. Boxes are all asked
+/// before any triangle, which costs much more: what runs side by side then takes turns at triangles alone.
+uint piecesNear(VoxelPieces voxel, vec3 a, vec3 b) {
+  NearBoxes near = boxesNear(voxel, a, b);
+  uint pieces = 0u;
+  for (uint i = voxel.first; i < voxel.endLarge; ++i)
+    pieces |= isNear(near, voxel.boxes.at[i]) ? 1u << (i - voxel.first) : 0u;
+  return pieces;
 }
 
 /// Whether the segment from `a` to `b` (voxel units) crosses no large piece but those of two triangles.
 bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
   ShearedRay ray = shearedRay(a, b - a);
-  for (uint i = voxel.first; i < voxel.endLarge; ++i) {
-    uint triangle = voxel.pieces.at[i];
-    if (triangle == except1 || triangle == except2 || !nearBox(voxel, i, a, b)) continue;
+  for (uint near = piecesNear(voxel, a, b); near != 0u; near &= near - 1u) {
+    uint triangle = voxel.pieces.at[voxel.first + findLSB(near)];
     float t;
     bool front;
-    if (meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0) return false;
+    if (triangle != except1 && triangle != except2 &&
+        meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0)
+      return false;
   }
   return true;
 }
@@ -124,11 +151,11 @@ bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
 float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
   ShearedRay ray = shearedRay(point, facing);
   float clear = 2.0 * ABOVE_SURFACE;
-  for (uint i = voxel.first; i < voxel.endLarge; ++i) {
-    uint triangle = voxel.pieces.at[i];
+  for (uint near = piecesNear(voxel, point, point + facing * clear); near != 0u; near &= near - 1u) {
+    uint piece = voxel.first + findLSB(near), triangle = voxel.pieces.at[piece];
     float t;
     bool front;
-    if (triangle != own && nearBox(voxel, i, point, point + facing * clear) &&
+    if (triangle != own && isNear(boxesNear(voxel, point, point + facing * clear), voxel.boxes.at[piece]) &&
         meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0)
       clear = min(clear, t);
   }

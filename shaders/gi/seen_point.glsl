@@ -11,14 +11,14 @@ SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer
   Triangle t = triangleAt(surface.corners, triangle);
   vec3 facing = facingOf(t, false);
   facing = dot(facing, viewer) < 0.0 ? -facing : facing;
-  return SurfelPoint(liftedStart(p - facing * dot(facing, p - t.a), facing), facing, triangle);
+  return SurfelPoint(liftedOff(surface, triangle, p - facing * dot(facing, p - t.a), facing), facing, triangle);
 }
 
 /// Whether a ray from a lifted point meets nothing before `reach`. A ten-thousandth of it is more than the roundings of
 /// the point of a triangle that may be there.
 bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 direction, float reach) {
   float before = reach * (1.0 - 1e-4);
-  return firstTriangle(world, surface, from.position, direction, from.triangle, before).triangle == NO_TRIANGLE;
+  return !blockedInScene(world, surface, from.position, direction, from.triangle, before);
 }
 
 #ifdef IRAD_FORWARD_LIGHT_GLSL
@@ -28,19 +28,33 @@ bool lightReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, Gpu
   return reaches(world, surface, from, lightDirection(light, position), reach);
 }
 
-/// The share of points first, first + step ... of n of a light with a size that reach a lifted point, of all that it has;
-/// what lies below the surface's horizon does not. A light without a size has one point.
+/// Whether point k of n of a light with a size reaches a lifted point. What lies below the surface's horizon does not.
+bool lightPointReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position,
+                       float edge, uint k, uint n, uvec2 shift) {
+  float reach;
+  vec3 direction = lightPoint(light, position, k, n, shift, reach);
+  return dot(direction, from.facing) > 0.0 &&
+         reaches(world, surface, from, direction, reach < 1e30 ? reach / edge : reach);
+}
+
+/// The share of points first, first + step ... of n of a light with a size that reach a lifted point, of all that it has.
+/// A light without a size has one point.
 float lightShare(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge,
                  uint first, uint step, uint n, uvec2 shift) {
   if (!hasSize(light)) return lightReaches(world, surface, from, light, position, edge) ? 1.0 : 0.0;
   uint seen = 0u, all = 0u;
-  for (uint k = first; k < n; k += step, ++all) {
-    float reach;
-    vec3 direction = lightPoint(light, position, k, n, shift, reach);
-    if (dot(direction, from.facing) > 0.0 && reaches(world, surface, from, direction, reach < 1e30 ? reach / edge : reach))
-      ++seen;
-  }
+  for (uint k = first; k < n; k += step, ++all)
+    if (lightPointReaches(world, surface, from, light, position, edge, k, n, shift)) ++seen;
   return float(seen) / float(all);
+}
+
+/// Whether any of n points of a light reaches a lifted point.
+bool lightSeen(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge,
+               uint n, uvec2 shift) {
+  if (!hasSize(light)) return lightReaches(world, surface, from, light, position, edge);
+  for (uint k = 0u; k < n; ++k)
+    if (lightPointReaches(world, surface, from, light, position, edge, k, n, shift)) return true;
+  return false;
 }
 #endif
 

@@ -9,38 +9,6 @@
 
 layout(constant_id = CONSTANT_SOUGHT_LANES) const uint SOUGHT_LANES = 32u;  ///< of 1, 32
 
-/// The facet of a voxel whose nearest surfel is nearest to a point of the surface, on its side, and nearer than `nearest`;
-/// or NO_FACET. They are asked the nearest first: looking for that is little beside `continues`.
-uint facetBesideIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SidePoint from,
-                   inout float nearest) {
-  SurfelPoint p = from.at;
-  uint entry = entryOf(reverse, dims, voxel);
-  if (entry == NO_FACET) return NO_FACET;
-  float asked = -1.0;  // the distance of the last that was asked
-  uint last = 0u;      // and which it was, from 1
-  for (uint tries = 0u; tries < facetsOf(entry); ++tries) {
-    float best = nearest;
-    uint next = NO_FACET;
-    SurfelPoint to;
-    for (uint k = 0u; k < facetsOf(entry); ++k) {
-      float distance2;
-      SurfelPoint s = nearestSurfel(surface, firstFacet(entry) + k, p.position, distance2);
-      if (distance2 >= best || distance2 < asked || (distance2 == asked && k < last) || !mayContinue(p, s)) continue;
-      best = distance2;
-      next = k;
-      to = s;
-    }
-    if (next == NO_FACET) return NO_FACET;
-    if (continues(surface, reverse, dims, from, to)) {
-      nearest = best;
-      return firstFacet(entry) + next;
-    }
-    asked = best;
-    last = next + 1u;
-  }
-  return NO_FACET;
-}
-
 /// Of a voxel with more pieces than are looked at to tell sides apart, the facet that is near and faces the point's way;
 /// NO_FACET of others.
 uint facetInCrowd(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 voxel, SurfelPoint p) {
@@ -106,14 +74,65 @@ Candidate foundByRounding(SurfaceArrays surface, UintArray reverse, uvec3 dims, 
   return NO_CANDIDATE;
 }
 
-/// A lane's candidate by its distance, of those whose nearest surfel is seen from the point.
-Candidate foundAround(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from) {
+/// Facets of a cube of voxels, one after the other: a lane's share of them is each SOUGHT_LANES-th.
+struct FacetsAround {
+  ivec3 low;  ///< the cube's first voxel
+  int edge;   ///< voxels
+  int voxel, endVoxel;
+  uint first, count;  ///< facets of the voxel
+  uint before, item;  ///< facets of voxels before it; the lane's next one, counted from the first of all
+};
+FacetsAround facetsAround(ivec3 low, int edge, int voxel, int endVoxel) {
+  return FacetsAround(low, edge, voxel - 1, endVoxel, 0u, 0u, 0u, soughtLane());
+}
+/// The lane's next facet, NO_FACET after its last one.
+uint nextFacet(UintArray reverse, uvec3 dims, inout FacetsAround f) {
+  while (f.item >= f.before + f.count) {
+    if (++f.voxel >= f.endVoxel) return NO_FACET;
+    f.before += f.count;
+    uint entry =
+        entryOf(reverse, dims, f.low + ivec3(f.voxel % f.edge, (f.voxel / f.edge) % f.edge, f.voxel / (f.edge * f.edge)));
+    f.first = entry == NO_FACET ? 0u : firstFacet(entry);
+    f.count = entry == NO_FACET ? 0u : facetsOf(entry);
+  }
+  uint facet = f.first + f.item - f.before;
+  f.item += SOUGHT_LANES;
+  return facet;
+}
+
+/// A lane's candidate by its distance: of its share of the cube's facets the one whose nearest surfel is nearest to a point
+/// of the surface, on its side. They are asked the nearest first: looking for that is little beside `continues`. A lane by
+/// itself takes a voxel at a time: Mesa's CPU driver ends all loops after 65,535 rounds.
+Candidate foundIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 low, int edge, SidePoint from) {
   Candidate found = NO_CANDIDATE;
-  ivec3 cell = ivec3(floor(from.at.position));
-  for (int i = int(soughtLane()); i < 27; i += int(SOUGHT_LANES)) {
-    uint facet =
-        facetBesideIn(surface, reverse, dims, cell + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, from, found.rank);
-    if (facet != NO_FACET) found.facet = facet;
+  SurfelPoint p = from.at;
+  int voxels = edge * edge * edge, atOnce = SOUGHT_LANES == 1u ? 1 : voxels;
+  for (int voxel = 0; voxel < voxels; voxel += atOnce) {
+    float asked = -1.0;  // the distance of the last that was asked
+    uint last = 0u;      // and which it was
+    for (;;) {
+      float best = found.rank;
+      uint next = NO_FACET, nextItem = 0u;
+      SurfelPoint to;
+      FacetsAround facets = facetsAround(low, edge, voxel, voxel + atOnce);
+      for (uint facet; (facet = nextFacet(reverse, dims, facets)) != NO_FACET;) {
+        float distance2;
+        SurfelPoint s = nearestSurfel(surface, facet, p.position, distance2);
+        if (distance2 >= best || distance2 < asked || (distance2 == asked && facets.item <= last) || !mayContinue(p, s))
+          continue;
+        best = distance2;
+        next = facet;
+        nextItem = facets.item;
+        to = s;
+      }
+      if (next == NO_FACET) break;
+      if (continues(surface, reverse, dims, from, to)) {
+        found = Candidate(next, best);
+        break;
+      }
+      asked = best;
+      last = nextItem;
+    }
   }
   return found;
 }
@@ -133,16 +152,14 @@ uint soughtFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, u
   }
   uint found = bestOf(mine).facet;
   bool seeks = listed && found == NO_FACET;
-  mine = NO_CANDIDATE;
   SidePoint from = SidePoint(point, seeks ? liftOf(surface, reverse, dims, point) : 0.0);
-  if (seeks && soughtLane() == 0u)
-    mine.facet = facetBesideIn(surface, reverse, dims, ivec3(floor(p)), from, mine.rank);
-  uint inVoxel = bestOf(mine).facet;
+  ivec3 cell = ivec3(floor(p));
+  uint inVoxel = bestOf(seeks ? foundIn(surface, reverse, dims, cell, 1, from) : NO_CANDIDATE).facet;
   if (seeks) found = inVoxel;
   seeks = seeks && found == NO_FACET;
-  uint around = bestOf(seeks ? foundAround(surface, reverse, dims, from) : NO_CANDIDATE).facet;
+  uint around = bestOf(seeks ? foundIn(surface, reverse, dims, cell - 1, 3, from) : NO_CANDIDATE).facet;
   if (seeks) found = around;
-  if (seeks && found == NO_FACET) found = facetInCrowd(surface, reverse, dims, ivec3(floor(p)), point);
+  if (seeks && found == NO_FACET) found = facetInCrowd(surface, reverse, dims, cell, point);
   return found;
 }
 

@@ -43,9 +43,9 @@ SurfaceTaps surfaceTaps(SurfaceArrays surface, UintArray reverse, UintArray face
     taps.facet[i] = facet;
     taps.weight[i] = 0.0;
     if (filter_ == FILTER_NEAREST || any(lessThan(step_, ivec3(0))) || any(greaterThan(step_, ivec3(2)))) continue;
-    uint link = facetLink(surface, facet, uint(step_.x + 3 * step_.y + 9 * step_.z));
-    if (link == NO_LINK) continue;
-    taps.facet[i] = firstFacet(reverse.at[voxelIndex(uvec3(v), dims)]) + link;
+    uint linked = linkedFacet(surface, reverse, dims, facet, own, uint(step_.x + 3 * step_.y + 9 * step_.z));
+    if (linked == NO_FACET) continue;
+    taps.facet[i] = linked;
     vec3 w = mix(1.0 - f, f, vec3(corner));
     taps.weight[i] = w.x * w.y * w.z * max(surface.area.at[taps.facet[i]], 1e-6);
     total += taps.weight[i];

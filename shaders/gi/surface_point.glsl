@@ -4,9 +4,33 @@
 #include "gi/triangle_hit.glsl"
 #include "shared/surface.h"
 
+/// What is kept of all surfels of a facet together.
+struct FacetSurfels {
+  uint places;  ///< in SurfaceArrays::surfels
+  uvec2 sides;
+  uint firstPiece;
+  uvec3 voxel;
+};
+FacetSurfels surfelsOf(SurfaceArrays surface, uint facet) {
+  uint at = SURFEL_WORDS * facet, sides = at + FACET_SURFELS;
+  return FacetSurfels(at, uvec2(surface.surfels.at[sides], surface.surfels.at[sides + 1u]),
+                      surface.firstPiece.at[facet], unpackVoxel(surface.voxel.at[facet]));
+}
+
+Surfel surfelAt(SurfaceArrays surface, FacetSurfels facet, uint k) {
+  uint side = ((k < 4u ? facet.sides.x : facet.sides.y) >> (8u * (k % 4u))) & 0xFFu;
+  if (facet.sides.y == WIDE_SIDES)
+    side = (surface.wideSides.at[WIDE_WORDS * facet.sides.x + k / 2u] >> (16u * (k % 2u))) & 0xFFFFu;
+  uint triangle = triangleOf(surface.pieces, facet.firstPiece + side / 2u);
+  return Surfel(triangle | ((side & 1u) != 0u ? SURFEL_BACK : 0u), surface.surfels.at[facet.places + k]);
+}
+
+SurfelPoint surfelOf(SurfaceArrays surface, FacetSurfels facet, uint k) {
+  Surfel s = surfelAt(surface, facet, k);
+  return surfelOn(triangleAt(surface.corners, s.triangle & ~SURFEL_BACK), s, facet.voxel);
+}
 SurfelPoint surfelOf(SurfaceArrays surface, uint facet, uint k) {
-  Surfel s = surface.surfels.at[FACET_SURFELS * facet + k];
-  return surfelOn(triangleAt(surface.corners, s.triangle & ~SURFEL_BACK), s, unpackVoxel(surface.voxel.at[facet]));
+  return surfelOf(surface, surfelsOf(surface, facet), k);
 }
 
 /// The unit normal of a triangle's side (as Surfel::triangle).
@@ -14,9 +38,14 @@ vec3 triangleFacing(SurfaceArrays surface, uint side) {
   return facingOf(triangleAt(surface.corners, side & ~SURFEL_BACK), (side & SURFEL_BACK) != 0u);
 }
 
-/// The link of a facet to the voxel `i` of the 27 around, or NO_LINK.
-uint facetLink(SurfaceArrays surface, uint facet, uint i) {
-  return uint(surface.links.at[FACET_LINKS * facet + i]);
+/// The facet that continues the surface of one of `voxel` in the voxel `i` of the 27 around, or NO_FACET.
+uint linkedFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, uint facet, ivec3 voxel, uint i) {
+  if (i == OWN_VOXEL) return facet;
+  uint mask = surface.linkMasks.at[facet];
+  if ((mask >> i & 1u) == 0u) return NO_FACET;
+  uint link = uint(surface.links.at[surface.firstLinks.at[facet] + bitCount(mask & ((1u << i) - 1u))]);
+  ivec3 beside = voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+  return firstFacet(reverse.at[voxelIndex(uvec3(beside), dims)]) + link;
 }
 
 #endif

@@ -136,5 +136,6 @@ bool traceToSolid(TraceWorld world, inout TraceWalk w, inout uint steps) {
 
 #include "thesis/trace_hit.glsl"  // traceThesis
 #include "gi/trace_triangles.glsl"
+#include "gi/trace_outer.glsl"
 
 #endif

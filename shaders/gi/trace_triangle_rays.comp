@@ -24,7 +24,8 @@ void main() {
   }
   FacetRay r = facetRay(surface, row, p.facets.voxel.at[row], k, cast_, p.seed, p.jitter);
   TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, p.jfaMax);
-  uint met = traceTriangles(world, surface, r.from.position, r.direction, r.from.triangle).facet;
+  uint met = traceScene(world, surface, r.from.position, r.direction, r.from.triangle).facet;
   if (SKY && met == TRACE_ESCAPED) met = metSky(r.direction);
+  if (!SKY && isSky(met)) met = TRACE_ESCAPED;
   p.hits.at[ray] = met;
 }

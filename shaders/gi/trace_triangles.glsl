@@ -11,10 +11,16 @@ struct FacetRay {
   vec3 direction;
 };
 
+/// A point lifted off its triangle.
+vec3 liftedOff(SurfaceArrays surface, uint triangle, vec3 position, vec3 facing) {
+  if (uint64_t(surface.outer) == 0ul) return liftedStart(position, facing);
+  return liftedFar(position, facing, triangleAt(surface.corners, triangle));
+}
+
 /// A surfel of the facet, lifted off its triangle.
 SurfelPoint liftedSurfel(SurfaceArrays surface, uint facet, uint k) {
   SurfelPoint p = surfelOf(surface, facet, k);
-  p.position = liftedStart(p.position, p.facing);
+  p.position = liftedOff(surface, p.triangle, p.position, p.facing);
   return p;
 }
 

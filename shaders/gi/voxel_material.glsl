@@ -111,6 +111,13 @@ vec3 exitanceOf(vec3 radiance) {
   return exitance;
 }
 
+/// Alpha of a blended material, filtered over one of so many squares of a voxel's face.
+float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point, float squares) {
+  MaterialPoint p = materialPoint(scenes, t, triangle, point);
+  p.area *= squares;
+  return baseColorAt(scenes, p).a;
+}
+
 /// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a
 /// voxel's face.
 bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point, float squares) {

@@ -3,6 +3,7 @@
 #include "forward/project.glsl"
 #include "raster/corner_weights.glsl"
 #include "raster/raster.glsl"
+#include "shared/glass.h"
 
 layout(constant_id = RASTER_MASKED) const bool MASKED = false;
 layout(push_constant, scalar) uniform PushBlock { RasterPush push; };
@@ -46,8 +47,8 @@ bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   return true;
 }
 
-/// Whether the material's alpha cuts the pixel out.
-bool cutOut(ivec2 pixel) {
+/// Whether the material's alpha cuts the pixel out; `threshold`: as materialCutOut.
+bool cutOut(ivec2 pixel, float threshold) {
   PixelWeights w = pixelWeights(current.corner, pixel, push.size);
   vec4 uv = weighted(current.uv[0], current.uv[1], current.uv[2], w.here);
   vec4 first = weighted(current.uv[0], current.uv[1], current.uv[2], w.first);
@@ -55,5 +56,6 @@ bool cutOut(ivec2 pixel) {
   uvDy = weighted(current.uv[0], current.uv[1], current.uv[2], w.below) - first;
   float tint = current.alpha[0] + (current.alpha[1] - current.alpha[0]) * w.here.y +
                (current.alpha[2] - current.alpha[0]) * w.here.z;
-  return materialCutOut(current.material, materialBaseColor(current.material, uv, vec4(1.0, 1.0, 1.0, tint)).a);
+  return materialCutOut(current.material, materialBaseColor(current.material, uv, vec4(1.0, 1.0, 1.0, tint)).a,
+                        threshold);
 }

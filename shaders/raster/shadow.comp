@@ -7,6 +7,10 @@ void rasterPixel(uint triangle, ivec2 pixel, float depth) {
   uint place = uint(pixel.y) * push.size.x + uint(pixel.x);
   uint bits = floatBitsToUint(depth);
   // Reading first pays only where it saves texture reads: nobody waits for the atomics.
-  if (MASKED && (push.target.at[place] >= bits || cutOut(pixel))) return;
+  if (MASKED) {
+    uint corner = push.scene.at[0].indices.at[3u * triangle];
+    float threshold = texelThreshold(uint(pixel.x), uint(pixel.y), corner);
+    if (push.target.at[place] >= bits || cutOut(pixel, threshold)) return;
+  }
   atomicMax(push.target.at[place], bits);
 }

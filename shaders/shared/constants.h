@@ -7,8 +7,8 @@
 IRAD_BEGIN
 
 // Facets.
-IRAD_CONST uint CONSTANT_NORMALS = 16u;           ///< how their normals are encoded
-IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 17u;  ///< gi/voxel_material.glsl
+IRAD_CONST uint CONSTANT_NORMALS = 18u;           ///< how their normals are encoded
+IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 19u;  ///< gi/voxel_material.glsl
 
 // Rays through the voxels (gi/trace.glsl).
 IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;
@@ -23,6 +23,7 @@ IRAD_CONST uint CONSTANT_MERGE_WORKGROUP = 32u;  ///< gi/merge_rows.comp: its si
 IRAD_CONST uint CONSTANT_SORTED = 33u;           ///< gi/merge_rows.comp
 IRAD_CONST uint CONSTANT_SOLVE_WORK = 34u;
 IRAD_CONST uint CONSTANT_SCATTER_STORES = 35u;
+IRAD_CONST uint CONSTANT_BLUR_WEIGHS = 29u;    ///< gi/blur_links.comp
 IRAD_CONST uint CONSTANT_EMITTED = 36u;        ///< F M too, beside H
 IRAD_CONST uint CONSTANT_SOLVE_VECTORS = 37u;  ///< gi/solve_sums.comp, gi/extrapolate.comp: n
 IRAD_CONST uint CONSTANT_REFLECTED = 38u;      ///< there is light written back, W

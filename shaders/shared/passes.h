@@ -16,7 +16,7 @@ struct DepthPush {
   SceneArray scene;
   ProjectionArray projection;  ///< local position -> clip; a GpuCamera starts with it
   uint material;
-  uint padding;
+  uint screens;  ///< 1: blended surfaces are there in the share alpha of the texels; 0: wherever alpha is above 0
 };
 
 /// Specialization constants of "RE Forward" (forward/shade.glsl, forward/resolve.comp). The effects leave out what they
@@ -30,7 +30,8 @@ IRAD_CONST uint FORWARD_F0 = FORWARD_TEXTURED + 4u;                   ///< effec
 IRAD_CONST uint FORWARD_INDIRECT = FORWARD_TEXTURED + 5u;             ///< effect: looked up, here or later
 IRAD_CONST uint FORWARD_PCF = FORWARD_TEXTURED + 6u;
 IRAD_CONST uint FORWARD_MANY_LIGHTS = FORWARD_TEXTURED + 7u;  ///< more than UNIFORM_LIGHTS
-IRAD_CONST uint FORWARD_TARGETS = FORWARD_TEXTURED + 8u;      ///< kernels: those of TARGETS_ALL that are there
+IRAD_CONST uint FORWARD_GLASS = FORWARD_TEXTURED + 8u;        ///< effect: blended surfaces
+IRAD_CONST uint FORWARD_TARGETS = FORWARD_TEXTURED + 9u;      ///< kernels: those of TARGETS_ALL that are there
 
 /// Targets that are there only where a picture is composed from them: bits of a specialization constant of the shaders
 /// that read or write them. An absent term is 0.
@@ -40,6 +41,19 @@ IRAD_CONST uint TARGET_INDIRECT = 4u;
 IRAD_CONST uint TARGET_EMITTED = 8u;
 IRAD_CONST uint TARGET_SPECULAR = 16u;
 IRAD_CONST uint TARGETS_ALL = 31u;
+
+/// The w of Targets::geometric: metallic or, of a blended surface, less than 0: its alpha, and whether it is a metal.
+IRAD_FN float packCover(float metallic, float alpha) {
+  return -max(alpha, 1e-4f) - (metallic >= 0.5f ? 2.0f : 0.0f);
+}
+IRAD_FN float coverOf(float packed) { return packed >= 0.0f ? 1.0f : (packed < -1.5f ? -packed - 2.0f : -packed); }
+IRAD_FN float metallicOf(float packed) { return packed >= 0.0f ? packed : (packed < -1.5f ? 1.0f : 0.0f); }
+
+/// forward/add_layer.comp.
+struct LayerPush {
+  uint first;  ///< 1: of the picture
+  uint last;
+};
 
 /// Lights that "RE Forward" reads through a uniform block; with more of them all are read by address.
 IRAD_CONST uint UNIFORM_LIGHTS = 64u;

@@ -64,6 +64,8 @@ struct RasterPush {
   uint pieces;       ///< that the queue holds
   uint cull;         ///< 1: not the backs of single-sided materials
   uint skipMasked;   ///< 1: not those of masked materials
+  uint peels;        ///< 1: blended materials behind `peeled` alone
+  UintArray peeled;  ///< as `target`
 };
 
 /// raster/store_shadow.comp.

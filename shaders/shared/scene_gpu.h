@@ -15,6 +15,7 @@ IRAD_CONST uint MATERIAL_METALLIC_ROUGHNESS_TEXTURE = 8u;
 IRAD_CONST uint MATERIAL_NORMAL_TEXTURE = 16u;
 IRAD_CONST uint MATERIAL_OCCLUSION_TEXTURE = 32u;
 IRAD_CONST uint MATERIAL_EMISSIVE_TEXTURE = 64u;
+IRAD_CONST uint MATERIAL_BLEND = 256u;       ///< | MATERIAL_ALPHA_MASK: covers the share alpha of what meets it
 IRAD_CONST uint MATERIAL_LAMBERTIAN = 128u;  ///< no specular lobe at all (LoadOptions::lambertian)
 
 /// Order of the five textures in set 1.

@@ -10,8 +10,10 @@ IRAD_BEGIN
 /// the planes between the axes are borders: a floor or a wall along them has no bin on both sides of its horizon.
 IRAD_CONST uint SKY_EDGE = 8u;
 IRAD_CONST uint SKY_BINS = 6u * SKY_EDGE * SKY_EDGE;
-/// Of a matrix row's entries behind those of its facets: bin | hits << SKY_BIN_BITS.
-IRAD_CONST uint SKY_BIN_BITS = 9u;
+/// Of a matrix row's entries behind those of its facets: bin | hits << SKY_BIN_BITS. Bins from SKY_BINS on are points of
+/// what lies outside the grid (shared/outer.h).
+IRAD_CONST uint SKY_BIN_BITS = 19u;
+IRAD_CONST uint MOST_OUTER_POINTS = (1u << SKY_BIN_BITS) - SKY_BINS;
 
 /// The bin of a direction of any length > 0, of those with `edge` x `edge` squares on a face.
 IRAD_FN uint skyBin(vec3 d, uint edge) {
@@ -36,7 +38,10 @@ IRAD_FN vec3 skyBinPoint(uint bin, vec2 within, uint edge) {
 
 /// What a ray that leaves the grid has met, and whether it is that.
 IRAD_FN uint metSky(vec3 direction) { return TRACE_SKY + skyBin(direction, SKY_EDGE); }
-IRAD_FN bool isSky(uint met) { return met >= TRACE_SKY && met < TRACE_SKY + SKY_BINS; }
+IRAD_FN bool isSky(uint met) { return met >= TRACE_SKY && met < TRACE_SKY + (1u << SKY_BIN_BITS); }
+/// The same of a ray that has met a point outside the grid.
+IRAD_FN uint metOuter(uint point) { return TRACE_SKY + SKY_BINS + point; }
+IRAD_FN bool isOuter(uint met) { return isSky(met) && met >= TRACE_SKY + SKY_BINS; }
 
 /// Radiance over the sphere, equirectangular, top row first. Unturned the middle of the picture is -Z, the way that a
 /// camera looks, and its right half is on the side of +X.
@@ -77,7 +82,7 @@ IRAD_FN SkyTaps skyTaps(vec3 d, uvec2 size, float turn) {
 struct GatherSkyPush {
   MatrixRecord matrix;
   Vec4Array bins;  ///< SKY_BINS: mean radiance
-  Vec4Array sky;   ///< per facet
+  Vec4Array sky;   ///< per facet; w: the rays' mean of (pi x radiance)^2, (W/m^2)^2
 };
 
 IRAD_END

@@ -112,11 +112,46 @@ struct GatherSurfelsPush {
   uint pad;
 };
 
+/// gi/outer_light.comp: the radiance of the points outside the grid.
+IRAD_CONST uint OUTER_RAYS = 64u;  ///< of a point, to the sky and what emits
+struct OuterLightPush {
+  SceneArray scene;
+  FacetArrays facets;  ///< by value
+  SurfaceRecord surface;
+  ByteArray chebyshev;
+  Vec4Array irradiance, bins;
+  vec3 origin;  ///< of the grid, local
+  float edge;
+  uvec3 dims;
+  uint count;
+};
+
 /// gi/emission.comp: vec3 exitance -> vec4.
 struct EmissionPush {
   FacetRecord facets;
   Vec4Array output_;
 };
+
+/// gi/light_squares.comp: B^2, or (B - emissionGain M)^2.
+struct LightSquaresPush {
+  FacetRecord facets;
+  Vec4Array radiosity, output_;
+  float emissionGain;
+  uint pad;
+};
+/// gi/row_noise.comp: the standard error of H by a row's rays.
+struct RowNoisePush {
+  MatrixRecord matrix;
+  Vec4Array squares;            ///< F B^2, (W/m^2)^2
+  Vec4Array indirect, emitted;  ///< H; F M by samples, where those stand in for rays
+  Vec4Array sky;                ///< w: what the sky adds to the squares
+  Vec4Array error;              ///< x: W/m^2, over the three channels together; y, z: 0
+  float emittedGain;            ///< the factor on M in H; 0: rays bring all of H
+  uint pad;
+};
+/// A row's rays are spread evenly over the hemisphere and over the facet, so that their mean has less variance than the
+/// mean of independent rays: this share of it at the most, by measurement (docs/method.md 7).
+IRAD_CONST float ROW_NOISE_SHARE = 0.5f;
 
 /// gi/sample_emitters.comp: F M by samples of the emitters.
 struct SampleEmittersPush {
@@ -124,7 +159,7 @@ struct SampleEmittersPush {
   FacetRecord facets;
   ByteArray chebyshev;
   EmitterRecord emitters;
-  Vec4Array emitted;     ///< F M by rays; becomes that by samples
+  Vec4Array emitted;     ///< F M by rays; becomes that by samples, w: their variance were they independent
   Vec4Array correction;  ///< the difference
   uvec3 dims;
   float jfaMax;

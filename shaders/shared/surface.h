@@ -5,6 +5,7 @@
 #include "shared/facets.h"
 #include "shared/grid.h"
 #include "shared/normals.h"
+#include "shared/outer.h"
 #include "shared/scene_gpu.h"
 IRAD_BEGIN
 
@@ -16,9 +17,17 @@ struct Surfel {
   uint triangle;  ///< | SURFEL_BACK
   uint place;     ///< packPlace
 };
-IRAD_ARRAY(SurfelArray, Surfel, 8)
-/// Surfels of a facet: points that stand for equal shares of its area.
+/// Surfels of a facet: points that stand for equal shares of its area. They are kept as SURFEL_WORDS words: the place of
+/// each, and a byte for each that says which side of which piece of the voxel it lies on (pieceSide).
 IRAD_CONST uint FACET_SURFELS = 8u;
+IRAD_CONST uint SURFEL_WORDS = FACET_SURFELS + FACET_SURFELS / 4u;
+/// Where the voxel has more pieces than bytes can tell apart, the last word is this, and the one before it the facet's
+/// place in SurfaceArrays::wideSides, where each has 16 bits.
+IRAD_CONST uint WIDE_SIDES = 0xFFFFFFFFu;
+IRAD_CONST uint MOST_NARROW = 127u;
+IRAD_CONST uint WIDE_WORDS = FACET_SURFELS / 2u;
+/// A side of a piece, `piece` counted from its voxel's first, of which there are MOST_PIECES at most.
+IRAD_FN uint pieceSide(uint piece, bool back) { return 2u * piece + (back ? 1u : 0u); }
 
 /// Rays of a facet of `area` voxel faces, of the `rays` that one voxel face and more has: the same for the same surface,
 /// however it is divided. By whole subgroups, which end together.
@@ -71,13 +80,6 @@ IRAD_FN uint packBox(vec3 lo, vec3 hi) {
   return uint(from.x) | (uint(from.y) << 5) | (uint(from.z) << 10) | (uint(to.x) << 15) | (uint(to.y) << 20) |
          (uint(to.z) << 25);
 }
-IRAD_FN vec3 boxLow(uint box) {
-  return vec3(float(box & 31u), float((box >> 5) & 31u), float((box >> 10) & 31u)) * (1.0f / BOX_STEPS);
-}
-IRAD_FN vec3 boxHigh(uint box) {
-  return vec3(float((box >> 15) & 31u) + 1.0f, float((box >> 20) & 31u) + 1.0f, float((box >> 25) & 31u) + 1.0f) *
-         (1.0f / BOX_STEPS);
-}
 
 /// Pieces of a voxel, counted from its last one back, in groups with a box around each (SurfaceArrays::groups): of a crowd
 /// most are passed by without a look at every piece.
@@ -126,6 +128,12 @@ IRAD_FN vec3 liftedStart(vec3 position, vec3 facing) {
   vec3 size = abs(position);
   return position + facing * (START_LIFT * max(1.0f, max(size.x, max(size.y, size.z))));
 }
+/// The same of a triangle that may reach far beyond the grid: by what the test of such a one rounds to, which is more
+/// than its corners do.
+IRAD_FN vec3 liftedFar(vec3 position, vec3 facing, Triangle t) {
+  vec3 size = max(abs(t.a), max(abs(t.b), abs(t.c)));
+  return position + facing * (8.0f * START_LIFT * max(1.0f, max(size.x, max(size.y, size.z))));
+}
 
 /// By how much later than it is the back of a face that does not show its back counts as met, in lengths of a ray's
 /// direction: a face that lies in the same plane and shows its side wins, whatever the two distances round to. Both round
@@ -140,14 +148,22 @@ IRAD_FN float backDelay(uvec3 dims, float cosine) {
 IRAD_CONST uint PIECE_BLACK = 0xFFu;    ///< none: the back of a single-sided face
 IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where another triangle stands on it
 /// Or, where others stand on it or it has an alpha mask, PIECE_CUT | the place in SurfaceArrays::cuts of: how many stand
-/// on it (to MOST_CUTS), | CUT_MASKED; with a mask two words, a bit for each of MASK_EDGE x MASK_EDGE squares of the piece
-/// (maskBit) that is there; the triangles that stand on it; and CUT_POINTS points of the piece, each with the sides of
-/// these triangles' planes on which it lies in bits 16-31 (gi/piece_cuts.glsl) above the facets as for a whole piece.
+/// on it (to MOST_CUTS), how many of its parts are known (cutCounts), | CUT_MASKED; with a mask two words, a bit for each
+/// of MASK_EDGE x MASK_EDGE squares of the piece (maskBit) that is there; the triangles that stand on it; and its parts,
+/// each with the sides of these triangles' planes on which it lies in bits 16-31 (gi/piece_cuts.glsl) above the facets
+/// as for a whole piece. Parts are found by CUT_POINTS points of the piece. | CUT_SCREEN: the mask is the screen of a
+/// blended surface, whose points stand for all of it, each with the share that is there.
 IRAD_CONST uint PIECE_CUT = 0x80000000u;
 IRAD_CONST uint CUT_MASKED = 0x80000000u;
+IRAD_CONST uint CUT_SCREEN = 0x40000000u;
 IRAD_CONST uint MASK_EDGE = 8u;
 IRAD_CONST uint MOST_CUTS = 15u;
 IRAD_CONST uint CUT_POINTS = 16u;
+IRAD_FN uint cutCounts(uint triangles, uint parts) { return triangles | (parts << 8); }
+IRAD_FN uint cutTriangles(uint word) { return word & 0xFFu; }
+IRAD_FN uint cutParts(uint word) { return (word >> 8) & 0xFFu; }
+/// Parts that so many planes can divide a piece into, as far as points find them.
+IRAD_FN uint mostParts(uint cuts) { return min(1u + cuts * (cuts + 1u) / 2u, CUT_POINTS); }
 IRAD_CONST float CUT_WIDTH = 2e-3f;  ///< voxels: how close to a cut a point is on neither side
 /// The bit of a piece's mask at a point relative to its voxel's lower corner; `normal`: the triangle's, of any length.
 IRAD_FN uint maskBit(vec3 normal, vec3 point) {
@@ -172,12 +188,17 @@ IRAD_ARRAY(PiecePointArray, PiecePoint, 4)
 /// Its facet, counted from the voxel's first; | CLASS_LEADER: the point that the others of its class were compared with.
 IRAD_CONST uint CLASS_LEADER = 0x80000000u;
 IRAD_CONST uint NO_CLASS = 0x7FFFFFFFu;      ///< none, or not known yet
-IRAD_CONST uint CLASS_OF_PART = 0x7FFFFFFEu; ///< that of the first point in the same part of the same cut piece
+/// | k: that of point k of its side of the cut piece, the first one in the same part; CUT_POINTS: it is in none.
+IRAD_CONST uint CLASS_OF_PART = 0x40000000u;
+IRAD_FN bool isOfPart(uint class_) { return class_ >> 5 == CLASS_OF_PART >> 5; }
 
-/// Links of a facet: a byte for each of the 3 x 3 x 3 voxels around (x + 3 y + 9 z), and one without a meaning: which
-/// of that voxel's facets continues the surface on the same side, or NO_LINK.
+/// Links of a facet to those that continue the surface on the same side in the 3 x 3 x 3 voxels around (x + 3 y + 9 z): a
+/// mask of the voxels that hold one, and for each of these, in turn, a byte: which of that voxel's facets. Its own voxel
+/// is not among them.
+IRAD_CONST uint OWN_VOXEL = 13u;
+IRAD_ARRAY(LinkArray, uint8_t, 1)
+/// As they are found: a byte for each voxel, or NO_LINK, and one without a meaning.
 IRAD_CONST uint FACET_LINKS = 28u;
-IRAD_ARRAY(LinkArray, uint8_t, 4)
 IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
@@ -191,9 +212,13 @@ struct SurfaceArrays {
   UintArray sides;        ///< per piece
   UintArray cuts;
   UintArray voxel;        ///< per facet, of FacetArrays
-  SurfelArray surfels;    ///< FACET_SURFELS per facet
+  UintArray surfels;      ///< SURFEL_WORDS per facet
+  UintArray wideSides;    ///< WIDE_WORDS per facet of voxels with more than MOST_NARROW pieces
   FloatArray area;        ///< per facet, voxel faces
-  LinkArray links;        ///< FACET_LINKS per facet
+  UintArray linkMasks;    ///< per facet
+  UintArray firstLinks;   ///< per facet: the place of its first byte in `links`; and the end
+  LinkArray links;
+  OuterRecord outer;      ///< what lies outside the grid; 0: nothing
 };
 IRAD_ARRAY(SurfaceRecord, SurfaceArrays, 16)
 
@@ -209,18 +234,30 @@ IRAD_CONST uint LINK_FACETS = 8u;
 struct LinkFacetsPush {
   SurfaceRecord surface;
   UintArray voxel, reverse;
-  LinkArray links;
+  Vec3Array facings;     ///< FacetSurfelsPush
+  LinkArray found;       ///< FACET_LINKS per facet
+  UintArray masks;
+  UintArray counts;      ///< of links, per facet
   uvec3 dims;
   uint count;
 };
 
-/// gi/blur_links.comp: H (and F M) averaged over linked facets, as shading samples them.
+/// gi/pack_links.comp.
+struct PackLinksPush {
+  LinkArray found;
+  UintArray masks, firstLinks;
+  LinkArray links;
+  uint count, pad;  ///< facets
+};
+
+/// gi/blur_links.comp: H (and F M) averaged over linked facets as far as their noise goes, as shading samples them.
 struct BlurLinksPush {
   SurfaceRecord surface;
   UintArray voxel, reverse;
   Vec4Array indirect, emitted;
   Vec4Array blurred, blurredEmitted;
-  UintArray change;  ///< [0]: float bits of the largest |blurred - H|, W/m^2
+  UintArray change;  ///< [0]: float bits of the largest |mean over the links - H|, W/m^2
+  Vec4Array error;   ///< xyz: a vector as long as the standard error of H, W/m^2
   uvec3 dims;
   uint count;
 };
@@ -274,6 +311,7 @@ struct PieceShapePush {
   UintArray solid, firstPiece;
   Vec4Array corners;
   FloatArray area;    ///< per piece, voxel faces
+  Vec3Array facings;  ///< per piece: the triangle's unit normal
   UintArray boxes;    ///< of SurfaceArrays
   UintArray points;   ///< per piece: PiecePoints
   UintArray cuts;     ///< per piece: words of SurfaceArrays::cuts
@@ -309,10 +347,12 @@ struct ClassPointsPush {
   UintArray firstPiece;  ///< per solid voxel; and the end
   SurfaceRecord surface;
   FloatArray area;
+  Vec3Array facings;     ///< per piece
   UintArray firstPoint;  ///< per piece; and the end
   PiecePointArray points;
   UintArray classes;     ///< per point
   UintArray facets;      ///< per solid voxel: how many
+  UintArray wide;        ///< the same where there are more than MOST_NARROW pieces; else 0
   uint count, pad;       ///< solid voxels
 };
 /// Voxels with more points have a workgroup each, which compares about MOST_COMPARED of them; the others go with those.
@@ -328,8 +368,8 @@ struct PieceSidesPush {
   FloatArray pointArea;  ///< for how much of its facet's area a point stands, voxel faces
   UintArray facetStart;  ///< per solid voxel; and the end
   SurfaceRecord surface;
-  UintArray voxel, triangle, reverse;  ///< of FacetArrays
-  UintArray facetPiece;                ///< SurfaceArrays::firstPiece
+  UintArray voxel, reverse;  ///< of FacetArrays
+  UintArray facetPiece;      ///< SurfaceArrays::firstPiece
   uint count, pad;
 };
 
@@ -339,7 +379,10 @@ struct FacetSurfelsPush {
   UintArray voxel, reverse, firstPoint, classes;
   PiecePointArray points;
   FloatArray pointArea;
-  SurfelArray surfels;
+  UintArray pieceVoxel;
+  UintArray wideStart;  ///< per solid voxel: facets of wide voxels before it
+  UintArray surfels, wideSides;
+  Vec3Array facings;    ///< per facet: of the triangle that its middle surfel is on
   FloatArray area;
   uvec3 dims;
   uint count;

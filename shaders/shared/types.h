@@ -12,7 +12,8 @@ namespace irad {
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4;
 // GLSL's functions by GLSL's names: an unqualified abs(float) would be the C library's abs(int).
-using glm::abs, glm::acos, glm::atan, glm::clamp, glm::cos, glm::floor, glm::log, glm::max, glm::min, glm::pow, glm::sign, glm::sin, glm::sqrt;
+using glm::abs, glm::acos, glm::atan, glm::clamp, glm::cos, glm::floor, glm::log, glm::max, glm::min, glm::pow, glm::sign, glm::sin, glm::sqrt,
+    glm::uintBitsToFloat;
 using uint = uint32_t;
 }  // namespace irad
 

@@ -16,7 +16,8 @@ struct ViewPush {
   CameraArray camera;
   SkyRecord sky;  ///< behind the scene, where there is one
   uint kind;
-  float exposure;  ///< linear factor
+  uint linearOnly;  ///< 1: view/finish.comp makes the display picture
+  float exposure;   ///< linear factor
   IRAD_AS(ToneCurve) toneCurve;
   vec3 origin;  ///< these two: of the Grid
   float inverseEdge;
@@ -109,12 +110,46 @@ struct RangePush {
   float percentile;  ///< the upper one, 50..100
 };
 
+IRAD_CONST uint HISTOGRAM_BINS = 256u;
+IRAD_CONST uint HISTOGRAM_CHANNELS = 4u;  ///< red, green, blue, luminance; of views of one value the last one alone
+IRAD_CONST uint HISTOGRAM_COUNTS = HISTOGRAM_CHANNELS * HISTOGRAM_BINS;
+/// How often values occur in a picture, in bins of one width.
+struct Histogram {
+  float low, high;    ///< values that the first bin begins and the last one ends with
+  uint below, above;  ///< pixels whose luminance lies beyond
+  uint counts[HISTOGRAM_COUNTS];  ///< pixels, channel after channel
+};
+IRAD_ARRAY(HistogramArray, Histogram, 4)
+
+/// view/histogram.comp
+struct HistogramPush {
+  ViewRangeArray values;  ///< what is there
+  ViewRangeArray shown;   ///< that the picture was drawn with; 0: none
+  HistogramArray histogram;
+  uvec2 size;  ///< pixels
+  uint kind;
+  uint fixedAxis;    ///< 1: the axis is the next two
+  float low, high;
+};
+
+/// camera.auto_exposure: the luminance that this share of the picture stays below is shown as bright as this, where the
+/// neutral tone curve begins to bend; of a picture that is black up to there, its brightest.
+IRAD_CONST float AUTO_EXPOSURE_PERCENTILE = 95.0f;
+IRAD_CONST float AUTO_EXPOSURE_LEVEL = 0.76f;
+/// The factor that brings it there; `range`: of luminances.
+IRAD_FN float autoExposure(ViewRange range) {
+  float level = range.high > 0.0f ? range.high : uintBitsToFloat(range.most);
+  if (!(level > 0.0f)) return 1.0f;
+  return clamp(AUTO_EXPOSURE_LEVEL / level, 1e-12f, 1e12f);
+}
+
 /// view/finish.comp: from the linear to the display picture, where that needs the range or the scene around.
 struct FinishPush {
   ViewRangeArray range;
   uvec2 size;
   uint kind;
   IRAD_AS(ColorMap) colorMap;
+  uint automatic;  ///< 1: times autoExposure(range)
   float exposure;
   IRAD_AS(ToneCurve) toneCurve;
   uvec3 dims;  ///< of the grid that sites are of

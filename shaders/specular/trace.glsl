@@ -49,7 +49,7 @@ vec3 rayStart(Surface s) {
 }
 
 TraceHit traceFrom(TraceWorld world, SurfaceArrays surface, Surface s, vec3 direction) {
-  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) return traceTriangles(world, surface, s.start, direction, s.triangle);
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES) return traceScene(world, surface, s.start, direction, s.triangle);
   return traceThesis(world, traceStart(s.position + s.face * RAY_LIFT, direction));
 }
 
@@ -61,7 +61,9 @@ vec3 radiosityAt(TraceWorld world, SurfaceArrays surface, uint facet, vec3 at) {
 }
 
 /// pi x the radiance of what a ray that has met no facet has met instead: as a radiosity.
-vec3 beyond(TraceHit hit, vec3 direction) {
+vec3 beyond(SurfaceArrays surface, TraceHit hit, vec3 direction) {
+  if (TRACE_HIT_RULE == HIT_RULE_TRIANGLES && isOuter(hit.facet))
+    return IRAD_PI * surface.outer.at[0].bins.at[hit.facet - TRACE_SKY].xyz;
   if (!SKY || hit.facet != TRACE_ESCAPED) return vec3(0.0);
   return IRAD_PI * skyRadiance(push.sky.at[0], direction);
 }
@@ -127,7 +129,7 @@ vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, 
     } else {
       hit = traceFrom(world, surface, s, direction);
       if (hit.facet > TRACE_LAST_FACET) {
-        if (SKY) sum += weight * beyond(hit, direction);
+        sum += weight * beyond(surface, hit, direction);
         continue;
       }
     }

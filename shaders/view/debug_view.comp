@@ -76,7 +76,7 @@ void main() {
     case VIEW_ALBEDO: value = albedo.rgb; break;
     case VIEW_NORMAL: value = imageLoad(normalTarget, pixel).xyz; break;
     case VIEW_ROUGHNESS_METALLIC:
-      value = vec3(imageLoad(normalTarget, pixel).w, imageLoad(geometricTarget, pixel).w, 0.0);
+      value = vec3(imageLoad(normalTarget, pixel).w, metallicOf(imageLoad(geometricTarget, pixel).w), 0.0);
       break;
     case VIEW_DEPTH: {
       // Distance along the view direction.
@@ -102,7 +102,7 @@ void main() {
     drawn = true;
   }
   imageStore(linearTarget, pixel, vec4(value, drawn ? 1.0 : 0.0));
-  if (viewHasRange(push.kind)) return;  // view/finish.comp follows
+  if (push.linearOnly != 0u) return;
   vec3 shown = displayColor(value, drawn, push.kind, push.exposure, push.toneCurve);
   imageStore(displayTarget, pixel, vec4(shown, 1.0));
 }

@@ -16,12 +16,18 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D indirectTarget;
 layout(set = 0, binding = 4, rgba8) uniform writeonly image2D displayTarget;
 layout(push_constant, scalar) uniform PushBlock { FinishPush push; };
 
+float exposure() {
+  if (push.automatic == 0u) return push.exposure;
+  float factor = autoExposure(push.range.at[0]);
+  return push.exposure * (push.kind == VIEW_KIND_IRRADIANCE ? factor * IRAD_PI : factor);  // which is shown divided by it
+}
+
 /// The lit scene in dim grey.
 vec3 surroundings(ivec2 pixel) {
   vec4 albedo = imageLoad(albedoTarget, pixel);
   vec3 indirect = INDIRECT ? imageLoad(indirectTarget, pixel).rgb : vec3(0.0);
   vec3 light = imageLoad(directTarget, pixel).rgb + albedo.a * indirect;
-  vec3 shown = displayLight(albedo.rgb * light * (1.0 / IRAD_PI), push.exposure, push.toneCurve);
+  vec3 shown = displayLight(albedo.rgb * light * (1.0 / IRAD_PI), exposure(), push.toneCurve);
   return vec3(0.35 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
 }
 
@@ -33,7 +39,7 @@ vec3 siteColor(uvec3 voxel) {
 
 vec3 shownColor(vec3 value) {
   if (push.kind == VIEW_KIND_SITE) return siteColor(uvec3(value));
-  if (!viewHasRange(push.kind)) return displayColor(value, true, push.kind, push.exposure, push.toneCurve);
+  if (!viewHasRange(push.kind)) return displayColor(value, true, push.kind, exposure(), push.toneCurve);
   ViewRange range = push.range.at[0];
   return encodeSrgb(colorMap(push.colorMap, colorMapPosition(value.x, range.low, range.high)));
 }

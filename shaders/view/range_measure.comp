@@ -1,7 +1,8 @@
-// The values of a view with a range: smallest, largest, how many, how many that are marked, and their histogram.
+// The values of a view with a range, or the luminances of one of light: smallest, largest, how many, how many that are marked, and their histogram.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/debug_views.h"
+#include "shared/emitters.h"
 #include "shared/view.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,7 +16,7 @@ void main() {
   barrier();
   if (all(lessThan(gl_GlobalInvocationID.xy, push.size))) {
     vec4 drawn = imageLoad(linearTarget, ivec2(gl_GlobalInvocationID.xy));
-    float value = drawn.x;
+    float value = viewHasRange(push.kind) ? drawn.x : luminance(drawn.rgb);
     if (isnan(value)) {
       atomicAdd(group.nan, 1u);
     } else if (isinf(value)) {

@@ -48,6 +48,7 @@ void main() {
     high = max(abs(low), abs(high));
     low = -high;
   }
+  if (!viewHasRange(push.kind) && high < 1e-30) high = 0.0;  // the upper edge of the bin that holds 0
   push.range.at[0].low = low;
   push.range.at[0].high = high;
 }

@@ -265,7 +265,7 @@ void writeScenes(const fs::path& folder, const fs::path& images) {
   write(folder / "gltf/meshopt.glb", glb(meshopt()));
   write(folder / "gltf/external.gltf", external().json.dump());
   square().write(folder / "gltf", "data_uri.gltf");
-  for (const char* name : {"textured", "lights_cameras"}) {
+  for (const char* name : {"textured", "lights_cameras", "instances"}) {
     fs::create_directories(folder / "scene_cache");
     Scene scene = loadScene(folder / "gltf" / (std::string(name) + ".glb"));
     writeSceneCache(scene, folder / "scene_cache" / (std::string(name) + ".irscene"));
@@ -296,13 +296,32 @@ void writeTexts(const fs::path& folder) {
                          {"frames", 3},
                          {"views", {"lit", "direct"}},
                          {"lights", json::parse(lightsToJson(lights))},
+                         {"hidden", {"hall/table"}},
+                         {"isolated", "hall"},
                          {"cameras", {camera, box}}};
   write(folder / "config/manifest.json", manifest.dump(1));
+  json recording = manifest;
+  recording["program"] = {{"name", "irad"}, {"version", "1.2"}, {"commit", "abc"}};
+  recording["device"] = {{"name", "a device"}, {"driver", "its driver"}};
+  recording["time"] = "2026-11-25T23:50:07Z";
+  recording["other_settings"] = {{"matrix.rays", 128}};
+  write(folder / "capture/manifest.json", recording.dump(1));
   json named = box;
   named["name"] = "b";
   const json sidecar = {{"format", 1},
                         {"scene_sha256", std::string(64, '0')},
                         {"lights", json::parse(lightsToJson(lights))},
+                        {"materials",
+                         {{{"name", "wall"},
+                           {"baseColor", {0.5, 0.25, 0.125}},
+                           {"metallic", 0.5},
+                           {"roughness", 0.25},
+                           {"emissionColor", {1, 0.5, 0}},
+                           {"emissionStrength", 4},
+                           {"alphaCutoff", 0.75},
+                           {"texturesOff", {"normal", "occlusion"}}}}},
+                        {"hidden", {"hall/table", "a\\/b"}},
+                        {"isolated", "hall"},
                         {"cameras", {camera, named}}};
   write(folder / "sidecar/all.json", sidecar.dump(1));
   write(folder / "sidecar/cameras.json", json{{"format", 1}, {"cameras", {camera}}}.dump());

@@ -17,6 +17,7 @@ using Bytes = std::span<const uint8_t>;
 
 #define IRAD_FUZZ_READERS(ROW) \
   ROW(camera_json)             \
+  ROW(capture)                 \
   ROW(config)                  \
   ROW(gltf)                    \
   ROW(image)                   \

@@ -7,9 +7,11 @@
 #include "shaders/shared/emitters.h"
 #include "ui/color_bar.h"
 #include "ui/imgui.h"
+#include "ui/link_filter.h"
 #include "ui/theme.h"
 #include "ui/viewport.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -26,10 +28,11 @@ class RowOverlay : public Overlay {
                                  session.comparison && session.comparison->showsOther(share)};
     }
     if (!in.voxel) return false;
-    const glm::vec2 low = picture.rect().position, high = low + picture.rect().size;
+    const glm::vec2 low = picture.window().position, high = low + picture.window().size;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect({low.x, low.y}, {high.x, high.y}, true);
-    const Drawing d{list, picture, in, session.edited.view.colorMap};
+    if (in.facet() && in.shown != Inspection::Show::Comparison) select(in);
+    const Drawing d{list, picture, in, session.edited.view.colorMap, drawn_, passing_, session.legends};
     d.box(in.voxel->world, theme::accent, 2);
     if (in.facet()) {
       if (in.shown == Inspection::Show::Comparison && in.comparison)
@@ -44,11 +47,38 @@ class RowOverlay : public Overlay {
   }
 
  private:
+  std::vector<uint32_t> drawn_;  ///< indices of links: the strongest that the table's filter passes
+  size_t passing_ = 0;           ///< how many pass
+  struct Selected {
+    uint64_t serial, filter;
+    bool row;
+    bool operator==(const Selected&) const = default;
+  };
+  std::optional<Selected> selected_;  ///< what they were selected from
+
+  void select(const Inspection& in) {
+    const bool row = in.shown == Inspection::Show::Row;
+    const Selected now{in.serial, in.linkFilterEdits, row};
+    if (selected_ == now) return;
+    selected_ = now;
+    const std::vector<Link>& links = (row ? in.facet()->row : in.facet()->column).links;
+    drawn_.clear();
+    passing_ = 0;
+    for (uint32_t i = 0; i < links.size(); ++i) {
+      if (!in.linkFilter.passes(links[i])) continue;
+      if (drawn_.size() < kLines) drawn_.push_back(i);
+      ++passing_;
+    }
+  }
+
   struct Drawing {
     ImDrawList& list;
     const Picture& picture;
     const Inspection& in;
     ColorMap map;
+    const std::vector<uint32_t>& drawn;
+    size_t passing;
+    std::vector<Rect>& legends;
 
     glm::dvec3 centre(const glm::ivec3& voxel) const {
       return in.voxel->world + in.edge() * (glm::dvec3(voxel) - glm::dvec3(in.voxel->voxel));
@@ -74,36 +104,44 @@ class RowOverlay : public Overlay {
       line(f.position, f.position + 1.5 * in.edge() * f.normal, ImGui::GetColorU32(theme::accent), 2);
     }
 
-    /// The strongest, weakest of them first, coloured by their contribution as a share of the largest.
+    /// The strongest of those that the table shows, weakest of them first, coloured by their contribution.
     void drawLinks(bool row) const {
       const InspectedFacet& facet = *in.facet();
       const std::vector<Link>& links = (row ? facet.row : facet.column).links;
       const auto strength = [](const Link& l) { return luminance(glm::vec3(l.contribution)); };
-      const float largest = links.empty() ? 0 : strength(links.front());
-      const size_t drawn = std::min(links.size(), kLines);
+      const float largest = drawn.empty() ? 0 : strength(links[drawn.front()]);
+      float least = largest;
+      for (const uint32_t i : drawn)
+        if (const float s = strength(links[i]); s > 0) least = std::min(least, s);
+      const LinkScale scale = linkScale(least, largest);
       const Link* pointedAt = nullptr;
       for (const Link& l : links)
         if (in.highlighted == l.facet) pointedAt = &l;
-      for (size_t i = drawn; i-- > 0;)
-        line(facet.position, links[i].position,
-             mapColor(map, largest > 0 ? strength(links[i]) / largest : 0, pointedAt ? 0.25f : 0.9f), 1.5f);
+      for (auto i = drawn.rbegin(); i != drawn.rend(); ++i)
+        line(facet.position, links[*i].position, mapColor(map, scale.at(strength(links[*i])), pointedAt ? 0.25f : 0.9f),
+             1.5f);
       if (pointedAt) {
         line(facet.position, pointedAt->position, ImGui::GetColorU32(theme::text), 3);
         box(centre(glm::ivec3(pointedAt->voxel)), theme::text, 2);
       }
-      drawKey(fmt::format("{} of {} links: F B", drawn, links.size()), largest);
+      drawKey(fmt::format("{} of {}{}", drawn.size(), counted(passing, "link"),
+                          passing < links.size() ? ", filtered" : ": F B"),
+              scale);
     }
     /// What the colours stand for, in the lower left corner.
-    void drawKey(const std::string& title, float largest) const {
+    void drawKey(const std::string& title, const LinkScale& scale) const {
       const float em = ImGui::GetFontSize(), width = 12 * em;
-      const glm::vec2 at = picture.rect().position + glm::vec2(0, picture.rect().size.y) + glm::vec2(em, -5 * em);
+      const Rect where = picture.clear();
+      const glm::vec2 at = where.position + glm::vec2(0, where.size.y) + glm::vec2(em, -5 * em);
+      legends.push_back({at, {width + em, 4 * em}});
       list.AddRectFilled({at.x, at.y}, {at.x + width + em, at.y + 4 * em}, IM_COL32(20, 20, 22, 215), 0.3f * em);
       const glm::vec2 inside = at + glm::vec2(0.5f * em, 0.3f * em);
       list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), title.c_str());
       drawColorBar(list, inside + glm::vec2(0, 1.4f * em), {width, 0.7f * em}, map);
-      const std::string high = shortNumber(largest) + " W/m\u00B2";
+      const std::string high = shortNumber(scale.high) + " W/m\u00B2";
+      const std::string least = scale.logarithmic ? shortNumber(scale.low) + " log" : "0";
       const float below = inside.y + 2.3f * em;
-      list.AddText({inside.x, below}, ImGui::GetColorU32(theme::text), "0");
+      list.AddText({inside.x, below}, ImGui::GetColorU32(theme::text), least.c_str());
       list.AddText({inside.x + width - ImGui::CalcTextSize(high.c_str()).x, below}, ImGui::GetColorU32(theme::text),
                    high.c_str());
     }

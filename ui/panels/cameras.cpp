@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/imgui.h"
 #include "ui/panel.h"
@@ -38,10 +39,48 @@ class CamerasPanel : public Panel {
     }
     ImGui::EndChild();
     drawBookmark(session, ofFile);
+    drawNumbers(session);
     sidecarRow(session);
   }
 
  private:
+  /// Where the window's camera is, and how it looks.
+  static void drawNumbers(Session& session) {
+    FlyCamera& camera = session.camera;
+    const Scene& scene = session.pipeline->scene();
+    const float size = std::max(glm::distance(scene.boundsMin, scene.boundsMax), 1e-6f);
+    fieldLabel("position", "Of the window's camera: world coordinates, scene units");
+    glm::dvec3 position = camera.camera().position;
+    const double low = -kMaxCoordinate, high = kMaxCoordinate;
+    if (ImGui::DragScalarN("##position", ImGuiDataType_Double, &position.x, 3, size * 1e-3f, &low, &high, "%.4g",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+      camera.setPosition(position);
+      session.viewDirty = true;
+    }
+    fieldLabel("yaw", "About the vertical, degrees: 0 looks along -Z, 90 along -X");
+    const auto degrees = [](float value) { return std::abs(value) < 0.05f ? 0 : value; };  // no "-0.0"
+    float yaw = degrees(camera.yaw()), pitch = degrees(camera.pitch());
+    if (ImGui::DragFloat("##yaw", &yaw, 0.2f, -180, 180, "%.1f\u00B0")) turn(session, yaw, pitch);
+    fieldLabel("pitch", "Upwards, degrees");
+    if (ImGui::DragFloat("##pitch", &pitch, 0.2f, -88, 88, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp))
+      turn(session, yaw, pitch);
+    const bool flat = camera.camera().orthographic;
+    fieldLabel(flat ? "half height" : "field of view",
+               flat ? "Of the picture, scene units" : "Vertical, degrees; 1 to 170");
+    float view = camera.view();
+    if (flat ? ImGui::DragFloat("##view", &view, size * 1e-3f, size * 1e-6f, size * 1e3f, "%.4g",
+                                ImGuiSliderFlags_AlwaysClamp)
+             : ImGui::SliderFloat("##view", &view, 1, 170, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp)) {
+      camera.setView(view);
+      session.viewDirty = true;
+    }
+  }
+
+  static void turn(Session& session, float yaw, float pitch) {
+    session.camera.setAngles(yaw, pitch);
+    session.viewDirty = true;
+  }
+
   static void drawBookmark(Session& session, int ofFile) {
     SceneEdits& edits = session.edits;
     if (ImGui::Button("Add bookmark")) {

@@ -10,6 +10,7 @@
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -78,25 +79,8 @@ class ComparePanel : public Panel {
   }
 
   static void drawDifferences(Session& session) {
-    const Settings &a = session.sideA().edited, &b = session.sideB().edited;
-    if (a == b) {
+    if (!differenceTable("differences", session.sideA().edited, session.sideB().edited, "A", "B"))
       ImGui::TextColored(theme::dim, "the same settings");
-      return;
-    }
-    if (!ImGui::BeginTable("differences", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-    ImGui::TableSetupColumn("setting", 0, 2.2f);
-    ImGui::TableSetupColumn("A");
-    ImGui::TableSetupColumn("B");
-    ImGui::TableHeadersRow();
-    for (const Setting& setting : settingTable()) {
-      if (setting.get(a) == setting.get(b)) continue;
-      for (const std::string& text : {std::string(setting.name), setting.text(a), setting.text(b)}) {
-        ImGui::TableNextColumn();
-        clippedText(text, ImGui::GetContentRegionAvail().x);
-        helpTooltip(text);
-      }
-    }
-    ImGui::EndTable();
   }
 
   static void drawResult(Comparison& comparison, View view) {
@@ -131,9 +115,9 @@ class ComparePanel : public Panel {
     row("compared", withThousands(p.elements), withThousands(v.elements),
         fmt::format(
             "Pixels, and voxels that are solid on both sides; {} only in A, {} only in B; left out for what is no "
-            "number: {} pixels, {} voxels",
+            "number: {}, {}",
             withThousands(result.voxels.onlyReference), withThousands(result.voxels.onlyValues),
-            withThousands(p.leftOut), withThousands(v.leftOut)));
+            counted(p.leftOut, "pixel"), counted(v.leftOut, "voxel")));
     ImGui::EndTable();
     if (std::isfinite(result.picture.flip)) return;
     if (ImGui::Button("FLIP", {-1, 0})) {

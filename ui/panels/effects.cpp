@@ -21,6 +21,7 @@ class EffectsPanel : public Panel {
       ImGui::TextColored(theme::dim, "nothing built yet");
       return;
     }
+    sideLine(session);
     // In the middle of a rebuild what the pipeline holds comes and goes.
     if (!session.work && refresh_.due(session)) plan_ = session.pipeline->plan(session.viewDirty);
     valueRow("not allocated", mebibytes(plan_.bytesNotAllocated()));

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <utility>
 
 #include "gi/lighting.h"
 #include "renderer/base/number_text.h"
@@ -11,6 +13,7 @@
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -22,7 +25,7 @@ std::string three(const glm::uvec3& v) {
   return fmt::format("{} {} {}", v.x, v.y, v.z);
 }
 std::string percent(double share) {
-  return fmt::format("{:.1f} %", 100 * share);
+  return percentText(share, 1);
 }
 
 class InspectorPanel : public Panel {
@@ -42,7 +45,7 @@ class InspectorPanel : public Panel {
       ImGui::PopTextWrapPos();
       return;
     }
-    drawTop(in);
+    drawTop(session);
     drawPlace(in, *facet);
     drawNormal(*facet);
     const bool hasMatrix = session.pipeline->obeyed().solver.method == SolverMethod::matrix;
@@ -66,7 +69,8 @@ class InspectorPanel : public Panel {
 
  private:
   /// Which of the voxel's facets, back along the trail, and done.
-  static void drawTop(Inspection& in) {
+  static void drawTop(Session& session) {
+    Inspection& in = session.inspection;
     for (size_t f = 0; f < in.voxel->facets.size(); ++f) {
       if (ImGui::RadioButton(fmt::format("facet {}", in.voxel->facets[f].facet).c_str(), in.chosen == f) &&
           in.chosen != f)
@@ -80,6 +84,12 @@ class InspectorPanel : public Panel {
     ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::Button("Clear")) in.clear = true;
+    const Scene& scene = session.pipeline->scene();
+    if (!session.material || *session.material >= scene.materials.size()) return;
+    ImGui::SameLine();
+    if (ImGui::Button("Material")) session.showPanel("Materials", kLeftColumn);
+    helpTooltip(fmt::format("Edit \"{}\", of the surface that was clicked, in the panel Materials",
+                            scene.materials[*session.material].name));
   }
 
   /// A voxel of a slice that holds no facet.
@@ -91,12 +101,16 @@ class InspectorPanel : public Panel {
 
   static void drawVoxel(const Inspection& in) {
     valueRow("voxel", three(in.voxel->voxel));
+    helpTooltip("Its place in the grid: x y z, from 0");
     const glm::dvec3& world = in.voxel->world;
     valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g} m", world.x, world.y, world.z));
     helpTooltip("The voxel's centre");
     valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
     helpTooltip("To the nearest solid voxel by the distance field in use, in voxels");
-    if (in.voxel->seed) valueRow("JFA seed", three(*in.voxel->seed));
+    if (in.voxel->seed) {
+      valueRow("nearest seed", three(*in.voxel->seed));
+      helpTooltip("The solid voxel that jump flooding takes for the nearest: x y z");
+    }
   }
 
   static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
@@ -104,6 +118,7 @@ class InspectorPanel : public Panel {
     valueRow("area", shortNumber(facet.area) + " m\u00B2");
     helpTooltip("Of the facet's plane inside the voxel");
     valueRow("albedo \u03C1", three(facet.albedo));
+    helpTooltip("Share of the light that arrives which is reflected diffusely: red, green, blue");
   }
 
   static void drawNormal(const InspectedFacet& facet) {
@@ -121,14 +136,14 @@ class InspectorPanel : public Panel {
   }
 
   static void drawLight(const InspectedFacet& facet, bool hasMatrix) {
-    valueRow("M", three(facet.emission));
-    helpTooltip("Emitted exitance, W/m\u00B2");
-    valueRow("D", three(facet.direct));
-    helpTooltip("Direct irradiance, W/m\u00B2");
-    valueRow("H", three(facet.irradiance));
-    helpTooltip("Indirect irradiance, W/m\u00B2");
-    valueRow("B", three(facet.radiosity));
-    helpTooltip("Radiosity M + \u03C1 (D + H), W/m\u00B2");
+    valueRow("emission M", three(facet.emission));
+    helpTooltip("Emitted exitance, W/m\u00B2: red, green, blue");
+    valueRow("direct D", three(facet.direct));
+    helpTooltip("Direct irradiance, straight from suns, points and spots, W/m\u00B2");
+    valueRow("indirect H", three(facet.irradiance));
+    helpTooltip("Indirect irradiance, from other facets and the sky, W/m\u00B2");
+    valueRow("radiosity B", three(facet.radiosity));
+    helpTooltip("All that leaves diffusely: M + \u03C1 (D + H), W/m\u00B2");
     if (hasMatrix) {
       valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
       helpTooltip("How far one more sweep would move B here");
@@ -146,7 +161,15 @@ class InspectorPanel : public Panel {
     }
     if (facet.correction != glm::dvec3(0)) {
       valueRow("emitters", three(facet.correction));
-      helpTooltip("What samples of the emitters add to H in place of the row's rays, W/m\u00B2");
+      helpTooltip(
+          "F M by samples of the emitters less F M by the row's rays, W/m\u00B2: H is the row's sum with this added. "
+          "It has either sign. Negative: more of this facet's rays have met emitters than the emitters' size and "
+          "place call for, and what they brought too much is taken out.");
+      if (facet.correction.x + facet.correction.y + facet.correction.z < 0) {
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextColored(theme::dim, "Negative: by chance the rays met emitters too often; H is put right.");
+        ImGui::PopTextWrapPos();
+      }
     }
   }
 
@@ -159,8 +182,9 @@ class InspectorPanel : public Panel {
       for (const Inspection::Sample& sample : in.live) values.push_back(luminance(sample.irradiance));
     if (values.size() > 1) {
       const float largest = *std::max_element(values.begin(), values.end());
-      const std::string name = in.replay ? fmt::format("H in {} sweeps from the dark", values.size())
-                                         : fmt::format("H in {} sweeps since the pick", in.live.back().sweep);
+      const std::string name = in.replay
+                                   ? fmt::format("H in {} from the dark", counted(values.size(), "sweep"))
+                                   : fmt::format("H in {} since the pick", counted(in.live.back().sweep, "sweep"));
       ImGui::PlotLines("##history", values.data(), static_cast<int>(values.size()), 0, name.c_str(), 0,
                        largest > 0 ? 1.4f * largest : 1, {ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4});
       helpTooltip(fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)));
@@ -190,26 +214,35 @@ class InspectorPanel : public Panel {
     const bool row = in.shown == Show::Row;
     const Links& links = row ? facet.row : facet.column;
     valueRow(row ? "row sum" : "column sum", fmt::format("{:.4f}", links.sum));
+    helpTooltip(row ? "Sum of the form factors F from all that it gathers from: 1 where every ray met a facet"
+                    : "Sum of the form factors F of this facet in the rows of those that gather from it");
     if (row) {
       const RayShares& r = facet.rays;
       const double n = std::max(r.rays, 1u);
       valueRow("escaped", fmt::format("{} of {}", percent(r.escaped / n), r.rays));
-      helpTooltip(fmt::format("{} rays left the grid, {} ended at the back of a face", r.escaped, r.blocked));
+      helpTooltip(
+          fmt::format("{} left the grid; {} ended at the back of a face", counted(r.escaped, "ray"), r.blocked));
       valueRow("invalid", percent(r.invalid / n));
       helpTooltip("Rays that began behind a surface: they do not count");
-      valueRow("\u03A3 F B", three(links.contribution));
-      helpTooltip("Sum of the contributions, W/m\u00B2: H but for the emitters' samples and the residual");
+      valueRow("gathered F B", three(links.contribution));
+      helpTooltip(
+          "Sum of the contributions F B of the row, W/m\u00B2: H but for the emitters' samples and the residual");
     }
     valueRow("reciprocity", links.exchange > 0 ? fmt::format("{:.3f}", links.opposite / links.exchange) : "no links");
     helpTooltip("Sum of A F the other way round over that of A F: 1 but for the noise of few rays");
     const LinkTable::Result result = table_.draw(links, 2 * in.serial + (row ? 0 : 1));
     in.highlighted = result.hovered;
+    if (in.linkFilterEdits != table_.edits()) {
+      in.linkFilter = table_.filter();
+      in.linkFilterEdits = table_.edits();
+    }
     if (result.followed) in.follow = result.followed;
   }
 
   static void drawComparison(Inspection& in) {
     const RowComparison& rows = *in.comparison;
     valueRow("facets", fmt::format("{} and {}", in.facet()->facet, in.other->facet));
+    helpTooltip("Their numbers in the facet list; the second was clicked with Shift");
     valueRow("difference", fmt::format("{:.4f}", rows.difference));
     helpTooltip("Sum of |F - F'|, of sums of 1 at most: 2 where the two rows share nothing");
     valueRow("shared", fmt::format("{:.4f}", rows.shared));
@@ -218,7 +251,10 @@ class InspectorPanel : public Panel {
     if (!ImGui::BeginTable("rows", 4, kFlags, {0, ImGui::GetTextLineHeightWithSpacing() * 12})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     for (const char* name : {"voxel", "F", "F'", "|F - F'|"}) ImGui::TableSetupColumn(name);
-    ImGui::TableHeadersRow();
+    headers({{"voxel", "Of a facet that either gathers from: x y z"},
+             {"F", "Form factor to the first facet: share of its rays"},
+             {"F'", "The same to the second"},
+             {"|F - F'|", "By how much they differ"}});
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(rows.entries.size()));
     while (clipper.Step())
@@ -263,7 +299,10 @@ class InspectorPanel : public Panel {
     ImGui::TableSetupColumn("DDA", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("SDF", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("skips", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("skips").x);
-    ImGui::TableHeadersRow();
+    headers({{"t", "How far along the ray, voxels"},
+             {"DDA", "Cells that a walk from voxel to voxel enters: x y z; coloured where they hold facets"},
+             {"SDF", "Cells that the walk through the distance field enters"},
+             {"skips", "How far the field lets it go on from there, voxels"}});
     const std::vector<RayStep>&dda = ray.dda.steps, &sdf = ray.sdf.steps;
     for (size_t d = 0, s = 0; d < dda.size() || s < sdf.size();) {
       const bool both = d < dda.size() && s < sdf.size() && dda[d].cell == sdf[s].cell;
@@ -284,10 +323,19 @@ class InspectorPanel : public Panel {
     }
     ImGui::EndTable();
   }
+  /// Of a table's columns: their names and what they mean.
+  static void headers(std::initializer_list<std::pair<const char*, const char*>> columns) {
+    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    for (const auto& [name, help] : columns) {
+      ImGui::TableNextColumn();
+      ImGui::TableHeader(name);
+      helpTooltip(help);
+    }
+  }
   static void drawCell(const RayStep& step) {
     const std::string text = fmt::format("{} {} {}", step.cell.x, step.cell.y, step.cell.z);
     ImGui::TextColored(step.faces > 0 ? theme::accent : theme::text, "%s", text.c_str());
-    if (step.faces > 0) helpTooltip(fmt::format("holds {} facet{}", step.faces, step.faces > 1 ? "s" : ""));
+    if (step.faces > 0) helpTooltip("holds " + counted(step.faces, "facet"));
   }
 
   LinkTable table_;

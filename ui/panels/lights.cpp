@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/scene/light_units.h"
 #include "ui/imgui.h"
 #include "ui/light_color.h"
+#include "ui/new_light.h"
 #include "ui/panel.h"
 #include "ui/sidecar_row.h"
 #include "ui/theme.h"
@@ -22,21 +24,26 @@ const char* typeName(const Light& light) {
   return lightKind(light.type).name;
 }
 
-/// A light at the camera that shines where it looks: a white surface facing it at a quarter of the scene's diagonal has
-/// radiance 1. Lamps are put a little ahead, where they can be seen and grabbed.
-Light lightAtCamera(const LightKind& kind, const Camera& camera, float diagonal) {
-  const glm::vec3 forward = glm::normalize(camera.orientation * glm::vec3(0, 0, -1));
-  const float distance = 0.25f * diagonal;
-  Light light;
-  light.type = kind.type;
-  light.name = typeName(light);
-  light.direction = forward;
-  light.position = camera.position + glm::dvec3(forward) * (0.4 * distance);
-  light.intensity = std::numbers::pi_v<float> * (kind.has(LIGHT_DISTANT) ? 1.0f : distance * distance);
-  light.intensity = std::clamp(light.intensity, 1e-6f, 1e12f);
-  light.outerCos = std::cos(30 * kDegree);
-  return light;
-}
+/// What the intensity is shown in. A point's or spot's file holds candela, a sun's lux; this program takes 1 cd for 1
+/// W/sr and 1 lx for 1 W/m^2 (docs/conventions.md).
+struct IntensityUnit {
+  const char* name;
+  const char* format;
+  double (*perCandela)(const Light&);  ///< shown = intensity x this
+  const char* help;
+};
+constexpr IntensityUnit kIntensityUnits[] = {
+    {"cd", "%.4g cd", [](const Light&) { return 1.0; },
+     "Candela, as the file holds it: here 1 cd = 1 W/sr. At a distance d a surface that faces the light receives "
+     "intensity / d\u00B2."},
+    {"lx", "%.4g lx at 1 m", [](const Light&) { return 1.0; },
+     "Lux on a surface that faces the light from 1 scene unit (metre): here 1 lx = 1 W/m\u00B2. As many as candela; "
+     "at a distance d it is this / d\u00B2."},
+    {"W", "%.4g W", solidAngle,
+     "All the light that it gives, candela times its solid angle: 4\u03C0 sr of a point; of a spot 2\u03C0 ((1 - cos "
+     "inner) + (cos inner - cos outer) / 3), with the falloff between the two. Light as such, as lumens are: here 1 "
+     "lm = 1 W, and not 683 lm. A cone that is changed keeps the candela."},
+};
 
 class LightsPanel : public Panel {
  public:
@@ -56,22 +63,25 @@ class LightsPanel : public Panel {
     }
     ImGui::Checkbox("handles in the picture", &edits.showHandles);
     helpTooltip(
-        "Drag a light to move it in the plane of the view, with Shift along the view; drag the square at the "
-        "end of its arrow to aim it.");
+        "Drag a light to move it in the plane of the view, with Shift along the line of sight, with Ctrl onto the "
+        "surface under the mouse. The chosen one has axes: drag an arrow to move it along x (red), y (green) or z "
+        "(blue), a square between two of them to move it in their plane. Drag the square at the end of its own arrow "
+        "to aim it, with Ctrl at the surface under the mouse. Captures show none of this.");
     sidecarRow(session);
   }
 
  private:
   static void drawAdd(Session& session) {
-    const glm::vec3 size = session.pipeline->scene().boundsMax - session.pipeline->scene().boundsMin;
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "add");
     for (const LightKind& kind : lightKinds()) {
       ImGui::SameLine();
-      const Light light = lightAtCamera(kind, session.camera.camera(), std::max(glm::length(size), 1e-6f));
-      if (ImGui::Button(kind.name)) session.edits.add(light);
-      helpTooltip(kind.has(LIGHT_DIRECTION) ? fmt::format("A {} that shines the way the camera looks", kind.name)
-                                            : fmt::format("A {} ahead of the camera", kind.one));
+      if (ImGui::Button(kind.name))
+        session.edits.add(newLight(kind, session.pipeline->scene(), session.camera.camera()));
+      helpTooltip(fmt::format("A {} {}", kind.one,
+                              kind.has(LIGHT_DISTANT)     ? "that shines the way the camera looks"
+                              : kind.has(LIGHT_DIRECTION) ? "half-way to what the camera looks at, shining there"
+                                                          : "half-way to what the camera looks at"));
     }
   }
 
@@ -84,16 +94,28 @@ class LightsPanel : public Panel {
     clipper.Begin(static_cast<int>(edits.lights.size()), row);
     while (clipper.Step())
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-        const Light& light = edits.lights[static_cast<size_t>(i)];
+        Light& light = edits.lights[static_cast<size_t>(i)];
         ImGui::PushID(i);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
-        if (ImGui::Selectable("##", i == edits.selected)) edits.selected = i;
-        ImGui::GetWindowDrawList()->AddCircleFilled({at.x + em * 0.5f, at.y + em * 0.5f}, em * 0.3f,
-                                                    displayColor(light.color));
+        const bool pressed = ImGui::Selectable("##", i == edits.selected);
+        const bool dot = ImGui::GetIO().MousePos.x < at.x + 1.2f * em;  // the lamp before the name
+        if (dot) helpTooltip(light.on ? "On; a click turns it off" : "Off; a click turns it on");
+        if (pressed && dot)
+          light.on = !light.on;
+        else if (pressed)
+          edits.selected = i;
+        ImDrawList& drawing = *ImGui::GetWindowDrawList();
+        const ImVec2 middle{at.x + em * 0.5f, at.y + em * 0.5f};
+        if (light.on)
+          drawing.AddCircleFilled(middle, em * 0.3f, displayColor(light.color));
+        else
+          drawing.AddCircle(middle, em * 0.3f, ImGui::GetColorU32(theme::dim));
         ImGui::SameLine(start + em * 1.3f);
         const float type = ImGui::CalcTextSize(typeName(light)).x;
+        if (!light.on) ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
         clippedText(light.name.empty() ? "(no name)" : light.name, width - em * 1.8f - type);
+        if (!light.on) ImGui::PopStyleColor();
         ImGui::SameLine(start + width - type);
         ImGui::TextColored(theme::dim, "%s", typeName(light));
         ImGui::PopID();
@@ -102,19 +124,17 @@ class LightsPanel : public Panel {
   }
 
   static void drawListButtons(SceneEdits& edits) {
-    if (edits.light() != nullptr) {
-      if (ImGui::Button("Duplicate")) edits.add(Light(*edits.light()));
-      ImGui::SameLine();
-      if (ImGui::Button("Remove")) edits.remove();
-      if (edits.removed() != nullptr) ImGui::SameLine();
-    }
-    if (const Light* gone = edits.removed()) {
-      if (ImGui::Button("Undo removal")) return edits.undoRemoval();
-      helpTooltip(fmt::format("Bring back \"{}\"", gone->name));
-    }
+    if (edits.light() == nullptr) return;
+    if (ImGui::Button("Duplicate")) edits.add(Light(*edits.light()));
+    ImGui::SameLine();
+    if (ImGui::Button("Remove")) edits.remove();
+    helpTooltip("Ctrl + Z brings it back");
   }
 
-  static void drawFields(Light& light, Session& session) {
+  void drawFields(Light& light, Session& session) {
+    fieldLabel("on",
+               "Off it gives no light and costs nothing: no shadow map is drawn, no pixel and no facet asks for it");
+    ImGui::Checkbox("##on", &light.on);
     fieldLabel("name");
     ImGui::InputText("##name", &light.name);
     fieldLabel("type");
@@ -130,11 +150,8 @@ class LightsPanel : public Panel {
     glm::vec3 shown = glm::convertLinearToSRGB(light.color);
     if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float))
       light.color = glm::convertSRGBToLinear(shown);
-    fieldLabel("intensity", distant ? "Irradiance of a surface that faces the sun, lux (W/m\u00B2)"
-                                    : "Candela (W/sr): at a distance d a facing surface receives intensity / d\u00B2");
-    ImGui::DragFloat("##intensity", &light.intensity, std::max(light.intensity * 0.01f, 1e-6f), 0,
-                     static_cast<float>(kMaxLightOrEmission), distant ? "%.4g lx" : "%.4g cd",
-                     ImGuiSliderFlags_AlwaysClamp);
+    drawTemperature(light);
+    drawIntensity(light, distant);
     if (kind.has(LIGHT_RANGE)) {
       fieldLabel("range", "Distance at which the light has faded out; 0: unlimited");
       ImGui::DragFloat("##range", &light.range, std::max(light.range * 0.01f, 0.01f), 0,
@@ -173,6 +190,52 @@ class LightsPanel : public Panel {
     }
     helpTooltip("Its position, shining the way the camera looks");
   }
+
+  /// A temperature is a way to choose a colour: lights keep the colour alone.
+  static void drawTemperature(Light& light) {
+    fieldLabel(
+        "temperature",
+        "Of a black body of this colour, kelvin (1,000 to 15,000): candle 1,900, bulb 2,700, noon 5,500, overcast "
+        "6,500. Setting it sets the colour, its largest component 1; below 1,900 K sRGB's gamut ends, and the colour "
+        "is the nearest without blue. Shown is the nearest point of the Planckian locus (Krystek 1985); a dash where "
+        "the colour is far from all (more than 0.05 in CIE 1960 u, v).");
+    const std::optional<double> found = colorTemperature(light.color);
+    auto kelvin = static_cast<float>(found.value_or(6500));
+    if (ImGui::SliderFloat("##temperature", &kelvin, kLeastTemperature, kMostTemperature, found ? "%.0f K" : "\u2014",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+      light.color = temperatureColor(kelvin);
+  }
+
+  void drawIntensity(Light& light, bool distant) {
+    if (distant) {
+      fieldLabel("intensity",
+                 "Lux on a surface that faces the sun, as the file holds it: here 1 lx = 1 W/m\u00B2. A sun comes from "
+                 "infinity, and has neither candela nor a power of its own.");
+      ImGui::DragFloat("##intensity", &light.intensity, std::max(light.intensity * 0.01f, 1e-6f), 0,
+                       static_cast<float>(kMaxLightOrEmission), "%.4g lx", ImGuiSliderFlags_AlwaysClamp);
+      return;
+    }
+    const IntensityUnit& unit = kIntensityUnits[unit_];
+    fieldLabel("intensity", unit.help);
+    const float width = ImGui::CalcItemWidth(), list = 3.4f * ImGui::GetFontSize();
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const auto per = static_cast<float>(unit.perCandela(light));
+    float shown = light.intensity * per;
+    ImGui::SetNextItemWidth(width - list - gap);
+    if (ImGui::DragFloat("##intensity", &shown, std::max(shown * 0.01f, 1e-6f), 0,
+                         static_cast<float>(kMaxLightOrEmission) * std::min(per, 1.0f), unit.format,
+                         ImGuiSliderFlags_AlwaysClamp) &&
+        per > 0)
+      light.intensity = std::min(shown / per, static_cast<float>(kMaxLightOrEmission));
+    helpTooltip(unit.help);
+    ImGui::SameLine(0, gap);
+    ImGui::SetNextItemWidth(list);
+    const char* names[std::size(kIntensityUnits)];
+    for (size_t i = 0; i < std::size(kIntensityUnits); ++i) names[i] = kIntensityUnits[i].name;
+    ImGui::Combo("##unit", &unit_, names, static_cast<int>(std::size(kIntensityUnits)));
+  }
+
+  int unit_ = 0;  ///< of kIntensityUnits
 
   /// Half-angles in degrees; the outer one is never within the inner one.
   static void drawCone(Light& light) {

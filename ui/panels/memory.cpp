@@ -9,6 +9,7 @@
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -31,6 +32,7 @@ class MemoryPanel : public Panel {
     valueRow("used", fmt::format("{} of {}", mebibytes(memory.used()), mebibytes(memory.budget())));
     helpTooltip("Of what this process may take of the device's heap");
     valueRow("peak", mebibytes(memory.peak()));
+    helpTooltip("The most that was used at any time since the program began");
     if (ImGui::Button("Save CSV", {-1, 0})) session.recorder.memory = true;
     helpTooltip("Every row of this table in bytes, into a new folder");
 
@@ -43,10 +45,13 @@ class MemoryPanel : public Panel {
     ImGui::TableSetupColumn("predicted", ImGuiTableColumnFlags_WidthFixed, number);
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-    for (const char* heading : {"", "measured", "predicted"}) {
-      ImGui::TableNextColumn();
-      rightText(heading);
-    }
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    rightText("measured");
+    helpTooltip("What the allocator gave, MiB of 2\u00B2\u2070 bytes");
+    ImGui::TableNextColumn();
+    rightText("predicted");
+    helpTooltip("By the formulas from the numbers of voxels, facets and rays; empty where there is none");
     ImGui::PopStyleColor();
     for (const Group& group : groups_) drawGroup(group);
     ImGui::EndTable();
@@ -100,8 +105,7 @@ class MemoryPanel : public Panel {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     clippedText(row.name, ImGui::GetContentRegionAvail().x);
-    helpTooltip(fmt::format("{}\n{}\n{} bytes measured{}", row.name, row.format,
-                            withThousands(row.measured.value_or(0)),
+    helpTooltip(fmt::format("{}\n{}\n{} measured{}", row.name, row.format, counted(row.measured.value_or(0), "byte"),
                             row.predicted ? fmt::format(", {} predicted", withThousands(*row.predicted)) : ""));
     if (!row.format.empty()) {
       ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);

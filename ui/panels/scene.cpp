@@ -7,6 +7,7 @@
 #include "ui/panel.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -19,6 +20,7 @@ class ScenePanel : public Panel {
   void draw(Session& session) override {
     if (session.pipeline) {
       drawCounts(session);
+      drawRegion(session);
       drawWarnings(session.pipeline->scene());
     } else {
       ImGui::TextColored(theme::dim, "no scene");
@@ -34,18 +36,54 @@ class ScenePanel : public Panel {
     valueRow("file", scene.path.filename().string());
     helpTooltip(scene.path.string());
     valueRow("triangles", withThousands(scene.triangleCount()));
-    valueRow("materials", fmt::format("{}, {} images", scene.materials.size(), scene.images.size()));
+    helpTooltip("Of all meshes, once per node that shows them");
+    valueRow("materials", fmt::format("{}, {}", scene.materials.size(), counted(scene.images.size(), "image")));
+    helpTooltip("Materials, and the images that their textures are made of");
     valueRow("lights", lights(session.edits.lights));
+    helpTooltip("By kind, with those that are off");
     const glm::vec3 size = scene.boundsMax - scene.boundsMin;
     valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", size.x, size.y, size.z));
+    helpTooltip("Of the box around all surfaces along x, y and z, scene units (glTF's are metres)");
     if (!session.built) return;
     const Built& built = *session.built;
     valueRow("grid", fmt::format("{} \u00D7 {} \u00D7 {}", built.dims.x, built.dims.y, built.dims.z));
+    helpTooltip(fmt::format("Voxels along x, y and z, of edge {:.4g} m", built.edge));
     valueRow("facets", fmt::format("{} in {}", withThousands(built.facets), withThousands(built.solidVoxels)));
-    helpTooltip("Facets in the solid voxels that hold them");
-    if (built.clampedAlbedo == 0) return;
-    valueRow("clamped", fmt::format("albedo of {}", withThousands(built.clampedAlbedo)));
-    helpTooltip("Facets whose albedo was outside 0 to .98, or no number");
+    helpTooltip("Pieces of surface that light is kept for, and the solid voxels that hold them");
+    if (built.clampedAlbedo > 0) {
+      valueRow("clamped", fmt::format("albedo of {}", withThousands(built.clampedAlbedo)));
+      helpTooltip("Facets whose albedo was outside 0 to .98, or no number");
+    }
+    const glm::vec3 part = built.region.hi - built.region.lo;
+    const std::string region =
+        built.region.whole ? "whole" : fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", part.x, part.y, part.z);
+    valueRow("region", region);
+    ImGui::tellControl(("region=" + region).c_str());
+    helpTooltip(
+        "The part of the scene that has voxels (scene.region), m along x, y and z. What lies outside of it is lit "
+        "directly and gives light, but passes none on.");
+  }
+
+  /// A box to drag in the picture, or the whole scene again.
+  static void drawRegion(Session& session) {
+    if (!session.built) return;
+    RegionSettings& wanted = session.edited.scene.region;
+    const SceneRegion& region = session.built->region;
+    const bool box = wanted.mode == RegionMode::box;
+    ImGui::BeginDisabled(session.edited.matrix.gpu.hitRule == HitRule::thesis);
+    if (ImGui::Button(box ? "Voxels of the whole scene###region" : "Voxels of a box\u2026###region", {-1, 0})) {
+      if (box) {
+        wanted.mode = RegionMode::whole;
+      } else {
+        const glm::dvec3& origin = session.pipeline->scene().origin;
+        const glm::vec3 lo(origin + glm::dvec3(region.lo)), hi(origin + glm::dvec3(region.hi));
+        wanted = {RegionMode::box, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
+      }
+    }
+    helpTooltip(box ? "scene.region=whole"
+                    : "scene.region=box, which begins as the part that has voxels now; its faces are dragged by their "
+                      "handles in the picture, and all voxels lie in it");
+    ImGui::EndDisabled();
   }
 
   static std::string lights(const std::vector<Light>& all) {
@@ -59,7 +97,7 @@ class ScenePanel : public Panel {
 
   static void drawWarnings(const Scene& scene) {
     if (scene.warnings.empty()) return;
-    const std::string title = fmt::format("{} warning{}", scene.warnings.size(), scene.warnings.size() == 1 ? "" : "s");
+    const std::string title = counted(scene.warnings.size(), "warning");
     ImGui::PushStyleColor(ImGuiCol_Text, theme::warning);
     const bool open = ImGui::TreeNodeEx("##warnings", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", title.c_str());
     ImGui::PopStyleColor();
@@ -71,7 +109,7 @@ class ScenePanel : public Panel {
 
   void drawOpen(Session& session) {
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputTextWithHint("##open", "drop a .glb, .gltf or .exr, or type a path", &path_,
+    if (ImGui::InputTextWithHint("##open", "path of a scene or picture, or drop it", &path_,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         !path_.empty())
       session.open(path_);

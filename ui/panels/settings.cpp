@@ -1,10 +1,14 @@
 // Every setting of gi/settings.h, generated from their table.
+#include <optional>
+#include <utility>
 
 #include "renderer/base/error.h"
+
 #include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
+#include "ui/unsaved.h"
 #include "ui/widgets.h"
 
 namespace irad {
@@ -16,13 +20,55 @@ class SettingsPanel : public Panel {
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
+    sideLine(session);
     drawPresets(session);
     drawNext(session);
-    settingRows(session.edited, session.defaults, session.preferences.folded);
+    drawSearch(session);
+    if (!settingRows(session.edited, session.defaults, session.preferences.folded, filter_,
+                     session.pending && session.built ? &session.built->settings : nullptr))
+      ImGui::TextColored(theme::dim, filter_.changedOnly ? "none that is changed" : "none of that name or meaning");
   }
 
  private:
   std::string name_;  ///< of a preset, being typed
+  SettingFilter filter_;
+  std::optional<Settings> ofPreset_;  ///< the settings that preset_ was found for
+  std::string preset_;
+
+  void drawSearch(Session& session) {
+    const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("changed").x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - box - ImGui::GetStyle().ItemSpacing.x);
+    if (std::exchange(session.findSetting, false)) {
+      ImGui::SetKeyboardFocusHere();
+      ImGui::SetScrollHereY(0);
+    }
+    ImGui::InputTextWithHint("##search", "search (Ctrl + F)", &filter_.words);
+    helpTooltip("Words of names or descriptions: settings that hold all of them are shown");
+    ImGui::SameLine();
+    ImGui::Checkbox("changed", &filter_.changedOnly);
+    helpTooltip("Only those that are not this device's defaults");
+  }
+
+  /// The name of the preset that these settings are; found anew when they have changed.
+  const std::string& presetShown(const Session& session) {
+    if (ofPreset_ && sameSettings(*ofPreset_, session.edited)) return preset_;
+    ofPreset_ = session.edited;
+    const auto is = [&](auto&& apply) {
+      Settings applied = session.edited;
+      apply(applied);
+      return sameSettings(applied, session.edited);
+    };
+    preset_ = "Preset: none, edited";
+    if (sameSettings(session.defaults, session.edited)) preset_ = "Preset: defaults of this device";
+    for (const std::string& name : session.presets.names()) try {
+        if (is([&](Settings& s) { session.presets.apply(s, name); })) preset_ = "Preset: " + name;
+      } catch (const Error&) {
+        continue;  // choosing it says what is wrong
+      }
+    for (const std::string& name : presetNames())
+      if (is([&](Settings& s) { applyPreset(s, name, session.context.device.isCpu); })) preset_ = "Preset: " + name;
+    return preset_;
+  }
 
   /// A preset is applied over the settings; those that it leaves alone keep their values (gi/settings.h).
   void drawPresets(Session& session) {
@@ -33,15 +79,24 @@ class SettingsPanel : public Panel {
     savePresetButton("Save\u2026", button, name_, session, session.edited);
   }
 
-  static void choosePreset(Session& session) {
-    if (!ImGui::BeginCombo("##preset", "Preset\u2026")) return;
+  void choosePreset(Session& session) {
+    if (!ImGui::BeginCombo("##preset", presetShown(session).c_str())) {
+      helpTooltip(
+          "The preset that the settings are, or the one to apply. Presets set how light is computed; the view, the "
+          "seed, exposure, sky and scene.* stay.");
+      return;
+    }
     for (const std::string& name : presetNames())
       if (ImGui::Selectable(name.c_str())) {
         applyPreset(session.edited, name, session.context.device.isCpu);
         session.saved = session.edited;
+        session.history.call("preset " + name);
       }
     ImGui::Separator();
-    if (ImGui::Selectable("defaults of this device")) session.saved = session.edited = session.defaults;
+    if (ImGui::Selectable("defaults of this device")) {
+      session.saved = session.edited = session.defaults;
+      session.history.call("defaults of this device");
+    }
     if (!session.presets.names().empty()) ImGui::Separator();
     for (const std::string& name : session.presets.names())
       if (ImGui::Selectable(name.c_str())) apply(session, name);
@@ -52,6 +107,7 @@ class SettingsPanel : public Panel {
     try {
       session.presets.apply(session.edited, name);
       session.saved = session.edited;
+      session.history.call("preset " + name);
     } catch (const Error& error) {
       session.error(error.what());
     }
@@ -64,13 +120,49 @@ class SettingsPanel : public Panel {
       clippedText(text, ImGui::GetContentRegionAvail().x);
       ImGui::PopStyleColor();
     };
-    if (session.next < Redo::Shade)
+    if (session.pending)
+      line(theme::warning, "waits: " + stagesFrom(session.next, arrowGlyph()));
+    else if (session.next < Redo::Shade)
       line(theme::accent, "next: " + stagesFrom(session.next, arrowGlyph()));
     else if (session.halted)
       line(theme::warning, "not rebuilt: the picture shows the old state");
     else
       line(theme::dim, "up to date");
+    drawCost(session, line);
     if (session.halted && ImGui::Button("Rebuild", {-1, 0})) session.rebuild = true;
+    ImGui::Checkbox("apply by hand", &session.preferences.applyByHand);
+    helpTooltip(
+        "Settings that rebuild wait, marked in the list, until Apply builds once for all of them. What only the "
+        "picture shows is taken at once.");
+    const float button = ImGui::CalcTextSize("Apply").x + 4 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
+    ImGui::BeginDisabled(!session.pending);
+    if (ImGui::Button("Apply", {button, 0})) session.applyNow = true;
+    ImGui::EndDisabled();
+  }
+
+  /// What a rebuild will take, or the last one took beside what was predicted of it: always one line, too.
+  template <class Line>
+  static void drawCost(const Session& session, const Line& line) {
+    const uint64_t budget = session.context.device.memory().budget();
+    const bool due = session.next < Redo::Shade;
+    std::string text;
+    bool much = false;
+    if (due && session.forecast) {
+      much = session.forecast->bytes > budget;
+      text = "predicted " + costText(*session.forecast) + (much ? ": more than there is" : "");
+    } else if (due) {
+      text = "no prediction: not built yet";
+    } else if (session.lastBuild) {
+      const auto& [predicted, took] = *session.lastBuild;
+      text = "took " + costText(took) + (predicted ? "; predicted " + costText(*predicted) : "");
+    }
+    line(much ? theme::error : due ? theme::accent : theme::dim, text);
+    ImGui::tellControl("cost", due);
+    helpTooltip(text +
+                "\nTime until the new light is seen first, and device memory in use then. Predicted from the times of "
+                "the last build and its memory, by the growth with voxel.resolution and matrix.rays; what other "
+                "settings change is not foreseen.");
   }
 };
 

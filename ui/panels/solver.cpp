@@ -16,6 +16,7 @@
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -30,6 +31,7 @@ class SolverPanel : public Panel {
       ImGui::TextColored(theme::dim, "nothing solved yet");
       return;
     }
+    sideLine(session);
     drawState(session);
     drawButtons(session);
     const SolveReport& report = session.built->solve;
@@ -41,19 +43,28 @@ class SolverPanel : public Panel {
       return;
     }
     valueRow("sweeps", sweepsText(session));
-    helpTooltip("Since the solver last woke; what is left is extrapolated from the bound's slope over the last calls");
+    helpTooltip(
+        "Rounds in which every facet gathers once, since the solver last woke; how many are left is extrapolated from "
+        "the bound's slope over the last frames");
     valueRow("residual", shortNumber(report.residual) + " W/m\u00B2");
-    helpTooltip("Largest change of B in the last sweep");
+    helpTooltip("Largest change of the radiosity B in the last sweep");
     valueRow("error bound", shortNumber(report.bound) + " W/m\u00B2");
-    helpTooltip("On B: (\u03BA/\u03C9 \u2212 1) times the residual");
+    helpTooltip(
+        "How far B can be from the exact solution at most: (\u03BA/\u03C9 \u2212 1) times the residual, \u03BA the "
+        "error factor below, \u03C9 solver.omega");
     valueRow("sleeps below", shortNumber(session.built->solve.allowed) + " W/m\u00B2");
-    helpTooltip("The bound at which H is known to solver.tolerance of its mean");
-    valueRow("H mean, largest", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
-    helpTooltip("The mean is by the facets' areas, of the brightest colour channel");
-    valueRow("row gain \u03C1", shortNumber(report.largestGain));
+    helpTooltip(
+        "The error bound at which the indirect light H is known to solver.tolerance of its mean: the solver sleeps "
+        "then");
+    valueRow("indirect H", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
+    helpTooltip(
+        "Indirect irradiance H over all facets: its mean by their areas, and its largest; of the brightest colour "
+        "channel");
+    valueRow("largest row gain", shortNumber(report.largestGain));
     helpTooltip("The largest share of its light that a facet's row passes on: below 1 the solver converges");
-    valueRow("\u03BA", shortNumber(report.kappa));
-    helpTooltip("Proven from the gains of all rows together: an error is at most so many times the residual");
+    valueRow("error factor \u03BA", shortNumber(report.kappa));
+    helpTooltip(
+        "\u03BA: proven from the gains of all rows together, an error of B is at most so many times the residual");
     drawReflections(session);
     drawCurves();
     drawEnergy(*session.built);
@@ -74,12 +85,14 @@ class SolverPanel : public Panel {
         "view standard-error shows each facet's");
     valueRow("ends below", shortNumber(report.allowed) + " W/m\u00B2");
     helpTooltip("solver.tolerance of the mean H");
-    valueRow("H mean, largest", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
-    helpTooltip("The mean is by the facets' areas, of the brightest colour channel");
-    valueRow("row gain \u03C1", shortNumber(report.largestGain));
+    valueRow("indirect H", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
+    helpTooltip(
+        "Indirect irradiance H over all facets: its mean by their areas, and its largest; of the brightest colour "
+        "channel");
+    valueRow("largest row gain", shortNumber(report.largestGain));
     helpTooltip("The largest share of its light that a facet's rays of the last frame pass on");
     const PlotLine lines[] = {{"standard error", ImGui::GetColorU32(theme::accent), bound_}};
-    drawPlot(lines, "frames", "standard error: from two frames on", "- - ends, W/m\u00B2");
+    drawPlot(lines, "frame", "the standard error is drawn from the second frame on", "dashed: target, W/m\u00B2");
   }
 
   std::vector<BoundSample> bounds_;
@@ -120,8 +133,8 @@ class SolverPanel : public Panel {
     if (ImGui::Button("Step", third)) session.paused = session.step = true;
     helpTooltip("One sweep or frame, then pause");
     ImGui::SameLine();
-    if (ImGui::Button("H = 0", third)) session.darken = true;
-    helpTooltip("Start again from the dark");
+    if (ImGui::Button("Darken###H = 0", third)) session.darken = true;
+    helpTooltip("Forgets all indirect light (H = 0): the solver starts again from the dark");
   }
 
   /// What the last picture has written back, where it has.
@@ -129,7 +142,7 @@ class SolverPanel : public Panel {
     const auto& report = session.pipeline->lighting().writeback.report;
     if (!report || report->pending) return;
     valueRow("written back",
-             fmt::format("{} of {} facets", withThousands(report->written()), withThousands(report->visible())));
+             fmt::format("{} of {}", withThousands(report->written()), counted(report->visible(), "facet")));
     helpTooltip("Of the facets that pixels see those to which any has written the reflection that it shows");
     valueRow("writers 0, 1, more",
              fmt::format("{}, {}, {}", withThousands(report->writers[0]), withThousands(report->writers[1]),
@@ -141,7 +154,7 @@ class SolverPanel : public Panel {
     ImGui::PlotHistogram("##writers", bars.data(), static_cast<int>(bars.size()), 0, nullptr, 0, FLT_MAX,
                          {ImGui::GetContentRegionAvail().x, std::floor(3 * ImGui::GetFontSize())});
     helpTooltip("Visible facets with 0, 1, ... 7 writers, and with 8 or more");
-    valueRow("W largest, change", shortNumber(report->largest) + ", " + shortNumber(report->change) + " W/m\u00B2");
+    valueRow("written W, change", shortNumber(report->largest) + ", " + shortNumber(report->change) + " W/m\u00B2");
     helpTooltip("The largest that is written back, and by how much it differs from what the light was solved with");
   }
 
@@ -163,7 +176,8 @@ class SolverPanel : public Panel {
 
   std::string sweepsText(const Session& session) const {
     const std::string done = withThousands(session.sweepsSinceWake);
-    if (session.built->solve.converged) return done + ", at target";
+    if (session.asleep()) return session.built->solve.converged ? done + ", target reached" : done;
+    if (session.sweepsSinceWake == 0) return "none yet";
     const std::optional<double> left = target_ > 0 ? sweepsLeft(bounds_, target_) : std::nullopt;
     return left ? fmt::format("{}, about {:.0f} left", done, std::ceil(*left)) : done;
   }
@@ -171,11 +185,11 @@ class SolverPanel : public Panel {
   void drawCurves() const {
     const PlotLine lines[] = {{"error bound", ImGui::GetColorU32(theme::accent), bound_},
                               {"residual", ImGui::GetColorU32(theme::good), residual_}};
-    drawPlot(lines, "sweeps", "residual and bound: from two calls on", "- - sleeps, W/m\u00B2");
+    drawPlot(lines, "sweep", "residual and bound are drawn from the second frame on", "dashed: target, W/m\u00B2");
   }
 
-  /// Over what the calls did; `few`: in place of curves of one call, `mark`: what the dashed line is.
-  void drawPlot(std::span<const PlotLine> lines, const char* steps, const char* few, const char* mark) const {
+  /// Over `step`s, in the singular; `few`: in place of curves of one call, `mark`: what the dashed line is.
+  void drawPlot(std::span<const PlotLine> lines, const char* step, const char* few, const char* mark) const {
     if (x_.size() < 2) {
       ImGui::TextColored(theme::dim, "%s", few);
       return;
@@ -183,7 +197,7 @@ class SolverPanel : public Panel {
     PlotAxes axes;
     axes.logarithmic = true;
     axes.x = x_;
-    axes.xText = [steps](float v) { return fmt::format("{:.0f} {}", v, steps); };
+    axes.xText = [step](float v) { return counted(static_cast<uint64_t>(v), step); };
     axes.yText = [](float v) { return shortNumber(v); };
     if (target_ > 0) axes.mark = static_cast<float>(target_);
     plot({ImGui::GetContentRegionAvail().x, std::floor(8 * ImGui::GetFontSize())}, lines, axes);
@@ -193,7 +207,9 @@ class SolverPanel : public Panel {
       ImGui::PopStyleColor();
       ImGui::SameLine();
     }
-    ImGui::TextColored(theme::dim, "%s", mark);
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
+    clippedText(mark, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
   }
 
   /// All channels together, W; the scene's units are taken for metres.
@@ -212,14 +228,15 @@ class SolverPanel : public Panel {
     helpTooltip("The sum of A (1 \u2212 \u03C1)(D + H)");
     valueRow("escaped", watts(energy.escaped));
     helpTooltip("The sum of A B (1 \u2212 row sum)");
-    valueRow("imbalance", fmt::format("{:+.2f} %", 100 * energy.imbalance()));
+    valueRow("imbalance", percentText(energy.imbalance(), 2, /*plus=*/true));
     helpTooltip(describe(energy, built.edge));
   }
 
   /// The numerical watch.
   static void drawWatch(const Built& built) {
     const SolveReport& report = built.solve;
-    valueRow("NaN, Inf, < 0", fmt::format("{}, {}, {}", report.nan, report.nonFinite - report.nan, report.negative));
+    valueRow("no number, \u221E, < 0",
+             fmt::format("{}, {}, {}", report.nan, report.nonFinite - report.nan, report.negative));
     helpTooltip("Components of B that are no number, infinite or negative: all should be 0");
     ImGui::PushTextWrapPos(0);
     for (const Finding& finding : built.findings)

@@ -31,19 +31,18 @@ class TimingsPanel : public Panel {
   void draw(Session& session) override {
     if (!paused_) history_.update(session.context.timings);
     const ImVec2 begin = ImGui::GetCursorPos();
-    drawControls(session);
-    ImGui::SetCursorPos(begin);
+    if (drawControls(session)) ImGui::SetCursorPos(begin);
     if (!ImGui::BeginTabBar("tabs")) return;
     if (ImGui::BeginTabItem("Plot")) {
       drawPlot();
       ImGui::EndTabItem();
     }
     if (ImGui::BeginTabItem("Table")) {
-      drawTable(session, /*setup=*/false);
+      drawTable(session);
       ImGui::EndTabItem();
     }
     if (ImGui::BeginTabItem("One-time")) {
-      drawTable(session, /*setup=*/true);
+      drawOneTime();
       ImGui::EndTabItem();
     }
     if (ImGui::BeginTabItem("Compare")) {
@@ -57,14 +56,20 @@ class TimingsPanel : public Panel {
   TimingHistory history_;
   bool paused_ = false, logarithmic_ = false;
   size_t window_ = kWindows[0];
-  std::vector<Timings::Row> rows_;
+  /// Of the frames looked back on or, where the stage did not run in these, when it last did.
+  struct Row {
+    std::string stage;
+    TimingStats stats;
+    bool old;
+  };
+  std::vector<Row> rows_;
   uint64_t rowsOf_ = UINT64_MAX;  ///< Timings::recorded() that rows_ are of
   size_t rowsWindow_ = 0;
   Refresh refresh_;
   RecordingComparison comparison_;
 
-  /// At the right end of the tabs' line.
-  void drawControls(Session& session) {
+  /// At the right end of the tabs' line, or on a line of their own where there is no room: then false.
+  bool drawControls(Session& session) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const std::string record =
         session.recorder.began
@@ -74,7 +79,10 @@ class TimingsPanel : public Panel {
     const float combo = button("3000 frames") + ImGui::GetFrameHeight();
     const float log = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize("log").x;
     const float width = log + combo + button("Resume") + button("Stop 000.0 s") + 3 * style.ItemSpacing.x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, ImGui::GetContentRegionAvail().x - width));
+    float tabs = 0;
+    for (const char* tab : {"Plot", "Table", "One-time", "Compare"}) tabs += button(tab) + style.ItemInnerSpacing.x;
+    const float rest = ImGui::GetContentRegionAvail().x - width;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, rest));
     ImGui::Checkbox("log", &logarithmic_);
     helpTooltip("The plot's milliseconds on a logarithmic axis");
     ImGui::SameLine();
@@ -93,6 +101,7 @@ class TimingsPanel : public Panel {
     helpTooltip(
         "Draws pictures without pause until it is stopped, and writes frames.csv, summary.csv and trace.json "
         "(for Perfetto) into a new folder");
+    return rest >= tabs;
   }
 
   // ---- Plot ----
@@ -142,6 +151,7 @@ class TimingsPanel : public Panel {
       return v >= 0 ? std::string("newest") : fmt::format("{} frame{} ago", -v, v == -1 ? "" : "s");
     };
     axes.yText = [](float v) { return withUnit(v); };
+    axes.ignoresOutlier = true;
     axes.bridge = 3;  // pictures and relights take turns
     const std::optional<size_t> column = plot({size.x, size.y}, lines, axes);
     if (!column) return std::nullopt;
@@ -154,11 +164,13 @@ class TimingsPanel : public Panel {
     const float label = ImGui::CalcTextSize("GPU 0000.00 ms ").x, height = ImGui::GetTextLineHeight();
     const auto bar = [&](const char* name, float total, auto&& parts, const char* help) {
       const ImVec2 low = ImGui::GetCursorScreenPos();
+      ImGui::BeginGroup();  // the tooltip is of the number, too
       const float width = ImGui::GetContentRegionAvail().x - label;
       ImGui::TextColored(theme::dim, "%s %s", name, withUnit(total).c_str());
       ImGui::SameLine(0, 0);
       ImGui::SetCursorScreenPos({low.x + label, low.y});
       ImGui::Dummy({std::max(width, 1.0f), height});
+      ImGui::EndGroup();
       helpTooltip(help);
       float x = low.x + label;
       parts([&](float ms, uint32_t color) {
@@ -199,7 +211,10 @@ class TimingsPanel : public Panel {
       if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         for (TimingHistory::Stage& other : history_.stages()) other.shown = &other == &stage;
     }
-    helpTooltip("Click: in the plot or not\nDouble click: this one alone");
+    helpTooltip(std::isnan(stage.ms[frame])
+                    ? "It did not run in this frame: the time is that of the last one in which it did.\nClick: in the "
+                      "plot or not\nDouble click: this one alone"
+                    : "Click: in the plot or not\nDouble click: this one alone");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 low{at.x + 0.2f * box, at.y + 0.2f * box}, high{at.x + 0.8f * box, at.y + 0.8f * box};
     if (stage.shown)
@@ -209,30 +224,87 @@ class TimingsPanel : public Panel {
     const ImU32 color = ImGui::GetColorU32(stage.shown ? theme::text : theme::dim);
     const ImVec4 clip{at.x, at.y, at.x + width - number, at.y + 2 * box};
     list.AddText(nullptr, 0, {at.x + 1.1f * box, at.y}, color, stage.name.c_str(), nullptr, 0, &clip);
-    if (std::isnan(stage.ms[frame])) return;
-    const std::string ms = milliseconds(stage.ms[frame]);
-    list.AddText({at.x + width - ImGui::CalcTextSize(ms.c_str()).x, at.y}, color, ms.c_str());
+    // Where it did not run, what it took the last time, in grey.
+    const bool ran = !std::isnan(stage.ms[frame]);
+    const std::string ms = milliseconds(ran ? stage.ms[frame] : stage.last);
+    list.AddText({at.x + width - ImGui::CalcTextSize(ms.c_str()).x, at.y}, ran ? color : ImGui::GetColorU32(theme::dim),
+                 ms.c_str());
   }
 
   // ---- Tables ----
 
-  void drawTable(const Session& session, bool setup) {
+  void drawTable(const Session& session) {
     const Timings& timings = session.context.timings;
     const bool stale = timings.recorded() != rowsOf_ || rowsWindow_ != window_;
     if (stale && !paused_ && refresh_.due(session)) {
-      rows_ = timingRows(stageSamples(timings.frames(), window_));
+      rows_.clear();
+      for (const TimingHistory::Stage& stage : history_.stages()) {
+        std::vector<double> ms = history_.times(stage, window_);
+        const bool old = ms.empty();
+        if (old) ms.push_back(double{stage.last});
+        rows_.push_back({stage.name, statistics(std::move(ms)), old});
+      }
       rowsOf_ = timings.recorded();
       rowsWindow_ = window_;
     }
-    if (!beginNumberTable("times", {"stage, GPU ms", "mean", "min", "max", "std", "p50", "p95", "p99", "samples"}, {0}))
+    if (!beginNumberTable("times",
+                          {{"stage, GPU ms",
+                            "Of every stage its time on the GPU, in the frames looked back on that ran it, ms", true},
+                           {"mean", "Mean of the samples, ms"},
+                           {"min", "The shortest, ms"},
+                           {"max", "The longest, ms"},
+                           {"std", "Standard deviation of the samples, ms"},
+                           {"p50", "Median: half of the samples took no longer, ms"},
+                           {"p95", "95 % of the samples took no longer, ms"},
+                           {"p99", "99 % of the samples took no longer, ms"},
+                           {"samples", "Frames, of those looked back on, that ran the stage; last: none did"}}))
       return;
-    for (const Timings::Row& row : rows_) {
-      if ((row.kind == WorkKind::Setup) != setup) continue;
+    for (const Row& row : rows_) {
+      ImGui::PushStyleColor(ImGuiCol_Text, row.old ? theme::dim : theme::text);
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       clippedText(row.stage, ImGui::GetContentRegionAvail().x);
+      ImGui::tellControl(fmt::format("{}={}", row.stage, row.old ? "last" : "frames").c_str());
+      if (row.old) helpTooltip("It did not run in the frames looked back on: this is what it took the last time.");
       const TimingStats& s = row.stats;
       for (const double value : {s.mean, s.min, s.max, s.std, s.p50, s.p95, s.p99}) {
+        ImGui::TableNextColumn();
+        rightText(milliseconds(value));
+      }
+      ImGui::TableNextColumn();
+      rightText(row.old ? std::string("last") : fmt::format("{}", s.samples));
+      ImGui::PopStyleColor();
+    }
+    ImGui::EndTable();
+  }
+
+  /// Under a line for each scene and resolution the stages of its set-up.
+  void drawOneTime() {
+    if (history_.oneTime().empty()) return ImGui::TextColored(theme::dim, "nothing was built yet");
+    if (!beginNumberTable(
+            "one-time",
+            {{"stage, GPU ms", "Of every stage of a build its time on the GPU, by scene and resolution, ms", true},
+             {"last", "In the newest build, ms"},
+             {"mean", "Mean of all builds, ms"},
+             {"min", "The shortest, ms"},
+             {"max", "The longest, ms"},
+             {"times", "Builds that ran the stage"}}))
+      return;
+    const std::string* of = nullptr;
+    for (const TimingHistory::OneTime& row : history_.oneTime()) {
+      if (of == nullptr || *of != row.of) {
+        of = &row.of;
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextColored(theme::accent, "%s", clipped(row.of, ImGui::GetContentRegionAvail().x).c_str());
+        ImGui::tellControl(row.of.c_str());
+      }
+      const TimingStats s = statistics(row.ms);
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      clippedText(row.stage, ImGui::GetContentRegionAvail().x);
+      ImGui::tellControl(fmt::format("{}={}", row.stage, s.samples).c_str());
+      for (const double value : {row.ms.back(), s.mean, s.min, s.max}) {
         ImGui::TableNextColumn();
         rightText(milliseconds(value));
       }

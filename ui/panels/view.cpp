@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "gi/thesis/jump_flood.h"
+#include "ui/histogram.h"
 #include "ui/imgui.h"
 #include "ui/panel.h"
 #include "ui/setting_rows.h"
@@ -41,6 +43,7 @@ class ViewPanel : public Panel {
     if (info != nullptr) {
       const std::string unit = shownQuantity(*info, session.edited).unit;
       valueRow("unit", unit.empty() ? "none" : prettyUnit(unit));
+      helpTooltip("Of the view's values, in the legend and in the status line");
       drawShape(session, *info);
       if (info->isFrom(FROM_JUMP_FLOOD)) drawPass(session);
       if (info->isFrom(FROM_SHADOW_MAPS)) drawLight(session);
@@ -48,14 +51,26 @@ class ViewPanel : public Panel {
       if (info->hasRange()) drawRange(session, *info);
       if (info->toneMapped()) {
         row(session, "camera.exposure");
+        row(session, "camera.auto_exposure");
+        if (session.edited.camera.autoExposure) {
+          valueRow("exposed", fmt::format("{:+.2f} EV", std::log2(session.exposure())));
+          helpTooltip("What the picture is exposed by, the automatic part included: 2^EV times as bright as it is");
+        }
         row(session, "camera.tone_curve");
+      }
+      if (ImGui::TreeNodeEx("Histogram", ImGuiTreeNodeFlags_SpanAvailWidth)) {
+        drawHistogram(session, *info);
+        ImGui::TreePop();
       }
     }
     ImGui::Separator();
     const glm::dvec3 p = session.camera.camera().position;
     valueRow("position", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
+    helpTooltip("The camera's x, y, z in the scene's units, in glTF metres");
     valueRow("speed", fmt::format("{:.3g} units/s", session.camera.unitsPerSecond()));
+    helpTooltip("At which keys fly, scene units a second; the wheel over the picture changes it");
     valueRow("picture", fmt::format("{} \u00D7 {}", session.targets.size.x, session.targets.size.y));
+    helpTooltip("Width and height in pixels, which Save (F12) takes, too");
     if (ImGui::Button("Save (F12)", {-1, 0})) session.capture = true;
     helpTooltip(
         "This view at this size as PNG (as shown) and EXR (linear, before exposure and tone curve), and the manifest "
@@ -141,7 +156,7 @@ class ViewPanel : public Panel {
     if (!session.pipeline) return;
     const Pipeline& pipeline = *session.pipeline;
     if (info.isFrom(FROM_PICTURE) && !pipeline.hasReference())
-      note("There is no picture to compare with: drop an .exr, or drop an .exr or .hdr on the window.");
+      note("There is no picture to compare with: open an .exr, .hdr or .pfm, or drop one on the window.");
     else if (info.isFrom(FROM_PICTURE) && info.isFrom(FROM_TARGETS))
       note(fmt::format(
           "(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of picture and reference, from the reference's "
@@ -166,15 +181,17 @@ class ViewPanel : public Panel {
     }
     if (session.range && session.rangeView == info.view) {
       valueRow("shown", fmt::format("{:.4g} to {:.4g}", session.range->low, session.range->high));
+      helpTooltip("The values at both ends of the colours, in the view's unit");
       if (mode != RangeMode::manual && ImGui::Button("Keep this range", {-1, 0})) {
         session.edited.view.low = std::max(session.range->low, -1e6f);
         session.edited.view.high = std::min(session.range->high, 1e6f);
         session.edited.view.range = RangeMode::manual;
       }
     }
-    if (info.kind == VIEW_KIND_SIGNED)
+    if (info.kind == VIEW_KIND_SIGNED) {
       valueRow("color map", colorMapName(COLOR_MAP_BLUE_RED));
-    else
+      helpTooltip("Of values with a sign always this: blue below 0, red above");
+    } else
       row(session, "view.color_map");
   }
 

@@ -1,4 +1,4 @@
-#include "app/config.h"
+#include "gi/config.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,15 +7,14 @@
 #include <set>
 #include <tuple>
 
-#include "app/progress.h"
-#include "app/version.h"
 #include "gi/manifest.h"
 #include "renderer/base/error.h"
 #include "renderer/base/json_reader.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
+#include "renderer/scene/material_edits.h"
 
-namespace irad::app {
+namespace irad {
 namespace fs = std::filesystem;
 namespace {
 
@@ -52,7 +51,7 @@ std::pair<std::optional<fs::path>, std::optional<std::string>> readNamedFile(con
   return {file, member<std::string>(path, json[name], "sha256")};
 }
 
-/// Cameras or lights, by `parse`, which names the element and its field.
+/// Cameras, lights or materials, by `parse`, which names the element and its field.
 template <class Parse>
 auto readArray(const fs::path& path, const Json& json, const char* name, Parse&& parse) {
   try {
@@ -75,10 +74,9 @@ void checkFormat(const fs::path& path, const Json& json) {
     for (const auto& [name, value] : settings.items()) unknown.insert(name);
   unknown.erase("format");
   for (const Setting& known : settingTable()) unknown.erase(known.name);
-  throw InputError(
-      fmt::format("{}: is of format {}, written by a newer program; irad {} reads up to format {}{}", path.string(),
-                  format, versionNumber(), kConfigFormat,
-                  unknown.empty() ? "" : fmt::format("; settings it does not know: {}", fmt::join(unknown, ", "))));
+  throw InputError(fmt::format(
+      "{}: is of format {}, written by a newer program; this one reads up to format {}{}", path.string(), format,
+      kConfigFormat, unknown.empty() ? "" : fmt::format("; settings it does not know: {}", fmt::join(unknown, ", "))));
 }
 
 }  // namespace
@@ -96,6 +94,19 @@ Config readConfigFile(const fs::path& path) {
   }
   config.manifest = true;
   config.settings = json["settings"].dump();
+  const auto word = [&](const char* object, const char* name) {
+    return json.contains(object) ? member<std::string>(path, json[object], name).value_or("") : "";
+  };
+  config.program = word("program", "version");
+  if (const std::string commit = word("program", "commit"); !commit.empty()) config.program += ", " + commit;
+  config.device = word("device", "name");
+  config.driver = word("device", "driver");
+  if (json.contains("other_settings")) config.otherSettings = json["other_settings"].dump();
+  if (const auto time = member<std::string>(path, json, "time")) {
+    config.time = timeFromText(*time);
+    if (!config.time)
+      throw InputError(fmt::format("{}: time: expected YYYY-MM-DDThh:mm:ssZ, not {}", path.string(), *time));
+  }
   std::tie(config.scene, config.sceneSha256) = readNamedFile(path, json, "scene");
   std::tie(config.reference, config.referenceSha256) = readNamedFile(path, json, "reference");
   std::tie(config.sky, config.skySha256) = readNamedFile(path, json, "sky");
@@ -111,14 +122,10 @@ Config readConfigFile(const fs::path& path) {
   config.shaders = member<std::vector<std::string>>(path, json, "shaders").value_or(std::vector<std::string>{});
   if (json.contains("cameras")) config.cameras = readArray(path, json, "cameras", camerasFromJson);
   if (json.contains("lights")) config.lights = readArray(path, json, "lights", lightsFromJson);
+  if (json.contains("materials")) config.materials = readArray(path, json, "materials", materialEditsFromJson);
+  config.hidden.paths = member<std::vector<std::string>>(path, json, "hidden").value_or(std::vector<std::string>{});
+  config.hidden.isolated = member<std::string>(path, json, "isolated").value_or("");
   return config;
 }
 
-void warnIfOther(ProgressReport& progress, const Config& config, const fs::path& path, const std::string& sha256,
-                 const std::optional<std::string>& named) {
-  if (named && *named != sha256)
-    progress.note(fmt::format("warning: {} is not the file that {} names: SHA-256 {} instead of {}", path.string(),
-                              config.path.string(), sha256, *named));
-}
-
-}  // namespace irad::app
+}  // namespace irad

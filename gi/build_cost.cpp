@@ -1,0 +1,112 @@
+#include "gi/build_cost.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "gi/facets.h"
+#include "gi/field.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/memory_report.h"
+#include "gi/pipeline.h"
+#include "renderer/base/number_text.h"
+
+namespace irad {
+namespace {
+
+/// Exponents of N and R between the ends of the table in docs/performance.md (N 64 to 192 with 128 rays, 64 to 384 rays
+/// with N = 128): voxelization and list 363 -> 1,943 ms; the field, N^3 by its definition; the matrix 2,269 -> 18,870
+/// and 4,106 -> 21,871 ms; gather and scatter 44 -> 312 ms, with sweeps that grow with the rays.
+struct Growth {
+  double resolution, rays;
+};
+constexpr std::array<Growth, BuildTimes::kParts> kGrowth{{{1.5, 0}, {3, 0}, {1.93, 0.93}, {1.9, 0.4}}};
+constexpr double kEntriesByRays = 0.93;
+
+constexpr double resolutionOf(const Settings& s) {
+  return s.voxel.resolution;
+}
+constexpr double raysOf(const Settings& s) {
+  return s.matrix.gpu.rays;
+}
+
+/// Whether a part is redone where `first` is the first stage that is. Stages that need no redoing after it are counted:
+/// materials alone leave the matrix, and count as light.
+bool redone(BuildTimes::Part part, Redo first) {
+  switch (part) {
+    case BuildTimes::Part::Voxels:
+      return first <= Redo::Voxels;
+    case BuildTimes::Part::Field:
+      return first <= Redo::Field;
+    case BuildTimes::Part::Matrix:
+      return first <= Redo::Matrix;
+    case BuildTimes::Part::Light:
+      return first < Redo::Shade;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string costText(const BuildCost& cost) {
+  const std::string time = cost.ms < 950 ? fmt::format("{:.0f} ms", cost.ms) : fmt::format("{:.1f} s", 1e-3 * cost.ms);
+  return fmt::format("{}, {:.0f} MiB", time, inMebibytes(cost.bytes));
+}
+
+BuildTimes::Part BuildTimes::partOf(const char* stage) {
+  const std::string_view name(stage);
+  if (name == "GI Voxelization") return Part::Voxels;
+  if (name == "GI SDF") return Part::Field;
+  if (name == "GI BuildMatrix") return Part::Matrix;
+  return Part::Light;
+}
+
+void BuildTimes::took(Part part, double ms, const Settings& settings) {
+  seen_[static_cast<size_t>(part)] = Seen{ms, resolutionOf(settings), raysOf(settings)};
+}
+
+std::optional<double> BuildTimes::predict(const Settings& wanted, Redo first) const {
+  double sum = 0;
+  bool any = false;
+  for (size_t i = 0; i < kParts; ++i) {
+    if (!redone(static_cast<Part>(i), first)) continue;
+    if (!seen_[i]) return std::nullopt;
+    sum += seen_[i]->ms * std::pow(resolutionOf(wanted) / seen_[i]->resolution, kGrowth[i].resolution) *
+           std::pow(raysOf(wanted) / seen_[i]->rays, kGrowth[i].rays);
+    any = true;
+  }
+  return any ? std::optional(sum) : std::nullopt;
+}
+
+uint64_t predictedBytes(const Pipeline& pipeline, uint64_t used, const Settings& wanted, Redo first) {
+  const FacetList& facets = pipeline.facets();
+  const FormFactors& matrix = pipeline.matrix();
+  const MemoryCounts now = memoryCounts(facets, matrix);
+  const double n = resolutionOf(wanted) / resolutionOf(pipeline.settings());
+  const double r = raysOf(wanted) / raysOf(pipeline.settings());
+  const auto grown = [](uint64_t count, double factor) {
+    return static_cast<uint64_t>(std::llround(static_cast<double>(count) * factor));
+  };
+  MemoryCounts then = now;
+  if (first <= Redo::Voxels) {
+    then.facets = grown(now.facets, n * n);
+    then.voxels = grown(now.voxels, n * n * n);
+  }
+  if (first <= Redo::Matrix) {
+    then.rows = grown(now.rows, n * n);
+    then.rays = grown(now.rays, r);
+    then.entries = grown(now.entries, n * n * std::pow(r, kEntriesByRays));
+  }
+  const auto sum = [&](const MemoryCounts& counts) {
+    uint64_t bytes = 0;
+    for (const auto& [name, size] : predictMemory(facets, pipeline.field(), matrix, pipeline.lighting(), counts))
+      bytes += size;
+    return bytes;
+  };
+  return used + sum(then) - std::min(sum(now), used + sum(then));
+}
+
+}  // namespace irad

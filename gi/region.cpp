@@ -1,0 +1,192 @@
+#include "gi/region.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gi/settings.h"
+#include "renderer/base/error.h"
+#include "shaders/shared/sampling.h"
+
+namespace irad {
+namespace {
+
+std::string corners(const glm::dvec3& lo, const glm::dvec3& hi) {
+  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+}
+
+bool holds(const SceneRegion& region, const glm::vec3& p) {
+  return glm::all(glm::greaterThanEqual(p, region.lo)) && glm::all(glm::lessThanEqual(p, region.hi));
+}
+
+/// A part that is no smaller than this share of the scene gets enough voxels of the whole.
+constexpr double kSmall = 1.0 / 24;
+/// Triangles are detail below this share of the median size.
+constexpr double kFine = 0.25;
+/// Of the detail's area so much may lie outside on either side of an axis.
+constexpr double kStray = 0.002;
+
+/// Of the light outside this share may be reflected from there to there.
+constexpr double kShared = 0.02;
+
+struct Weighted {
+  double value, weight;
+};
+/// The least value up to which there is this share of the weight.
+double quantile(std::vector<Weighted>& of, double share) {
+  std::sort(of.begin(), of.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  double all = 0, sum = 0;
+  for (const Weighted& w : of) all += w.weight;
+  for (const Weighted& w : of)
+    if ((sum += w.weight) >= share * all) return w.value;
+  return of.back().value;
+}
+
+double largest(const glm::dvec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+/// Of the light that falls on what lies outside, the share that is reflected onto other parts of it, at most: by rays
+/// from points of its area. What is outside passes no light on, so that this is what would be missing there.
+double sharedOutside(const Scene& scene, const SceneRegion& region) {
+  constexpr uint32_t kRays = 256;
+  std::vector<double> albedo(scene.triangleCount());
+  std::vector<bool> bothSides(scene.triangleCount());
+  for (const Draw& draw : scene.draws) {
+    const Material& m = scene.materials.at(draw.material);
+    for (uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
+      albedo[i / 3] = double{std::max({m.baseColor.r, m.baseColor.g, m.baseColor.b})} * (1 - double{m.metallic});
+      bothSides[i / 3] = m.doubleSided;
+    }
+  }
+  struct Face {
+    glm::dvec3 a, b, c;  ///< a corner, and the edges to the others
+    double albedo, end;  ///< end: of its share of the area before and with it
+    bool bothSides;
+  };
+  std::vector<Face> faces;
+  double area = 0;
+  for (const uint32_t t : trianglesOutside(scene, region)) {
+    const auto corner = [&](uint32_t i) { return glm::dvec3(scene.positions[scene.indices[3 * size_t{t} + i]]); };
+    const glm::dvec3 a = corner(0), b = corner(1) - a, c = corner(2) - a;
+    const double own = 0.5 * glm::length(glm::cross(b, c));
+    if (own > 0) faces.push_back({a, b, c, albedo[t], area += own, bothSides[t]});
+  }
+  if (faces.empty()) return 0;
+  double sum = 0;
+  for (uint32_t k = 0; k < kRays; ++k) {
+    const double at = (k + 0.5) / kRays * area;
+    const auto found =
+        std::lower_bound(faces.begin(), faces.end(), at, [](const Face& f, double x) { return f.end < x; });
+    const Face& from = found == faces.end() ? faces.back() : *found;
+    if (from.albedo == 0) continue;
+    glm::dvec2 on(hammersley(k, kRays, uvec2(0x9E3779B9u, 0x85EBCA6Bu)));
+    if (on.x + on.y > 1) on = 1.0 - on;
+    const glm::dvec3 normal = glm::normalize(glm::cross(from.b, from.c)) * (from.bothSides && k % 2 != 0 ? -1.0 : 1.0);
+    const glm::dvec3 origin = from.a + on.x * from.b + on.y * from.c;
+    const glm::dvec3 d(toWorld(cosineDirection(hammersley(k, kRays, uvec2(0))), glm::vec3(normal)));
+    const double reach = 1e-6 * std::sqrt(area);
+    // Moeller and Trumbore 1997; any meeting counts.
+    sum += from.albedo * std::ranges::any_of(faces, [&](const Face& f) {
+             const glm::dvec3 p = glm::cross(d, f.c), s = origin - f.a, q = glm::cross(s, f.b);
+             const double det = glm::dot(f.b, p), u = glm::dot(s, p) / det, v = glm::dot(d, q) / det;
+             return &f != &from && (det > 0 || (f.bothSides && det < 0)) && u >= 0 && v >= 0 && u + v <= 1 &&
+                    glm::dot(f.c, q) / det > reach;
+           });
+  }
+  return sum / kRays;
+}
+
+/// The part that holds the detail; nothing where that is not small, or what lies around it lights itself.
+std::optional<SceneRegion> detailOf(const Scene& scene) {
+  struct Face {
+    glm::dvec3 lo, hi;
+    double size, area;
+  };
+  std::vector<Face> faces;
+  std::vector<Weighted> sizes;
+  std::vector<bool> emits(scene.triangleCount());
+  for (const Draw& draw : scene.draws)
+    for (uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3)
+      emits[i / 3] = scene.materials.at(draw.material).emission != glm::vec3(0);
+  for (uint32_t t = 0; t < scene.triangleCount(); ++t) {
+    const auto corner = [&](uint32_t i) { return glm::dvec3(scene.positions[scene.indices[3 * size_t{t} + i]]); };
+    const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
+    // A lamp is nothing that needs voxels.
+    const double area = emits[t] ? 0 : 0.5 * glm::length(glm::cross(b - a, c - a));
+    const double size = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    faces.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), size, area});
+    sizes.push_back({size, 0.5 * glm::length(glm::cross(b - a, c - a))});
+  }
+  const double fine = kFine * quantile(sizes, 0.5);
+  std::erase_if(faces, [&](const Face& f) { return !(f.size < fine) || !(f.area > 0); });
+  if (faces.empty()) return std::nullopt;
+  glm::dvec3 lo, hi;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Weighted> low, high;
+    for (const Face& f : faces) low.push_back({f.lo[axis], f.area}), high.push_back({f.hi[axis], f.area});
+    lo[axis] = quantile(low, kStray);
+    hi[axis] = quantile(high, 1 - kStray);
+  }
+  const glm::dvec3 boundsLo(scene.boundsMin), boundsHi(scene.boundsMax);
+  const double whole = largest(boundsHi - boundsLo), extent = largest(hi - lo);
+  if (!(extent <= kSmall * whole)) return std::nullopt;
+  // As much again on all sides: what is beside it lights it, and is in its shadow.
+  lo -= extent, hi += extent;
+  if (!scene.defaultCamera)
+    for (const Camera& camera : scene.cameras) {
+      const glm::dvec3 at = glm::clamp(camera.position - scene.origin, boundsLo, boundsHi);
+      lo = glm::min(lo, at), hi = glm::max(hi, at);
+    }
+  lo = glm::max(lo, boundsLo), hi = glm::min(hi, boundsHi);
+  if (largest(hi - lo) > 0.75 * whole) return std::nullopt;
+  const SceneRegion region{glm::vec3(lo), glm::vec3(hi), false};
+  return sharedOutside(scene, region) <= kShared ? std::optional(region) : std::nullopt;
+}
+
+}  // namespace
+
+SceneRegion regionOf(const Scene& scene, const Settings& settings) {
+  const SceneRegion whole{scene.boundsMin, scene.boundsMax, true};
+  const RegionSettings& wanted = settings.scene.region;
+  if (wanted.mode == RegionMode::whole || scene.triangleCount() == 0) return whole;
+  if (wanted.mode == RegionMode::automatic) {
+    if (settings.matrix.gpu.hitRule == HitRule::thesis) return whole;
+    return detailOf(scene).value_or(whole);
+  }
+  const glm::dvec3 lo(wanted.x0, wanted.y0, wanted.z0), hi(wanted.x1, wanted.y1, wanted.z1);
+  SceneRegion region{glm::max(glm::vec3(lo - scene.origin), scene.boundsMin),
+                     glm::min(glm::vec3(hi - scene.origin), scene.boundsMax), false};
+  if (glm::any(glm::greaterThan(region.lo, region.hi)))
+    throw UsageError(
+        fmt::format("scene.region={}: holds nothing of the scene, which lies in {}", corners(lo, hi),
+                    corners(scene.origin + glm::dvec3(scene.boundsMin), scene.origin + glm::dvec3(scene.boundsMax))));
+  region.whole = region.lo == scene.boundsMin && region.hi == scene.boundsMax;
+  return region;
+}
+
+std::vector<uint32_t> trianglesOutside(const Geometry& geometry, const SceneRegion& region) {
+  std::vector<uint32_t> out;
+  if (region.whole) return out;
+  for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
+    for (uint32_t i = 0; i < 3; ++i)
+      if (!holds(region, geometry.positions[geometry.indices[3 * size_t{t} + i]])) {
+        out.push_back(t);
+        break;
+      }
+  return out;
+}
+
+std::string describe(const Scene& scene, const SceneRegion& region) {
+  if (region.whole) return {};
+  const size_t outside = trianglesOutside(scene, region).size();
+  const glm::dvec3 lo = scene.origin + glm::dvec3(region.lo), hi = scene.origin + glm::dvec3(region.hi);
+  return fmt::format(
+      "scene.region: voxels are made of {} alone; {} of {} triangles lie outside of it, at least in part: there they "
+      "are lit directly, and give light, but pass none on",
+      corners(lo, hi), outside, scene.triangleCount());
+}
+
+}  // namespace irad

@@ -1,0 +1,31 @@
+// The part of a scene that has voxels (scene.region, docs/method.md 2).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace irad {
+
+struct Settings;
+
+struct SceneRegion {
+  glm::vec3 lo{0}, hi{0};  ///< local; the scene's bounds where it is the whole
+  bool whole = true;
+  bool operator==(const SceneRegion&) const = default;
+};
+
+/// What the settings ask for, within the scene's bounds. UsageError, with the setting and its value, where that holds
+/// nothing of the scene.
+SceneRegion regionOf(const Scene& scene, const Settings& settings);
+
+/// Triangles with a part outside the region, ascending.
+std::vector<uint32_t> trianglesOutside(const Geometry& geometry, const SceneRegion& region);
+
+/// What is left out, in a line; empty where nothing is. World coordinates.
+std::string describe(const Scene& scene, const SceneRegion& region);
+
+}  // namespace irad

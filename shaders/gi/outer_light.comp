@@ -1,0 +1,64 @@
+// "GI Gather" outside the grid (docs/method.md 6): of each point there, what lights bring it past the triangles of the
+// whole scene, what comes straight from the sky and from what emits, and the radiance that follows. The directions are
+// the same for all points, so that their noise is no pattern on a plane.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/sampling.h"
+#include "shared/solve.h"
+#define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
+#include "forward/light.glsl"
+#include "gi/seen_point.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { OuterLightPush p; };
+
+/// A share of a lattice's step by which its points lie off their triangle's edges, on which others may stand.
+const float INSET = 0.1f;
+
+SurfelPoint liftedPoint(SurfaceArrays surface, OuterArrays outer, OuterPoint point) {
+  uint triangle = point.side & ~SURFEL_BACK, edges = outer.lattice.at[triangle].edges;
+  Triangle t = triangleAt(surface.corners, triangle);
+  vec2 at = vec2(1.0f / 3.0f);
+  if (edges > 0u) {
+    at = vec2(float(point.place & 0xFFFFu), float(point.place >> 16)) / float(edges);
+    at += (vec2(1.0f / 3.0f) - at) * (INSET / float(edges));
+  }
+  vec3 facing = facingOf(t, (point.side & SURFEL_BACK) != 0u);
+  vec3 position = t.a + at.x * (t.b - t.a) + at.y * (t.c - t.a);
+  return SurfelPoint(liftedOff(surface, triangle, position, facing), facing, triangle);
+}
+
+void main() {
+  uint index = irad_index();
+  if (index >= p.count) return;
+  SurfaceArrays surface = p.surface.at[0];
+  OuterArrays outer = surface.outer.at[0];
+  TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, 0.0f);
+  GpuScene scene = p.scene.at[0];
+  OuterPoint point = outer.points.at[index];
+  SurfelPoint from = liftedPoint(surface, outer, point);
+  vec3 position = p.origin + p.edge * from.position;
+  vec3 direct = vec3(0.0f);
+  for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {
+    GpuLight light = scene.lights.at[i];
+    vec3 irradiance = lightIrradiance(light, position, from.facing);
+    if (irradiance == vec3(0.0f)) continue;
+    direct += irradiance * lightShare(world, surface, from, light, position, p.edge, 0u, 1u, light.points, uvec2(0u));
+  }
+  vec3 sky = vec3(0.0f);
+  for (uint k = 0u; k < OUTER_RAYS; ++k) {
+    vec3 direction = toWorld(cosineDirection(hammersley(k, OUTER_RAYS, uvec2(0u))), from.facing);
+    uint met = traceScene(world, surface, from.position, direction, from.triangle).facet;
+    if (met == TRACE_ESCAPED)
+      sky += IRAD_PI * p.bins.at[skyBin(direction, SKY_EDGE)].xyz;
+    else if (isOuter(met))
+      sky += outer.exitance.at[outer.points.at[met - metOuter(0u)].side & ~SURFEL_BACK];
+    else if (met <= TRACE_LAST_FACET && p.facets.hasEmission != 0u)
+      sky += p.facets.emission.at[met];
+  }
+  sky /= float(OUTER_RAYS);
+  p.irradiance.at[index] = vec4(sky, 0.0f);
+  uint triangle = point.side & ~SURFEL_BACK;
+  vec3 radiosity = outer.exitance.at[triangle] + outer.albedo.at[triangle] * (direct + sky);
+  p.bins.at[SKY_BINS + index] = vec4(radiosity / IRAD_PI, 0.0f);
+}

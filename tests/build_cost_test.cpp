@@ -1,0 +1,109 @@
+// What a rebuild is predicted to take, against real builds of the Box at several resolutions and numbers of rays.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "gi/build_cost.h"
+#include "gi/pipeline.h"
+#include "renderer/scene/scene.h"
+#include "tests/gi_fixture.h"
+
+namespace irad::test::build_cost_suite {
+namespace {
+
+Settings sized(uint32_t resolution, uint32_t rays) {
+  Settings settings = defaultSettings(/*cpuDevice=*/true);
+  settings.voxel.resolution = resolution;
+  settings.matrix.gpu.rays = rays;
+  return settings;
+}
+
+TEST(BuildTimes, GrowAsTheDocumentsSay) {
+  BuildTimes times;
+  const Settings made = sized(64, 128);
+  EXPECT_FALSE(times.predict(made, Redo::Voxels)) << "nothing was timed";
+  times.took(BuildTimes::Part::Voxels, 400, made);
+  times.took(BuildTimes::Part::Field, 2, made);
+  times.took(BuildTimes::Part::Matrix, 2000, made);
+  times.took(BuildTimes::Part::Light, 100, made);
+  EXPECT_FALSE(times.predict(made, Redo::Nothing));
+  EXPECT_FALSE(times.predict(made, Redo::Shade));
+  EXPECT_NEAR(*times.predict(made, Redo::Voxels), 2502, 1e-6) << "the same again";
+  EXPECT_NEAR(*times.predict(made, Redo::Matrix), 2100, 1e-6);
+  EXPECT_NEAR(*times.predict(made, Redo::Solve), 100, 1e-6);
+  // docs/performance.md: 128 rays from N = 64 to 192, and N = 128 from 64 to 384 rays.
+  BuildTimes documented;
+  documented.took(BuildTimes::Part::Matrix, 2269, made);
+  documented.took(BuildTimes::Part::Light, 0, made);
+  EXPECT_NEAR(*documented.predict(sized(192, 128), Redo::Matrix), 18870, 0.02 * 18870);
+  documented.took(BuildTimes::Part::Matrix, 4106, sized(128, 64));
+  EXPECT_NEAR(*documented.predict(sized(128, 384), Redo::Matrix), 21871, 0.02 * 21871);
+}
+
+TEST(BuildTimes, StagesHaveTheNamesOfTheirProgress) {
+  EXPECT_EQ(BuildTimes::partOf("GI Voxelization"), BuildTimes::Part::Voxels);
+  EXPECT_EQ(BuildTimes::partOf("GI SDF"), BuildTimes::Part::Field);
+  EXPECT_EQ(BuildTimes::partOf("GI BuildMatrix"), BuildTimes::Part::Matrix);
+  for (const char* light : {"GI Materials", "GI Solve", "GI BruteForce"})
+    EXPECT_EQ(BuildTimes::partOf(light), BuildTimes::Part::Light) << light;
+  EXPECT_EQ(costText({1900, 480u << 20}), "1.9 s, 480 MiB");
+  EXPECT_EQ(costText({420, 12u << 20}), "420 ms, 12 MiB");
+}
+
+class BuildCostTest : public GiTest {};
+
+/// From each of several sizes to others. The memory's formulas are exact but for the counts of facets and entries that
+/// they are given. Times are the machine's, and waver by more than the growth is off: they are printed, and what is
+/// held is the growth itself, above.
+TEST_F(BuildCostTest, IsNearToWhatRealBuildsTake) {
+  const std::vector<std::pair<uint32_t, uint32_t>> sizes{{32, 64}, {48, 64}, {64, 64}, {64, 128}, {48, 128}};
+  Pipeline pipeline(context(), loadScene(assets() / "box.glb"), sized(32, 64));
+  BuildTimes times;
+  const auto build = [&] {
+    // On a processor its time, which other programs do not lengthen.
+    const auto time = [&] {
+      const auto wall = std::chrono::steady_clock::now().time_since_epoch();
+      return context().device.isCpu ? 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC
+                                    : std::chrono::duration<double, std::milli>(wall).count();
+    };
+    const double began = time();
+    double since = began;
+    std::optional<BuildTimes::Part> part;
+    std::array<double, BuildTimes::kParts> ms{};
+    const auto runs = [&](std::optional<BuildTimes::Part> next) {
+      const double now = time();
+      if (part) ms[static_cast<size_t>(*part)] += now - since;
+      since = now;
+      part = next;
+    };
+    pipeline.prepare([&](const char* stage, float) { return runs(BuildTimes::partOf(stage)), true; }, 4);
+    runs({});
+    for (size_t i = 0; i < ms.size(); ++i) times.took(static_cast<BuildTimes::Part>(i), ms[i], pipeline.settings());
+    return BuildCost{time() - began, context().device.memory().used()};
+  };
+  for (const auto& [resolution, rays] : sizes) {  // compiles the shaders
+    pipeline.set(sized(resolution, rays));
+    build();
+  }
+  double worstMemory = 0, worstTime = 0;
+  for (const auto& [resolution, rays] : sizes) {
+    const Settings wanted = sized(resolution, rays);
+    const Redo first = pipeline.due(wanted);
+    ASSERT_LT(first, Redo::Shade);
+    const std::optional<double> ms = times.predict(wanted, first);
+    ASSERT_TRUE(ms);
+    const uint64_t bytes = predictedBytes(pipeline, context().device.memory().used(), wanted, first);
+    pipeline.set(wanted);
+    const BuildCost took = build();
+    fmt::print("N {} rays {}: predicted {}; took {}\n", resolution, rays, costText({*ms, bytes}), costText(took));
+    const double memory = static_cast<double>(bytes) / static_cast<double>(took.bytes);
+    worstMemory = std::max(worstMemory, std::abs(std::log(memory)));
+    worstTime = std::max(worstTime, std::abs(std::log(*ms / took.ms)));
+  }
+  fmt::print("off by at most a factor {:.2f} in time, {:.3f} in memory\n", std::exp(worstTime), std::exp(worstMemory));
+  EXPECT_LT(std::exp(worstMemory), 1.15);
+}
+
+}  // namespace
+}  // namespace irad::test::build_cost_suite

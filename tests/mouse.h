@@ -1,0 +1,44 @@
+// The mouse of a virtual screen, moved and pressed so that a window that was started with --controls FILE sees it: a
+// busy device draws seldom, and what comes and goes between two frames is lost.
+#pragma once
+
+#include "tests/controls.h"
+#include "tests/virtual_screen.h"
+
+namespace irad::test {
+
+class Mouse {
+ public:
+  Mouse(const VirtualScreen& screen, std::filesystem::path controls)
+      : screen_(screen), controls_(std::move(controls)) {}
+
+  /// To "x y" of the screen.
+  void moveTo(const std::string& place) const {
+    screen_.xdotool("mousemove " + place);
+    waitUntilSeen(place, /*down=*/false);
+  }
+  /// Moves it there and presses its left button, which stays down.
+  void pressAt(const std::string& place) const {
+    moveTo(place);
+    screen_.xdotool("mousedown 1");
+    waitUntilSeen(place, /*down=*/true);
+  }
+  void tap(const std::string& place) const {
+    pressAt(place);
+    screen_.xdotool("mouseup 1");
+    waitUntilSeen(place, /*down=*/false);  // a button that is let go elsewhere is not clicked
+  }
+
+ private:
+  /// Until a frame has been drawn with the mouse there, its button up or down.
+  void waitUntilSeen(const std::string& place, bool down) const {
+    for (const auto end = Clock::now() + std::chrono::seconds(20); Clock::now() < end; pause(0.005))
+      for (const Control& c : readControls(controls_))
+        if (c.name == "pointer" && c.on == down && fmt::format("{} {}", c.area.x, c.area.y) == place) return;
+    ADD_FAILURE() << "the window does not see the mouse at " << place << (down ? ", pressed" : ", not pressed");
+  }
+  const VirtualScreen& screen_;
+  std::filesystem::path controls_;
+};
+
+}  // namespace irad::test

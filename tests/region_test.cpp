@@ -1,0 +1,299 @@
+// The part of a scene that has voxels (gi/region.h), and what lies outside of it (gi/outer.h): closed forms, the kernel
+// against the host, and that scenes without such a part keep the whole.
+#include "gi/region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "gi/check/check.h"
+#include "gi/check/families.h"
+#include "gi/host_trace.h"
+#include "gi/lighting.h"
+#include "gi/matrix.h"
+#include "gi/outer.h"
+#include "gi/pipeline.h"
+#include "gi/ray_kernel.h"
+#include "gi/subsystems.h"
+#include "gi/traits.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/material_edits.h"
+#include "shaders/shared/sky.h"
+#include "tests/gi_fixture.h"
+
+namespace irad::test::region_suite {
+namespace {
+
+void useBox(Settings& s, const glm::vec3& lo, const glm::vec3& hi) {
+  applySetting(s, fmt::format("scene.region={},{},{},{},{},{}", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z));
+}
+
+class Regions : public GiTest {
+ protected:
+  static Settings boxed(const glm::vec3& lo, const glm::vec3& hi, uint32_t resolution = 16, uint32_t rays = 256) {
+    Settings s = at(resolution, rays);
+    useBox(s, lo, hi);
+    return s;
+  }
+  /// Mean by area of the first channel over the facets that face along `facing`, and how much of it each has at least
+  /// and at most.
+  struct Spread {
+    double mean = 0, least = 1e30, most = 0;
+  };
+  Spread spread(Pipeline& p, const Buffer& of, const glm::vec3& facing) {
+    const HostFacets facets = hostFacets(context(), p.facets());
+    const std::vector<glm::vec4> v = downloadAs<glm::vec4>(context(), of);
+    Spread s;
+    double area = 0;
+    for (size_t i = 0; i < facets.count(); ++i) {
+      if (glm::dot(glm::vec3(facets.normal[i]), facing) < 0.99f) continue;
+      s.mean += facets.area[i] * v[i].x, area += facets.area[i];
+      s.least = std::min(s.least, double{v[i].x}), s.most = std::max(s.most, double{v[i].x});
+    }
+    s.mean /= area;
+    return s;
+  }
+};
+
+/// A box that faces outwards in the middle of a sphere of radius 100 that emits 1.
+Scene boxUnderDome(bool doubleSided = false) {
+  SceneBuilder b;
+  const uint32_t box = b.material(glm::vec3(0.5f)), dome = b.material(glm::vec3(0), glm::vec3(1), doubleSided);
+  b.box({box, box, box, box, box, box}, glm::vec3(-1), glm::vec3(1), /*inward=*/false);
+  b.sphere(dome, glm::vec3(0), 100, /*inward=*/true, 16);
+  return b.finish("box under a dome");
+}
+
+TEST_F(Regions, ADomeOutsideLightsWhatItIsAround) {
+  for (const bool doubleSided : {false, true}) {
+    Pipeline p(context(), boxUnderDome(doubleSided), boxed(glm::vec3(-1.5f), glm::vec3(1.5f)));
+    p.prepare();
+    EXPECT_NEAR(p.facets().grid.edge, 3.0 / 16, 1e-3);
+    EXPECT_TRUE(p.facets().outer);
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::vec3 facing(0);
+      facing[axis] = 1;
+      const Spread h = spread(p, p.lighting().indirect, facing), b = spread(p, p.lighting().radiosity, facing);
+      // A convex body sees nothing else: F = 1, H = M. Every ray counts.
+      EXPECT_NEAR(h.least, 1, 1e-5);
+      EXPECT_NEAR(h.most, 1, 1e-5);
+      EXPECT_NEAR(b.mean, 0.5, 1e-3);
+    }
+  }
+}
+
+TEST_F(Regions, WhatTheSunLightsOutsideIsReflectedOnce) {
+  // Walls that stand above a large plane see it in half of their directions: H = rho D / 2. The roof sees none of it.
+  SceneBuilder b;
+  const uint32_t ground = b.material(glm::vec3(0.4f)), wall = b.material(glm::vec3(0));
+  b.box({wall, wall, wall, wall, wall, wall}, {-1, 10, -1}, {1, 12, 1}, /*inward=*/false);
+  b.quad(ground, {-2000, 0, 2000}, {2000, 0, 2000}, {2000, 0, -2000}, {-2000, 0, -2000});
+  b.sun({0, -1, 0}, 3);
+  Pipeline p(context(), b.finish("box above a plane"), boxed({-1.5f, 9, -1.5f}, {1.5f, 13, 1.5f}));
+  p.prepare();
+  EXPECT_NEAR(spread(p, p.lighting().indirect, {1, 0, 0}).mean, 0.5 * 0.4 * 3, 0.01);
+  EXPECT_EQ(spread(p, p.lighting().indirect, {0, 1, 0}).most, 0);
+  // The plane is lit but for the box's shadow, which is small against the lattice: below the box no point lies in it.
+  EXPECT_NEAR(spread(p, p.lighting().indirect, {0, -1, 0}).mean, 0.4 * 3, 0.02);
+}
+
+TEST_F(Regions, WhatLiesOutsideCastsShadowsInside) {
+  for (const bool roof : {false, true}) {
+    SceneBuilder b;
+    const uint32_t grey = b.material(glm::vec3(0.5f));
+    b.quad(grey, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, 4);
+    if (roof) b.quad(grey, {-60, 50, -60}, {60, 50, -60}, {60, 50, 60}, {-60, 50, 60});
+    b.quad(grey, {200, 0, 1}, {201, 0, 1}, {201, 0, -1}, {200, 0, -1});
+    b.sun({0.1f, -1, 0.2f}, 3);
+    Pipeline p(context(), b.finish("roof"), boxed({-1.5f, -1, -1.5f}, {1.5f, 1, 1.5f}));
+    p.prepare();
+    const Spread d = spread(p, p.lighting().direct, {0, 1, 0});
+    EXPECT_NEAR(d.mean, roof ? 0 : 3 / std::sqrt(1.05), 1e-3);
+  }
+}
+
+TEST_F(Regions, TheSkyIsHiddenByWhatLiesOutside) {
+  // Under a roof of 45 degrees all around the sky is 1/2 as bright: H = pi L cos^2(45).
+  SceneBuilder b;
+  const uint32_t black = b.material(glm::vec3(0), glm::vec3(0), /*doubleSided=*/true);
+  b.quad(black, {-0.05f, 0, 0.05f}, {0.05f, 0, 0.05f}, {0.05f, 0, -0.05f}, {-0.05f, 0, -0.05f});
+  b.zone(black, glm::vec3(0), 30, /*inward=*/true, 64, 0, 16);
+  Settings s = boxed(glm::vec3(-1), glm::vec3(1), 8, 4096);
+  s.sky.source = SkySource::constant;
+  Pipeline p(context(), b.finish("under a cap"), s);
+  p.prepare();
+  EXPECT_NEAR(spread(p, p.lighting().indirect, {0, 1, 0}).mean, std::numbers::pi / 2, 0.02);
+}
+
+TEST_F(Regions, TheHostMeetsWhatTheKernelMeets) {
+  if (!canTraceOnHost()) GTEST_SKIP() << "no Embree in this build (IRAD_EMBREE)";
+  for (const char* name : {"object-on-plane", "under-dome", "room-in-desert"}) {
+    const Family& family = *std::ranges::find(families(), std::string_view(name), &Family::name);
+    Settings s = at(24, 64);
+    s.scene.region.mode = RegionMode::automatic;
+    const World w = world(familyMember(family, 1, 24).scene, s);
+    ASSERT_TRUE(w.facets.outer) << name;
+    const MatrixParams& params = s.matrix.gpu;
+    std::vector<uint32_t> host(size_t{w.facets.count} * params.rays);
+    makeHostTrace(context(), w.facets)->rows(params, 0, w.facets.count, host, 0, /*sky=*/true);
+    const Buffer out(context().device, "hits", Subsystem::Matrix, 4 * host.size());
+    Frame frame = context().begin();
+    traceRows(frame, rayKernel(w.facets, w.field, params), params, 0, w.facets.count, out, /*sky=*/true);
+    frame.submitAndWait();
+    const std::vector<uint32_t> kernel = downloadAs<uint32_t>(context(), out);
+    size_t differ = 0, outside = 0;
+    for (size_t i = 0; i < host.size(); ++i) {
+      outside += isOuter(host[i]);
+      differ += host[i] != kernel[i];
+    }
+    fmt::print("{}: {} of {} rays differ, {} meet what lies outside\n", name, differ, host.size(), outside);
+    EXPECT_GT(outside, host.size() / 500) << name;
+    EXPECT_LE(differ, host.size() / 5000) << name;
+  }
+}
+
+TEST_F(Regions, EditsOfWhatLiesOutsideAreSeenInside) {
+  Pipeline p(context(), boxUnderDome(), boxed(glm::vec3(-1.5f), glm::vec3(1.5f)));
+  p.prepare();
+  const std::string dome = materialNames(p.scene()).at(1);
+  p.setMaterials({{.material = dome, .emissionStrength = 2 * std::numbers::inv_pi_v<float>}});
+  p.prepare();
+  EXPECT_NEAR(spread(p, p.lighting().indirect, {0, 1, 0}).mean, 2, 1e-4);
+}
+
+TEST_F(Regions, TheTreeHoldsEveryTriangleOnce) {
+  std::vector<glm::vec3> corners;
+  for (uint32_t i = 0; i < 301; ++i)
+    for (uint32_t k = 0; k < 3; ++k)
+      corners.emplace_back(hashUint(9 * i + 3 * k) % 1000, hashUint(9 * i + 3 * k + 1) % 1000,
+                           hashUint(9 * i + 3 * k + 2) % 1000);
+  std::vector<uint32_t> order;
+  const std::vector<OuterNode> nodes = outerTree(corners, order);
+  std::vector<uint32_t> seen(301);
+  for (uint32_t n = 0; n < nodes.size(); ++n) {
+    EXPECT_GT(nodes[n].next, n);
+    EXPECT_LE(nodes[n].next, nodes.size());
+    const uint32_t first = nodes[n].leaf >> OUTER_LEAF_BITS, count = nodes[n].leaf & ((1u << OUTER_LEAF_BITS) - 1);
+    for (uint32_t i = first; i < first + count; ++i) {
+      ++seen.at(order.at(i));
+      // Every node that is not passed by on the way holds it.
+      for (uint32_t above = 0; above <= n; ++above)
+        for (uint32_t k = 0; nodes[above].next > n && k < 3; ++k) {
+          const glm::vec3& c = corners[3 * order[i] + k];
+          EXPECT_TRUE(glm::all(glm::lessThan(nodes[above].lo, c)) && glm::all(glm::lessThan(c, nodes[above].hi)));
+        }
+    }
+  }
+  EXPECT_EQ(seen, std::vector<uint32_t>(301, 1));
+}
+
+TEST(Lattices, ThePointsOfATriangleAreFound) {
+  const glm::vec3 a(1, 2, 3), b(11, 2, 4), c(0, 14, 3);
+  for (const uint32_t edges : {1u, 2u, 7u, 64u}) {
+    std::vector<uint32_t> seen(latticePoints(edges));
+    for (uint32_t j = 0; j <= edges; ++j)
+      for (uint32_t i = 0; i + j <= edges; ++i) {
+        const glm::vec2 at = glm::vec2(i, j) / static_cast<float>(edges);
+        const glm::vec2 found = barycentricOf(a, b, c, a + at.x * (b - a) + at.y * (c - a));
+        EXPECT_NEAR(found.x, at.x, 1e-5);
+        EXPECT_NEAR(found.y, at.y, 1e-5);
+        EXPECT_EQ(nearestLattice(edges, found), latticeIndex(edges, i, j));
+        ++seen.at(latticeIndex(edges, i, j));
+      }
+    EXPECT_EQ(seen, std::vector<uint32_t>(seen.size(), 1));
+  }
+}
+
+TEST(RegionSettings, BadValuesAreNamed) {
+  Settings s;
+  for (const char* bad :
+       {"scene.region=1,2,3", "scene.region=0,0,0,1,1,1,1", "scene.region=0,0,0,1,x,1", "scene.region=0,0,0,-1,1,1",
+        "scene.region=0,0,0,1,0,1", "scene.region=some", "scene.region=0,0,0,1,nan,1", "scene.region=,,,,,"}) {
+    const Settings before = s;
+    try {
+      applySetting(s, bad);
+      ADD_FAILURE() << bad;
+    } catch (const UsageError& error) {
+      EXPECT_TRUE(contains(error.what(), "scene.region")) << error.what();
+    }
+    EXPECT_EQ(s, before);
+  }
+  applySetting(s, "scene.region=-1,-2,-3,1,2.5,3");
+  Settings read;
+  settingsFromJson(read, settingsToJson(s));
+  EXPECT_EQ(read, s);
+  EXPECT_EQ(read.scene.region.y1, 2.5f);
+}
+
+TEST(RegionRule, ABoxThatHoldsNothingIsAnError) {
+  const Scene scene = boxUnderDome();
+  Settings s;
+  useBox(s, glm::vec3(300), glm::vec3(301));
+  EXPECT_THROW((void)regionOf(scene, s), UsageError);
+  EXPECT_FALSE(liesOutside(scene, s));
+  useBox(s, glm::vec3(-300), glm::vec3(301));
+  EXPECT_TRUE(regionOf(scene, s).whole);
+}
+
+/// A small thing in a room of which a third of the light is reflected keeps the room; where the walls are black it does
+/// not.
+TEST(RegionRule, AutoKeepsWhatReflects) {
+  Settings s;
+  s.scene.region.mode = RegionMode::automatic;
+  for (const float albedo : {0.0f, 0.33f}) {
+    SceneBuilder b;
+    const uint32_t wall = b.material(glm::vec3(albedo)), vase = b.material(glm::vec3(0.5f));
+    b.box({wall, wall, wall, wall, wall, wall}, glm::vec3(-5), glm::vec3(5), /*inward=*/true);
+    b.sphere(vase, glm::vec3(0, -4.8f, 0), 0.1f, /*inward=*/false, 16);
+    b.camera({0.3, -4.7, 0.3}, {0, -4.8, 0});
+    EXPECT_EQ(regionOf(b.finish("vase"), s).whole, albedo > 0) << albedo;
+  }
+}
+
+/// The rule takes a part of what has one, around it, and the whole of everything else.
+TEST(RegionRule, AutoFindsWhatIsSmall) {
+  Settings s;
+  s.scene.region.mode = RegionMode::automatic;
+  for (const Family& family : families())
+    for (uint64_t seed = 1; seed <= 12; ++seed) {
+      const Scene scene = familyMember(family, seed, 64).scene;
+      const SceneRegion region = regionOf(scene, s);
+      EXPECT_EQ(region.whole, !family.outside) << family.name << " " << seed;
+      if (!family.outside) continue;
+      const glm::vec3 size = region.hi - region.lo;
+      EXPECT_LT(std::max({size.x, size.y, size.z}), 22) << family.name << " " << seed;
+      for (const Camera& camera : scene.cameras) {
+        const glm::vec3 at = glm::clamp(glm::vec3(camera.position - scene.origin), scene.boundsMin, scene.boundsMax);
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(at, region.lo)) && glm::all(glm::lessThanEqual(at, region.hi)))
+            << family.name << " " << seed;
+      }
+      EXPECT_TRUE(contains(describe(scene, region), "scene.region")) << describe(scene, region);
+    }
+}
+
+TEST(RegionRule, AutoTakesTheWholeOfTheCatalogueAndTheBuiltIns) {
+  Settings s;
+  s.scene.region.mode = RegionMode::automatic;
+  size_t scenes = 0;
+  for (const CheckCase& c : checkCases()) {
+    if (c.scene == nullptr) continue;
+    if (std::ranges::any_of(families(),
+                            [&](const Family& f) { return f.outside && c.name == std::string_view(f.name); }))
+      continue;
+    EXPECT_TRUE(regionOf(c.scene(), s).whole) << c.name;
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 20u);
+  std::vector<std::filesystem::path> folders{assets()};
+  if (const auto shared = sharedScenes()) folders.push_back(*shared / "sponza");
+  for (const std::filesystem::path& folder : folders)
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+      const std::string kind = file.path().extension();
+      if (kind != ".glb" && kind != ".gltf") continue;
+      EXPECT_TRUE(regionOf(loadScene(file.path()), s).whole) << file.path();
+    }
+}
+
+}  // namespace
+}  // namespace irad::test::region_suite

@@ -1,0 +1,78 @@
+// The window's words: the search for settings, the glossary, and what views say that have nothing to be drawn from.
+#include "tests/window_fixture.h"
+
+namespace irad::test::window_words_suite {
+namespace {
+
+class WindowWordsTest : public WindowTest {
+ protected:
+  /// With these panels folded, beside those that no test here needs.
+  void begin(const char* folded, std::vector<std::string> more) {
+    fold(fmt::format(
+             R"(["Accuracy", "Scene", "Effects", "Materials", "Inspector", "Compare", "Solver", "Memory", "Timings",
+                         "History", "Cameras", {}])",
+             folded)
+             .c_str());
+    more.insert(more.begin(), {"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+    start(more);
+    rests();
+  }
+};
+
+TEST_F(WindowWordsTest, SettingsAreFoundByWordsAndByChange) {
+  begin(R"("Lights", "View", "Settings")", {});
+  // The keys go to the search, also of a panel that is folded.
+  key("ctrl+f");
+  ASSERT_TRUE(appears("Settings/search"));
+  rests();
+  type("relaxation");
+  EXPECT_TRUE(appears("Settings/solver.omega")) << "not found by its meaning";
+  EXPECT_FALSE(has("Settings/voxel.resolution"));
+  enter("Settings/search", "resolution");
+  EXPECT_TRUE(appears("Settings/voxel.resolution"));
+  EXPECT_FALSE(has("Settings/solver.omega"));
+  enter("Settings/search", "");
+  // What is not this device's default; a group goes back to it at once.
+  click("Settings/changed");
+  EXPECT_TRUE(appears("Settings/matrix.rays"));
+  EXPECT_FALSE(has("Settings/solver.omega"));
+  click("Settings/matrix/reset");
+  EXPECT_TRUE(appears("Settings/matrix.rays", /*wanted=*/false)) << "the group is not reset";
+  EXPECT_TRUE(has("Settings/voxel.resolution")) << "another group is";
+  key("ctrl+z");
+  EXPECT_TRUE(appears("Settings/matrix.rays")) << "it is no step";
+  rests();
+  // The glossary, and away with it.
+  choose("Menu/Help", "Glossary");
+  EXPECT_TRUE(appears("glossary/Close"));
+  key("Escape");
+  EXPECT_TRUE(appears("glossary/Close", /*wanted=*/false));
+  quit();
+}
+
+TEST_F(WindowWordsTest, ViewsWithoutInputSaySoAndOfferIt) {
+  begin(R"("Settings")", {"--view", "error", "--set", "solver.frames=2"});
+  // A file is missing: the button opens the dialog, which lies over what the picture says.
+  ASSERT_TRUE(appears("missing/mend")) << "nothing says why the picture is black";
+  click("missing/mend");
+  EXPECT_TRUE(appears("Open a scene/Cancel"));
+  EXPECT_FALSE(has("missing/mend"));
+  click("Open a scene/Cancel");
+  EXPECT_TRUE(appears("missing/mend"));
+  // A setting is in the way: the button sets it.
+  choose("View/view", "standard-error");
+  click("missing/mend");
+  EXPECT_TRUE(appears("missing/mend", /*wanted=*/false));
+  // A light is off: the button turns it on.
+  choose("View/view", "shadow-map");
+  EXPECT_TRUE(appears("missing/mend", /*wanted=*/false));
+  click("Lights/0");
+  click("Lights/0/on");
+  click("missing/mend");
+  EXPECT_TRUE(appears("missing/mend", /*wanted=*/false));
+  EXPECT_TRUE(isOn("Lights/0/on"));
+  quitDiscarding();
+}
+
+}  // namespace
+}  // namespace irad::test::window_words_suite

@@ -1,0 +1,76 @@
+// The window's words: counts and shares, the glossary, which settings a search finds.
+#include <gtest/gtest.h>
+
+#if IRAD_UI
+
+#include <set>
+#include <string>
+
+#include "ui/glossary.h"
+#include "ui/setting_rows.h"
+#include "ui/words.h"
+
+namespace irad::words_suite {
+namespace {
+
+TEST(Words, CountsAreSingularAndPlural) {
+  EXPECT_EQ(counted(0, "sweep"), "0 sweeps");
+  EXPECT_EQ(counted(1, "sweep"), "1 sweep");
+  EXPECT_EQ(counted(12000, "sweep"), "12,000 sweeps");
+  EXPECT_EQ(counted(1, "penumbra", "penumbrae"), "1 penumbra");
+  EXPECT_EQ(counted(2, "penumbra", "penumbrae"), "2 penumbrae");
+}
+
+TEST(Words, WhatRoundsToZeroHasNoSign) {
+  EXPECT_EQ(percentText(-0.00001, 2, true), "0.00 %");
+  EXPECT_EQ(percentText(0.00001, 2, true), "0.00 %");
+  EXPECT_EQ(percentText(0, 2), "0.00 %");
+  EXPECT_EQ(percentText(-0.00006, 2, true), "-0.01 %");
+  EXPECT_EQ(percentText(0.00006, 2, true), "+0.01 %");
+  EXPECT_EQ(percentText(0.123, 1), "12.3 %");
+}
+
+TEST(Words, TheGlossaryHasTheLettersOfThePanels) {
+  std::set<std::string> symbols;
+  for (const Term& term : glossary()) {
+    EXPECT_TRUE(symbols.insert(term.symbol).second) << term.symbol << " twice";
+    EXPECT_NE(std::string(term.meaning), "") << term.symbol;
+  }
+  for (const char* needed : {"D", "H", "B", "M", "F", "\u03C1", "\u03BB", "residual", "bound"})
+    EXPECT_TRUE(symbols.contains(needed)) << needed;
+}
+
+TEST(SettingFilter, FindsNamesAndMeaningsAndWhatIsChanged) {
+  const Settings defaults;
+  Settings settings = defaults;
+  const auto found = [&](const SettingFilter& filter) {
+    std::set<std::string> names;
+    for (const Setting& setting : settingTable())
+      if (filter.passes(setting, settings, defaults)) names.insert(setting.name);
+    return names;
+  };
+  const size_t all = found({}).size();
+  EXPECT_EQ(all, settingTable().size());
+  EXPECT_FALSE(SettingFilter{.words = "  "}.on());
+  EXPECT_EQ(found({.words = "  "}).size(), all);
+  EXPECT_TRUE(found({.words = "VOXEL resolution"}).contains("voxel.resolution"));
+  EXPECT_TRUE(found({.words = "jfa pass"}).contains("view.jfa_pass")) << "an underscore is a space";
+  EXPECT_TRUE(found({.words = "jfa_pass"}).contains("view.jfa_pass"));
+  EXPECT_TRUE(found({.words = "relaxation"}).contains("solver.omega")) << "by its meaning";
+  EXPECT_TRUE(found({.words = "relaxation nothing-like-this"}).empty());
+  EXPECT_TRUE(found({.changedOnly = true}).empty());
+  settings.voxel.resolution = defaults.voxel.resolution + 1;
+  EXPECT_EQ(found({.changedOnly = true}), std::set<std::string>{"voxel.resolution"});
+  EXPECT_TRUE(found({.words = "omega", .changedOnly = true}).empty()) << "both must hold";
+}
+
+}  // namespace
+}  // namespace irad::words_suite
+
+#else
+
+TEST(Words, NotBuilt) {
+  GTEST_SKIP() << "built without IRAD_UI";
+}
+
+#endif
