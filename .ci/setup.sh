@@ -38,13 +38,14 @@ install_packages() {
 
 # configure PRESET FOLDER: once; afterwards Ninja runs CMake itself where a CMake file changed.
 configure() {
-  local preset=$1 folder=$2 launcher=()
+  local preset=$1 folder=$2 options=()
   [[ -f $root/$folder/build.ninja ]] && return 0
   command -v cmake >/dev/null && command -v ninja >/dev/null ||
     die "cmake and ninja are needed (leave --no-install out, or install .ci/packages.txt)"
-  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  say "Configuring: cmake --preset $preset ${launcher[*]}"
-  (cd "$root" && cmake --preset "$preset" "${launcher[@]}") >&2
+  command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  [[ -n ${IRAD_UNITY_BATCH:-} ]] && options+=("-DIRAD_UNITY_BATCH=$IRAD_UNITY_BATCH")
+  say "Configuring: cmake --preset $preset ${options[*]}"
+  (cd "$root" && cmake --preset "$preset" "${options[@]}") >&2
 }
 
 # build FOLDER [TARGET]

@@ -1,6 +1,9 @@
 #include "renderer/shaders.h"
 
 #include <algorithm>
+#include <atomic>
+#include <optional>
+#include <thread>
 
 #include "renderer/base/error.h"
 #include "shaders/embedded.h"
@@ -68,30 +71,52 @@ void ShaderLibrary::add(std::string name, std::vector<uint32_t> spirv) {
 }
 
 ShaderReload ShaderLibrary::reload(const std::filesystem::path& sources) {
-  std::map<std::string, ShaderModule, std::less<>> fresh;
-  ShaderReload result;
-  size_t found = 0;
+  struct Job {
+    const ShaderModule& old;
+    std::string source, definition, error;
+    std::optional<ShaderModule> changed;
+  };
+  std::vector<Job> jobs;
   for (const auto& [name, module] : modules_) {
     const auto embedded = std::ranges::find(embeddedShaders(), name, [](const EmbeddedShader& s) { return s.name; });
     const bool added = embedded == embeddedShaders().end();
-    const std::string source = added ? name : embedded->source;
+    std::string source = added ? name : embedded->source;
     if (!std::filesystem::exists(sources / source)) continue;
-    ++found;
-    try {
-      ShaderModule compiled = reflect(name, compileGlsl(sources, source, added ? "" : embedded->definition));
-      if (withoutDebugInfo(compiled.spirv) == withoutDebugInfo(module.spirv)) continue;
-      if (!sameInterface(compiled, module))
-        throw WorkError(fmt::format("{}: its images or push constants have changed: build the program again", name));
-      result.changed.push_back(name);
-      fresh.emplace(name, std::move(compiled));
-    } catch (const WorkError& error) {
-      result.errors += std::string(error.what()) + "\n";
-    }
+    jobs.push_back({.old = module, .source = std::move(source), .definition = added ? "" : embedded->definition});
   }
-  if (found == 0) result.errors = fmt::format("no shader sources in {}\n", sources.string());
+  // On all cores: one alone takes some seconds, in which a window that asked for it stands still.
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t i; (i = next++) < jobs.size();) {
+      Job& job = jobs[i];
+      try {
+        ShaderModule compiled = reflect(job.old.name, compileGlsl(sources, job.source, job.definition));
+        if (withoutDebugInfo(compiled.spirv) == withoutDebugInfo(job.old.spirv)) continue;
+        if (!sameInterface(compiled, job.old))
+          throw WorkError(
+              fmt::format("{}: its images or push constants have changed: build the program again", job.old.name));
+        job.changed = std::move(compiled);
+      } catch (const WorkError& error) {
+        job.error = error.what();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    const size_t count = std::min<size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
+    for (size_t t = 1; t < count; ++t) threads.emplace_back(work);
+    work();
+  }
+  ShaderReload result;
+  for (const Job& job : jobs) {
+    if (!job.error.empty()) result.errors += job.error + "\n";
+    if (job.changed) result.changed.push_back(job.old.name);
+  }
+  if (jobs.empty()) result.errors = fmt::format("no shader sources in {}\n", sources.string());
   if (!result.errors.empty()) return {.errors = std::move(result.errors), .changed = {}};
-  if (fresh.empty()) return result;
-  for (auto& [name, module] : fresh) modules_.insert_or_assign(name, std::move(module));
+  if (result.changed.empty()) return result;
+  for (Job& job : jobs)
+    if (job.changed) modules_.insert_or_assign(std::string(job.old.name), std::move(*job.changed));
   ++generation_;
   return result;
 }

@@ -241,7 +241,8 @@ class WindowTest : public ::testing::Test {
     };
     const size_t before = times();
     startWork();
-    ASSERT_TRUE(appears("progress/cancel")) << "no progress is shown";
+    // Before a rebuild by F5 all shaders are compiled, which takes a busy machine more than 20 seconds.
+    ASSERT_TRUE(appears("progress/cancel", true, 90)) << "no progress is shown";
     for (const Control& c : controls())
       if (c.name == "progress/cancel")
         mouse().tap(fmt::format("{} {}", c.area.x + c.area.width / 2, c.area.y + c.area.height / 2));

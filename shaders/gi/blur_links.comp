@@ -17,12 +17,12 @@ void main() {
   uint facet = irad_index();
   if (facet >= p.count) return;
   SurfaceArrays surface = p.surface.at[0];
-  ivec3 voxel = ivec3(unpackVoxel(p.voxel.at[facet]));
+  FacetLinks links = linksOf(surface, facet, p.voxel.at[facet]);
   vec3 own = p.indirect.at[facet].xyz;
   vec3 sumH = vec3(0.0), sumE = vec3(0.0);
   float sumSquares = 0.0, sumNoise = 0.0, total = 0.0;
   for (uint i = 0u; i < 27u; ++i) {
-    uint other = linkedFacet(surface, p.reverse, p.dims, facet, voxel, i);
+    uint other = linkedFacet(surface, p.reverse, p.dims, links, i);
     if (other == NO_FACET) continue;
     ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
     float weight = (step_.x == 0 ? 2.0 : 1.0) * (step_.y == 0 ? 2.0 : 1.0) * (step_.z == 0 ? 2.0 : 1.0) *

@@ -26,19 +26,6 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D directTarget;
 #include "gi/sought_facet.glsl"
 #include "gi/outer_irradiance.glsl"
 
-/// How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
-float spread(SurfaceTaps taps) {
-  float least = 1e30, most = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    if (taps.weight[i] == 0.0) continue;
-    vec3 e = push.shadedEmitted.at[taps.facet[i]].xyz;
-    float value = max(e.r, max(e.g, e.b));
-    least = min(least, value);
-    most = max(most, value);
-  }
-  return most > 0.0 ? smoothstep(0.3, 0.5, 1.0 - least / most) : 0.0;
-}
-
 void keepFacet(ivec2 pixel, uint facet) {
   if (uint64_t(push.facet) != 0ul) push.facet.at[uint(pixel.y) * push.size.x + uint(pixel.x)] = facet;
 }
@@ -93,7 +80,12 @@ void main() {
   if (facet != NO_FACET) {
     SurfaceTaps taps = surfaceTaps(surface, push.reverse, push.voxel, grid.dims, facet, p, push.sampling.filter_);
     h = lookup.x * tapped(taps, push.shaded);
-    if (EMITTED) e = vec4(lookup.x * tapped(taps, push.shadedEmitted), spread(taps));
+    if (EMITTED) {
+      float spread;
+      vec3 emitted = tapped(taps, push.shadedEmitted, spread);
+      // How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
+      e = vec4(lookup.x * emitted, smoothstep(0.3, 0.5, spread));
+    }
   }
   if (EMITTED) imageStore(emittedTarget, pixel, e);
   imageStore(indirectTarget, pixel, vec4(h, seen));

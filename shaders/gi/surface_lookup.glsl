@@ -34,16 +34,16 @@ SurfaceTaps surfaceTaps(SurfaceArrays surface, UintArray reverse, UintArray face
   SurfaceTaps taps;
   vec3 base = floor(p - 0.5);
   vec3 f = p - 0.5 - base;
-  ivec3 own = ivec3(unpackVoxel(facetVoxel.at[facet]));
+  FacetLinks links = linksOf(surface, facet, facetVoxel.at[facet]);
   float total = 0.0;
   for (int i = 0; i < 8; ++i) {
     ivec3 corner = ivec3(i & 1, (i >> 1) & 1, i >> 2);
     ivec3 v = ivec3(base) + corner;
-    ivec3 step_ = v - own + 1;
+    ivec3 step_ = v - links.voxel + 1;
     taps.facet[i] = facet;
     taps.weight[i] = 0.0;
     if (filter_ == FILTER_NEAREST || any(lessThan(step_, ivec3(0))) || any(greaterThan(step_, ivec3(2)))) continue;
-    uint linked = linkedFacet(surface, reverse, dims, facet, own, uint(step_.x + 3 * step_.y + 9 * step_.z));
+    uint linked = linkedFacet(surface, reverse, dims, links, uint(step_.x + 3 * step_.y + 9 * step_.z));
     if (linked == NO_FACET) continue;
     taps.facet[i] = linked;
     vec3 w = mix(1.0 - f, f, vec3(corner));
@@ -63,6 +63,22 @@ vec3 tapped(SurfaceTaps taps, Vec4Array values) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 8; ++i)
     if (taps.weight[i] > 0.0) sum += taps.weight[i] * values.at[taps.facet[i]].xyz;
+  return sum;
+}
+
+/// The same, and by how much the largest channel of what is summed differs: 1 - least / most.
+vec3 tapped(SurfaceTaps taps, Vec4Array values, out float spread) {
+  vec3 sum = vec3(0.0);
+  float least = 1e30, most = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    if (taps.weight[i] <= 0.0) continue;
+    vec3 value = values.at[taps.facet[i]].xyz;
+    sum += taps.weight[i] * value;
+    float largest = max(value.r, max(value.g, value.b));
+    least = min(least, largest);
+    most = max(most, largest);
+  }
+  spread = most > 0.0 ? 1.0 - least / most : 0.0;
   return sum;
 }
 

@@ -38,13 +38,21 @@ vec3 triangleFacing(SurfaceArrays surface, uint side) {
   return facingOf(triangleAt(surface.corners, side & ~SURFEL_BACK), (side & SURFEL_BACK) != 0u);
 }
 
-/// The facet that continues the surface of one of `voxel` in the voxel `i` of the 27 around, or NO_FACET.
-uint linkedFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, uint facet, ivec3 voxel, uint i) {
-  if (i == OWN_VOXEL) return facet;
-  uint mask = surface.linkMasks.at[facet];
-  if ((mask >> i & 1u) == 0u) return NO_FACET;
-  uint link = uint(surface.links.at[surface.firstLinks.at[facet] + bitCount(mask & ((1u << i) - 1u))]);
-  ivec3 beside = voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+/// What is kept of all links of a facet together.
+struct FacetLinks {
+  uint facet, mask, first;
+  ivec3 voxel;
+};
+FacetLinks linksOf(SurfaceArrays surface, uint facet, uint voxel) {
+  return FacetLinks(facet, surface.linkMasks.at[facet], surface.firstLinks.at[facet], ivec3(unpackVoxel(voxel)));
+}
+
+/// The facet that continues the surface of one in the voxel `i` of the 27 around, or NO_FACET.
+uint linkedFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, FacetLinks from, uint i) {
+  if (i == OWN_VOXEL) return from.facet;
+  if ((from.mask >> i & 1u) == 0u) return NO_FACET;
+  uint link = uint(surface.links.at[from.first + bitCount(from.mask & ((1u << i) - 1u))]);
+  ivec3 beside = from.voxel + ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
   return firstFacet(reverse.at[voxelIndex(uvec3(beside), dims)]) + link;
 }
 
