@@ -8,7 +8,7 @@ namespace irad {
 MaterialSets::MaterialSets(const Context& context, std::span<const MaterialTextures> materials) {
   if (materials.empty()) return;
   constexpr uint32_t kTextures = std::tuple_size_v<decltype(MaterialTextures::views)>;
-  static_assert(kTextures == kMaterialTextures);
+  static_assert(kTextures == kMaterialBindings);
   const VkDevice device = context.device.handle;
   const auto count = static_cast<uint32_t>(materials.size());
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * kTextures};
