@@ -1,6 +1,6 @@
 // .irscene: a loaded scene with its images decoded, for machines without image decoders. Little-endian, fields in the
 // order of Scene, with nothing of what is hidden. Version 2 had no nodes, and is read as a scene without; up to
-// version 3 lights had no switch, and are on. Reading trusts nothing: every length is checked against the bytes left,
+// version 3 lights had no switch, and are on; up to version 4 nothing was transmitted. Reading trusts nothing: every length is checked against the bytes left,
 // and the whole against what a scene must be.
 #include <bit>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the cache is written as it lies in memory");
 constexpr char kMagic[8] = {'I', 'R', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr uint32_t kVersion = 4, kOldestVersion = 2;
+constexpr uint32_t kVersion = 5, kOldestVersion = 2;
 
 class Writer {
  public:
@@ -121,13 +121,16 @@ void transferUse(Io& io, Ops ops, U& use) {
   transfer(io, ops, use.sampler);
 }
 template <class Io, class Ops, class M>
-void transferMaterial(Io& io, Ops ops, M& m) {
+void transferMaterial(Io& io, Ops ops, M& m, uint32_t version) {
   io(m.name), io(m.baseColor), io(m.metallic), io(m.roughness), io(m.emission), io(m.normalScale),
       io(m.occlusionStrength);
   io(m.alphaCutoff), ops.choice(m.alpha, 3), ops.choice(m.doubleSided, 2);
   for (auto* use :
        {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
     transferUse(io, ops, *use);
+  if (version < 5) return;
+  io(m.transmission);
+  transferUse(io, ops, m.transmissionTexture);
 }
 template <class Io, class Ops, class S>
 void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
@@ -135,7 +138,7 @@ void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
   io.array(s.positions), io.array(s.normals), io.array(s.tangents), io.array(s.uv0), io.array(s.uv1),
       io.array(s.colors);
   io.array(s.indices), io.array(s.draws);
-  io.list(s.materials, [&](auto& m) { transferMaterial(io, ops, m); });
+  io.list(s.materials, [&](auto& m) { transferMaterial(io, ops, m, version); });
   io.list(s.images, [&](auto& i) { io(i.name), io(i.width), io(i.height), ops.choice(i.srgb, 2), io.array(i.rgba); });
   io.list(s.lights, [&](auto& l) {
     io(l.name), ops.choice(l.type, LIGHT_KINDS), io(l.position), io(l.direction), io(l.color), io(l.intensity),
