@@ -121,16 +121,13 @@ void transferUse(Io& io, Ops ops, U& use) {
   transfer(io, ops, use.sampler);
 }
 template <class Io, class Ops, class M>
-void transferMaterial(Io& io, Ops ops, M& m, uint32_t version) {
+void transferMaterial(Io& io, Ops ops, M& m) {
   io(m.name), io(m.baseColor), io(m.metallic), io(m.roughness), io(m.emission), io(m.normalScale),
       io(m.occlusionStrength);
   io(m.alphaCutoff), ops.choice(m.alpha, 3), ops.choice(m.doubleSided, 2);
   for (auto* use :
        {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture})
     transferUse(io, ops, *use);
-  if (version < 5) return;
-  io(m.transmission);
-  transferUse(io, ops, m.transmissionTexture);
 }
 template <class Io, class Ops, class S>
 void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
@@ -138,7 +135,7 @@ void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
   io.array(s.positions), io.array(s.normals), io.array(s.tangents), io.array(s.uv0), io.array(s.uv1),
       io.array(s.colors);
   io.array(s.indices), io.array(s.draws);
-  io.list(s.materials, [&](auto& m) { transferMaterial(io, ops, m, version); });
+  io.list(s.materials, [&](auto& m) { transferMaterial(io, ops, m); });
   io.list(s.images, [&](auto& i) { io(i.name), io(i.width), io(i.height), ops.choice(i.srgb, 2), io.array(i.rgba); });
   io.list(s.lights, [&](auto& l) {
     io(l.name), ops.choice(l.type, LIGHT_KINDS), io(l.position), io(l.direction), io(l.color), io(l.intensity),
@@ -155,6 +152,11 @@ void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
   if (version < 3) return;
   io.list(s.nodes, [&](auto& n) { io(n.name), io(n.parent), io(n.end), io(n.instances); });
   io.array(s.pieces), io.array(s.world);
+  if (version < 5) return;
+  for (auto& m : s.materials) {
+    io(m.transmission);
+    transferUse(io, ops, m.transmissionTexture);
+  }
 }
 
 }  // namespace
