@@ -267,7 +267,8 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
   if (report.diverging) mean.weights = {};
   if (report.settled()) mean.hits = Buffer();
   // What a sky brings is in H and nowhere by itself.
-  if (report.converged && params.lambda == 1 && !sky && !facets.outer) report.energy = balance(context, facets, light);
+  if (report.converged && params.lambda == 1 && !sky && !facets.outer && !facets.surface.tinted)
+    report.energy = balance(context, facets, light);
   return light.report = report;
 }
 
