@@ -43,6 +43,7 @@ class FrameTracer {
         light_(light),
         settings_(settings),
         kernel_(rayKernel(facets, field, settings.matrix.gpu)) {
+    if (facets.surface.tinted) kernel_.tintShift = TINT_SHIFT_FRAMES;
     const Device& device = context.device;
     FrameMean& mean = light.frameMean;
     const uint64_t rays = settings.matrix.gpu.rays;
@@ -134,6 +135,7 @@ class FrameTracer {
     pass.shader("gi/brute_force.comp")
         .constant(CONSTANT_SKY, sky())
         .constant(CONSTANT_EMITTED, static_cast<bool>(light_.emitted))
+        .constant(CONSTANT_TINTED, facets_.surface.tinted)
         .push(push)
         .dispatch(uint64_t{push.count} * context_.device.subgroupSize);
   }
@@ -265,7 +267,8 @@ SolveReport bruteForce(Context& context, const FacetList& facets, const Field& f
   if (report.diverging) mean.weights = {};
   if (report.settled()) mean.hits = Buffer();
   // What a sky brings is in H and nowhere by itself.
-  if (report.converged && params.lambda == 1 && !sky && !facets.outer) report.energy = balance(context, facets, light);
+  if (report.converged && params.lambda == 1 && !sky && !facets.outer && !facets.surface.tinted)
+    report.energy = balance(context, facets, light);
   return light.report = report;
 }
 

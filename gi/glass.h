@@ -1,5 +1,5 @@
 // Blended surfaces in pictures (docs/method.md 7): the picture of the nearest surfaces, then of those behind them, and
-// at last of what is opaque, each covering what comes after it by its alpha.
+// at last of what is opaque, each covering what comes after it by its alpha, or tinting it.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 namespace irad {
 
 /// `draw` composes the picture of one layer of surfaces into targets.linear, which holds the whole picture in the end.
-/// `layers`: blended surfaces behind each other that are shown, at least 1.
-void drawLayers(Frame& frame, uint32_t layers, const std::function<void(Layer)>& draw, Targets& targets);
+/// `layers`: blended surfaces behind each other that are shown, at least 1; `tinted`: some of them tint what is behind.
+void drawLayers(Frame& frame, uint32_t layers, bool tinted, const std::function<void(Layer)>& draw, Targets& targets);
 
 }  // namespace irad

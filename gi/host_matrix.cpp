@@ -11,6 +11,7 @@
 #include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 
@@ -25,19 +26,19 @@ size_t wordCount(MatrixFormat format, glm::uvec2 info) {
   return size_t{rowEntries(info)} * (format == MatrixFormat::csr ? 1 : kPaddedWords);
 }
 
-HostRow decode(const MatrixArrays& arrays, MatrixFormat format, glm::uvec2 info, std::span<const uint32_t> words) {
+HostRow decode(const MatrixArrays& arrays, const FormFactors& matrix, glm::uvec2 info, std::span<const uint32_t> words) {
   HostRow row;
   row.invalid = rowInvalid(info);
   row.weight = std::bit_cast<float>(info.y);
-  if (format == MatrixFormat::padded) {
+  if (matrix.format == MatrixFormat::padded) {
     decodePadded(words, row);
     return row;
   }
   for (const uint32_t word : words) {
-    row.columns.push_back(word & ((1u << arrays.columnBits) - 1));
+    row.columns.push_back(word & ((1u << (arrays.columnBits - (matrix.tinted ? TINT_BITS : 0))) - 1));
     row.hits.push_back(word >> arrays.columnBits);
   }
-  return row;
+  return matrix.tinted ? merged(row) : row;
 }
 
 /// Part of a buffer, once the frame has finished.
@@ -66,7 +67,7 @@ void forEachRow(Context& context, const FormFactors& matrix, const std::function
     if (wanted != held) segment = downloadAs<uint32_t>(context, matrix.segments.at(held = wanted));
     const size_t first = firstWord(arrays, matrix.format, r, starts.at(r)), count = wordCount(matrix.format, info[r]);
     IRAD_CHECK_OP(first + count, <=, segment.size());
-    f(r, decode(arrays, matrix.format, info[r], std::span(segment).subspan(first, count)));
+    f(r, decode(arrays, matrix, info[r], std::span(segment).subspan(first, count)));
   }
 }
 
@@ -87,7 +88,7 @@ HostRow readRow(Context& context, const FormFactors& matrix, uint32_t row) {
              std::span(words));
     entries.submitAndWait();
   }
-  return decode(arrays, matrix.format, info, words);
+  return decode(arrays, matrix, info, words);
 }
 
 std::vector<uint32_t> readColumn(Context& context, const FormFactors& matrix, uint32_t column) {
@@ -97,6 +98,7 @@ std::vector<uint32_t> readColumn(Context& context, const FormFactors& matrix, ui
   Pass pass = frame.pass("Matrix column");
   pass.shader("gi/matrix_column.comp")
       .constant(CONSTANT_MATRIX_FORMAT, matrix.format)
+      .constant(CONSTANT_TINTED, matrix.tinted)
       .push(MatrixColumnPush{pass.in(matrix.record), pass.out(hits), column, 0})
       .dispatch(matrix.rows);
   frame.submitAndWait();

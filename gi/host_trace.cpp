@@ -70,13 +70,16 @@ std::optional<Piece> listedAt(const oracle::Facets& facets, const glm::vec3& at,
   return std::nullopt;
 }
 
-/// The same where a mask leaves it.
-std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, uint32_t triangle) {
+/// The same where a mask leaves it. `closed`: to what it is closed of a pane that lets the ray pass.
+std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, uint32_t triangle,
+                             uint32_t* closed = nullptr) {
   const std::optional<Piece> piece = listedAt(facets, at, triangle);
   if (!piece || !facets.hasHoles(triangle)) return piece;
   const glm::vec3 normal = facingOf(triangleAt(facets, triangle), false);
-  const bool there = facets.maskLeaves(piece->index, maskBit(normal, at - glm::vec3(piece->voxel)));
-  return there ? piece : std::nullopt;
+  const uint32_t bit = maskBit(normal, at - glm::vec3(piece->voxel));
+  if (facets.maskLeaves(piece->index, bit)) return piece;
+  if (closed != nullptr && facets.isTinted(triangle)) *closed = facets.closedChannels(piece->index, bit);
+  return std::nullopt;
 }
 
 /// gi/piece_cuts.glsl.
@@ -116,6 +119,12 @@ struct PassedThrough {
   const HostRay* ray;
   bool hiddenBacks;               ///< through these, too
   std::optional<glm::vec2> grid;  ///< ofGrid, where something lies outside
+  /// Panes that have kept channels off, where, in any order, also behind what the ray meets.
+  struct Pane {
+    float t;
+    uint32_t closed;
+  };
+  std::vector<Pane>* panes = nullptr;
 };
 
 void passThrough(const RTCFilterFunctionNArguments* arguments) {
@@ -127,7 +136,11 @@ void passThrough(const RTCFilterFunctionNArguments* arguments) {
     const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, arguments->N, i), RTCHitN_Ng_y(arguments->hit, arguments->N, i),
                            RTCHitN_Ng_z(arguments->hit, arguments->N, i));
     if (triangle != passed.ray->own && passed.grid && isOutside(*passed.grid, t)) continue;
-    if (triangle == passed.ray->own || !pieceAt(*passed.facets, passed.ray->at(t), triangle) ||
+    uint32_t closed = 0;
+    const bool own = triangle == passed.ray->own,
+               there = !own && pieceAt(*passed.facets, passed.ray->at(t), triangle, &closed);
+    if (closed != 0 && passed.panes != nullptr) passed.panes->push_back({t, closed});
+    if (!there ||
         (passed.hiddenBacks && atHiddenBack(*passed.facets, *passed.ray, triangle, normal)))
       arguments->valid[i] = 0;
   }
@@ -141,13 +154,13 @@ class EmbreeTrace : public HostTrace {
         scene_(positions(facets_), corners(facets_), std::min(memory, free(context.device.memory()))) {}
 
   void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits, uint32_t threads,
-            bool sky) const override {
+            bool sky, uint32_t tintShift) const override {
     IRAD_CHECK_OP(hits.size(), >=, uint64_t{rows} * params.rays);
     std::atomic<uint32_t> next = 0;
     const auto work = [&] {
       for (uint32_t block; (block = kBlock * next++) < rows;)
         for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r)
-          row(params, firstRow + r, sky, hits.subspan(uint64_t{r} * params.rays, params.rays));
+          row(params, firstRow + r, sky, tintShift, hits.subspan(uint64_t{r} * params.rays, params.rays));
     };
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> others;
@@ -158,10 +171,13 @@ class EmbreeTrace : public HostTrace {
   void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const override {
     IRAD_CHECK_OP(hits.size(), >=, rays.size());
     for (size_t first = 0; first < rays.size(); first += kPacket)
-      trace(rays.subspan(first, std::min<size_t>(kPacket, rays.size() - first)), &hits[first]);
+      trace(rays.subspan(first, std::min<size_t>(kPacket, rays.size() - first)), &hits[first], Closed());
   }
 
  private:
+  /// The channels that panes have kept off, as bits, of each ray of a packet.
+  using Closed = std::array<uint32_t, kPacket>;
+
   static uint64_t free(const Allocator& memory) { return memory.budget() - std::min(memory.budget(), memory.used()); }
   static std::vector<glm::vec3> positions(const oracle::Facets& facets) {
     return {facets.corners.begin(), facets.corners.end()};
@@ -173,7 +189,7 @@ class EmbreeTrace : public HostTrace {
     return indices;
   }
 
-  void row(const MatrixParams& params, uint32_t facet, bool sky, std::span<uint32_t> hits) const {
+  void row(const MatrixParams& params, uint32_t facet, bool sky, uint32_t tintShift, std::span<uint32_t> hits) const {
     const uvec4 shifts = rayShifts(facets_.voxel[facet], params.seed, params.jitter);
     std::array<SurfelPoint, FACET_SURFELS> from;
     for (uint32_t i = 0; i < FACET_SURFELS; ++i) {
@@ -190,11 +206,17 @@ class EmbreeTrace : public HostTrace {
         const SurfelPoint& start = from[raySurfel(k, shifts)];
         ray = {start.position, rayDirection(start.facing, k++, rays, shifts), start.triangle};
       }
-      trace(some, &hits[first]);
+      Closed closed{};
+      trace(some, &hits[first], closed);
       for (size_t i = 0; i < some.size(); ++i) {
         uint32_t& hit = hits[first + i];
         if (sky && hit == TRACE_ESCAPED) hit = metSky(some[i].direction);
         if (!sky && isSky(hit)) hit = TRACE_ESCAPED;
+        if (closed[i] == 0 || tintShift == 0) continue;
+        if (hit <= TRACE_LAST_FACET)
+          hit |= closed[i] << tintShift;
+        else if (isSky(hit))
+          hit |= closed[i] << TINT_SHIFT_SKY;
       }
     }
   }
@@ -205,7 +227,8 @@ class EmbreeTrace : public HostTrace {
     return liftedFar(p.position, p.facing, triangleAt(facets_, p.triangle));
   }
 
-  void trace(std::span<const HostRay> rays, uint32_t* hits) const {
+  void trace(std::span<const HostRay> rays, uint32_t* hits, Closed&& closed) const { trace(rays, hits, closed); }
+  void trace(std::span<const HostRay> rays, uint32_t* hits, Closed& closed) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     alignas(32) int valid[kPacket] = {};
@@ -226,23 +249,36 @@ class EmbreeTrace : public HostTrace {
     for (size_t i = 0; i < rays.size(); ++i) {
       const glm::vec3 normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
       const std::optional<uint32_t> met = facetMet(rays[i], packet.hit.primID[i], packet.ray.tfar[i], normal);
-      hits[i] = met ? *met : traceThrough(rays[i]);
+      hits[i] = met ? *met : traceThrough(rays[i], closed[i]);
     }
   }
 
   /// A ray that has come upon something to pass through, as few do.
-  uint32_t traceThrough(const HostRay& ray) const {
-    return traceBetween(ray, 0, std::numeric_limits<float>::infinity(), /*hiddenBacks=*/false);
+  uint32_t traceThrough(const HostRay& ray, uint32_t& closed) const {
+    std::vector<PassedThrough::Pane> panes;
+    float t = 0;
+    const uint32_t met =
+        traceBetween(ray, 0, std::numeric_limits<float>::infinity(), /*hiddenBacks=*/false, &panes, &t);
+    for (const PassedThrough::Pane& pane : panes)
+      if (pane.t < t) closed |= pane.closed;
+    return closed == TINT_NONE_LEFT ? TRACE_BLOCKED : met;
   }
 
-  uint32_t traceBetween(const HostRay& ray, float near, float far, bool hiddenBacks) const {
-    PassedThrough passed{
-        .context = {}, .facets = &facets_, .ray = &ray, .hiddenBacks = hiddenBacks, .grid = gridOf(ray)};
+  /// `t`: where.
+  uint32_t traceBetween(const HostRay& ray, float near, float far, bool hiddenBacks,
+                        std::vector<PassedThrough::Pane>* panes = nullptr, float* t = nullptr) const {
+    PassedThrough passed{.context = {},
+                         .facets = &facets_,
+                         .ray = &ray,
+                         .hiddenBacks = hiddenBacks,
+                         .grid = gridOf(ray),
+                         .panes = panes};
     rtcInitIntersectContext(&passed.context);
     passed.context.filter = passThrough;
     RTCRayHit met{.ray = EmbreeScene::ray(ray.origin, ray.direction, near, far), .hit = {}};
     met.hit.geomID = met.hit.primID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.handle(), &passed.context, &met);
+    if (t != nullptr) *t = met.ray.tfar;
     return facetMet(ray, met.hit.primID, met.ray.tfar, {met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z})
         .value_or(TRACE_INVALID);
   }

@@ -26,9 +26,10 @@ class HostTrace {
  public:
   virtual ~HostTrace() = default;
   /// What every ray of some rows met, as traceRows has it (gi/ray_kernel.h): params.rays words per row, a facet or
-  /// TRACE_*. `threads` 0: all cores; the hits do not depend on it, to the bit. `sky`: of those that escape the bin.
+  /// TRACE_*. `threads` 0: all cores; the hits do not depend on it, to the bit. `sky`: of those that escape the bin;
+  /// `tintShift`: TraceRaysPush.
   virtual void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
-                    uint32_t threads = 0, bool sky = false) const = 0;
+                    uint32_t threads = 0, bool sky = false, uint32_t tintShift = 0) const = 0;
   /// What rays from anywhere meet, one after the other: a facet or TRACE_*. For several threads at once.
   virtual void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const = 0;
 };

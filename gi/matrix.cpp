@@ -97,7 +97,8 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   const Device& device = context.device;
   const uint32_t rows = matrix.rows, rays = params.rays;
   MatrixArrays arrays{};
-  arrays.columnBits = std::max(1, static_cast<int>(std::bit_width(rows - 1)));
+  const uint32_t facetBits = std::max(1, static_cast<int>(std::bit_width(rows - 1)));
+  arrays.columnBits = facetBits + (matrix.tinted ? TINT_BITS : 0);
   if (uint64_t{rays} >= uint64_t{1} << (32 - arrays.columnBits))
     throw UsageError(fmt::format(
         "matrix.rays = {} with {} facets: a csr entry of 32 bits gives {} bits to the column and {} to the "
@@ -115,7 +116,8 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   Buffer counts(device, "matrix scratch: row counts", Subsystem::Matrix, 4ull * segmentRows);
   Buffer total(device, "matrix scratch: total", Subsystem::Matrix, 4);
   Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
-  const RayKernel kernel = rayKernel(facets, field, params);
+  RayKernel kernel = rayKernel(facets, field, params);
+  if (matrix.tinted) kernel.tintShift = facetBits;
   CsrBuild build{context, matrix, rows, arrays.segmentShift};
   const std::unique_ptr<HostTrace> host =
       device.isCpu ? hostTraceIfAny(context, facets, params, kMatrixStage) : nullptr;
@@ -144,6 +146,9 @@ FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& 
   matrix.format = settings.matrix.format;
   matrix.rows = facets.count;
   matrix.rays = params.rays;
+  matrix.tinted = facets.surface.tinted;
+  if (matrix.tinted && matrix.format == MatrixFormat::padded)
+    throw UsageError("matrix.format = padded: its rows cannot tell what panes of KHR_materials_transmission tint; take csr");
   matrix.rowInfo = Buffer(context.device, "matrix row info", Subsystem::Matrix, 8ull * facets.count);
   matrix.stats.rays = uint64_t{facets.count} * params.rays;
   if (facets.count == 0) {

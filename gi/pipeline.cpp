@@ -118,6 +118,7 @@ struct Pipeline::Impl {
     digest.add(content.surfaces)
         .add(planned.on(Effect::alphaTest))
         .add(planned.on(Effect::glass))
+        .add(planned.tinted())
         .add(settings.light.shadowResolution);
     const ShadowNeeds needs = shadowNeeds();
     digest.add(needs.filter).add(needs.bleedReduction).add(needs.points);
@@ -497,6 +498,7 @@ struct Pipeline::Impl {
     ShadowNeeds needs = irad::shadowNeeds(settings);
     needs.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); };
     needs.alphaTest = planned.on(Effect::alphaTest) || planned.on(Effect::glass);
+    needs.tinted = planned.tinted();
     needs.kernels = rasterizesByKernels(context.device, settings);
     return needs;
   }
@@ -795,13 +797,13 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   };
   const View seen = isFrom(FROM_PICTURE) ? p.pictureOf : view;
   inputs.composed = p.planned.on(Effect::glass) && seen == VIEW_LIT;
-  targets.fitLayers(p.context, inputs.composed);
+  targets.fitLayers(p.context, inputs.composed, p.planned.tinted());
   const auto drawLayer = [&](Layer layer) {
     drawSurfaces(layer);
     drawTargets(frame, seen, inputs, p.camera, obeyed, targets);
   };
   if (inputs.composed)
-    drawLayers(frame, p.settings.camera.glassLayers, drawLayer, targets);
+    drawLayers(frame, p.settings.camera.glassLayers, p.planned.tinted(), drawLayer, targets);
   else
     drawSurfaces(Layer::first);
   drawView(frame, view, inputs, p.camera, obeyed, targets);

@@ -320,7 +320,7 @@ class Planner {
   }
 
   void glass() {
-    auto [n, reason] = materials([](const MaterialTraits& m) { return m.glass; }, "blended with alpha below 1");
+    auto [n, reason] = materials([](const MaterialTraits& m) { return m.glass; }, "blended with alpha below 1, or transmissive");
     if (!byTriangles() && n > 0)
       return without(Effect::glass, reason + ", opaque with matrix.hit_rule = thesis; textured ones cut at one half");
     decide(Effect::glass, n > 0, std::move(reason));
@@ -452,6 +452,10 @@ void Planned::decide(const Settings& wanted) {
   }
 }
 
+bool Planned::tinted() const {
+  return on(Effect::glass) && std::ranges::any_of(traits.materials, &MaterialTraits::tinted);
+}
+
 bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const {
   const Effect kind = effectOf(LightType{light.type});
   if (!on(kind)) return false;
@@ -465,6 +469,13 @@ std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all)
     GpuMaterial& m = out[i];
     const MaterialTraits& t = traits.materials.at(i);
     const bool glass = on(Effect::glass) && t.glass;
+    if ((m.flags & MATERIAL_TRANSMISSIVE) != 0 && !(glass && t.tinted)) {
+      // As without the extension.
+      m.flags &= ~MATERIAL_TRANSMISSIVE;
+      if (m.alphaCutoff >= 0) m.flags &= ~MATERIAL_BLEND;
+      if (m.alphaCutoff == 0) m.flags &= ~MATERIAL_ALPHA_MASK;
+      if (m.alphaCutoff < 0) m.alphaCutoff = 0.5f;
+    }
     if (!glass && (m.flags & MATERIAL_BLEND) != 0) {
       m.flags &= ~MATERIAL_BLEND;
       if (!t.cutIfOpaque) m.flags &= ~MATERIAL_ALPHA_MASK;
@@ -485,6 +496,7 @@ ForwardEffects Planned::forwardEffects() const {
   e.emission = on(Effect::emission);
   e.alphaTest = on(Effect::alphaTest) || on(Effect::glass);
   e.glass = on(Effect::glass);
+  e.tinted = tinted();
   e.normalMap = on(Effect::normalMap);
   e.specular = on(Effect::specular);
   e.highlights = std::ranges::any_of(traits.materials, [](const auto& m) { return m.triangles > 0 && m.f0 > 0; });

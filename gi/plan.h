@@ -117,6 +117,8 @@ class Planned {
 
   const EffectPlan& plan() const { return plan_; }
   bool on(Effect effect) const { return plan_.on(effect); }
+  /// There are panes that tint what passes.
+  bool tinted() const;
   /// obeyed() for the plan as it is.
   const Settings& settings() const { return settings_; }
 

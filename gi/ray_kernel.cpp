@@ -52,6 +52,7 @@ void traceRows(Frame& frame, const RayKernel& kernel, const MatrixParams& params
   push.rays = params.rays;
   push.jitter = params.jitter;
   push.seed = params.seed;
+  push.tintShift = kernel.tintShift;
   push.surface = pass.inIfAny(kernel.facets.surface.record);
   const bool triangles = params.hitRule == HitRule::triangles;
   kernel.configure(pass, frame.context().device, triangles ? "gi/trace_triangle_rays" : "gi/trace_rays")

@@ -21,6 +21,7 @@ struct RayKernel {
   NormalEncoding encoding;
   const FacetList& facets;
   const Field& field;
+  uint32_t tintShift = 0;  ///< TraceRaysPush
 
   /// Adds shader ("NAME.comp", or its variant "NAME_jfa.comp"), constants and the field's image to a pass.
   Pass& configure(Pass& pass, const Device& device, const std::string& name) const;

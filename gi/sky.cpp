@@ -13,6 +13,7 @@
 #include "renderer/frame/record.h"
 #include "renderer/scene/scene.h"
 #include "shaders/shared/emitters.h"
+#include "shaders/shared/constants.h"
 
 namespace irad {
 namespace {
@@ -160,6 +161,7 @@ void gatherSky(Frame& frame, const FormFactors& matrix, const Buffer& bins, Ligh
     light.sky = Buffer(frame.context().device, "irradiance from the sky", Subsystem::Solver, light.direct.bytes);
   Pass pass = frame.pass("GI Gather");
   pass.shader("gi/gather_sky.comp")
+      .constant(CONSTANT_TINTED, matrix.tinted)
       .push(GatherSkyPush{pass.in(matrix.record), pass.in(bins), pass.out(light.sky)})
       .dispatch(matrix.rows);
 }

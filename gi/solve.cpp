@@ -240,7 +240,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     }
   }
   endSolve(context, facets, light, report, litBefore);
-  if (report.converged && params.lambda == 1) report.energy = balance(context, facets, light);
+  if (report.converged && params.lambda == 1 && !matrix.tinted) report.energy = balance(context, facets, light);
   return light.report = report;
 }
 

@@ -50,7 +50,8 @@ struct SolveReport {
   float omega = 1;      ///< relaxation of the last sweep
   float growth = 0;     ///< of the residual in the last sweep, as a factor, where it may grow (largestGain >= 1)
   std::optional<Defect> defect;         ///< with nonFinite or negative
-  std::optional<EnergyBalance> energy;  ///< of a converged solve with solver.lambda 1; by brute force none under a sky
+  std::optional<EnergyBalance> energy;  ///< of a converged solve with solver.lambda 1; by brute force none under a sky,
+                                        ///< and none where panes tint, which absorb what no row tells
   std::optional<float> blurChange;  ///< by scatter(), where it watches the blur: the most that it changes H by, W/m^2
   uint32_t clampedVoxels = 0;       ///< by scatter(): whose light exceeds the 65504 W/m^2 that the volume holds
   /// Further sweeps would not improve anything.

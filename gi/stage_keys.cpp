@@ -20,7 +20,7 @@ void addUse(Digest& digest, const TextureUse& use) {
 void addMaterial(Digest& digest, const Material& m) {
   digest.add(m.baseColor).add(m.metallic).add(m.roughness).add(m.emission);
   digest.add(m.normalScale).add(m.occlusionStrength).add(m.alphaCutoff).add(m.alpha);
-  digest.add(m.doubleSided).add(m.lambertian);
+  digest.add(m.doubleSided).add(m.lambertian).add(m.transmission);
   for (const TextureUse* use : texturesOf(m)) addUse(digest, *use);
 }
 
@@ -53,9 +53,14 @@ uint64_t SurfaceContent::surfaces(std::span<const Material> materials) const {
   Digest digest;
   digest.add(geometry_);
   for (const Material& m : materials) {
-    const bool holes = cutByAlpha(m) || m.alpha == AlphaMode::Blend;
+    const bool tinted = m.transmission > 0, holes = cutByAlpha(m) || m.alpha == AlphaMode::Blend || tinted;
     digest.add(m.doubleSided).add(holes);
     if (!holes) continue;
+    if (tinted) {
+      digest.add(m.transmission).add(m.baseColor).add(m.lambertian).add(m.metallic);
+      add(digest, m.transmissionTexture);
+      add(digest, m.metallicRoughnessTexture);
+    }
     digest.add(m.alpha).add(m.alphaCutoff).add(m.baseColor.a);
     add(digest, m.baseColorTexture);
   }

@@ -16,6 +16,7 @@ struct Surface {
   Buffer corners, firstPiece, pieces, boxes, groups, sides, cuts;  ///< of SurfaceArrays
   Buffer surfels, wideSides, linkMasks, firstLinks, links;
   Buffer record;  ///< one SurfaceArrays
+  bool tinted = false;  ///< some of it are panes that tint
   explicit operator bool() const { return static_cast<bool>(record); }
 };
 

@@ -83,6 +83,7 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
   push.sky = pass.inIfAny(light.sky);
   push.reflected = pass.inIfAny(light.writeback.used);
   pass.constant(CONSTANT_MATRIX_FORMAT, matrix_.format)
+      .constant(CONSTANT_TINTED, matrix_.tinted)
       .constant(CONSTANT_SOLVE_WORK, work)
       .constant(CONSTANT_SKY, static_cast<bool>(light.sky))
       .constant(CONSTANT_REFLECTED, static_cast<bool>(light.writeback.used))

@@ -23,7 +23,8 @@ struct MaterialTraits {
   float f0 = 0;              ///< specular reflectance at normal incidence; 0: Lambertian
   float leastRoughness = 1;  ///< lower bound
   bool alphaTest = false, normalMap = false;
-  bool glass = false;        ///< blended, with alpha below 1 in any texel or vertex
+  bool glass = false;        ///< blended, with alpha below 1 in any texel or vertex, or tinted
+  bool tinted = false;       ///< transmits light in its base colour
   bool cutIfOpaque = false;  ///< blended and textured: an alpha mask where there is no glass
 };
 

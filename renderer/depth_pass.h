@@ -15,7 +15,7 @@ struct DepthPass {
   bool cull = false;                         ///< backs of single-sided materials
   bool alphaTest = true;                     ///< false: masked materials are opaque
   bool blended = true;                       ///< false: blended materials are left out
-  bool screens = false;                      ///< DepthPush::screens
+  uint32_t screens = 0;                      ///< DepthPush::screens
   const Image* peeled = nullptr;             ///< R32F: depth that blended materials are behind
   const std::vector<Draw>* draws = nullptr;  ///< null: all of the scene's
 };

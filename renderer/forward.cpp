@@ -24,7 +24,8 @@ VkCullModeFlags culling(const SceneOnDevice& scene, const Draw& draw) {
 }
 
 constexpr uint32_t kAnyTexture = MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE |
-                                 MATERIAL_NORMAL_TEXTURE | MATERIAL_OCCLUSION_TEXTURE | MATERIAL_EMISSIVE_TEXTURE;
+                                 MATERIAL_NORMAL_TEXTURE | MATERIAL_OCCLUSION_TEXTURE | MATERIAL_EMISSIVE_TEXTURE |
+                                 MATERIAL_TRANSMISSION_TEXTURE;
 
 /// Largest and smallest distance of the bounds' corners along the view direction.
 glm::dvec2 depthOfBounds(const Scene& scene, const glm::dvec3& eye, const glm::dvec3& forward) {
@@ -198,6 +199,7 @@ void drawForward(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sha
         .effect(FORWARD_F0, effects.specular)
         .effect(FORWARD_INDIRECT, effects.indirect)
         .effect(FORWARD_GLASS, effects.glass)
+        .effect(FORWARD_TINTED, effects.tinted)
         .constant(FORWARD_PCF, std::clamp(shade.pcf, 1u, 5u) | 1u)
         .constant(FORWARD_MANY_LIGHTS, push.lightCount > UNIFORM_LIGHTS);
     push.scene = pass.in(scene.record);

@@ -18,6 +18,7 @@ struct ForwardEffects {
   bool alphaTest = true;  ///< masked materials; false: opaque
   bool normalMap = true;
   bool glass = true;       ///< blended materials
+  bool tinted = false;     ///< panes that tint what passes: lights have a map for each channel (ShadowNeeds::tinted)
   Layer layer = {};        ///< not an effect: the layer that is drawn
   bool highlights = true;  ///< the lights' specular lobe
   /// Without a VolumeLookup for a later pass that looks indirect light up: Targets::indirect gets every pixel's

@@ -51,6 +51,11 @@ GpuMaterial toGpu(const Material& m) {
     gpu.flags |= MATERIAL_ALPHA_MASK | MATERIAL_BLEND;
     gpu.alphaCutoff = 0.5f;  // where it is taken for a mask
   }
+  gpu.transmission = m.transmission;
+  if (m.transmission > 0) {
+    gpu.flags |= MATERIAL_ALPHA_MASK | MATERIAL_BLEND | MATERIAL_TRANSMISSIVE;
+    gpu.alphaCutoff = m.alpha == AlphaMode::Blend ? -1.0f : m.alpha == AlphaMode::Mask ? m.alphaCutoff : 0.0f;
+  }
   if (m.doubleSided) gpu.flags |= MATERIAL_DOUBLE_SIDED;
   if (m.lambertian) gpu.flags |= MATERIAL_LAMBERTIAN;
   const auto uses = texturesOf(m);
@@ -93,7 +98,7 @@ Buffer uploadArray(Context& context, const char* name, const std::vector<T>& val
 }  // namespace
 
 SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(source) {
-  static_assert(MATERIAL_EMISSIVE_TEXTURE == MATERIAL_BASE_COLOR_TEXTURE << TEXTURE_EMISSIVE);
+  static_assert(MATERIAL_TRANSMISSION_TEXTURE == MATERIAL_BASE_COLOR_TEXTURE << TEXTURE_TRANSMISSION);
 
   // Vertices and triangles.
   positions = uploadArray(context, "positions", scene.positions);

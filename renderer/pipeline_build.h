@@ -17,7 +17,7 @@ enum class Blend { None, Additive, Alpha };
 
 constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_ALL_GRAPHICS | VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr uint32_t kPushBytes = 128;  ///< what every device has
-constexpr uint32_t kMaterialBindings = 5;
+constexpr uint32_t kMaterialBindings = 6;
 
 VkDescriptorType descriptorType(const ShaderBinding& binding);
 

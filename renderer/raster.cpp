@@ -51,6 +51,7 @@ void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& ras
   push.size = raster.size;
   push.pieces = rasterQueuePieces(triangles);
   push.cull = raster.cull;
+  push.channel = raster.channel;
   const auto drawn = [&](const Draw& draw) {
     return masked(draw) && (raster.blended || (scene.materialValues.at(draw.material).flags & MATERIAL_BLEND) == 0);
   };

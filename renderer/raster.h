@@ -41,6 +41,7 @@ struct RasterPass {
   bool cull = false;               ///< backs of single-sided materials
   bool alphaTest = true;           ///< false: masked materials are opaque
   bool blended = true;             ///< false: blended materials are left out
+  uint32_t channel = 0;            ///< RasterPush::channel
   const Buffer* peeled = nullptr;  ///< a `target` of raster/visible.comp that blended materials are behind
 };
 void rasterScene(Frame& frame, const SceneOnDevice& scene, const RasterPass& pass);

@@ -21,6 +21,7 @@ constexpr uint64_t kMostBytes = uint64_t{1} << 30;
 struct Face {
   bool cube;
   int layer;
+  uint32_t channel;  ///< by which panes keep light off
   glm::mat4 matrix;
 };
 
@@ -138,7 +139,7 @@ void drawByHardware(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& 
                .projections = projections,
                .offset = i * sizeof(Projection),
                .alphaTest = alphaTest,
-               .screens = true});
+               .screens = 1 + faces[i].channel});
 }
 
 /// Flat maps are stored by a kernel, layer by layer. Cubes are copied, all at once.
@@ -167,7 +168,8 @@ void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& m
                  .targetOffset = face.cube ? 4 * texels(map) * face.layer : 0,
                  .size = {map.desc.width, map.desc.height},
                  .queue = queue,
-                 .alphaTest = alphaTest});
+                 .alphaTest = alphaTest,
+                 .channel = face.channel});
     if (face.cube) continue;
     Pass store = frame.pass(kStage);
     store.shader("raster/store_shadow.comp")
@@ -179,7 +181,7 @@ void drawByKernels(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& m
 }
 
 /// In place of depths, these and the filtered moments (ShadowFilter::vsm).
-void addMoments(Frame& frame, ShadowMaps& maps, const std::vector<GpuLight>& lights, uint32_t taps) {
+void addMoments(Frame& frame, ShadowMaps& maps, const std::vector<GpuLight>& lights, uint32_t taps, int channels) {
   const Device& device = frame.context().device;
   ShadowMaps depths = std::move(maps);
   maps = {};
@@ -191,13 +193,13 @@ void addMoments(Frame& frame, ShadowMaps& maps, const std::vector<GpuLight>& lig
                        VK_IMAGE_USAGE_STORAGE_BIT);
     for (const GpuLight& light : lights) {
       if (light.shadowLayer < 0 || lightUsesCube(light.type, light.outerCos) != cube) continue;
-      for (int face = 0; face < (cube ? 6 : 1); ++face)
+      for (int face = 0; face < (cube ? 6 : 1) * channels; ++face)
         frame.pass(kStage)
             .shader(cube ? "raster/shadow_moments_cube.comp" : "raster/shadow_moments.comp")
             .sampleDepth(depth, depths.sampler, cube)
             .write(moments)
-            .push(ShadowMomentsPush{.layer = light.shadowLayer,
-                                    .face = face,
+            .push(ShadowMomentsPush{.layer = light.shadowLayer + face / (cube ? 6 : 1),
+                                    .face = cube ? face % 6 : 0,
                                     .taps = taps | 1u,
                                     // Depth in perspective is near / distance, else 1 - distance.
                                     .nearShare = lightKind(LightType{light.type}).has(LIGHT_DISTANT)
@@ -219,6 +221,7 @@ uint64_t shadowTexelBytes(ShadowFilter filter) {
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs) {
   // Give layers to each light that shines.
+  const uint32_t channels = needs.tinted ? 3 : 1;
   uint32_t flats = 0, cubes = 0;
   for (GpuLight& light : lights) {
     light.shadowLayer = -1;
@@ -226,7 +229,9 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
     light.bleedReduction = needs.bleedReduction;
     light.points = std::max(needs.points, 1u);
     if (!needs.shines(light)) continue;
-    light.shadowLayer = static_cast<int>(lightUsesCube(light.type, light.outerCos) ? cubes++ : flats++);
+    uint32_t& layers = lightUsesCube(light.type, light.outerCos) ? cubes : flats;
+    light.shadowLayer = static_cast<int>(layers);
+    layers += channels;
   }
 
   // Choose the largest size that the device and a bounded share of memory allow.
@@ -258,14 +263,16 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
     } else {
       fitPlanes(scene.scene, light);
       light.shadowTexel = 2.0f / static_cast<float>(cubeSize);
-      for (int f = 0; f < 6; ++f) {
-        const Basis basis{kCubeFaces[f][0], kCubeFaces[f][1], kCubeFaces[f][2]};
-        faces.push_back(
-            {true, light.shadowLayer * 6 + f, perspective(basis, light.position, /*tangent*/ 1.0, light.shadowNear)});
-      }
+      for (uint32_t c = 0; c < channels; ++c)
+        for (int f = 0; f < 6; ++f) {
+          const Basis basis{kCubeFaces[f][0], kCubeFaces[f][1], kCubeFaces[f][2]};
+          faces.push_back({true, (light.shadowLayer + static_cast<int>(c)) * 6 + f, c,
+                           perspective(basis, light.position, /*tangent*/ 1.0, light.shadowNear)});
+        }
       continue;
     }
-    faces.push_back({false, light.shadowLayer, light.shadowMatrix});
+    for (uint32_t c = 0; c < channels; ++c)
+      faces.push_back({false, light.shadowLayer + static_cast<int>(c), c, light.shadowMatrix});
   }
 
   // Draw. Every triangle casts a shadow, whichever side it shows; masked materials read their textures.
@@ -275,7 +282,7 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
       makeBuffer(context, "shadow projections", Subsystem::Shadow, std::span<const glm::mat4>(matrices));
   Frame frame = context.begin();
   (needs.kernels ? drawByKernels : drawByHardware)(frame, scene, maps, faces, projections, needs.alphaTest);
-  if (needs.filter == ShadowFilter::vsm) addMoments(frame, maps, lights, needs.taps);
+  if (needs.filter == ShadowFilter::vsm) addMoments(frame, maps, lights, needs.taps, static_cast<int>(channels));
   frame.submitAndWait();
   return maps;
 }

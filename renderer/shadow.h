@@ -24,6 +24,7 @@ Pass& sampleShadows(Pass& pass, const ShadowMaps& maps);
 struct ShadowNeeds {
   LightFilter shines = hasIntensity;  ///< lights that get a map
   bool alphaTest = true;              ///< DepthPass::alphaTest
+  bool tinted = false;                ///< three layers for each light, or cubes: a channel's each
   bool kernels = false;               ///< who rasterizes (renderer/raster.h)
   ShadowFilter filter = ShadowFilter::pcf;
   uint32_t taps = 3;            ///< vsm: moments are means over so many texels per axis, odd

@@ -77,8 +77,10 @@ void Targets::fitRaster(Context& context, bool kernels, uint32_t triangles) {
     rasterQueue = makeRasterQueue(device, Subsystem::Targets, triangles);
 }
 
-void Targets::fitLayers(Context& context, bool wanted) {
+void Targets::fitLayers(Context& context, bool wanted, bool tinted) {
   const Device& device = context.device;
+  if ((wanted && tinted) != static_cast<bool>(shows))
+    shows = wanted && tinted ? target(device, "what shows behind panes", kFull, size, kColor) : Image();
   if (wanted != static_cast<bool>(layers)) {
     layers = wanted ? target(device, "layers of glass", kFull, size, kColor) : Image();
     peeled = wanted ? target(device, "depth of the last layer", VK_FORMAT_R32_SFLOAT, size, VK_IMAGE_USAGE_STORAGE_BIT)

@@ -19,7 +19,8 @@ struct Targets {
   Image normal;      ///< RGBA16F: shading normal xyz, roughness
   Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic (packCover() of blended surfaces)
   Image albedo;      ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
-  Image direct;      ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point)
+  Image direct;      ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point); w: what the surface lets through of each
+                     ///< channel, packPasses() of shaders/shared/glass.h, where panes tint
   Image linear;      ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn.
                      ///< Passes before the view keep what they need for themselves there
   Buffer viewRange;  ///< one ViewRange (shaders/shared/view.h), of views that have one
@@ -45,6 +46,7 @@ struct Targets {
 
   // Where blended surfaces are drawn by layers:
   Image layers;          ///< RGBA32F: the sum so far, and the share of what is behind that shows
+  Image shows;           ///< RGBA32F: that share by channel, where panes tint
   Image peeled;          ///< R32F: depth of the last layer
   Buffer peeledVisible;  ///< `visible` of the last layer, where kernels rasterize
 
@@ -59,7 +61,7 @@ struct Targets {
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);
   /// Makes what layers are put together in, or frees it. After fitRaster().
-  void fitLayers(Context& context, bool wanted);
+  void fitLayers(Context& context, bool wanted, bool tinted = false);
   /// Makes one of the images of the second group, or frees it once the device has finished with it.
   void fit(Context& context, Image Targets::*image, bool wanted);
   /// TARGET_* of shaders/shared/passes.h: those of them that exist.

@@ -153,11 +153,23 @@ Scene glazed(bool thin = true) {
   return scene;
 }
 
+/// The lower sheet transmits .9 of a color instead.
+Scene tinted(const glm::vec3& color) {
+  Scene scene = glazed();
+  Material& pale = scene.materials[1];
+  pale.alpha = AlphaMode::Opaque;
+  pale.baseColor = glm::vec4(color, 1);
+  pale.lambertian = true;
+  pale.transmission = 0.9f;
+  return scene;
+}
+
 TEST_F(HostTracing, MeetsWhatTheKernelMeetsButForTies) {
   expectTiesAlone("furnished room", furnishedRoom(), triangles(24, 64), 20000);
   expectTiesAlone("thin wall", twoRooms(0.2f), triangles(24, 64), 20000);
   expectTiesAlone("masked", masked(), triangles(24, 64), 20000);
   expectTiesAlone("glazed", glazed(), triangles(24, 64), 20000);
+  expectTiesAlone("tinted", tinted({0.9f, 0.5f, 0.2f}), triangles(24, 64), 20000);
   expectTiesAlone("box.glb", loadScene(sourceFolder() / "assets/box.glb"), triangles(40, 32), 20000);
 }
 
@@ -248,6 +260,48 @@ TEST_F(HostTracing, GlassLetsItsShareThrough) {
   fmt::print("through alpha .3: {:.4f} of {:.0f}\n", host, all);
   EXPECT_NEAR(host, 0.7, 0.01);
   EXPECT_NEAR(kernel, host, 1e-3);
+}
+
+TEST_F(HostTracing, PanesLetTheirShareOfEachChannelThrough) {
+  // Of the floor's rays that come above the lower sheet, those that keep a channel are .9 of the pane's color of it.
+  constexpr uint32_t kRays = 128, kShift = TINT_SHIFT_FRAMES;
+  const glm::dvec3 color(0.9, 0.5, 0.2);
+  const World open = world(glazed(/*thin=*/false), triangles(24, kRays)), w = world(tinted(color), triangles(24, kRays));
+  const auto above = [&](const World& in, const std::vector<uint32_t>& met, uint32_t channel) {
+    const HostFacets f = hostFacets(context(), in.facets);
+    double count = 0;
+    for (size_t i = 0; i < met.size(); ++i) {
+      if (f.position[i / kRays].y > -0.99 || f.normal[i / kRays].y < 0.9 || met[i] > TRACE_LAST_FACET) continue;
+      const bool kept = (met[i] >> kShift >> channel & 1) == 0;
+      count += kept && f.position[met[i] & ((1u << kShift) - 1)].y > 0.1;
+    }
+    return count;
+  };
+  std::vector<uint32_t> host(uint64_t{w.facets.count} * kRays);
+  makeHostTrace(context(), w.facets)->rows(w.settings.matrix.gpu, 0, w.facets.count, host, 0, false, kShift);
+  const Buffer hits(context().device, "hits", Subsystem::Staging, 4 * host.size());
+  RayKernel kernel = rayKernel(w.facets, w.field, w.settings.matrix.gpu);
+  kernel.tintShift = kShift;
+  Frame frame = context().begin();
+  traceRows(frame, kernel, w.settings.matrix.gpu, 0, w.facets.count, hits);
+  frame.submitAndWait();
+  const std::vector<uint32_t> device = downloadAs<uint32_t>(context(), hits);
+  const double all = above(open, byHost(open), 0);
+  for (uint32_t c = 0; c < 3; ++c) {
+    const double share = above(w, host, c) / all, byDevice = above(w, device, c) / all;
+    fmt::print("channel {}: {:.4f} of {:.4f}\n", c, share, 0.9 * color[c]);
+    EXPECT_NEAR(share, 0.9 * color[c], 0.01);
+    EXPECT_NEAR(byDevice, share, 1e-3);
+  }
+  // The reflected rest, over what is met of the pane, is its facets' albedo.
+  const HostFacets f = hostFacets(context(), w.facets);
+  size_t seen = 0;
+  for (size_t i = 0; i < f.count(); ++i) {
+    if (std::abs(f.position[i].y - 0.035) > 0.02 || std::abs(f.normal[i].y) < 0.9) continue;
+    ++seen;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(f.albedo[i][c], 0.1 * color[c] / (1 - 0.9 * color.x), 1e-4);
+  }
+  EXPECT_GT(seen, 100u);
 }
 
 TEST_F(HostTracing, TheSameHitsFromAnyNumberOfThreads) {

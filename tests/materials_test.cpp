@@ -296,6 +296,7 @@ TEST(MaterialEdits, ChangeWhatTheyNameAndNothingElse) {
   EXPECT_EQ(edited(Material{}, {.emissionStrength = 2.0f}).emission, glm::vec3(2));
   EXPECT_EQ(edited(file, {.alphaCutoff = 0.25f}).alphaCutoff, 0.25f);
   EXPECT_EQ(edited(Material{}, {.alphaCutoff = 0.25f}).alphaCutoff, 0.5f) << "an opaque one has none";
+  EXPECT_EQ(edited(Material{}, {.transmission = 0.25f}).transmission, 0.25f);
   EXPECT_EQ(edited(file, {.texturesOff = 1}).baseColorTexture.image, -1);
   file.lambertian = true;
   EXPECT_EQ(edited(file, {.metallic = 0.5f}).metallic, file.metallic);
@@ -309,7 +310,8 @@ Edits full() {
            .emissionColor = glm::vec3(0.3f, 1, 0),
            .emissionStrength = 1e7f / 3,
            .alphaCutoff = 1.0f / 7,
-           .texturesOff = 31},
+           .transmission = 1.0f / 9,
+           .texturesOff = 63},
           {.material = "wall \"2\"", .roughness = 0.0f}};
 }
 
@@ -332,6 +334,7 @@ TEST(MaterialEdits, RefusalsNameMaterialFieldAndValue) {
       {R"([{"name": "a", "baseColor": 1}])", "M[0]: baseColor: expected 3 numbers"},
       {R"([{"name": "a", "emissionStrength": 1e13}])", "M[0]: emissionStrength: expected 0 to 1e+12"},
       {R"([{"name": "a", "alphaCutoff": "x"}])", "M[0]: alphaCutoff: "},
+      {R"([{"name": "a", "transmission": 2}])", "M[0]: transmission: expected 0 to 1, not 2"},
       {R"([{"name": "a", "texturesOff": ["normals"]}])", "M[0]: texturesOff: unknown \"normals\" (did you mean normal"},
       {R"([{"name": "a", "texturesOff": 3}])", "M[0]: texturesOff: expected an array of names, not 3"},
       {R"([{"name": "a", "rougness": 1}])", "M[0]: "},

@@ -172,10 +172,10 @@ const Case kCases[]{
     {E::alphaTest, EDIT(t.materials[0].cutIfOpaque = t.materials[0].glass = true),
      "off: none of 2 materials cut out by alpha"},
     {E::alphaTest, EDIT(thesis(t, s), t.materials[0].cutIfOpaque = t.materials[0].glass = true), "on: *"},
-    {E::glass, none, "off: none of 2 materials blended with alpha below 1"},
-    {E::glass, EDIT(t.materials[1].glass = true), "on: 1 of 2 materials blended with alpha below 1"},
+    {E::glass, none, "off: none of 2 materials blended with alpha below 1, or transmissive"},
+    {E::glass, EDIT(t.materials[1].glass = true), "on: 1 of 2 materials blended with alpha below 1, or transmissive"},
     {E::glass, EDIT(thesis(t, s), t.materials[1].glass = true),
-     "off: 1 of 2 materials blended with alpha below 1, opaque with matrix.hit_rule = thesis; textured ones cut at one "
+     "off: 1 of 2 materials blended with alpha below 1, or transmissive, opaque with matrix.hit_rule = thesis; textured ones cut at one "
      "half"},
     {E::normalMap, EDIT(t.materials[0].normalMap = t.materials[1].normalMap = true), "on: 2 of 2 materials with *"},
     {E::normalMap, EDIT(t.materials[0].alphaTest = true), "off: none of 2 materials with a normal map"},

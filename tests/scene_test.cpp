@@ -309,6 +309,31 @@ TEST_F(SceneLoading, FactorsAreClampedAndReported) {
   EXPECT_TRUE(load(file, both).materials[0].doubleSided);
 }
 
+TEST_F(SceneLoading, PanesTransmitAsTheirExtensionSays) {
+  GltfFile file = triangleFile();
+  file.primitive()["material"] = 0;
+  file.json["extensionsUsed"] = {"KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior"};
+  file.json["materials"] = {{{"name", "pane"}, {"doubleSided", true}}};
+  auto& extension = file.json["materials"][0]["extensions"]["KHR_materials_transmission"];
+  extension = {{"transmissionFactor", 0.75}};
+  const Scene s = load(file);
+  EXPECT_EQ(s.materials[0].transmission, 0.75f);
+  EXPECT_EQ(s.materials[0].transmissionTexture.image, -1);
+  EXPECT_FALSE(warns(s, "KHR_materials_transmission"));
+  EXPECT_TRUE(warns(s, "KHR_materials_volume is not rendered: what transmits light is a thin pane"));
+  EXPECT_TRUE(warns(s, "KHR_materials_ior is not rendered"));
+  extension = decltype(file.json)::object();
+  EXPECT_EQ(load(file).materials[0].transmission, 0.0f) << "the extension's own";
+  extension = {{"transmissionFactor", 3}};
+  const Scene clamped = load(file);
+  EXPECT_EQ(clamped.materials[0].transmission, 1.0f);
+  EXPECT_TRUE(warns(clamped, "KHR_materials_transmission.transmissionFactor: 3 is clamped to 1"));
+  extension = {{"transmissionFactor", "much"}};
+  EXPECT_THROW(load(file), InputError);
+  extension = {{"transmissionTexture", {{"index", 7}}}};
+  EXPECT_THROW(load(file), InputError);
+}
+
 TEST_F(SceneLoading, DefaultCameraSeesEverythingAndDefaultSunIsNoted) {
   GltfFile file = triangleFile();
   const Scene s = load(file);

@@ -137,6 +137,13 @@ TEST(SurfaceContent, TellsWhatMovesSurfacesFromWhatColoursThem) {
     change.make(other);
     EXPECT_EQ(differing(scene, other), change.differs) << change.what;
   }
+  // Of panes the colour is where surfaces are, too: what passes is cut out of them.
+  Scene pane = scene;
+  pane.materials[0].transmission = 0.5f;
+  EXPECT_EQ(differing(scene, pane), "sm");
+  Scene other = pane;
+  other.materials[0].baseColor.y *= 0.5f;
+  EXPECT_EQ(differing(pane, other), "sm");
   // With a mask alpha and what it comes of are where surfaces are.
   Scene cut = scene;
   masked(cut);

@@ -93,6 +93,12 @@ Changes<Scene> sceneChanges() {
                      {"occlusionStrength", [](Scene& s) { s.materials[0].occlusionStrength = .5f; }},
                      {"alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = .25f; }},
                      {"alpha", [](Scene& s) { s.materials[0].alpha = AlphaMode::Mask; }},
+                     {"transmission", [](Scene& s) { s.materials[0].transmission = .25f; }},
+                     {"transmissionTexture",
+                      [](Scene& s) {
+                        s.materials[0].transmission = .25f;
+                        s.materials[0].transmissionTexture.image = 0;
+                      }},
                      {"doubleSided", [](Scene& s) { s.materials[0].doubleSided = true; }},
                      {"lambertian", [](Scene& s) { s.materials[0].lambertian = true; }},
                      {"another image", [](Scene& s) { s.images.emplace_back(); }},

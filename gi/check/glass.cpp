@@ -1,7 +1,8 @@
-// Blended surfaces: panes, a curtain, a pane in front of a lamp, in a closed room, against the path tracer, which
-// decides at each of them by chance.
+// Blended surfaces: panes, a tinted one, a curtain, a pane in front of a lamp, in a closed room, against the path
+// tracer, which decides at each of them by chance.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "gi/check/cases.h"
@@ -96,6 +97,24 @@ Scene shadowScene() {
   return diffuse(b.finish("glass-shadow"));
 }
 
+/// A stained pane between a lamp with a point light and the other half: it keeps a tenth of what it would reflect.
+Scene tintScene() {
+  SceneBuilder b = closedRoom();
+  ceilingLamp(b, -0.5f);
+  b.point({-0.6, 0.8, 0.1}, 1);
+  const uint32_t pane = b.material({0.9f, 0.5f, 0.2f}, glm::vec3(0), /*doubleSided=*/true);
+  b.edit(pane).transmission = 0.9f;
+  acrossRoom(b, pane, 0.03f);
+  return diffuse(b.finish("glass-tint"));
+}
+
+/// Each channel's mean over the truth's.
+glm::dvec3 ratios(const CheckPicture& picture, const TracedLight& truth) {
+  glm::dvec3 sum(0);
+  for (const glm::vec4& p : picture.pixels) sum += glm::dvec3(p);
+  return sum / static_cast<double>(picture.pixels.size()) / truth.pictureMean;
+}
+
 void againstTruth(CheckRun& run, Scene (*make)()) {
   if (!hasPathTracer()) throw WorkError("could not be judged: this build has no path tracer (IRAD_EMBREE)");
   const Scene scene = make();
@@ -104,9 +123,15 @@ void againstTruth(CheckRun& run, Scene (*make)()) {
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const TracedPicture truth =
         tracer->render(scene.cameras[c], kPicture, {.samples = run.options.quick ? 256u : 1024u, .centred = true});
-    const TruthError all = compare(run.picture(*pipeline, scene.cameras[c], VIEW_LIT, kPicture), truth.lit);
+    const CheckPicture picture = run.picture(*pipeline, scene.cameras[c], VIEW_LIT, kPicture);
+    const TruthError all = compare(picture, truth.lit);
     run.near(fmt::format("camera {}: mean / truth", c), all.ratio, 1, 0.03);
     run.atMost(fmt::format("camera {}: relMSE", c), all.relMse, 0.02);
+    if (make == tintScene) {
+      const glm::dvec3 by = ratios(picture, truth.lit);
+      for (int i = 0; i < 3; ++i)
+        run.near(fmt::format("camera {}: {} / truth", c, std::array{"red", "green", "blue"}[i]), by[i], 1, 0.03);
+    }
     run.info(fmt::format("camera {}: truth's standard error / mean", c), all.uncertainty);
   }
 }
@@ -128,6 +153,8 @@ std::vector<CheckCase> glassCases() {
        lampPaneScene},
       {"glass-shadow", "a closed room with a point light, two panes of alpha .25 and .5 one behind the other", oracle,
        mark, glassCase<shadowScene>, shadowScene},
+      {"glass-tint", "a closed room halved by a pane that transmits .9 of (.9, .5, .2), lamps in one half", oracle,
+       "mean and each channel's 3 %, relMSE .02", glassCase<tintScene>, tintScene},
   };
 }
 

@@ -20,7 +20,7 @@ constexpr glm::uvec2 kSize(64, 64);
 void capacityCase(CheckRun& run) {
   Settings settings = run.small();
   const auto pipeline = run.prepare(mixedRoom(), settings);
-  const Picture before = run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize);
+  const CheckPicture before = run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize);
 
   // Nothing is dropped: every ray is in its row, or counted as what became of it.
   uint64_t hits = 0;

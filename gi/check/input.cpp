@@ -17,7 +17,7 @@ namespace {
 
 constexpr glm::uvec2 kSize(96);
 
-Picture picture(CheckRun& run, Pipeline& pipeline, View view) {
+CheckPicture picture(CheckRun& run, Pipeline& pipeline, View view) {
   return run.picture(pipeline, pipeline.scene().cameras[0], view, kSize);
 }
 

@@ -44,7 +44,7 @@ void darkCase(CheckRun& run) {
   const Lighting& light = pipeline->lighting();
   run.none("B not 0", countNonZero(run.read(*pipeline, light.radiosity)));
   run.none("H not 0", countNonZero(run.read(*pipeline, light.indirect)));
-  const Picture lit = run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, {64, 64});
+  const CheckPicture lit = run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, {64, 64});
   uint64_t bright = 0;
   for (const glm::vec4& p : lit.pixels) bright += p.x != 0 || p.y != 0 || p.z != 0;
   run.none("pixels not black", bright);

@@ -25,8 +25,8 @@ double smithLambda(double cosine, double alpha) {
   return 0.5 * (std::sqrt(1 + alpha * alpha * std::max(tangent2, 0.0)) - 1);
 }
 
-Lobe::Lobe(const dvec3& f0, double roughness, const dvec3& normal, const dvec3& towardsViewer)
-    : there_(true), f0_(f0), alpha_(roughness * roughness), frame_(frameAbout(normal)) {
+Lobe::Lobe(const dvec3& f0, double roughness, const dvec3& normal, const dvec3& towardsViewer, double weight)
+    : there_(true), f0_(f0), alpha_(roughness * roughness), weight_(weight), frame_(frameAbout(normal)) {
   view_ = towardsViewer * frame_;  // its coordinates along the three
   view_.z = std::max(view_.z, kLeastCosine);
   view_ = glm::normalize(view_);
@@ -34,7 +34,7 @@ Lobe::Lobe(const dvec3& f0, double roughness, const dvec3& normal, const dvec3& 
 
 dvec3 Lobe::fresnel(double cosine) const {
   const double x = std::clamp(1 - cosine, 0.0, 1.0);
-  return f0_ + (1.0 - f0_) * (x * x * x * x * x);
+  return weight_ * (f0_ + (1.0 - f0_) * (x * x * x * x * x));
 }
 
 dvec3 Lobe::value(const dvec3& towards, double alpha) const {

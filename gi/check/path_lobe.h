@@ -24,7 +24,8 @@ class Lobe {
   static constexpr double kLeastCosine = 1e-3;
 
   Lobe() = default;
-  Lobe(const glm::dvec3& f0, double roughness, const glm::dvec3& normal, const glm::dvec3& towardsViewer);
+  Lobe(const glm::dvec3& f0, double roughness, const glm::dvec3& normal, const glm::dvec3& towardsViewer,
+       double weight = 1);
   explicit operator bool() const { return there_; }  ///< false: no lobe
   bool mirror() const { return alpha_ < kMirrorAlpha; }
   /// Schlick's Fresnel at the normal: about what the lobe reflects.
@@ -47,7 +48,7 @@ class Lobe {
 
   bool there_ = false;
   glm::dvec3 f0_{0};
-  double alpha_ = 1;
+  double alpha_ = 1, weight_ = 1;
   glm::dmat3 frame_{1};
   glm::dvec3 view_{0, 0, 1};  ///< local
 };

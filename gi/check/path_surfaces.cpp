@@ -133,6 +133,33 @@ glm::dvec4 Surfaces::baseColor(uint32_t triangle, glm::dvec2 uv) const {
          interpolated(scene_.colors, triangles_[triangle].corner, uv);
 }
 
+double Surfaces::metallic(uint32_t triangle, glm::dvec2 uv) const {
+  const Material& m = material(triangle);
+  if (m.lambertian) return 0;
+  return std::clamp(double{m.metallic} * texel(triangle, m.metallicRoughnessTexture, uv).z, 0.0, 1.0);
+}
+
+double Surfaces::transmitted(uint32_t triangle, glm::dvec2 uv) const {
+  const Material& m = material(triangle);
+  if (!(m.transmission > 0)) return 0;
+  return double{m.transmission} * texel(triangle, m.transmissionTexture, uv).x * (1 - metallic(triangle, uv));
+}
+
+double Surfaces::alpha(uint32_t triangle, glm::dvec2 uv) const {
+  return material(triangle).alpha == AlphaMode::Blend ? std::clamp(baseColor(triangle, uv).w, 0.0, 1.0) : 1;
+}
+
+double Surfaces::weight(uint32_t triangle, glm::dvec2 uv) const {
+  const double met = cover(triangle, uv);
+  return met > 0 ? alpha(triangle, uv) / met : 0;
+}
+
+glm::dvec3 Surfaces::passing(uint32_t triangle, glm::dvec2 uv) const {
+  const double a = alpha(triangle, uv);
+  const glm::dvec3 base = glm::clamp(glm::dvec3(baseColor(triangle, uv)), 0.0, 1.0);
+  return 1 - a + a * transmitted(triangle, uv) * base;
+}
+
 bool Surfaces::cutOut(uint32_t triangle, glm::dvec2 uv) const {
   return masked(triangle) && baseColor(triangle, uv).w < double{material(triangle).alphaCutoff};
 }
@@ -158,11 +185,14 @@ SurfacePoint Surfaces::at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& di
   p.smooth = side * smooth;
   p.normal = side * bumped(triangle, uv, smooth);  // from behind, bumps are dents
   if (!front && !m.doubleSided) return p;
-  const double metallic =
-      m.lambertian ? 0.0 : std::clamp(double{m.metallic} * texel(triangle, m.metallicRoughnessTexture, uv).z, 0.0, 1.0);
-  p.albedo = glm::clamp(glm::dvec3(baseColor(triangle, uv)), 0.0, 1.0) * (1 - metallic);
-  p.albedo = glm::min(p.albedo, kMostAlbedo);
+  p.albedo = glm::clamp(glm::dvec3(baseColor(triangle, uv)), 0.0, 1.0) *
+             (1 - metallic(triangle, uv) - transmitted(triangle, uv));
   if (t.share > 0) p.emission = glm::dvec3(m.emission) * glm::dvec3(texel(triangle, m.emissiveTexture, uv));
+  if (m.transmission > 0) {
+    p.albedo *= weight(triangle, uv);
+    p.emission *= weight(triangle, uv);
+  }
+  p.albedo = glm::min(p.albedo, kMostAlbedo);
   return p;
 }
 
@@ -173,7 +203,8 @@ std::optional<Gloss> Surfaces::glossAt(uint32_t triangle, glm::dvec2 uv, const g
   const double metallic = std::clamp(double{m.metallic} * mr.z, 0.0, 1.0);
   const glm::dvec3 base = glm::clamp(glm::dvec3(baseColor(triangle, uv)), 0.0, 1.0);
   return Gloss{.f0 = glm::mix(glm::dvec3(0.04), base, metallic),
-               .roughness = std::clamp(double{m.roughness} * mr.y, 0.0, 1.0)};
+               .roughness = std::clamp(double{m.roughness} * mr.y, 0.0, 1.0),
+               .weight = m.transmission > 0 ? weight(triangle, uv) : 1};
 }
 
 double Surfaces::offset(uint32_t triangle) const {

@@ -46,7 +46,7 @@ struct SurfacePoint {
   glm::dvec3 face{0};      ///< unit, of the triangle, on the side that is seen
   glm::dvec3 smooth{0};    ///< unit, interpolated between the vertices, on the same side
   glm::dvec3 normal{0};    ///< unit, by the normal map about `smooth`
-  glm::dvec3 albedo{0};    ///< 0..0.98; 0 on the back of a single-sided face
+  glm::dvec3 albedo{0};    ///< 0..0.98; 0 on the back of a single-sided face; of rays that meet what lets some through
   glm::dvec3 emission{0};  ///< radiance, W/(m^2 sr)
 };
 
@@ -54,6 +54,7 @@ struct SurfacePoint {
 struct Gloss {
   glm::dvec3 f0{0};      ///< reflectance at right angles, 0..1
   double roughness = 1;  ///< 0..1
+  double weight = 1;     ///< of the lobe: of rays that meet what lets some through
 };
 
 /// A point of an emissive triangle.
@@ -87,9 +88,18 @@ class Surfaces {
   bool masked(uint32_t triangle) const { return material(triangle).alpha == AlphaMode::Mask; }
   /// Whether the mask cuts this point out.
   bool cutOut(uint32_t triangle, glm::dvec2 uv) const;
-  bool blended(uint32_t triangle) const { return material(triangle).alpha == AlphaMode::Blend; }
-  /// The share of light that a blended surface keeps from what is behind this point: its alpha.
-  double cover(uint32_t triangle, glm::dvec2 uv) const { return std::clamp(baseColor(triangle, uv).w, 0.0, 1.0); }
+  /// It blends, or transmits light.
+  bool blended(uint32_t triangle) const {
+    return material(triangle).alpha == AlphaMode::Blend || material(triangle).transmission > 0;
+  }
+  /// What passes such a surface at a point, straight on: what alpha leaves, and of the rest what is transmitted.
+  glm::dvec3 passing(uint32_t triangle, glm::dvec2 uv) const;
+  /// The share of rays that meet the surface: by chance, of the others each channel keeps passing() over theirs.
+  double cover(uint32_t triangle, glm::dvec2 uv) const {
+    if (!(material(triangle).transmission > 0)) return alpha(triangle, uv);
+    const glm::dvec3 p = passing(triangle, uv);
+    return 1 - std::max({p.x, p.y, p.z});
+  }
   /// A point of a triangle as a ray along `direction` sees it.
   SurfacePoint at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
   /// Nothing where the material is Lambertian, and on the back of a single-sided face.
@@ -117,6 +127,12 @@ class Surfaces {
   /// What the normal map makes of the vertices' normal.
   glm::dvec3 bumped(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& normal) const;
   glm::dvec4 baseColor(uint32_t triangle, glm::dvec2 uv) const;
+  double metallic(uint32_t triangle, glm::dvec2 uv) const;
+  /// Of what alpha covers: the share of the diffuse part that passes through.
+  double transmitted(uint32_t triangle, glm::dvec2 uv) const;
+  double alpha(uint32_t triangle, glm::dvec2 uv) const;
+  /// What a pane does to a ray that meets it, over what alpha says: fewer do.
+  double weight(uint32_t triangle, glm::dvec2 uv) const;
 
   Scene scene_;
   std::vector<Triangle> triangles_;

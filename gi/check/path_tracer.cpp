@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <thread>
+#include <vector>
 
 #include "gi/check/path_lobe.h"
 #include "gi/check/path_sky.h"
@@ -32,18 +33,41 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 /// What a ray passes through: the triangle that it leaves, the one that it goes to, holes of masks, blended surfaces by
 /// chance, and from some distance on hidden backs, those of single-sided faces.
 struct Passing {
+  /// A pane, by which some of the light has been let through.
+  struct Pane {
+    uint32_t triangle;
+    float t;
+    glm::dvec3 tint;
+  };
+
   RTCIntersectContext context;  // first: Embree hands back its address
   const Surfaces* surfaces;
   uint32_t from = kNoTriangle, to = kNoTriangle;
   uint64_t chance = 0, segment = 0;  ///< of the path, and of its rays: what decides at blended surfaces
   float shownFrom = kFar;            ///< passes such backs from here on, lengths of the direction
 
-  bool goesBy(uint32_t triangle, glm::dvec2 uv) const;
+  std::vector<Pane>* panes = nullptr;  ///< that it has come upon, in any order, also behind what it meets
+
+  bool goesBy(uint32_t triangle, glm::dvec2 uv, float t) const;
+  /// What they leave of light from `far` lengths away.
+  glm::dvec3 tint(float far) const;
 };
 
-/// At each triangle anew, by its alpha.
-bool Passing::goesBy(uint32_t triangle, glm::dvec2 uv) const {
-  return Random(chance, segment << 32 | triangle).next() >= surfaces->cover(triangle, uv);
+/// At each triangle anew, by its alpha, and by the channel that it lets through most of.
+bool Passing::goesBy(uint32_t triangle, glm::dvec2 uv, float t) const {
+  const double cover = surfaces->cover(triangle, uv);
+  if (Random(chance, segment << 32 | triangle).next() < cover) return false;
+  const glm::dvec3 tint = surfaces->passing(triangle, uv) / (1 - cover);
+  const auto known = [&](const Pane& pane) { return pane.triangle == triangle; };
+  if (tint != glm::dvec3(1) && std::ranges::none_of(*panes, known)) panes->push_back({triangle, t, tint});
+  return true;
+}
+
+glm::dvec3 Passing::tint(float far) const {
+  glm::dvec3 tint(1);
+  for (const Pane& pane : *panes)
+    if (pane.t < far) tint *= pane.tint;
+  return tint;
 }
 
 bool atHiddenBack(const Surfaces& surfaces, uint32_t triangle, const glm::dvec3& direction) {
@@ -60,10 +84,12 @@ void pass(const RTCFilterFunctionNArguments* arguments) {
     const glm::dvec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                RTCRayN_dir_y(arguments->ray, arguments->N, i),
                                RTCRayN_dir_z(arguments->ray, arguments->N, i));
-    const bool through = triangle == passing.from || triangle == passing.to ||
-                         (RTCRayN_tfar(arguments->ray, arguments->N, i) >= passing.shownFrom &&
-                          atHiddenBack(surfaces, triangle, direction)) ||
-                         surfaces.cutOut(triangle, uv) || (surfaces.blended(triangle) && passing.goesBy(triangle, uv));
+    const bool through =
+        triangle == passing.from || triangle == passing.to ||
+        (RTCRayN_tfar(arguments->ray, arguments->N, i) >= passing.shownFrom &&
+         atHiddenBack(surfaces, triangle, direction)) ||
+        surfaces.cutOut(triangle, uv) ||
+        (surfaces.blended(triangle) && passing.goesBy(triangle, uv, RTCRayN_tfar(arguments->ray, arguments->N, i)));
     if (through) arguments->valid[i] = 0;
   }
 }
@@ -71,6 +97,7 @@ void pass(const RTCFilterFunctionNArguments* arguments) {
 struct Met {
   uint32_t triangle = kNoTriangle;
   glm::dvec2 uv{0};
+  glm::dvec3 tint{1};  ///< of what lies on the way
 };
 
 /// The most that a path survives with: even between perfect mirrors it ends.
@@ -176,6 +203,7 @@ class EmbreeTracer : public PathTracer {
     const TraceOptions& options;
     uint64_t rays = 0;
     uint64_t chance = 0, segment = 0;             ///< Passing's, of the path in hand
+    std::vector<Passing::Pane> panes;             ///< of the ray in hand
     glm::dvec3 lit{0}, indirect{0}, specular{0};  ///< of the path in hand
     std::vector<glm::dvec3> bounces = std::vector<glm::dvec3>(options.bounces);
     glm::dvec3 diffuseShare{1};  ///< of its throughput: by the diffuse part of what is seen
@@ -205,14 +233,16 @@ class EmbreeTracer : public PathTracer {
       ++rays;
       return EmbreeScene::ray(origin, direction, near, far);
     }
-    Passing passing(uint32_t from, uint32_t to, float shownFrom) const {
+    Passing passing(uint32_t from, uint32_t to, float shownFrom) {
+      panes.clear();
       Passing p{.context = {},
                 .surfaces = &surfaces,
                 .from = from,
                 .to = to,
                 .chance = chance,
                 .segment = segment,
-                .shownFrom = shownFrom};
+                .shownFrom = shownFrom,
+                .panes = &panes};
       rtcInitIntersectContext(&p.context);
       p.context.filter = pass;
       return p;
@@ -226,8 +256,9 @@ class EmbreeTracer : public PathTracer {
       hit.hit.geomID = hit.hit.primID = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(tracer.scene_.handle(), &p.context, &hit);
       t = hit.ray.tfar;
-      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-      return {hit.hit.primID, {hit.hit.u, hit.hit.v}};
+      const glm::dvec3 tint = p.tint(t);
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {.tint = tint};
+      return {hit.hit.primID, {hit.hit.u, hit.hit.v}, tint};
     }
     /// Within what distance of a triangle, along a ray from another, faces may lie in its plane but for rounding.
     float around(uint32_t from, uint32_t to, double cosine) const {
@@ -240,17 +271,20 @@ class EmbreeTracer : public PathTracer {
       const Met met = meet(origin, direction, 0, kFar, from, kFar, t);
       if (met.triangle == kNoTriangle || !atHiddenBack(surfaces, met.triangle, direction)) return met;
       const float d = around(from, met.triangle, glm::dot(direction, surfaces.triangles()[met.triangle].normal));
-      const Met shown = meet(origin, direction, std::max(0.0f, t - d), t + d, from, /*shownFrom=*/0, t);
-      return shown.triangle == kNoTriangle ? met : shown;
+      Met shown = meet(origin, direction, std::max(0.0f, t - d), t + d, from, /*shownFrom=*/0, t);
+      if (shown.triangle == kNoTriangle) return met;
+      shown.tint = met.tint;
+      return shown;
     }
-    /// Whether nothing lies on the first `far` lengths of `direction`, but for hidden backs from `shownFrom` on.
-    bool clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to,
-               float shownFrom) {
+    /// What arrives over the first `far` lengths of `direction`, hidden backs apart from `shownFrom` on: 0 where
+    /// anything lies there, less than 1 through panes.
+    glm::dvec3 clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to,
+                     float shownFrom) {
       ++segment;
       Passing p = passing(from, to, shownFrom);
       RTCRay shadow = ray(origin, direction, 0, far);
       rtcOccluded1(tracer.scene_.handle(), &p.context, &shadow);
-      return shadow.tfar >= 0;
+      return shadow.tfar >= 0 ? p.tint(kFar) : glm::dvec3(0);
     }
 
     /// Light that the path has come upon at a depth.
@@ -317,6 +351,7 @@ class EmbreeTracer : public PathTracer {
       Vertex v;
       double bounceDensity = 0;  // per steradian, of the direction that led here
       bool mayBeDrawn = false;   // what lies here could have been drawn at the vertex before
+      v.throughput *= met.tint;
       for (; met.triangle != kNoTriangle; ++v.depth) {
         const SurfacePoint& point = v.point = surfaces.at(met.triangle, met.uv, direction);
         v.triangle = met.triangle;
@@ -350,6 +385,7 @@ class EmbreeTracer : public PathTracer {
         }
         if (!v.lobe) bounceDensity = glm::dot(direction, point.normal) / std::numbers::pi;
         met = meetNext(v.origin, direction, met.triangle);
+        v.throughput *= met.tint;
       }
       // The sky that the ray has come upon, which from the second vertex on may have been drawn, too.
       if (!sky.shines()) return;
@@ -363,7 +399,7 @@ class EmbreeTracer : public PathTracer {
       if (options.glossySeen && v.depth > 0) return;
       const auto gloss = surfaces.glossAt(v.triangle, uv, direction);
       if (!gloss) return;
-      const Lobe lobe(gloss->f0, gloss->roughness, v.point.normal, -direction);
+      const Lobe lobe(gloss->f0, gloss->roughness, v.point.normal, -direction, gloss->weight);
       const double shine = largest(lobe.reflectance()), diffuse = largest(v.point.albedo);
       if (!(shine > 0)) return;
       v.lobe = lobe;
@@ -405,8 +441,9 @@ class EmbreeTracer : public PathTracer {
       const SkyLight::Drawn drawn = sky.draw(random);
       const double cosine = glm::dot(v.point.normal, drawn.direction);
       if (cosine <= 0 || glm::dot(v.point.face, drawn.direction) <= 0) return;
-      if (!clear(v.origin, drawn.direction, kFar, v.triangle, kNoTriangle, kFar)) return;
-      reflectDrawn(v, sky.radiance(drawn.direction), drawn.direction, cosine, drawn.density);
+      const glm::dvec3 tint = clear(v.origin, drawn.direction, kFar, v.triangle, kNoTriangle, kFar);
+      if (tint == glm::dvec3(0)) return;
+      reflectDrawn(v, tint * sky.radiance(drawn.direction), drawn.direction, cosine, drawn.density);
     }
 
     void reflectDrawn(const Vertex& v, const glm::dvec3& radiance, const glm::dvec3& towards, double cosine,
@@ -417,13 +454,15 @@ class EmbreeTracer : public PathTracer {
     }
 
     void fromLight(size_t light, const Vertex& v, Random& random) {
-      const auto arriving = surfaces.arriving(light, v.point.position, random);
+      auto arriving = surfaces.arriving(light, v.point.position, random);
       if (!arriving) return;
       const glm::dvec3& towards = arriving->towards;
       const double cosine = glm::dot(v.point.normal, towards);
       if (cosine <= 0 || glm::dot(v.point.face, towards) <= 0) return;
       const float far = std::isfinite(arriving->distance) ? static_cast<float>(arriving->distance) : kFar;
-      if (!clear(v.origin, towards, far, v.triangle, kNoTriangle, kFar)) return;
+      const glm::dvec3 tint = clear(v.origin, towards, far, v.triangle, kNoTriangle, kFar);
+      if (tint == glm::dvec3(0)) return;
+      arriving->irradiance *= tint;
       glm::dvec3 glossy(0);
       if (v.lobe) glossy = v.throughput * arriving->irradiance * v.lobe.valueOfPoint(towards) * cosine;
       reflect(v, v.diffuse(arriving->irradiance, towards, cosine), glossy, /*punctual=*/true);
@@ -443,10 +482,10 @@ class EmbreeTracer : public PathTracer {
       if (there.emission == glm::dvec3(0) || !(cosineThere > 0)) return;
       // Just short of the other triangle, lest its neighbour in the same plane is in the way.
       const auto far = static_cast<float>(distance * (1 - 0x1p-20));
-      if (!clear(v.origin, towards, far, v.triangle, drawn.triangle,
-                 far - around(v.triangle, drawn.triangle, cosineThere)))
-        return;
-      reflectDrawn(v, there.emission, towards, cosine, drawn.density * d2 / cosineThere);
+      const glm::dvec3 tint = clear(v.origin, towards, far, v.triangle, drawn.triangle,
+                                    far - around(v.triangle, drawn.triangle, cosineThere));
+      if (tint == glm::dvec3(0)) return;
+      reflectDrawn(v, tint * there.emission, towards, cosine, drawn.density * d2 / cosineThere);
     }
   };
 

@@ -51,13 +51,13 @@ Scene permuted(Scene scene, const glm::mat3& axes) {
   return scene;
 }
 
-Picture flipped(Picture picture) {
+CheckPicture flipped(CheckPicture picture) {
   for (auto row = picture.pixels.begin(); row != picture.pixels.end(); row += picture.size.x)
     std::reverse(row, row + picture.size.x);
   return picture;
 }
 
-PictureError compare(const Picture& picture, const Picture& reference, double factor) {
+PictureError compare(const CheckPicture& picture, const CheckPicture& reference, double factor) {
   IRAD_CHECK_OP(picture.pixels.size(), ==, reference.pixels.size());
   PictureError error;
   double sum = 0, total = 0;
@@ -84,7 +84,7 @@ glm::dvec3 blockMean(auto&& value, glm::uvec2 at, uint32_t width) {
 }
 }  // namespace
 
-TruthError compare(const Picture& picture, const TracedLight& truth) {
+TruthError compare(const CheckPicture& picture, const TracedLight& truth) {
   IRAD_CHECK_OP(picture.pixels.size(), ==, truth.mean.size());
   const auto mean = [](const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; };
   glm::dvec3 sum(0);

@@ -12,7 +12,7 @@ Scene scaled(Scene scene, float s);
 /// The scene and its cameras under a signed permutation of the axes. Where it mirrors, pictures are flipped left to
 /// right.
 Scene permuted(Scene scene, const glm::mat3& axes);
-Picture flipped(Picture picture);
+CheckPicture flipped(CheckPicture picture);
 
 /// How far a picture is from another, over the other's mean (colour channels).
 struct PictureError {
@@ -21,7 +21,7 @@ struct PictureError {
   double brightness = 0;  ///< of the means
 };
 /// `picture` / `factor` against `reference`. NaN where either is.
-PictureError compare(const Picture& picture, const Picture& reference, double factor = 1);
+PictureError compare(const CheckPicture& picture, const CheckPicture& reference, double factor = 1);
 
 /// How far a picture is from the path tracer's light (path_tracer.h) of the same size.
 struct TruthError {
@@ -31,6 +31,6 @@ struct TruthError {
   double relMse = 0;
   double uncertainty = 0;  ///< standard error of truth's mean over that mean
 };
-TruthError compare(const Picture& picture, const TracedLight& truth);
+TruthError compare(const CheckPicture& picture, const TracedLight& truth);
 
 }  // namespace irad

@@ -21,13 +21,13 @@ Scene stillScene() {
   return stillLife().finish("still life");
 }
 
-Picture lit(CheckRun& run, Scene scene) {
+CheckPicture lit(CheckRun& run, Scene scene) {
   const auto pipeline = run.prepare(std::move(scene));
   return run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, kSize);
 }
 
 void emissionRangeCase(CheckRun& run) {
-  const Picture one = lit(run, stillScene());
+  const CheckPicture one = lit(run, stillScene());
   for (const float e : {1e-6f, 1e6f}) {
     const PictureError error = compare(lit(run, stillLife(e).finish("still life")), one, e);
     run.atMost(fmt::format("E = {:g}: largest |image / E - image| / mean", e), error.largest, 1e-3);
@@ -99,14 +99,14 @@ glm::dvec3 tinyEmitterLight(const glm::dvec3& position, const glm::dvec3& normal
 }
 
 void scale2Case(CheckRun& run) {
-  const Picture one = lit(run, stillScene());
+  const CheckPicture one = lit(run, stillScene());
   for (const int power : {-10, 13})
     run.none(fmt::format("pixels that differ at 2^{}", power),
              countDiffering(lit(run, scaled(stillScene(), std::ldexp(1.0f, power))), one));
 }
 
 void scale10Case(CheckRun& run) {
-  const Picture one = lit(run, stillScene());
+  const CheckPicture one = lit(run, stillScene());
   for (const float s : {1e-3f, 0.07f, 30.0f, 1e4f}) {
     const PictureError error = compare(lit(run, scaled(stillScene(), s)), one);
     run.atMost(fmt::format("x {:g}: mean |difference| / mean", s), error.mean, 1e-4);
@@ -117,8 +117,8 @@ void scale10Case(CheckRun& run) {
 
 void rotate90Case(CheckRun& run) {
   const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  const Picture upright = lit(run, stillScene());
-  const auto judge = [&](const char* name, const Picture& picture) {
+  const CheckPicture upright = lit(run, stillScene());
+  const auto judge = [&](const char* name, const CheckPicture& picture) {
     const PictureError error = compare(picture, upright);
     run.atMost(fmt::format("{}: mean |difference| / mean", name), error.mean, 0.01);
     run.info(fmt::format("{}: difference of the means", name), error.brightness);
@@ -138,10 +138,10 @@ Scene tenUnits() {
 
 void farAwayCase(CheckRun& run) {
   const auto load = [](const glm::dvec3& offset) { return throughLoader(tenUnits(), offset); };
-  const Picture centred = lit(run, load({0, 0, 0}));
+  const CheckPicture centred = lit(run, load({0, 0, 0}));
   const Scene far = load({1e6, -1e6, 1e6});
   run.none("warnings", far.warnings.size());
-  const Picture picture = lit(run, far);
+  const CheckPicture picture = lit(run, far);
   run.none("pixels that differ", countDiffering(picture, centred));
   run.near("largest difference / mean", compare(picture, centred).largest, 0, 0);  // NaN, were both black
 }

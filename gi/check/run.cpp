@@ -102,7 +102,7 @@ Picture CheckRun::picture(Pipeline& pipeline, const Camera& camera, View view, g
   pipeline.render(frame, camera, view, targets);
   frame.submitAndWait();
   const std::vector<std::byte> bytes = download(context, targets.linear);
-  Picture out{size, std::vector<glm::vec4>(size_t{size.x} * size.y)};
+  CheckPicture out{size, std::vector<glm::vec4>(size_t{size.x} * size.y)};
   IRAD_CHECK_OP(bytes.size(), ==, out.pixels.size() * sizeof(glm::vec4));
   std::memcpy(out.pixels.data(), bytes.data(), bytes.size());
   return out;
@@ -114,13 +114,13 @@ uint64_t countNonFinite(const std::vector<glm::vec3>& values) {
   return n;
 }
 
-uint64_t countNonFinite(const Picture& picture) {
+uint64_t countNonFinite(const CheckPicture& picture) {
   uint64_t n = 0;
   for (const glm::vec4& p : picture.pixels) n += nonFinite(p.x) + nonFinite(p.y) + nonFinite(p.z) + nonFinite(p.w);
   return n;
 }
 
-uint64_t countDiffering(const Picture& a, const Picture& b) {
+uint64_t countDiffering(const CheckPicture& a, const CheckPicture& b) {
   if (a.size != b.size) return std::max(a.pixels.size(), b.pixels.size());
   uint64_t n = 0;
   for (size_t i = 0; i < a.pixels.size(); ++i) n += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(glm::vec4)) != 0;

@@ -31,7 +31,7 @@ struct CheckOptions {
 };
 
 /// One RGBA fp32 picture (Targets::linear), top row first.
-struct Picture {
+struct CheckPicture {
   glm::uvec2 size{0};
   std::vector<glm::vec4> pixels;
 };
@@ -72,7 +72,7 @@ class CheckRun {
   // Replace what the facets hold; the next prepare() solves again, from the last light.
   void setAlbedo(Pipeline& pipeline, const std::vector<glm::vec3>& albedo) const;
   void setDirect(Pipeline& pipeline, const std::vector<glm::vec3>& direct) const;
-  Picture picture(Pipeline& pipeline, const Camera& camera, View view, glm::uvec2 size) const;
+  CheckPicture picture(Pipeline& pipeline, const Camera& camera, View view, glm::uvec2 size) const;
 };
 
 /// A device of its own beside the run's.
@@ -86,9 +86,9 @@ struct Apart {
 
 /// Counts components that are NaN or infinite.
 uint64_t countNonFinite(const std::vector<glm::vec3>& values);
-uint64_t countNonFinite(const Picture& picture);
+uint64_t countNonFinite(const CheckPicture& picture);
 /// Pixels whose bits differ.
-uint64_t countDiffering(const Picture& a, const Picture& b);
+uint64_t countDiffering(const CheckPicture& a, const CheckPicture& b);
 
 struct Spread {
   double mean = 0, least = 0, most = 0, deviation = 0, percentile1 = 0;

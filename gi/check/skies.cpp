@@ -86,7 +86,7 @@ void skyGroundCase(CheckRun& run) {
   const auto room = run.prepare(openRoom(), settings);
   constexpr glm::uvec2 kSize(64, 48);
   const Camera& camera = room->scene().cameras.at(0);
-  const Picture seen = run.picture(*room, camera, VIEW_LIT, kSize);
+  const CheckPicture seen = run.picture(*room, camera, VIEW_LIT, kSize);
   if (!hasPathTracer()) throw WorkError("the room could not be judged: this build has no path tracer (IRAD_EMBREE)");
   const TracedPicture truth =
       makePathTracer(room->scene(), room->sky())->render(camera, kSize, {.samples = 512, .centred = true});

@@ -109,7 +109,7 @@ void toggleCase(CheckRun& run) {
   const Settings settings = run.small();
   const auto pipeline = run.prepare(mixedRoom(), settings);
   const auto shot = [&] { return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize); };
-  const Picture untoggled = shot();
+  const CheckPicture untoggled = shot();
   uint64_t count = 0, bad = 0;
   const auto round = [&] {
     for (const Setting& setting : settingTable()) {
@@ -129,10 +129,10 @@ void toggleCase(CheckRun& run) {
   };
   round();
   // A fresh start, so that both solvers begin from the same light.
-  const Picture warm = shot();
+  const CheckPicture warm = shot();
   const uint64_t used = run.context.device.memory().used();
   round();
-  const Picture end = shot();
+  const CheckPicture end = shot();
   double worst = 0, largest = 0;
   for (size_t i = 0; i < end.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) {
@@ -147,7 +147,7 @@ void toggleCase(CheckRun& run) {
 }
 
 void poisonCase(CheckRun& run) {
-  std::vector<Picture> pictures[2];
+  std::vector<CheckPicture> pictures[2];
   std::vector<glm::vec3> light[2];
   for (const bool poison : {false, true}) {
     DeviceOptions options = run.sameDevice();

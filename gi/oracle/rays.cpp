@@ -47,12 +47,19 @@ uint32_t Facets::Cuts::facet(uint32_t part, bool back) const {
 
 Facets::Cuts Facets::cutsOf(uint32_t piece) const {
   const std::span<const uint32_t> record = std::span(cuts).subspan(sides.at(piece) & ~PIECE_CUT);
-  const size_t first = (record[0] & CUT_MASKED) != 0 ? 3 : 1, count = cutTriangles(record[0]);
+  const size_t first = cutHead(record[0]), count = cutTriangles(record[0]);
   return {record.subspan(first, count), record.subspan(first + count, cutParts(record[0]))};
 }
 
 bool Facets::maskLeaves(uint32_t piece, uint32_t bit) const {
   return (cuts.at((sides.at(piece) & ~PIECE_CUT) + 1 + bit / 32) >> (bit % 32) & 1) != 0;
+}
+
+uint32_t Facets::closedChannels(uint32_t piece, uint32_t bit) const {
+  const size_t place = (sides.at(piece) & ~PIECE_CUT) + 3 + bit / 32;
+  uint32_t closed = 0;
+  for (uint32_t c = 0; c < 3; ++c) closed |= (cuts.at(place + 2 * c) >> (bit % 32) & 1) << c;
+  return closed;
 }
 
 dvec3 Facets::point(uint32_t surfel) const {

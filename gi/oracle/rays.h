@@ -37,6 +37,9 @@ struct Facets {
   Cuts cutsOf(uint32_t piece) const;
   /// Whether a piece's mask leaves the square of a bit (maskBit).
   bool maskLeaves(uint32_t piece, uint32_t bit) const;
+  /// The channels that it is closed to, of a pane that tints.
+  uint32_t closedChannels(uint32_t piece, uint32_t bit) const;
+  bool isTinted(uint32_t triangle) const { return corners.at(3 * triangle + 1).w > 1; }
   glm::dvec3 point(uint32_t surfel) const;  ///< voxel units
   glm::dvec3 normal(uint32_t facet) const;
 };

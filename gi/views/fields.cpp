@@ -88,6 +88,7 @@ const Buffer& ViewFields::row(Frame& frame, const FormFactors& matrix, uint32_t 
   Pass pass = frame.pass(kFieldsStage);
   pass.shader("view/matrix_row.comp")
       .constant(CONSTANT_MATRIX_FORMAT, matrix.format)
+      .constant(CONSTANT_TINTED, matrix.tinted)
       .push(MatrixRowPush{pass.in(matrix.record), pass.out(row_), row, 0})
       .dispatch(matrix.rows);
   return row_;

@@ -12,8 +12,8 @@ namespace irad {
 
 /// What a material's set 1 holds, in the order of Context::materialLayout.
 struct MaterialTextures {
-  std::array<VkImageView, 5> views{};
-  std::array<VkSampler, 5> samplers{};
+  std::array<VkImageView, 6> views{};
+  std::array<VkSampler, 6> samplers{};
 };
 
 /// The descriptor sets of a scene's materials and the pool they come from.

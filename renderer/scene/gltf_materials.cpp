@@ -132,6 +132,15 @@ class MaterialReader {
     return use(info.index, info.texCoord, info.extensions, srgb, where);
   }
 
+  /// Of an extension.
+  TextureUse use(const Value& info, bool srgb, const std::string& where) {
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions"))
+      for (const std::string& key : info.Get("extensions").Keys()) extensions[key] = info.Get("extensions").Get(key);
+    return use(info.Get("index").GetNumberAsInt(), static_cast<int>(number(info, "texCoord", 0)), extensions, srgb,
+               where);
+  }
+
   glm::vec4 baseColor(const std::vector<double>& factor, const std::string& where) {
     glm::vec4 color(1.0f);
     for (size_t c = 0; c < factor.size() && c < 4; ++c)
@@ -163,6 +172,8 @@ class MaterialReader {
       out.emission[static_cast<int>(c)] = clamped(in.emissiveFactor[c] * strength, 0.0, kMaxLightOrEmission,
                                                   fmt::format("{}.emissiveFactor[{}]", where, c));
     out.emissiveTexture = use(in.emissiveTexture, true, where + ".emissiveTexture");
+    if (const Value* transmitted = extension(in.extensions, "KHR_materials_transmission"))
+      transmission(*transmitted, where + ".extensions.KHR_materials_transmission", out);
     out.doubleSided = in.doubleSided;
     if (in.alphaMode == "MASK") {
       out.alpha = AlphaMode::Mask;
@@ -179,6 +190,12 @@ class MaterialReader {
     return out;
   }
 
+  void transmission(const Value& in, const std::string& where, Material& out) {
+    out.transmission = clamped(number(in, "transmissionFactor", 0.0), 0.0, 1.0, where + ".transmissionFactor");
+    if (in.Has("transmissionTexture"))
+      out.transmissionTexture = use(in.Get("transmissionTexture"), false, where + ".transmissionTexture");
+  }
+
   /// The retired model as a dielectric of its diffuse colour; only where it is the material's sole description.
   void specularGlossiness(const Value& old, const std::string& where, Material& out) {
     const bool hasCore = doc_.model.materials.size() > 0 && out.baseColorTexture.image >= 0;
@@ -193,12 +210,7 @@ class MaterialReader {
     out.roughness = 1.0f - clamped(number(old, "glossinessFactor", 1.0), 0.0, 1.0, where + ".glossinessFactor");
     out.metallicRoughnessTexture = {};
     if (!old.Has("diffuseTexture")) return;
-    const Value& info = old.Get("diffuseTexture");
-    tinygltf::ExtensionMap extensions;
-    if (info.Has("extensions"))
-      for (const std::string& key : info.Get("extensions").Keys()) extensions[key] = info.Get("extensions").Get(key);
-    out.baseColorTexture = use(info.Get("index").GetNumberAsInt(), static_cast<int>(number(info, "texCoord", 0)),
-                               extensions, true, where + ".diffuseTexture");
+    out.baseColorTexture = use(old.Get("diffuseTexture"), true, where + ".diffuseTexture");
   }
 };
 

@@ -29,7 +29,8 @@ const std::set<std::string>& readExtensions() {
                                               "EXT_mesh_gpu_instancing",
                                               "EXT_texture_webp",
                                               "KHR_draco_mesh_compression",
-                                              "KHR_materials_pbrSpecularGlossiness"};
+                                              "KHR_materials_pbrSpecularGlossiness",
+                                              "KHR_materials_transmission"};
   return names;
 }
 

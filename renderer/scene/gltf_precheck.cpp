@@ -211,12 +211,14 @@ std::vector<Rule> rules() {
   add("materials/[]/pbrMetallicRoughness/metallicFactor", Number, -kHuge, kHuge);
   add("materials/[]/pbrMetallicRoughness/roughnessFactor", Number, -kHuge, kHuge);
   add("materials/[]/extensions/KHR_materials_emissive_strength/emissiveStrength", Number, 0, 1e38);
+  add("materials/[]/extensions/KHR_materials_transmission/transmissionFactor", Number, -kHuge, kHuge);
   add("materials/[]/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", Numbers, 4, 4);
   add("materials/[]/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Number, -kHuge, kHuge);
   for (const std::string texture :
        {"pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture", "normalTexture",
         "occlusionTexture", "emissiveTexture", "extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
-        "extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture"}) {
+        "extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
+        "extensions/KHR_materials_transmission/transmissionTexture"}) {
     const std::string base = "materials/[]/" + texture;
     r.push_back({base + "/index", Index, 0, 0, "textures", true});
     r.push_back({base + "/texCoord", UInt, 0, 255, "", false});
@@ -288,15 +290,17 @@ void checkExtensions(Document& doc) {
                                                    "KHR_texture_transform",      "KHR_mesh_quantization",
                                                    "EXT_texture_webp",           "EXT_mesh_gpu_instancing",
                                                    "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                   "KHR_meshopt_compression"};
-  // Effects the renderer has no term for: the core material stands in, and a warning says so.
+                                                   "KHR_meshopt_compression",    "KHR_materials_transmission"};
+  // Effects the renderer has no term for: without them, the material stands in, and a warning says so.
   static const std::set<std::string> kApproximated = {"KHR_materials_unlit",      "KHR_materials_pbrSpecularGlossiness",
                                                       "KHR_materials_variants",   "KHR_materials_ior",
                                                       "KHR_materials_specular",   "KHR_materials_clearcoat",
-                                                      "KHR_materials_sheen",      "KHR_materials_transmission",
-                                                      "KHR_materials_volume",     "KHR_materials_iridescence",
-                                                      "KHR_materials_anisotropy", "KHR_materials_dispersion",
-                                                      "KHR_techniques_webgl",     "KHR_technique_webgl"};
+                                                      "KHR_materials_sheen",      "KHR_materials_iridescence",
+                                                      "KHR_materials_anisotropy", "KHR_techniques_webgl",
+                                                      "KHR_technique_webgl"};
+  // What light does on its way through a body: there are thin panes alone.
+  static const std::set<std::string> kOfBodies = {"KHR_materials_volume", "KHR_materials_dispersion",
+                                                  "KHR_materials_diffuse_transmission"};
   constexpr const char *kKtx = "KHR_texture_basisu",
                        *kNoKtx = ": KTX2 images are not decoded here; PNG, JPEG and WebP are";
   for (const char* list : {"extensionsRequired", "extensionsUsed"}) {
@@ -304,7 +308,9 @@ void checkExtensions(Document& doc) {
     for (const Json& entry : doc.root->at(list)) {
       const std::string name = entry.get<std::string>();
       if (kSupported.contains(name)) continue;
-      if (kApproximated.contains(name)) {
+      if (kOfBodies.contains(name)) {
+        doc.warn(fmt::format("{} is not rendered: what transmits light is a thin pane, which does not bend it", name));
+      } else if (kApproximated.contains(name)) {
         doc.warn(fmt::format("{} is not rendered: the plain material stands in for it", name));
       } else if (std::string_view(list) == "extensionsRequired") {
         doc.fail(list, fmt::format("\"{}\" is not supported{}", name, name == kKtx ? kNoKtx : ""));

@@ -26,6 +26,7 @@ OrderedJson editToJson(const MaterialEdit& edit) {
   if (edit.emissionColor) json["emissionColor"] = rgbJson(*edit.emissionColor);
   if (edit.emissionStrength) json["emissionStrength"] = jsonNumber(*edit.emissionStrength);
   if (edit.alphaCutoff) json["alphaCutoff"] = jsonNumber(*edit.alphaCutoff);
+  if (edit.transmission) json["transmission"] = jsonNumber(*edit.transmission);
   for (size_t i = 0; i < kMaterialTextures.size(); ++i)
     if ((edit.texturesOff >> i & 1) != 0) json["texturesOff"].push_back(kMaterialTextures[i].name);
   return json;
@@ -66,7 +67,7 @@ uint32_t readTextures(const JsonObject& json, const char* member) {
 MaterialEdit editFromJson(const OrderedJson& parsed, const std::string& label) {
   const JsonObject json(parsed, label,
                         {"name", "baseColor", "metallic", "roughness", "emissionColor", "emissionStrength",
-                         "alphaCutoff", "texturesOff"});
+                         "alphaCutoff", "transmission", "texturesOff"});
   return {.material = json.text("name"),
           .baseColor = readRgb(json, "baseColor"),
           .metallic = readFactor(json, "metallic", 1),
@@ -74,6 +75,7 @@ MaterialEdit editFromJson(const OrderedJson& parsed, const std::string& label) {
           .emissionColor = readRgb(json, "emissionColor"),
           .emissionStrength = readFactor(json, "emissionStrength", kMaxLightOrEmission),
           .alphaCutoff = readFactor(json, "alphaCutoff", 1),
+          .transmission = readFactor(json, "transmission", 1),
           .texturesOff = readTextures(json, "texturesOff")};
 }
 
@@ -127,6 +129,7 @@ Material edited(const Material& file, const MaterialEdit& edit) {
     const Emission own = emissionOf(file);
     m.emission = edit.emissionColor.value_or(own.color) * edit.emissionStrength.value_or(own.strength);
   }
+  m.transmission = edit.transmission.value_or(m.transmission);
   if (m.alpha == AlphaMode::Mask) m.alphaCutoff = edit.alphaCutoff.value_or(m.alphaCutoff);
   for (size_t i = 0; i < kMaterialTextures.size(); ++i)
     if ((edit.texturesOff >> i & 1) != 0) m.*kMaterialTextures[i].use = {};

@@ -17,12 +17,13 @@ struct MaterialTexture {
   const char* name;
 };
 /// In the order of shaders' TEXTURE_*.
-inline constexpr std::array<MaterialTexture, 5> kMaterialTextures{
+inline constexpr std::array<MaterialTexture, 6> kMaterialTextures{
     {{&Material::baseColorTexture, "baseColor"},
      {&Material::metallicRoughnessTexture, "metallicRoughness"},
      {&Material::normalTexture, "normal"},
      {&Material::occlusionTexture, "occlusion"},
-     {&Material::emissiveTexture, "emissive"}}};
+     {&Material::emissiveTexture, "emissive"},
+     {&Material::transmissionTexture, "transmission"}}};
 std::array<const TextureUse*, kMaterialTextures.size()> texturesOf(const Material& material);
 
 /// The materials of the scene's file.
@@ -52,7 +53,7 @@ void replaceMaterialEdits(Scene& scene, std::vector<MaterialEdit> edits);
 std::vector<std::string> unknownMaterials(const Scene& scene, std::span<const MaterialEdit> edits);
 
 /// An array of objects: name; baseColor and emissionColor [r, g, b]; metallic, roughness, emissionStrength,
-/// alphaCutoff; texturesOff, names of kMaterialTextures. Numbers keep their bits.
+/// alphaCutoff, transmission; texturesOff, names of kMaterialTextures. Numbers keep their bits.
 std::string materialEditsToJson(std::span<const MaterialEdit> edits);
 /// Sorted by name. UsageError "LABEL[2]: FIELD: ...".
 std::vector<MaterialEdit> materialEditsFromJson(std::string_view json, const std::string& label = "materials");

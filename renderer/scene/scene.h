@@ -52,9 +52,11 @@ struct Material {
   glm::vec3 emission{0.0f};  ///< emissiveFactor x emissiveStrength: radiance, W/(m^2 sr), >= 0
   float normalScale = 1.0f, occlusionStrength = 1.0f, alphaCutoff = 0.5f;
   AlphaMode alpha = AlphaMode::Opaque;
+  float transmission = 0.0f;  ///< share of the diffuse part that passes straight through, tinted by the base colour
   bool doubleSided = false;
   bool lambertian = false;  ///< no specular lobe (LoadOptions::lambertian)
   TextureUse baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture;
+  TextureUse transmissionTexture;  ///< in red
 };
 
 /// What a user has made of a material beside the scene's file; what is absent is the file's.
@@ -65,6 +67,7 @@ struct MaterialEdit {
   std::optional<glm::vec3> emissionColor;    ///< linear, 0 to 1
   std::optional<float> emissionStrength;     ///< W/(m^2 sr) where the colour is 1: radiance = colour x strength
   std::optional<float> alphaCutoff;          ///< 0 to 1; nothing to one without an alpha mask
+  std::optional<float> transmission;         ///< 0 to 1
   uint32_t texturesOff = 0;                  ///< bit i: texture i of kMaterialTextures is left out
   bool operator==(const MaterialEdit&) const = default;
 };

@@ -1,6 +1,6 @@
 // .irscene: a loaded scene with its images decoded, for machines without image decoders. Little-endian, fields in the
 // order of Scene, with nothing of what is hidden. Version 2 had no nodes, and is read as a scene without; up to
-// version 3 lights had no switch, and are on. Reading trusts nothing: every length is checked against the bytes left,
+// version 3 lights had no switch, and are on; up to version 4 nothing was transmitted. Reading trusts nothing: every length is checked against the bytes left,
 // and the whole against what a scene must be.
 #include <bit>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the cache is written as it lies in memory");
 constexpr char kMagic[8] = {'I', 'R', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr uint32_t kVersion = 4, kOldestVersion = 2;
+constexpr uint32_t kVersion = 5, kOldestVersion = 2;
 
 class Writer {
  public:
@@ -152,6 +152,11 @@ void transferScene(Io& io, Ops ops, S& s, uint32_t version) {
   if (version < 3) return;
   io.list(s.nodes, [&](auto& n) { io(n.name), io(n.parent), io(n.end), io(n.instances); });
   io.array(s.pieces), io.array(s.world);
+  if (version < 5) return;
+  for (auto& m : s.materials) {
+    io(m.transmission);
+    transferUse(io, ops, m.transmissionTexture);
+  }
 }
 
 }  // namespace

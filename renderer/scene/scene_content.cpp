@@ -52,8 +52,8 @@ void addUse(Members& m, const TextureUse& use) {
 
 void addMaterial(Members& m, const Material& material) {
   const auto& [name, baseColor, metallic, roughness, emission, normalScale, occlusionStrength, alphaCutoff, alpha,
-               doubleSided, lambertian, baseColorTexture, metallicRoughnessTexture, normalTexture, occlusionTexture,
-               emissiveTexture] = material;
+               transmission, doubleSided, lambertian, baseColorTexture, metallicRoughnessTexture, normalTexture,
+               occlusionTexture, emissiveTexture, transmissionTexture] = material;
   (void)name;
   m.add("base colour", baseColor), m.add("metallic", metallic), m.add("roughness", roughness);
   m.add("emission", emission), m.add("normal scale", normalScale), m.add("occlusion strength", occlusionStrength);
@@ -62,6 +62,9 @@ void addMaterial(Members& m, const Material& material) {
   for (const TextureUse* use :
        {&baseColorTexture, &metallicRoughnessTexture, &normalTexture, &occlusionTexture, &emissiveTexture})
     addUse(m, *use);
+  if (transmission == 0) return;  // what materials had been before they could transmit light keeps its content
+  m.add("transmission", transmission);
+  addUse(m, transmissionTexture);
 }
 
 void addLight(Members& m, const Light& light) {

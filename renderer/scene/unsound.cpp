@@ -127,7 +127,7 @@ std::string ofCameras(const Scene& s) {
 }  // namespace
 
 std::string unsound(const Material& m, size_t images) {
-  const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, 0.0f);
+  const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, m.transmission);
   if (!within(m.baseColor, 0.0, 1.0)) return fmt::format("material \"{}\": its base colour is out of range", m.name);
   if (!within(factors, 0.0, 1.0) || !std::isfinite(m.normalScale) || !std::isfinite(m.alphaCutoff))
     return fmt::format("material \"{}\": a factor is out of range", m.name);

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0) uniform sampler2D peeled;  ///< depth that the last
 #endif
 
 layout(location = 0) in vec4 uv;
-layout(location = 1) in float alpha;
+layout(location = 1) in vec4 tint;
 layout(location = 2) flat in uint corner;
 
 void main() {
@@ -25,5 +25,6 @@ void main() {
 #endif
   uvec2 texel = uvec2(gl_FragCoord.xy);
   float threshold = push.screens != 0u ? texelThreshold(texel.x, texel.y, corner) : 0.0;
-  if (materialCutOut(m, materialBaseColor(m, uv, vec4(1.0, 1.0, 1.0, alpha)).a, threshold)) discard;
+  uint channel = push.screens != 0u ? push.screens - 1u : PANE_WHOLE;
+  if (materialCutOut(m, materialCover(m, uv, materialBaseColor(m, uv, tint), channel), threshold)) discard;
 }

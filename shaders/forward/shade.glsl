@@ -11,6 +11,7 @@ layout(constant_id = FORWARD_HIGHLIGHTS) const bool HIGHLIGHTS = true;
 layout(constant_id = FORWARD_F0) const bool F0 = true;
 layout(constant_id = FORWARD_INDIRECT) const bool INDIRECT = true;
 layout(constant_id = FORWARD_GLASS) const bool GLASS = true;
+layout(constant_id = FORWARD_TINTED) const bool TINTED = true;
 layout(constant_id = FORWARD_PCF) const uint PCF = 3u;
 layout(constant_id = FORWARD_MANY_LIGHTS) const bool MANY_LIGHTS = true;
 
@@ -96,7 +97,7 @@ float keptByBumps(GpuMaterial m, Interpolants v) {
 
 Shaded shade(Interpolants v) {
   GpuMaterial m;  // members that only textures need stay in memory
-  if (TEXTURED) m = push.materials.at[push.material];
+  if (TEXTURED || TINTED) m = push.materials.at[push.material];
   m.baseColor = push.baseColor;
   m.emission = push.emission;
   m.metallic = push.metallic;
@@ -165,7 +166,18 @@ Shaded shade(Interpolants v) {
     // The surface is known exactly here: half of the setting's lift covers a gathered block of a flat map. (The gather
     // of direct light, gi/gather.comp, which knows its planes less well, takes the whole lift.)
     float bias = hasCubeMap(light) ? push.shadowBias : 0.5 * push.shadowBias;
-    e *= shadowVisibility(light, v.local, face, bias, PCF);
+    if (TINTED) {
+      // A map for each channel.
+      int layer = light.shadowLayer;
+      vec3 share = vec3(1.0);
+      for (int c = 0; c < 3 && layer >= 0; ++c) {
+        light.shadowLayer = layer + c;
+        share[c] = shadowVisibility(light, v.local, face, bias, PCF);
+      }
+      e *= share;
+    } else {
+      e *= shadowVisibility(light, v.local, face, bias, PCF);
+    }
     vec3 diffuse = e;
 #ifndef IRAD_VOLUME
     // As in Cycles, of the diffuse part alone: the lobe's microfacets shadow each other by a law of their own.
@@ -183,9 +195,19 @@ Shaded shade(Interpolants v) {
   o.normal = vec4(n, roughness);
   o.geometric = vec4(face, metallic);
   if (GLASS && (m.flags & MATERIAL_BLEND) != 0u) o.geometric.w = packCover(metallic, base.a);
+  o.direct = vec4(direct, 1.0);
+  if (TINTED && (m.flags & MATERIAL_TRANSMISSIVE) != 0u) {
+    float cover = paneAlpha(base.a, m.alphaCutoff), transmitted = materialTransmitted(m, v.uv);
+    o.geometric.w = packCover(metallic, cover);
+    o.direct.w = uintBitsToFloat(packPasses(panePasses(base.rgb, cover, transmitted)) + 0x3F800000u);
+    // albedo, base colour x (1 - metallic), less what passes
+    albedo -= base.rgb * transmitted;
+  } else if (TINTED) {
+    vec3 passes = vec3(1.0 - coverOf(o.geometric.w));
+    o.direct.w = uintBitsToFloat(packPasses(passes) + 0x3F800000u);
+  }
   o.albedo = vec4(albedo, occlusion);
   if (F0) o.f0 = vec4(f0, lambertian ? 0.0 : 1.0);
-  o.direct = vec4(direct, 1.0);
   if (HIGHLIGHTS || EMISSION) o.highlight = vec4(highlight + emission, dot(emission, vec3(0.2126, 0.7152, 0.0722)));
   if (!INDIRECT) return o;
 #ifdef IRAD_VOLUME

@@ -8,6 +8,7 @@
 layout(local_size_x = 128) in;
 layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = false;
+layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;
 layout(push_constant, scalar) uniform Push { BruteForcePush p; };
 
 #include "gi/solve_watch.glsl"
@@ -23,10 +24,21 @@ void addRay(inout Brought sum, FacetArrays f, uint met) {
   ++sum.counted;
   if (met <= TRACE_LAST_FACET) {
     ++sum.met;
-    sum.light += p.from.at[met].xyz;
-    if (EMITTED) sum.emitted += f.emission.at[met];
+    vec3 open = vec3(1.0f);
+    if (TINTED) {
+      open = openChannels(met >> TINT_SHIFT_FRAMES);
+      met &= (1u << TINT_SHIFT_FRAMES) - 1u;
+    }
+    sum.light += open * p.from.at[met].xyz;
+    if (EMITTED) sum.emitted += open * f.emission.at[met];
   } else if (SKY && isSky(met)) {
-    sum.light += IRAD_PI * p.bins.at[met - TRACE_SKY].xyz;
+    uint bin = met - TRACE_SKY;
+    vec3 open = vec3(1.0f);
+    if (TINTED) {
+      open = openChannels(bin >> TINT_SHIFT_SKY);
+      bin &= (1u << TINT_SHIFT_SKY) - 1u;
+    }
+    sum.light += open * (IRAD_PI * p.bins.at[bin].xyz);
   }
 }
 

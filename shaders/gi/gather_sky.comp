@@ -3,9 +3,11 @@
 // "GI Gather" from the sky (docs/method.md 6): pi x the share of a facet's rays that escape into each bin of directions x
 // the bin's mean radiance; and the mean of the squares of what its rays bring from there, over the channels together, for
 // the noise of H. One invocation per row.
+#include "shared/constants.h"
 #include "shared/sky.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;
 layout(push_constant, scalar) uniform Push { GatherSkyPush p; };
 
 void main() {
@@ -20,7 +22,10 @@ void main() {
   for (uint i = 0u; i < count; ++i) {
     uint entry = segment.at[start + i];
     float hits = float(entry >> SKY_BIN_BITS);
-    vec3 radiance = p.bins.at[entry & ((1u << SKY_BIN_BITS) - 1u)].xyz;
+    uint bin = entry & ((1u << SKY_BIN_BITS) - 1u);
+    vec3 radiance;
+    if (TINTED) radiance = openChannels(bin >> TINT_SHIFT_SKY) * p.bins.at[bin & ((1u << TINT_SHIFT_SKY) - 1u)].xyz;
+    else radiance = p.bins.at[bin].xyz;
     sum += hits * radiance;
     squares += hits * dot(radiance, radiance);
   }

@@ -28,8 +28,8 @@ vec3 gathered(uint facet, uint surfel) {
     vec3 irradiance = lightIrradiance(light, position, from.facing);
     if (irradiance == vec3(0.0f)) continue;
     uint points = (light.points + FACET_SURFELS - 1u) / FACET_SURFELS * FACET_SURFELS;
-    float share = lightShare(world, surface, from, light, position, p.edge, surfel, FACET_SURFELS, points, shift);
-    if (share > 0.0f) sum += irradiance * share;
+    vec3 share = lightShare(world, surface, from, light, position, p.edge, surfel, FACET_SURFELS, points, shift);
+    if (share != vec3(0.0f)) sum += irradiance * share;
   }
   return sum;
 }

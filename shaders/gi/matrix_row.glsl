@@ -1,7 +1,11 @@
 // Where a matrix row's entries are. The includer declares FORMAT: MATRIX_CSR, or MATRIX_PADDED (thesis/padded_row.glsl).
 #ifndef IRAD_MATRIX_ROW_GLSL
 #define IRAD_MATRIX_ROW_GLSL
+#include "shared/constants.h"
 #include "shared/solve.h"
+
+/// A column is a facet, and above its bits, TINT_BITS of the columns' the channels that panes keep off it.
+layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;
 
 struct Row {
   UintArray entries;   ///< csr
@@ -14,6 +18,7 @@ struct Row {
 struct RowEntry {
   uint column;
   float weight;
+  uint closed;  ///< TINTED: channels
 };
 
 #include "thesis/padded_row.glsl"
@@ -33,25 +38,34 @@ Row openRow(MatrixArrays m, uint row) {
 RowEntry rowEntry(Row r, uint columnBits, uint i) {
   if (FORMAT != MATRIX_CSR) return paddedEntry(r, i);
   uint e = r.entries.at[r.start + i];
-  return RowEntry(e & ((1u << columnBits) - 1u), float(e >> columnBits));
+  uint column = e & ((1u << columnBits) - 1u);
+  if (!TINTED) return RowEntry(column, float(e >> columnBits), 0u);
+  uint facetBits = columnBits - TINT_BITS;
+  return RowEntry(column & ((1u << facetBits) - 1u), float(e >> columnBits), column >> facetBits);
 }
 
-/// How many of the row's rays met a column.
-uint hitsOn(Row row, uint columnBits, uint column) {
-  if (FORMAT != MATRIX_CSR) return paddedHitsOn(row, column);
+/// How many of the row's rays met a column; of a tinted one those with these channels closed.
+uint hitsOnWith(Row row, uint columnBits, uint column, uint closed) {
   // Columns ascend: the first that is not below the wanted one.
   uint low = 0u;
   uint high = row.count;
   while (low < high) {
     uint middle = (low + high) >> 1;
-    if (rowEntry(row, columnBits, middle).column < column)
+    RowEntry there = rowEntry(row, columnBits, middle);
+    if (there.closed < closed || (there.closed == closed && there.column < column))
       low = middle + 1u;
     else
       high = middle;
   }
   if (low == row.count) return 0u;
   RowEntry entry = rowEntry(row, columnBits, low);
-  return entry.column == column ? uint(entry.weight) : 0u;
+  return entry.column == column && entry.closed == closed ? uint(entry.weight) : 0u;
+}
+uint hitsOn(Row row, uint columnBits, uint column) {
+  if (FORMAT != MATRIX_CSR) return paddedHitsOn(row, column);
+  uint hits = hitsOnWith(row, columnBits, column, 0u);
+  for (uint closed = 1u; TINTED && closed < TINT_NONE_LEFT; ++closed) hits += hitsOnWith(row, columnBits, column, closed);
+  return hits;
 }
 
 #endif

@@ -49,12 +49,13 @@ void main() {
   for (uint k = 0u; k < OUTER_RAYS; ++k) {
     vec3 direction = toWorld(cosineDirection(hammersley(k, OUTER_RAYS, uvec2(0u))), from.facing);
     uint met = traceScene(world, surface, from.position, direction, from.triangle).facet;
+    vec3 open = openChannels(closedChannels);
     if (met == TRACE_ESCAPED)
-      sky += IRAD_PI * p.bins.at[skyBin(direction, SKY_EDGE)].xyz;
+      sky += open * IRAD_PI * p.bins.at[skyBin(direction, SKY_EDGE)].xyz;
     else if (isOuter(met))
-      sky += outer.exitance.at[outer.points.at[met - metOuter(0u)].side & ~SURFEL_BACK];
+      sky += open * outer.exitance.at[outer.points.at[met - metOuter(0u)].side & ~SURFEL_BACK];
     else if (met <= TRACE_LAST_FACET && p.facets.hasEmission != 0u)
-      sky += p.facets.emission.at[met];
+      sky += open * p.facets.emission.at[met];
   }
   sky /= float(OUTER_RAYS);
   p.irradiance.at[index] = vec4(sky, 0.0f);

@@ -28,7 +28,7 @@ struct PieceCuts {
 PieceCuts cutsOf(UintArray cuts, uint sides) {
   uint place = sides & ~PIECE_CUT;
   uint word = cuts.at[place], count = cutTriangles(word);
-  uint triangles = place + ((word & CUT_MASKED) != 0u ? 3u : 1u);
+  uint triangles = place + cutHead(word);
   return PieceCuts(count, triangles, triangles + count, triangles + count + cutParts(word));
 }
 
@@ -37,6 +37,14 @@ bool isThere(SurfaceArrays surface, uint piece, vec3 normal, vec3 point) {
   uint bit = maskBit(normal, point);
   uint place = (surface.sides.at[piece] & ~PIECE_CUT) + 1u + bit / 32u;
   return ((surface.cuts.at[place] >> (bit % 32u)) & 1u) != 0u;
+}
+
+/// The channels that a pane which tints keeps off at such a point, as bits.
+uint closedAt(SurfaceArrays surface, uint piece, vec3 normal, vec3 point) {
+  uint bit = maskBit(normal, point), closed = 0u;
+  uint place = (surface.sides.at[piece] & ~PIECE_CUT) + 3u + bit / 32u;
+  for (uint c = 0u; c < 3u; ++c) closed |= ((surface.cuts.at[place + 2u * c] >> (bit % 32u)) & 1u) << c;
+  return closed;
 }
 
 /// Which facet of its voxel, counted from the first, a point of a piece's side belongs to; or PIECE_*.

@@ -17,12 +17,22 @@ void main() {
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   uint packedVoxel = push.solid.at[push.pieceVoxel.at[piece]];
   vec3 cell = vec3(unpackVoxel(packedVoxel));
-  bool screen = (triangleFlags(push.scene, triangle) & MATERIAL_BLEND) != 0u;
+  uint flags = triangleFlags(push.scene, triangle);
+  bool screen = (flags & MATERIAL_BLEND) != 0u, tinted = (flags & MATERIAL_TRANSMISSIVE) != 0u;
   uint seed = hashUint(packedVoxel ^ hashUint(triangle));
   uint left = 0u, right = 0u;
+  uvec3 closedLeft = uvec3(0u), closedRight = uvec3(0u);  // squares closed to each channel
   for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
     vec3 at = cell + maskPoint(t.normal, t.v[0] - cell, bit);
-    if (screen) {
+    if (tinted) {
+      // Those that are there are closed to all; thresholds are the same, so that channels have squares in common.
+      vec3 kept = 1.0 - passesAt(push.scene, t, triangle, at, float(MASK_EDGE * MASK_EDGE));
+      bvec3 closed = greaterThan(kept, vec3(screenThreshold(bit, seed)));
+      uvec3 set = mix(uvec3(0u), uvec3(1u << (bit & 31u)), closed);
+      if (bit < 32u) closedLeft |= set;
+      else closedRight |= set;
+      if (!all(closed)) continue;
+    } else if (screen) {
       float cover = coverAt(push.scene, t, triangle, at, float(MASK_EDGE * MASK_EDGE));
       if (cover <= screenThreshold(bit, seed)) continue;
     } else if (masked(push.scene, t, triangle, MATERIAL_ALPHA_MASK, at, float(MASK_EDGE * MASK_EDGE))) {
@@ -32,7 +42,11 @@ void main() {
     else right |= 1u << (bit - 32u);
   }
   uint place = push.firstCut.at[piece];
-  push.cuts.at[place] = CUT_MASKED | (screen ? CUT_SCREEN : 0u);
+  push.cuts.at[place] = CUT_MASKED | (screen ? CUT_SCREEN : 0u) | (tinted ? CUT_TINTED : 0u);
+  for (uint c = 0u; tinted && c < 3u; ++c) {
+    push.cuts.at[place + 3u + 2u * c] = closedLeft[c];
+    push.cuts.at[place + 4u + 2u * c] = closedRight[c];
+  }
   push.cuts.at[place + 1u] = left;
   push.cuts.at[place + 2u] = right;
 }

@@ -40,9 +40,9 @@ void main() {
 
   bool mask = hasHoles(surface.corners, triangle);
   // Where anything is there of a screen its points stand for all of it: they may all fall between the squares.
-  uint kind = mask ? surface.cuts.at[cut] & (CUT_MASKED | CUT_SCREEN) : 0u;
+  uint kind = mask ? surface.cuts.at[cut] & (CUT_MASKED | CUT_SCREEN | CUT_TINTED) : 0u;
   bool screen = (kind & CUT_SCREEN) != 0u && (surface.cuts.at[cut + 1u] | surface.cuts.at[cut + 2u]) != 0u;
-  uint triangles = cut + (mask ? 3u : 1u);
+  uint triangles = cut + cutHead(kind);
   uint found = 0u;  // as many as gi/piece_shape.comp has made room for
   for (uint i = others.first;
        i < others.endLarge && triangles + found + 1u + mostParts(found + 1u) <= cut + count; ++i)

@@ -32,7 +32,7 @@ void main() {
       voxelPieces(push.corners, push.pieces, push.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   for (uint i = others.first; i < others.endLarge && cuts < MOST_CUTS; ++i)
     if (i != piece && standsOnSides(cell, triangleAt(push.corners, push.pieces.at[i]), t, back)) ++cuts;
-  uint maskWords = hasHoles(push.corners, triangle) ? 2u : 0u;
+  uint maskWords = hasHoles(push.corners, triangle) ? (isTinted(push.corners, triangle) ? 8u : 2u) : 0u;
   bool cut = cuts > 0u || maskWords > 0u;
   push.points.at[piece] = (cut ? CUT_POINTS : 1u) * (back ? 2u : 1u);
   push.cuts.at[piece] = cut ? 1u + maskWords + cuts + mostParts(cuts) : 0u;

@@ -40,6 +40,7 @@ Estimate nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
     RowEntry e = rowEntry(r, m.columnBits, i);
     vec3 exitance = f.emission.at[e.column];
     if (exitance == vec3(0.0f) || !near(voxel, unpackVoxel(f.voxel.at[e.column]))) continue;
+    if (TINTED) exitance *= openChannels(e.closed);
     sum += e.weight * exitance;
     squares += e.weight * dot(exitance, exitance);
   }
@@ -64,7 +65,7 @@ Estimate sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArr
     if (cosines == 0.0f) continue;
     if (!reaches(world, surface, from, direction, reach)) continue;
     vec3 exitance = f.emission.at[emitter];
-    vec3 brought = exitance * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
+    vec3 brought = exitance * openChannels(closedChannels) * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
     sum += brought;
     squares += dot(brought, brought);
   }

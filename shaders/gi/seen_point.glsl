@@ -14,7 +14,7 @@ SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer
   return SurfelPoint(liftedOff(surface, triangle, p - facing * dot(facing, p - t.a), facing), facing, triangle);
 }
 
-/// Whether a ray from a lifted point meets nothing before `reach`. A ten-thousandth of it is more than the roundings of
+/// Whether a ray from a lifted point meets nothing before `reach`, but for panes: closedChannels. A ten-thousandth of it is more than the roundings of
 /// the point of a triangle that may be there.
 bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 direction, float reach) {
   float before = reach * (1.0 - 1e-4);
@@ -38,14 +38,16 @@ bool lightPointReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from
 }
 
 /// The share of points first, first + step ... of n of a light with a size that reach a lifted point, of all that it has.
-/// A light without a size has one point.
-float lightShare(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge,
+/// A light without a size has one point. By channel: panes tint.
+vec3 lightShare(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge,
                  uint first, uint step, uint n, uvec2 shift) {
-  if (!hasSize(light)) return lightReaches(world, surface, from, light, position, edge) ? 1.0 : 0.0;
-  uint seen = 0u, all = 0u;
+  if (!hasSize(light))
+    return lightReaches(world, surface, from, light, position, edge) ? openChannels(closedChannels) : vec3(0.0);
+  vec3 seen = vec3(0.0);
+  uint all = 0u;
   for (uint k = first; k < n; k += step, ++all)
-    if (lightPointReaches(world, surface, from, light, position, edge, k, n, shift)) ++seen;
-  return float(seen) / float(all);
+    if (lightPointReaches(world, surface, from, light, position, edge, k, n, shift)) seen += openChannels(closedChannels);
+  return seen / float(all);
 }
 
 /// Whether any of n points of a light reaches a lifted point.

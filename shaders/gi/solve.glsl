@@ -43,7 +43,8 @@ const Sum NO_SUM = Sum(vec4(0.0f), 0.0f);
 /// Adds entry i of the row, in units of the row's weight.
 void addEntry(inout Sum sum, Row r, uint columnBits, uint i) {
   RowEntry e = rowEntry(r, columnBits, i);
-  sum.light += inputAt(e.column) * e.weight;
+  if (TINTED) sum.light += inputAt(e.column) * vec4(openChannels(e.closed), 1.0f) * e.weight;
+  else sum.light += inputAt(e.column) * e.weight;
   if (WATCHES) sum.row += e.weight;
 }
 

@@ -21,7 +21,11 @@ Sum rowSums(Row r, uint columnBits) {
     if (2u * pair + 1u >= end) e.y = 0u;
     ivec2 h = ivec2(e >> columnBits);  // signed: AVX2 converts no unsigned integers
     hits += h.x + h.y;
-    if (GAINS) {
+    if (TINTED) {
+      uint facetBits = columnBits - TINT_BITS, facets = (1u << facetBits) - 1u;
+      sum += inputAt(e.x & facets) * vec4(openChannels((e.x & mask) >> facetBits), 1.0f) * float(h.x);
+      sum += inputAt(e.y & facets) * vec4(openChannels((e.y & mask) >> facetBits), 1.0f) * float(h.y);
+    } else if (GAINS) {
       sum += inputAt(e.x & mask) * float(h.x);
       sum += inputAt(e.y & mask) * float(h.y);
     } else {

@@ -13,7 +13,7 @@ void main() {
   GpuScene scene = push.scene.at[0];
   uint flags = scene.materials.at[scene.triangleMaterials.at[triangle]].flags;
   float back = (flags & MATERIAL_DOUBLE_SIDED) != 0u ? 1.0 : 0.0;
-  float holes = (flags & MATERIAL_ALPHA_MASK) != 0u ? 1.0 : 0.0;
+  float holes = (flags & MATERIAL_ALPHA_MASK) != 0u ? ((flags & MATERIAL_TRANSMISSIVE) != 0u ? 2.0 : 1.0) : 0.0;
   float repeats = push.hasRepeated != 0u ? float(push.repeated.at[triangle]) : 0.0;  // exact: MAX_TRIANGLES < 2^24
   for (uint i = 0u; i < 3u; ++i)
     push.corners.at[3u * triangle + i] = vec4(t.v[i], i == 0u ? back : (i == 1u ? holes : repeats));

@@ -51,9 +51,10 @@ bool entersGrid(vec2 grid, float reach, out float from) {
   return grid.y > from && from < reach;
 }
 
-/// As traceTriangles, from anywhere; of what lies outside the grid metOuter().
+/// As traceTriangles, from anywhere; of what lies outside the grid metOuter(). Panes there tint nothing: they are met.
 TraceHit traceScene(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
   if (!hasOuter(surface)) return traceTriangles(world, surface, origin, direction, own);
+  closedChannels = 0u;
   vec3 safe = safeDirection(direction);
   vec2 grid = throughGrid(world.dims, origin, 1.0f / safe);
   TraceHit inner = TraceHit(TRACE_ESCAPED, 0.0f, 0u);
@@ -65,20 +66,25 @@ TraceHit traceScene(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 d
   float reach = inner.facet == TRACE_ESCAPED ? 1e30f : inner.t;
   TriangleHit outer = outerTriangle(surface, origin, safe, own, grid, reach);
   if (outer.triangle == NO_TRIANGLE) return inner;
+  if (outer.t <= max(grid.x, 0.0f)) closedChannels = 0u;  // it lies before the grid
+  if (closedChannels == TINT_NONE_LEFT) return inner;
   if (!outer.front && !showsBack(surface.corners, outer.triangle)) return TraceHit(TRACE_BLOCKED, outer.t, inner.steps);
   uint point = outerPoint(surface, surface.outer.at[0], outer.triangle, outer.front, origin + safe * outer.t);
   return TraceHit(metOuter(point), outer.t, inner.steps);
 }
 
-/// Whether a ray from anywhere meets something before `reach`.
+/// Whether a ray from anywhere meets something before `reach`, or has no channel left there (closedChannels).
 bool blockedInScene(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
+  closedChannels = 0u;
   if (!hasOuter(surface))
-    return firstTriangle(world, surface, origin, direction, own, reach).triangle != NO_TRIANGLE;
+    return firstTriangle(world, surface, origin, direction, own, reach).triangle != NO_TRIANGLE ||
+           closedChannels == TINT_NONE_LEFT;
   vec3 safe = safeDirection(direction);
   vec2 grid = throughGrid(world.dims, origin, 1.0f / safe);
   float from;
   if (entersGrid(grid, reach, from) &&
-      firstTriangle(world, surface, origin + safe * from, direction, own, reach - from).triangle != NO_TRIANGLE)
+      (firstTriangle(world, surface, origin + safe * from, direction, own, reach - from).triangle != NO_TRIANGLE ||
+       closedChannels == TINT_NONE_LEFT))
     return true;
   return outerTriangle(surface, origin, safe, own, grid, reach).triangle != NO_TRIANGLE;
 }

@@ -50,9 +50,14 @@ struct TriangleWalk {
   vec3 cell;
   float t, leave;  ///< where it enters the cell and where, if there are pieces, it leaves it
   uint piece, endPiece, entry;
+  bool tinted;    ///< it has come upon a pane that has let some channels through
+  bool collects;  ///< looks for such panes alone: closedChannels
   float nearest;  ///< at which the hit counts as met: its t, or later (backDelay)
   TriangleHit hit;
 };
+
+/// Of the last ray: the channels that panes on its way have kept off, as bits (openChannels).
+uint closedChannels = 0u;
 
 /// From inside the grid. Half a voxel before the grid's faces a ray has left all there is: the outermost cells are empty.
 TriangleWalk startTriangles(uvec3 dims, vec3 origin, vec3 direction, uint own, float reach) {
@@ -66,6 +71,7 @@ TriangleWalk startTriangles(uvec3 dims, vec3 origin, vec3 direction, uint own, f
   w.t = w.leave = 0.0f;
   w.piece = w.endPiece = 0u;
   w.entry = NO_FACET;
+  w.tinted = w.collects = false;
   vec3 last = mix(vec3(0.5f), vec3(dims) - 0.5f, greaterThan(w.direction, vec3(0.0f)));
   vec3 bounds = (last - origin) * w.inverse;
   w.nearest = min(reach, min(bounds.x, min(bounds.y, bounds.z)));
@@ -74,10 +80,16 @@ TriangleWalk startTriangles(uvec3 dims, vec3 origin, vec3 direction, uint own, f
 }
 
 /// Whether a mask leaves the piece where the ray meets it: what has holes is there only where this cell's piece is.
-bool leavesMask(SurfaceArrays surface, TriangleWalk w, uint triangle, float t) {
+bool leavesMask(SurfaceArrays surface, inout TriangleWalk w, uint triangle, float t) {
   if (!hasHoles(surface.corners, triangle)) return true;
+  if (t < w.t || t > w.leave) return false;
   vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
-  return t >= w.t && t <= w.leave && isThere(surface, w.piece, normal, w.origin + w.direction * t - w.cell);
+  vec3 within = w.origin + w.direction * t - w.cell;
+  if (isThere(surface, w.piece, normal, within)) return true;
+  if (!isTinted(surface.corners, triangle)) return false;
+  w.tinted = true;
+  if (w.collects) closedChannels |= closedAt(surface, w.piece, normal, within);
+  return false;
 }
 
 /// Where a meeting that is as near as the hit counts as met. What shows a side costs no further read.
@@ -106,6 +118,7 @@ void askPiece(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
   if (triangle == w.own || !meetsTriangle(w.ray, triangleAt(surface.corners, triangle), t, front) || t <= 0.0f ||
       t > w.nearest || !leavesMask(surface, w, triangle, t))
     return;
+  if (w.collects) return;
   float at = countsAt(world, surface, w, triangle, t, front);
   if (at > w.nearest || (at == w.nearest && triangle > w.hit.triangle)) return;
   w.nearest = at;
@@ -169,16 +182,25 @@ bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w
   return true;
 }
 
-/// The first triangle nearer than `reach` along a ray, but `own`, from which the ray starts.
+/// The first triangle nearer than `reach` along a ray, but `own`, from which the ray starts. Where it has come upon a pane
+/// that tints, as few have, it goes the same way once more: which channels are left is known only when the hit is.
 TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
   TriangleWalk w = startTriangles(world.dims, origin, direction, own, reach);
-  while (stepTriangles(world, surface, w)) {}
-  return w.hit;
+  TriangleHit hit;
+  for (;;) {
+    while (stepTriangles(world, surface, w)) {}
+    if (w.collects) return hit;
+    hit = w.hit;
+    if (!w.tinted) return hit;
+    w = startTriangles(world.dims, origin, direction, own, hit.t);
+    w.collects = true;
+  }
 }
 
-/// The facet that a ray has met; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided face, or TRACE_INVALID where it
-/// is not known which facet (PIECE_UNKNOWN).
+/// The facet that a ray has met; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided face and where panes have left
+/// no channel, or TRACE_INVALID where it is not known which facet (PIECE_UNKNOWN).
 TraceHit facetMet(SurfaceArrays surface, TriangleHit hit, vec3 origin, vec3 direction) {
+  if (closedChannels == TINT_NONE_LEFT) return TraceHit(TRACE_BLOCKED, hit.t, hit.steps);
   if (hit.triangle == NO_TRIANGLE) return TraceHit(TRACE_ESCAPED, 0.0f, hit.steps);
   uint found = classAt(surface, hit.piece, !hit.front, origin + direction * hit.t);
   uint facet = found < PIECE_UNKNOWN ? firstFacet(hit.entry) + found
@@ -186,7 +208,8 @@ TraceHit facetMet(SurfaceArrays surface, TriangleHit hit, vec3 origin, vec3 dire
   return TraceHit(facet, hit.t, hit.steps);
 }
 
-/// The same of the first triangle along a ray but `own`.
+/// The same of the first triangle along a ray but `own`; closedChannels.
 TraceHit traceTriangles(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own) {
+  closedChannels = 0u;
   return facetMet(surface, firstTriangle(world, surface, origin, direction, own, 1e30f), origin, direction);
 }

@@ -21,6 +21,11 @@ bool hasHoles(Vec4Array corners, uint triangle) {
   return second.w > 0.0;
 }
 
+bool isTinted(Vec4Array corners, uint triangle) {
+  vec4 second = corners.at[3u * triangle + 1u];
+  return second.w > 1.0;
+}
+
 /// The triangle itself or, where it repeats another one, that: it alone has pieces.
 uint firstInPlace(Vec4Array corners, uint triangle) {
   vec4 third = corners.at[3u * triangle + 2u];

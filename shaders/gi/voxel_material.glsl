@@ -2,10 +2,12 @@
 // texels that one voxel covers. Set 1 is the material's.
 // A pipeline for geometry that samples none leaves the lookups out: they are most of what there is to compile.
 #include "shared/constants.h"
+#include "shared/glass.h"
 layout(constant_id = CONSTANT_SAMPLES_TEXTURES) const uint SAMPLES_TEXTURES = 1u;
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
 layout(set = 1, binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 4) uniform sampler2D emissiveTexture;
+layout(set = 1, binding = 5) uniform sampler2D transmissionTexture;
 
 /// Weights of the three vertices at `point` (voxel units); clamped into the triangle against rounding.
 vec3 barycentrics(VoxelTriangle t, vec3 point) {
@@ -82,10 +84,45 @@ float metallicAt(SceneArray scenes, MaterialPoint p) {
   return metallic;
 }
 
+/// Of a pane: the share of the diffuse part that passes through; alpha; and what passes of each channel.
+struct PanePoint {
+  float transmitted, alpha;
+  vec3 passes;
+};
+PanePoint panePoint(SceneArray scenes, MaterialPoint p) {
+  PanePoint pane;
+  pane.transmitted = scenes.at[0].materials.at[p.material].transmission;
+  if (samples(scenes, p, MATERIAL_TRANSMISSION_TEXTURE)) {
+    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_TRANSMISSION, textureSize(transmissionTexture, 0));
+    pane.transmitted *= textureLod(transmissionTexture, uvl.xy, uvl.z).r;
+  }
+  bool lambertian = (scenes.at[0].materials.at[p.material].flags & MATERIAL_LAMBERTIAN) != 0u;
+  if (!lambertian) pane.transmitted *= 1.0 - clamp(metallicAt(scenes, p), 0.0, 1.0);
+  vec4 base = baseColorAt(scenes, p);
+  pane.alpha = paneAlpha(base.a, scenes.at[0].materials.at[p.material].alphaCutoff);
+  pane.passes = panePasses(clamp(base.rgb, 0.0, 1.0), pane.alpha, pane.transmitted);
+  return pane;
+}
+bool isPane(SceneArray scenes, MaterialPoint p) {
+  return (scenes.at[0].materials.at[p.material].flags & MATERIAL_TRANSMISSIVE) != 0u;
+}
+/// What stands for a pane in its facets is less than alpha says; what it does to light is as much more.
+float paneWeight(PanePoint pane) {
+  float there = 1.0 - max(pane.passes.r, max(pane.passes.g, pane.passes.b));
+  return there > 1e-6 ? pane.alpha / there : 0.0;
+}
+
 /// rho of a facet or a piece: clamped to [0, .98], and 0 where it is not a number.
 vec3 albedoAt(SceneArray scenes, MaterialPoint p, out bool clamped) {
   const float MAX_ALBEDO = 0.98;
-  vec3 albedo = baseColorAt(scenes, p).rgb * (1.0 - metallicAt(scenes, p));
+  vec3 albedo;
+  if (isPane(scenes, p)) {
+    PanePoint pane = panePoint(scenes, p);
+    float reflected = max(1.0 - metallicAt(scenes, p) - pane.transmitted, 0.0);
+    albedo = clamp(baseColorAt(scenes, p).rgb, 0.0, 1.0) * (reflected * paneWeight(pane));
+  } else {
+    albedo = baseColorAt(scenes, p).rgb * (1.0 - metallicAt(scenes, p));
+  }
   clamped = false;
   for (int i = 0; i < 3; ++i) {
     float a = albedo[i];
@@ -101,6 +138,7 @@ vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
     vec3 uvl = textureCoordinates(scenes, p, TEXTURE_EMISSIVE, textureSize(emissiveTexture, 0));
     emission *= textureLod(emissiveTexture, uvl.xy, uvl.z).rgb;
   }
+  if (isPane(scenes, p)) emission *= paneWeight(panePoint(scenes, p));
   return emission;
 }
 
@@ -116,6 +154,13 @@ float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point, flo
   MaterialPoint p = materialPoint(scenes, t, triangle, point);
   p.area *= squares;
   return baseColorAt(scenes, p).a;
+}
+
+/// What a pane lets through of each channel, filtered the same way.
+vec3 passesAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point, float squares) {
+  MaterialPoint p = materialPoint(scenes, t, triangle, point);
+  p.area *= squares;
+  return panePoint(scenes, p).passes;
 }
 
 /// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a

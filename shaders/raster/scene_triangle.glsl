@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform PushBlock { RasterPush push; };
 struct MaskedTriangle {
   vec4 corner[3];
   vec4 uv[3];
-  float alpha[3];  ///< of the corners' colours
+  vec4 tint[3];  ///< the corners' colours
   GpuMaterial material;
 };
 MaskedTriangle current;
@@ -34,7 +34,7 @@ void rasterBegin(uint triangle) {
   for (uint i = 0u; i < 3u; ++i) {
     uint vertex = scene.indices.at[3u * triangle + i];
     current.uv[i] = vec4(scene.uv0.at[vertex], scene.uv1.at[vertex]);
-    current.alpha[i] = scene.colors.at[vertex].w;
+    current.tint[i] = scene.colors.at[vertex];
   }
 }
 
@@ -47,15 +47,16 @@ bool rasterCorners(uint triangle, out vec4 corners[3], out bool cull) {
   return true;
 }
 
-/// Whether the material's alpha cuts the pixel out; `threshold`: as materialCutOut.
-bool cutOut(ivec2 pixel, float threshold) {
+/// Whether the material's alpha cuts the pixel out; `threshold`: as materialCutOut; `channel`: as materialCover.
+bool cutOut(ivec2 pixel, float threshold, uint channel) {
   PixelWeights w = pixelWeights(current.corner, pixel, push.size);
   vec4 uv = weighted(current.uv[0], current.uv[1], current.uv[2], w.here);
   vec4 first = weighted(current.uv[0], current.uv[1], current.uv[2], w.first);
   uvDx = weighted(current.uv[0], current.uv[1], current.uv[2], w.right) - first;
   uvDy = weighted(current.uv[0], current.uv[1], current.uv[2], w.below) - first;
-  float tint = current.alpha[0] + (current.alpha[1] - current.alpha[0]) * w.here.y +
-               (current.alpha[2] - current.alpha[0]) * w.here.z;
-  return materialCutOut(current.material, materialBaseColor(current.material, uv, vec4(1.0, 1.0, 1.0, tint)).a,
+  vec4 tint = current.tint[0] + (current.tint[1] - current.tint[0]) * w.here.y +
+              (current.tint[2] - current.tint[0]) * w.here.z;
+  return materialCutOut(current.material,
+                        materialCover(current.material, uv, materialBaseColor(current.material, uv, tint), channel),
                         threshold);
 }

@@ -10,7 +10,7 @@ void rasterPixel(uint triangle, ivec2 pixel, float depth) {
   if (MASKED) {
     uint corner = push.scene.at[0].indices.at[3u * triangle];
     float threshold = texelThreshold(uint(pixel.x), uint(pixel.y), corner);
-    if (push.target.at[place] >= bits || cutOut(pixel, threshold)) return;
+    if (push.target.at[place] >= bits || cutOut(pixel, threshold, push.channel)) return;
   }
   atomicMax(push.target.at[place], bits);
 }

@@ -16,7 +16,7 @@ void rasterPixel(uint triangle, ivec2 pixel, float depth) {
       uint before = push.peeled.at[2u * place + 1u];
       if (bits < before || (bits == before && triangle <= push.peeled.at[2u * place])) return;
     }
-    if (cutOut(pixel, 0.0)) return;
+    if (cutOut(pixel, 0.0, PANE_WHOLE)) return;
   }
   atomicMin(VisibleArray(push.target).at[place], pack64(uvec2(triangle, bits)));
 }

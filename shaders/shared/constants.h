@@ -14,6 +14,7 @@ IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 19u;  ///< gi/voxel_material.glsl
 IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;
 IRAD_CONST uint CONSTANT_TRACE_HIT_RULE = 21u;
 IRAD_CONST uint CONSTANT_TRACE_EMITTERS = 23u;  ///< specular/trace.glsl
+IRAD_CONST uint CONSTANT_TINTED = 25u;          ///< rows tell what panes on the way have let through (openChannels)
 IRAD_CONST uint CONSTANT_SKY = 24u;             ///< there is a sky: of whatever knows one
 
 // The matrix and what is made of it.

@@ -16,7 +16,9 @@ struct DepthPush {
   SceneArray scene;
   ProjectionArray projection;  ///< local position -> clip; a GpuCamera starts with it
   uint material;
-  uint screens;  ///< 1: blended surfaces are there in the share alpha of the texels; 0: wherever alpha is above 0
+  /// 1 + a channel: blended surfaces are there in the share of the texels that they keep off of it, alpha where they have
+  /// no tint; 0: wherever alpha is above 0.
+  uint screens;
 };
 
 /// Specialization constants of "RE Forward" (forward/shade.glsl, forward/resolve.comp). The effects leave out what they
@@ -31,7 +33,8 @@ IRAD_CONST uint FORWARD_INDIRECT = FORWARD_TEXTURED + 5u;             ///< effec
 IRAD_CONST uint FORWARD_PCF = FORWARD_TEXTURED + 6u;
 IRAD_CONST uint FORWARD_MANY_LIGHTS = FORWARD_TEXTURED + 7u;  ///< more than UNIFORM_LIGHTS
 IRAD_CONST uint FORWARD_GLASS = FORWARD_TEXTURED + 8u;        ///< effect: blended surfaces
-IRAD_CONST uint FORWARD_TARGETS = FORWARD_TEXTURED + 9u;      ///< kernels: those of TARGETS_ALL that are there
+IRAD_CONST uint FORWARD_TINTED = FORWARD_TEXTURED + 9u;       ///< effect: panes that tint what passes
+IRAD_CONST uint FORWARD_TARGETS = FORWARD_TEXTURED + 10u;      ///< kernels: those of TARGETS_ALL that are there
 
 /// Targets that are there only where a picture is composed from them: bits of a specialization constant of the shaders
 /// that read or write them. An absent term is 0.

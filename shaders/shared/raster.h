@@ -66,6 +66,8 @@ struct RasterPush {
   uint skipMasked;   ///< 1: not those of masked materials
   uint peels;        ///< 1: blended materials behind `peeled` alone
   UintArray peeled;  ///< as `target`
+  uint channel;      ///< shadow maps: by which panes keep light off
+  uint padding;
 };
 
 /// raster/store_shadow.comp.

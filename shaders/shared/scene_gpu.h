@@ -15,15 +15,20 @@ IRAD_CONST uint MATERIAL_METALLIC_ROUGHNESS_TEXTURE = 8u;
 IRAD_CONST uint MATERIAL_NORMAL_TEXTURE = 16u;
 IRAD_CONST uint MATERIAL_OCCLUSION_TEXTURE = 32u;
 IRAD_CONST uint MATERIAL_EMISSIVE_TEXTURE = 64u;
+IRAD_CONST uint MATERIAL_TRANSMISSION_TEXTURE = 128u;
 IRAD_CONST uint MATERIAL_BLEND = 256u;       ///< | MATERIAL_ALPHA_MASK: covers the share alpha of what meets it
-IRAD_CONST uint MATERIAL_LAMBERTIAN = 128u;  ///< no specular lobe at all (LoadOptions::lambertian)
+IRAD_CONST uint MATERIAL_LAMBERTIAN = 512u;  ///< no specular lobe at all (LoadOptions::lambertian)
+/// | MATERIAL_BLEND: lets light through in its base colour (shared/glass.h). alphaCutoff is that of its alpha mask, 0 of
+/// an opaque one, below 0 where it blends.
+IRAD_CONST uint MATERIAL_TRANSMISSIVE = 1024u;
 
-/// Order of the five textures in set 1.
+/// Order of the six textures in set 1.
 IRAD_CONST uint TEXTURE_BASE_COLOR = 0u;
 IRAD_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
 IRAD_CONST uint TEXTURE_NORMAL = 2u;
 IRAD_CONST uint TEXTURE_OCCLUSION = 3u;
 IRAD_CONST uint TEXTURE_EMISSIVE = 4u;
+IRAD_CONST uint TEXTURE_TRANSMISSION = 5u;
 
 struct GpuMaterial {
   vec4 baseColor;  ///< linear
@@ -33,9 +38,10 @@ struct GpuMaterial {
   float normalScale;
   float occlusionStrength;
   float alphaCutoff;
+  float transmission;
   uint flags;
   uint uvSets;          ///< bit i: texture i uses TEXCOORD_1
-  vec3 uvRow[10];       ///< two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
+  vec3 uvRow[12];       ///< two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
 };
 
 // How the shadow map of a light without a size is read (docs/method.md 6). hard: one comparison. vsm: variance shadow

@@ -156,9 +156,13 @@ IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where an
 IRAD_CONST uint PIECE_CUT = 0x80000000u;
 IRAD_CONST uint CUT_MASKED = 0x80000000u;
 IRAD_CONST uint CUT_SCREEN = 0x40000000u;
+/// | CUT_TINTED: behind the mask's two words two more for each channel, a bit for each square that is closed to it: those of
+/// the mask are closed to all three.
+IRAD_CONST uint CUT_TINTED = 0x20000000u;
 IRAD_CONST uint MASK_EDGE = 8u;
 IRAD_CONST uint MOST_CUTS = 15u;
 IRAD_CONST uint CUT_POINTS = 16u;
+IRAD_FN uint cutHead(uint word) { return (word & CUT_MASKED) == 0u ? 1u : ((word & CUT_TINTED) == 0u ? 3u : 9u); }
 IRAD_FN uint cutCounts(uint triangles, uint parts) { return triangles | (parts << 8); }
 IRAD_FN uint cutTriangles(uint word) { return word & 0xFFu; }
 IRAD_FN uint cutParts(uint word) { return (word >> 8) & 0xFFu; }
@@ -203,7 +207,7 @@ IRAD_CONST uint NO_LINK = 255u;
 
 struct SurfaceArrays {
   Vec4Array corners;      ///< three per triangle, voxel units; w of the first: 1 where its back shows, else 0; of the
-                          ///< second: 1 where a mask may have cut holes, else 0; of the
+                          ///< second: 1 where a mask may have cut holes, 2 of a pane that tints, else 0; of the
                           ///< third: 1 + the triangle that it repeats (gi/repeated.h), else 0
   UintArray firstPiece;   ///< per facet the first piece of its voxel; and, after the last facet, the number of pieces
   UintArray pieces;       ///< triangles, | PIECE_SMALL, ascending within a voxel

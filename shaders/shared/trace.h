@@ -20,6 +20,16 @@ IRAD_CONST uint TRACE_NOT_CAST = 0xFFFFFFFCu;    ///< a small facet has fewer ra
 IRAD_CONST uint TRACE_LAST_FACET = 0x7FFFFFFFu;  ///< facets are at most this
 IRAD_CONST uint TRACE_SKY = 0x80000000u;         ///< where it is asked for, from here on: left the grid, by bins (sky.h)
 
+// A ray that panes have let through may have lost channels there: TINT_ bits of what it has met, 1 for each that is gone.
+IRAD_CONST uint TINT_BITS = 3u;
+IRAD_CONST uint TINT_NONE_LEFT = 7u;
+IRAD_CONST uint TINT_SHIFT_SKY = 16u;    ///< of a bin; as many have room below it
+IRAD_CONST uint TINT_SHIFT_FRAMES = 28u; ///< of a facet, where no matrix is made of it
+/// 1 for each channel that is left.
+IRAD_FN vec3 openChannels(uint closed) {
+  return vec3((closed & 1u) == 0u ? 1.0f : 0.0f, (closed & 2u) == 0u ? 1.0f : 0.0f, (closed & 4u) == 0u ? 1.0f : 0.0f);
+}
+
 /// One byte per voxel: exact Chebyshev distance to the nearest solid voxel (Field::chebyshev).
 #ifdef __cplusplus
 using ByteArray = uint64_t;
@@ -73,7 +83,8 @@ struct TraceRaysPush {
   UintArray hits;  ///< rays x rows words: facet met, or TRACE_*
   uvec3 dims;
   float jfaMax;
-  uint firstRow, rows, rays, jitter, seed, pad;
+  uint firstRow, rows, rays, jitter, seed;
+  uint tintShift;  ///< where the channels go that panes keep off; 0: they are not told
   SurfaceRecord surface;
 };
 

@@ -129,10 +129,11 @@ vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, 
     } else {
       hit = traceFrom(world, surface, s, direction);
       if (hit.facet > TRACE_LAST_FACET) {
-        sum += weight * beyond(surface, hit, direction);
+        sum += weight * openChannels(closedChannels) * beyond(surface, hit, direction);
         continue;
       }
     }
+    vec3 open = openChannels(closedChannels);
     vec3 at = rayStart(s) + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);
     float exitance = EMITTERS ? luminance(world.facets.emission.at[hit.facet]) : 0.0;
@@ -144,7 +145,7 @@ vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, 
       // The heuristic goes by the facet's normal for both kinds; the points are drawn by the area of the true surface.
       if (reach > 0.0) weight *= -dot(facing, direction) / cosine;
     }
-    sum += weight * radiosityAt(world, surface, hit.facet, at);
+    sum += weight * open * radiosityAt(world, surface, hit.facet, at);
   }
   return vec4(sum, weights);
 }

@@ -6,7 +6,7 @@ uint paddedStart(MatrixArrays m, uint row) {
 
 RowEntry paddedEntry(Row r, uint i) {
   uvec2 place = r.places.at[r.start + i];
-  return RowEntry(place.x, uintBitsToFloat(place.y));
+  return RowEntry(place.x, uintBitsToFloat(place.y), 0u);
 }
 
 uint paddedHitsOn(Row row, uint column) {

@@ -18,7 +18,8 @@ vec3 traceJittered(TraceWorld world, Surface s, uint seed, uint k) {
   float out_ = dot(direction, s.face);
   if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
   TraceHit hit = traceFrom(world, tracedSurface(), s, direction);
-  return hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : beyond(tracedSurface(), hit, direction);
+  vec3 open = openChannels(closedChannels);
+  return open * (hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : beyond(tracedSurface(), hit, direction));
 }
 
 struct Reflection {

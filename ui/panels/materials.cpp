@@ -19,7 +19,8 @@ namespace irad {
 namespace {
 
 /// In the order of kMaterialTextures.
-constexpr const char* kTextureLabels[] = {"base color", "metalness, roughness", "normals", "occlusion", "emission"};
+constexpr const char* kTextureLabels[] = {"base color", "metalness, roughness", "normals", "occlusion", "emission",
+                                           "transmission"};
 
 /// A colour field, shown as on a display. True where it was edited: linear, 0 to 1.
 bool colorField(const char* id, glm::vec3& linear) {
@@ -141,6 +142,12 @@ class MaterialsPanel : public Panel {
         edit.alphaCutoff = std::clamp(cutoff, 0.0f, 1.0f);
       ImGui::TextColored(theme::dim, "a cutoff rebuilds voxels and matrix");
     }
+    fieldLabel("transmission",
+               "The share of what it would scatter that passes straight through, in its base color: a thin pane. This "
+               "moves surfaces: voxels and matrix are built again.");
+    float passed = now.transmission;
+    if (ImGui::SliderFloat("##transmission", &passed, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp))
+      edit.transmission = std::clamp(passed, 0.0f, 1.0f);
     drawTextures(file, edit);
     settle(file, edit);
     if (edit != before) session.edits.setMaterial(edit);
@@ -180,6 +187,7 @@ class MaterialsPanel : public Panel {
     if (edit.emissionColor == own.color) edit.emissionColor.reset();
     if (edit.emissionStrength == own.strength) edit.emissionStrength.reset();
     if (edit.alphaCutoff == file.alphaCutoff) edit.alphaCutoff.reset();
+    if (edit.transmission == file.transmission) edit.transmission.reset();
   }
 
   static void drawTimes(const Session& session) {

@@ -216,7 +216,7 @@ class SolverPanel : public Panel {
   static void drawEnergy(const Built& built) {
     if (!built.solve.energy) {
       valueRow("energy", "\u2026");
-      helpTooltip("Known once the solver has converged with solver.lambda 1");
+      helpTooltip("Known once the solver has converged with solver.lambda 1; not where panes tint");
       return;
     }
     const EnergyBalance& energy = *built.solve.energy;
