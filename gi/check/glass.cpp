@@ -1,5 +1,5 @@
-// Blended surfaces: panes, a tinted one, a curtain, a pane in front of a lamp, in a closed room, against the path tracer, which
-// decides at each of them by chance.
+// Blended surfaces: panes, a tinted one, a curtain, a pane in front of a lamp, in a closed room, against the path
+// tracer, which decides at each of them by chance.
 #include <fmt/format.h>
 
 #include <array>

@@ -84,12 +84,12 @@ void pass(const RTCFilterFunctionNArguments* arguments) {
     const glm::dvec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                RTCRayN_dir_y(arguments->ray, arguments->N, i),
                                RTCRayN_dir_z(arguments->ray, arguments->N, i));
-    const bool through = triangle == passing.from || triangle == passing.to ||
-                         (RTCRayN_tfar(arguments->ray, arguments->N, i) >= passing.shownFrom &&
-                          atHiddenBack(surfaces, triangle, direction)) ||
-                         surfaces.cutOut(triangle, uv) ||
-                         (surfaces.blended(triangle) &&
-                          passing.goesBy(triangle, uv, RTCRayN_tfar(arguments->ray, arguments->N, i)));
+    const bool through =
+        triangle == passing.from || triangle == passing.to ||
+        (RTCRayN_tfar(arguments->ray, arguments->N, i) >= passing.shownFrom &&
+         atHiddenBack(surfaces, triangle, direction)) ||
+        surfaces.cutOut(triangle, uv) ||
+        (surfaces.blended(triangle) && passing.goesBy(triangle, uv, RTCRayN_tfar(arguments->ray, arguments->N, i)));
     if (through) arguments->valid[i] = 0;
   }
 }
@@ -276,10 +276,10 @@ class EmbreeTracer : public PathTracer {
       shown.tint = met.tint;
       return shown;
     }
-    /// What arrives over the first `far` lengths of `direction`, hidden backs apart from `shownFrom` on: 0 where anything
-    /// lies there, less than 1 through panes.
+    /// What arrives over the first `far` lengths of `direction`, hidden backs apart from `shownFrom` on: 0 where
+    /// anything lies there, less than 1 through panes.
     glm::dvec3 clear(const glm::dvec3& origin, const glm::dvec3& direction, float far, uint32_t from, uint32_t to,
-               float shownFrom) {
+                     float shownFrom) {
       ++segment;
       Passing p = passing(from, to, shownFrom);
       RTCRay shadow = ray(origin, direction, 0, far);
