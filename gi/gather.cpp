@@ -30,7 +30,9 @@ void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& fa
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
   push.dims = facets.grid.dims;
-  pass.shader("gi/gather_surfels.comp").constant(CONSTANT_TRACE_METHOD, exactTraversal(field));
+  pass.shader("gi/gather_surfels.comp")
+      .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
+      .constant(CONSTANT_TINTED, facets.surface.tinted);
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.push(push).dispatch(uint64_t{facets.count} * FACET_SURFELS);
 }

@@ -64,7 +64,6 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
   push.seed = settings.matrix.gpu.seed;
   kernel.configure(pass, frame.context().device, "gi/sample_emitters")
       .constant(CONSTANT_MATRIX_FORMAT, matrix.format)
-      .constant(CONSTANT_TINTED, matrix.tinted)
       .push(push)
       .dispatch(facets.count);
 }

@@ -21,8 +21,7 @@ void drawLayers(Frame& frame, uint32_t layers, bool tinted, const std::function<
         .read(targets.geometric)
         .write(targets.linear, targets.layers, targets.peeled);
     if (tinted) pass.read(targets.direct).write(targets.shows);
-    pass.push(LayerPush{.first = i == 0, .last = i == layers})
-        .dispatch(targets.size);
+    pass.push(LayerPush{.first = i == 0, .last = i == layers}).dispatch(targets.size);
   }
 }
 

@@ -29,9 +29,8 @@ struct Order {
   std::vector<uint32_t> items;  ///< indices, group after group
 };
 /// What albedo and emission are read from.
-inline constexpr uint32_t kColorTextures =
-    MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE | MATERIAL_EMISSIVE_TEXTURE |
-    MATERIAL_TRANSMISSION_TEXTURE;
+inline constexpr uint32_t kColorTextures = MATERIAL_BASE_COLOR_TEXTURE | MATERIAL_METALLIC_ROUGHNESS_TEXTURE |
+                                           MATERIAL_EMISSIVE_TEXTURE | MATERIAL_TRANSMISSION_TEXTURE;
 /// Groups items, given by their triangles (bit 31 is ignored), by material, those that sample none of `textures`
 /// together: a counting sort on the host, since a dispatch over all items for each material would mostly idle.
 Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles,

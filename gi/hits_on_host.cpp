@@ -31,7 +31,8 @@ void traceMapped(Context& context, const RayKernel& kernel, const HostTrace* hos
                  uint32_t firstRow, uint32_t rows, const Buffer& hits, bool sky, const char* stage) {
   if (host != nullptr) {
     const std::span<uint32_t> mapped(static_cast<uint32_t*>(hits.mapped), uint64_t{rows} * params.rays);
-    timedOnHost(context, stage, [&] { host->rows(params, firstRow, rows, mapped, /*threads=*/0, sky, kernel.tintShift); });
+    timedOnHost(context, stage,
+                [&] { host->rows(params, firstRow, rows, mapped, /*threads=*/0, sky, kernel.tintShift); });
     return;
   }
   Frame frame = context.begin();

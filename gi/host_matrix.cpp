@@ -26,7 +26,8 @@ size_t wordCount(MatrixFormat format, glm::uvec2 info) {
   return size_t{rowEntries(info)} * (format == MatrixFormat::csr ? 1 : kPaddedWords);
 }
 
-HostRow decode(const MatrixArrays& arrays, const FormFactors& matrix, glm::uvec2 info, std::span<const uint32_t> words) {
+HostRow decode(const MatrixArrays& arrays, const FormFactors& matrix, glm::uvec2 info,
+               std::span<const uint32_t> words) {
   HostRow row;
   row.invalid = rowInvalid(info);
   row.weight = std::bit_cast<float>(info.y);

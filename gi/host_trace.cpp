@@ -140,8 +140,7 @@ void passThrough(const RTCFilterFunctionNArguments* arguments) {
     const bool own = triangle == passed.ray->own,
                there = !own && pieceAt(*passed.facets, passed.ray->at(t), triangle, &closed);
     if (closed != 0 && passed.panes != nullptr) passed.panes->push_back({t, closed});
-    if (!there ||
-        (passed.hiddenBacks && atHiddenBack(*passed.facets, *passed.ray, triangle, normal)))
+    if (!there || (passed.hiddenBacks && atHiddenBack(*passed.facets, *passed.ray, triangle, normal)))
       arguments->valid[i] = 0;
   }
 }

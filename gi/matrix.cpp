@@ -148,7 +148,8 @@ FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& 
   matrix.rays = params.rays;
   matrix.tinted = facets.surface.tinted;
   if (matrix.tinted && matrix.format == MatrixFormat::padded)
-    throw UsageError("matrix.format = padded: its rows cannot tell what panes of KHR_materials_transmission tint; take csr");
+    throw UsageError(
+        "matrix.format = padded: its rows cannot tell what panes of KHR_materials_transmission tint; take csr");
   matrix.rowInfo = Buffer(context.device, "matrix row info", Subsystem::Matrix, 8ull * facets.count);
   matrix.stats.rays = uint64_t{facets.count} * params.rays;
   if (facets.count == 0) {

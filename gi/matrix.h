@@ -23,7 +23,7 @@ struct MatrixStats {
 struct FormFactors {
   MatrixFormat format = MatrixFormat::csr;
   uint32_t rows = 0, rays = 0;
-  bool tinted = false;  ///< columns tell which channels panes keep off (gi/matrix_row.glsl)
+  bool tinted = false;           ///< columns tell which channels panes keep off (gi/matrix_row.glsl)
   std::vector<Buffer> segments;  ///< entries of rowsPerSegment rows each (csr), or of fixed stride (padded)
   Buffer rowStart;               ///< rows: first entry within its segment
   Buffer rowInfo;                ///< rows: entries | ... see shared/matrix.h

@@ -241,7 +241,9 @@ void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facet
   push.edge = facets.grid.edge;
   push.dims = facets.grid.dims;
   push.count = outer.count;
-  pass.shader("gi/outer_light.comp").constant(CONSTANT_TRACE_METHOD, exactTraversal(field));
+  pass.shader("gi/outer_light.comp")
+      .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
+      .constant(CONSTANT_TINTED, facets.surface.tinted);
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.push(push).dispatch(outer.count);
 }

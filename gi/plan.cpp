@@ -320,7 +320,8 @@ class Planner {
   }
 
   void glass() {
-    auto [n, reason] = materials([](const MaterialTraits& m) { return m.glass; }, "blended with alpha below 1, or transmissive");
+    auto [n, reason] =
+        materials([](const MaterialTraits& m) { return m.glass; }, "blended with alpha below 1, or transmissive");
     if (!byTriangles() && n > 0)
       return without(Effect::glass, reason + ", opaque with matrix.hit_rule = thesis; textured ones cut at one half");
     decide(Effect::glass, n > 0, std::move(reason));

@@ -27,7 +27,8 @@ Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& 
   pass.shader(name + (jfa ? "_jfa.comp" : ".comp"))
       .constant(CONSTANT_TRACE_METHOD, method)
       .constant(CONSTANT_TRACE_HIT_RULE, hitRule)
-      .constant(CONSTANT_NORMALS, encoding);
+      .constant(CONSTANT_NORMALS, encoding)
+      .constant(CONSTANT_TINTED, facets.surface.tinted);
   if (jfa)
     pass.sample(field.jumpFlood.distance, sampler(device, {.u = Wrap::Clamp,
                                                            .v = Wrap::Clamp,

@@ -12,8 +12,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/frame/record.h"
 #include "renderer/scene/scene.h"
-#include "shaders/shared/emitters.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/emitters.h"
 
 namespace irad {
 namespace {

@@ -89,6 +89,7 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
   return pass.constant(CONSTANT_TRACE_METHOD, picture.method)
       .constant(CONSTANT_TRACE_HIT_RULE, picture.settings.matrix.gpu.hitRule)
       .constant(CONSTANT_NORMALS, facets.encoding)
+      .constant(CONSTANT_TINTED, facets.surface.tinted)
       .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
       .constant(CONSTANT_SKY, picture.inputs.sky != nullptr)
       .sample(targets.depth, pointSampler(picture.frame.context().device))

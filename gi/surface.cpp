@@ -19,8 +19,8 @@
 #include "renderer/frame/record.h"
 #include "renderer/gpu_scene.h"
 #include "shaders/shared/constants.h"
-#include "shaders/shared/surface.h"
 #include "shaders/shared/sky.h"
+#include "shaders/shared/surface.h"
 
 namespace irad {
 namespace {
@@ -413,14 +413,14 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings&
   listed.grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   const Buffer& grid = listed.grid;
   Surface& surface = list.surface;
-  surface.tinted = std::ranges::any_of(flagsOfTriangles(scene),
-                                       [](uint32_t flags) { return (flags & MATERIAL_TRANSMISSIVE) != 0; });
+  surface.tinted =
+      std::ranges::any_of(flagsOfTriangles(scene), [](uint32_t flags) { return (flags & MATERIAL_TRANSMISSIVE) != 0; });
   surface.corners = words(device, "triangles' corners", 12ull * triangles);
   const std::vector<uint32_t> repeated = repeatedTriangles(scene);
   list.outer = makeOuter(context, scene, region, list.grid, repeated);
   if (surface.tinted && list.outer.count > (1u << TINT_SHIFT_SKY) - SKY_BINS)
-    throw UsageError(fmt::format("scene.region: {} points outside of it are more than rays can tell apart that panes tint",
-                                 list.outer.count));
+    throw UsageError(fmt::format(
+        "scene.region: {} points outside of it are more than rays can tell apart that panes tint", list.outer.count));
   const Buffer repeats = repeated.empty() ? Buffer()
                                           : makeBuffer<uint32_t>(context, "repeated triangles", Subsystem::Facets,
                                                                  std::span<const uint32_t>(repeated));

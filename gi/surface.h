@@ -15,7 +15,7 @@ struct Settings;
 struct Surface {
   Buffer corners, firstPiece, pieces, boxes, groups, sides, cuts;  ///< of SurfaceArrays
   Buffer surfels, wideSides, linkMasks, firstLinks, links;
-  Buffer record;  ///< one SurfaceArrays
+  Buffer record;        ///< one SurfaceArrays
   bool tinted = false;  ///< some of it are panes that tint
   explicit operator bool() const { return static_cast<bool>(record); }
 };

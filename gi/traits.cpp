@@ -48,7 +48,8 @@ MaterialTraits measureMaterial(const Material& m, const Texels& texels) {
   t.alphaTest = m.alpha == AlphaMode::Mask;
   t.glass = m.alpha == AlphaMode::Blend && m.baseColor.a * texels(m.baseColorTexture).least.a < 1;
   const float passed = m.transmission * texels(m.transmissionTexture).most.r;
-  t.tinted = passed * (m.lambertian ? 1 : 1 - std::min(m.metallic * texels(m.metallicRoughnessTexture).least.b, 1.0f)) > 0;
+  t.tinted =
+      passed * (m.lambertian ? 1 : 1 - std::min(m.metallic * texels(m.metallicRoughnessTexture).least.b, 1.0f)) > 0;
   t.glass |= t.tinted;
   t.cutIfOpaque = m.alpha == AlphaMode::Blend && cutByAlpha(m);
   return t;

@@ -15,14 +15,14 @@ struct Targets {
   Targets() = default;
   Targets(Context& context, glm::uvec2 size);
   glm::uvec2 size{0};
-  Image depth;       ///< D32, or R32F where kernels rasterize; 1 = nothing
-  Image normal;      ///< RGBA16F: shading normal xyz, roughness
-  Image geometric;   ///< RGBA16F: geometric normal xyz (towards the viewer), metallic (packCover() of blended surfaces)
-  Image albedo;      ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
-  Image direct;      ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point); w: what the surface lets through of each
-                     ///< channel, packPasses() of shaders/shared/glass.h, where panes tint
-  Image linear;      ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn.
-                     ///< Passes before the view keep what they need for themselves there
+  Image depth;      ///< D32, or R32F where kernels rasterize; 1 = nothing
+  Image normal;     ///< RGBA16F: shading normal xyz, roughness
+  Image geometric;  ///< RGBA16F: geometric normal xyz (towards the viewer), metallic (packCover() of blended surfaces)
+  Image albedo;     ///< RGBA16F: diffuse albedo (base colour x (1 - metallic)), occlusion
+  Image direct;  ///< RGBA32F: direct irradiance D, W/m^2 (sun, spot, point); w: what the surface lets through of each
+                 ///< channel, packPasses() of shaders/shared/glass.h, where panes tint
+  Image linear;  ///< RGBA32F: the view's result, before exposure, tone curve or colour map; alpha 0: nothing drawn.
+                 ///< Passes before the view keep what they need for themselves there
   Buffer viewRange;  ///< one ViewRange (shaders/shared/view.h), of views that have one
   Buffer viewBins;   ///< histogram of their values
   Image display;     ///< RGBA8: what is shown and written as PNG (sRGB-encoded)

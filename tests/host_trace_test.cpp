@@ -266,7 +266,8 @@ TEST_F(HostTracing, PanesLetTheirShareOfEachChannelThrough) {
   // Of the floor's rays that come above the lower sheet, those that keep a channel are .9 of the pane's color of it.
   constexpr uint32_t kRays = 128, kShift = TINT_SHIFT_FRAMES;
   const glm::dvec3 color(0.9, 0.5, 0.2);
-  const World open = world(glazed(/*thin=*/false), triangles(24, kRays)), w = world(tinted(color), triangles(24, kRays));
+  const World open = world(glazed(/*thin=*/false), triangles(24, kRays)),
+              w = world(tinted(color), triangles(24, kRays));
   const auto above = [&](const World& in, const std::vector<uint32_t>& met, uint32_t channel) {
     const HostFacets f = hostFacets(context(), in.facets);
     double count = 0;

@@ -175,7 +175,8 @@ const Case kCases[]{
     {E::glass, none, "off: none of 2 materials blended with alpha below 1, or transmissive"},
     {E::glass, EDIT(t.materials[1].glass = true), "on: 1 of 2 materials blended with alpha below 1, or transmissive"},
     {E::glass, EDIT(thesis(t, s), t.materials[1].glass = true),
-     "off: 1 of 2 materials blended with alpha below 1, or transmissive, opaque with matrix.hit_rule = thesis; textured ones cut at one "
+     "off: 1 of 2 materials blended with alpha below 1, or transmissive, opaque with matrix.hit_rule = thesis; "
+     "textured ones cut at one "
      "half"},
     {E::normalMap, EDIT(t.materials[0].normalMap = t.materials[1].normalMap = true), "on: 2 of 2 materials with *"},
     {E::normalMap, EDIT(t.materials[0].alphaTest = true), "off: none of 2 materials with a normal map"},

@@ -1,7 +1,7 @@
 // .irscene: a loaded scene with its images decoded, for machines without image decoders. Little-endian, fields in the
 // order of Scene, with nothing of what is hidden. Version 2 had no nodes, and is read as a scene without; up to
-// version 3 lights had no switch, and are on; up to version 4 nothing was transmitted. Reading trusts nothing: every length is checked against the bytes left,
-// and the whole against what a scene must be.
+// version 3 lights had no switch, and are on; up to version 4 nothing was transmitted. Reading trusts nothing: every
+// length is checked against the bytes left, and the whole against what a scene must be.
 #include <bit>
 #include <cstring>
 #include <type_traits>

@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // "GI BruteForce" (docs/method.md 9, T 5.13), one subgroup per facet: sums what its rays of this frame bring, takes it
 // into the mean over the frames and into the mean's standard error, and makes B for the rays of the next frame.
+#include "gi/tinted.glsl"
 #include "shared/brute_force.h"
 #include "shared/constants.h"
 
 layout(local_size_x = 128) in;
 layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = false;
-layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;
 layout(push_constant, scalar) uniform Push { BruteForcePush p; };
 
 #include "gi/solve_watch.glsl"

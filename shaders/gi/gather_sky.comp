@@ -3,11 +3,10 @@
 // "GI Gather" from the sky (docs/method.md 6): pi x the share of a facet's rays that escape into each bin of directions x
 // the bin's mean radiance; and the mean of the squares of what its rays bring from there, over the channels together, for
 // the noise of H. One invocation per row.
-#include "shared/constants.h"
+#include "gi/tinted.glsl"
 #include "shared/sky.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;
 layout(push_constant, scalar) uniform Push { GatherSkyPush p; };
 
 void main() {

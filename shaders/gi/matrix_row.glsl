@@ -1,11 +1,8 @@
 // Where a matrix row's entries are. The includer declares FORMAT: MATRIX_CSR, or MATRIX_PADDED (thesis/padded_row.glsl).
 #ifndef IRAD_MATRIX_ROW_GLSL
 #define IRAD_MATRIX_ROW_GLSL
-#include "shared/constants.h"
+#include "gi/tinted.glsl"
 #include "shared/solve.h"
-
-/// A column is a facet, and above its bits, TINT_BITS of the columns' the channels that panes keep off it.
-layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;
 
 struct Row {
   UintArray entries;   ///< csr
@@ -14,6 +11,7 @@ struct Row {
   float weight;        ///< of one hit
 };
 
+/// TINTED: a column is a facet and, in the TINT_BITS above its bits, the channels that panes keep off it.
 /// Entry i of a row: `weight` in units of the row's weight (csr: its hits).
 struct RowEntry {
   uint column;

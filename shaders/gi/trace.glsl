@@ -14,6 +14,7 @@
 #define IRAD_TRACE_GLSL
 #extension GL_EXT_control_flow_attributes : require
 
+#include "gi/tinted.glsl"
 #include "shared/constants.h"
 #include "shared/facets.h"
 #include "shared/gi_params.h"

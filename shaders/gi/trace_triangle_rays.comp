@@ -27,7 +27,7 @@ void main() {
   uint met = traceScene(world, surface, r.from.position, r.direction, r.from.triangle).facet;
   if (SKY && met == TRACE_ESCAPED) met = metSky(r.direction);
   if (!SKY && isSky(met)) met = TRACE_ESCAPED;
-  if (closedChannels != 0u && p.tintShift != 0u) {
+  if (TINTED && closedChannels != 0u && p.tintShift != 0u) {
     if (met <= TRACE_LAST_FACET) met |= closedChannels << p.tintShift;
     else if (isSky(met)) met |= closedChannels << TINT_SHIFT_SKY;
   }

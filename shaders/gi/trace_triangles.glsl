@@ -86,7 +86,7 @@ bool leavesMask(SurfaceArrays surface, inout TriangleWalk w, uint triangle, floa
   vec3 normal = facingOf(triangleAt(surface.corners, triangle), false);
   vec3 within = w.origin + w.direction * t - w.cell;
   if (isThere(surface, w.piece, normal, within)) return true;
-  if (!isTinted(surface.corners, triangle)) return false;
+  if (!TINTED || !isTinted(surface.corners, triangle)) return false;
   w.tinted = true;
   if (w.collects) closedChannels |= closedAt(surface, w.piece, normal, within);
   return false;
@@ -118,7 +118,7 @@ void askPiece(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w) {
   if (triangle == w.own || !meetsTriangle(w.ray, triangleAt(surface.corners, triangle), t, front) || t <= 0.0f ||
       t > w.nearest || !leavesMask(surface, w, triangle, t))
     return;
-  if (w.collects) return;
+  if (TINTED && w.collects) return;
   float at = countsAt(world, surface, w, triangle, t, front);
   if (at > w.nearest || (at == w.nearest && triangle > w.hit.triangle)) return;
   w.nearest = at;
@@ -189,9 +189,9 @@ TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, 
   TriangleHit hit;
   for (;;) {
     while (stepTriangles(world, surface, w)) {}
-    if (w.collects) return hit;
+    if (TINTED && w.collects) return hit;
     hit = w.hit;
-    if (!w.tinted) return hit;
+    if (!TINTED || !w.tinted) return hit;
     w = startTriangles(world.dims, origin, direction, own, hit.t);
     w.collects = true;
   }
@@ -200,7 +200,7 @@ TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, 
 /// The facet that a ray has met; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided face and where panes have left
 /// no channel, or TRACE_INVALID where it is not known which facet (PIECE_UNKNOWN).
 TraceHit facetMet(SurfaceArrays surface, TriangleHit hit, vec3 origin, vec3 direction) {
-  if (closedChannels == TINT_NONE_LEFT) return TraceHit(TRACE_BLOCKED, hit.t, hit.steps);
+  if (TINTED && closedChannels == TINT_NONE_LEFT) return TraceHit(TRACE_BLOCKED, hit.t, hit.steps);
   if (hit.triangle == NO_TRIANGLE) return TraceHit(TRACE_ESCAPED, 0.0f, hit.steps);
   uint found = classAt(surface, hit.piece, !hit.front, origin + direction * hit.t);
   uint facet = found < PIECE_UNKNOWN ? firstFacet(hit.entry) + found

@@ -19,8 +19,8 @@ namespace irad {
 namespace {
 
 /// In the order of kMaterialTextures.
-constexpr const char* kTextureLabels[] = {"base color", "metalness, roughness", "normals", "occlusion", "emission",
-                                           "transmission"};
+constexpr const char* kTextureLabels[] = {"base color", "metalness, roughness", "normals", "occlusion",
+                                          "emission",   "transmission"};
 
 /// A colour field, shown as on a display. True where it was edited: linear, 0 to 1.
 bool colorField(const char* id, glm::vec3& linear) {
