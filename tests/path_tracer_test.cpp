@@ -340,7 +340,7 @@ TEST_P(AgainstCycles, SameMean) {
   const TracedPicture p = makePathTracer(std::move(scene))
                               ->render(camera, {cycles.width, cycles.height}, {.samples = everything() ? 400u : 32u});
   const glm::dvec3 ratio = p.lit.pictureMean / cycles.mean(), error = p.lit.pictureError / cycles.mean();
-  Picture theirs{.size = p.size, .pixels = {}};
+  CheckPicture theirs{.size = p.size, .pixels = {}};
   for (const glm::vec3& c : cycles.pixels) theirs.pixels.emplace_back(c, 1);
   printf("%s: %.4f %.4f %.4f of Cycles, standard error %.4f; relMSE of 4 x 4 %.5f; %.2f Mrays/s\n", name.c_str(),
          ratio.x, ratio.y, ratio.z, error.y, compare(theirs, p.lit).relMse,

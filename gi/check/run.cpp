@@ -96,7 +96,7 @@ void CheckRun::setDirect(Pipeline& pipeline, const std::vector<glm::vec3>& direc
   pipeline.invalidate(Redo::Solve);
 }
 
-Picture CheckRun::picture(Pipeline& pipeline, const Camera& camera, View view, glm::uvec2 size) const {
+CheckPicture CheckRun::picture(Pipeline& pipeline, const Camera& camera, View view, glm::uvec2 size) const {
   Targets targets(context, size);
   Frame frame = context.begin();
   pipeline.render(frame, camera, view, targets);
