@@ -116,7 +116,7 @@ TEST_F(Orders, VoxelsAroundABall) {
   for (const uint32_t resolution : {8u, 16u, 32u}) {
     CheckRun run(context(), at(resolution, 256), {});
     const auto pipeline = run.prepare(scene);
-    const Picture picture = run.picture(*pipeline, camera, VIEW_INDIRECT, kSize);
+    const CheckPicture picture = run.picture(*pipeline, camera, VIEW_INDIRECT, kSize);
     voxels.push_back(resolution);
     error.push_back(measurePicture(kSize, picture.pixels, half(0), half(1), 1).blockRelMse);
     fmt::print("N = {}: relMSE {:.3g}\n", resolution, error.back());
