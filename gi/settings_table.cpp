@@ -271,8 +271,9 @@ constexpr Setting kTable[] = {
             "the window; off: the light stays as it is.",
             Nothing),
     SETTING(effects.glass, "effects.glass",
-            "Blended surfaces cover the share alpha of what meets them; auto: where a material has alpha below 1 and "
-            "matrix.hit_rule = triangles. off: opaque; textured ones cut out at one half.",
+            "Blended surfaces cover the share alpha of what meets them; panes tint what passes; auto: where a material "
+            "has alpha below 1 or transmits light and matrix.hit_rule = triangles. off: opaque; textured ones cut out "
+            "at one half.",
             Voxels),
     SETTING(effects.alphaTest, "effects.alpha_test", "Cut-outs by alpha; auto: where a material has one.", Voxels),
     SETTING(effects.normalMap, "effects.normal_map", "Normal maps; auto: where a material has one.", Materials),
