@@ -72,7 +72,7 @@ void Inspection::open(Session& session, const glm::uvec3& at) {
 }
 
 /// None where there is no surface.
-std::optional<SurfacePoint> Inspection::surfaceUnder(Session& session, const glm::uvec2& pixel) {
+std::optional<ShownPoint> Inspection::surfaceUnder(Session& session, const glm::uvec2& pixel) {
   const Targets& targets = session.targets;
   float depth = 0;
   std::memcpy(&depth, downloadTexel(session.context, targets.depth, pixel).data(), sizeof(depth));
@@ -84,7 +84,7 @@ std::optional<SurfacePoint> Inspection::surfaceUnder(Session& session, const glm
 /// Picks from the picture as it is shown.
 std::optional<SliceCell> Inspection::under(Session& session, const glm::uvec2& pixel) {
   return cellBehind(session, inspector_->places(), pixel,
-                    showsSurfaces(session) ? surfaceUnder(session, pixel) : std::optional<SurfacePoint>());
+                    showsSurfaces(session) ? surfaceUnder(session, pixel) : std::optional<ShownPoint>());
 }
 
 /// That of the surface in the pixel; of a view of voxels that of the facet that has just been picked.
@@ -93,7 +93,7 @@ std::optional<uint32_t> Inspection::triangleUnder(Session& session, const glm::u
     if (facet() == nullptr || !facet()->mesh) return std::nullopt;
     return facet()->mesh->triangle;
   }
-  const std::optional<SurfacePoint> surface = surfaceUnder(session, pixel);
+  const std::optional<ShownPoint> surface = surfaceUnder(session, pixel);
   if (!surface) return std::nullopt;
   return nearestTriangle(session.pipeline->scene(), surface->position, surface->normal);
 }

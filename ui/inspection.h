@@ -17,7 +17,7 @@ namespace irad {
 
 class Inspector;
 struct Session;
-struct SurfacePoint;
+struct ShownPoint;
 
 class Inspection {
  public:
@@ -74,7 +74,7 @@ class Inspection {
   void serveRequests(Session& session);
   bool update(Session& session);
   Inspector& inspector(Session& session);
-  std::optional<SurfacePoint> surfaceUnder(Session& session, const glm::uvec2& pixel);
+  std::optional<ShownPoint> surfaceUnder(Session& session, const glm::uvec2& pixel);
   std::optional<uint32_t> triangleUnder(Session& session, const glm::uvec2& pixel);
   std::optional<SliceCell> under(Session& session, const glm::uvec2& pixel);
   void pickFacet(uint32_t facet);

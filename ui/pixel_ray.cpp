@@ -19,10 +19,10 @@ glm::dvec3 PixelRay::at(double depth) const {
   return glm::dvec3(p) / p.w + origin_;
 }
 
-std::optional<SurfacePoint> surfaceBehind(const Session& session, const glm::uvec2& pixel, float depth,
-                                          uint64_t geometric) {
+std::optional<ShownPoint> surfaceBehind(const Session& session, const glm::uvec2& pixel, float depth,
+                                        uint64_t geometric) {
   if (!(depth > 0)) return std::nullopt;
-  return SurfacePoint{PixelRay(session, pixel).at(depth), glm::dvec3(glm::unpackHalf4x16(geometric))};
+  return ShownPoint{PixelRay(session, pixel).at(depth), glm::dvec3(glm::unpackHalf4x16(geometric))};
 }
 
 bool showsSurfaces(const Session& session) {
@@ -32,7 +32,7 @@ bool showsSurfaces(const Session& session) {
 }
 
 std::optional<SliceCell> cellBehind(const Session& session, const FacetPlaces& places, const glm::uvec2& pixel,
-                                    const std::optional<SurfacePoint>& surface) {
+                                    const std::optional<ShownPoint>& surface) {
   const auto cell = [&](std::optional<uint32_t> facet) {
     return facet ? std::optional(SliceCell{places.facets.voxel.at(*facet), facet}) : std::nullopt;
   };

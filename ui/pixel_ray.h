@@ -25,17 +25,17 @@ class PixelRay {
 };
 
 /// A point of a surface that was seen.
-struct SurfacePoint {
+struct ShownPoint {
   glm::dvec3 position, normal;  ///< world
 };
 /// From a pixel's texels of Targets::depth and Targets::geometric; none where nothing is drawn.
-std::optional<SurfacePoint> surfaceBehind(const Session& session, const glm::uvec2& pixel, float depth,
-                                          uint64_t geometric);
+std::optional<ShownPoint> surfaceBehind(const Session& session, const glm::uvec2& pixel, float depth,
+                                        uint64_t geometric);
 /// Whether the view's picture has left depth and normal of the surfaces that it shows.
 bool showsSurfaces(const Session& session);
 /// The cell of a slice, the facet of the surface in the pixel, or that of the first voxel on the way, as the view shows
 /// them; none where it does not show the scene.
 std::optional<SliceCell> cellBehind(const Session& session, const FacetPlaces& places, const glm::uvec2& pixel,
-                                    const std::optional<SurfacePoint>& surface);
+                                    const std::optional<ShownPoint>& surface);
 
 }  // namespace irad

@@ -117,7 +117,7 @@ void Pointing::read(Session& session) {
   if (!quantity.unit.empty() && t.value.w > 0) r.value += " " + prettyUnit(quantity.unit);
 
   // Where the light is not at rest, the facets may be about to be others.
-  const std::optional<SurfacePoint> surface =
+  const std::optional<ShownPoint> surface =
       t.surfaces ? surfaceBehind(session, t.over.pixel, t.depth, t.geometric) : std::nullopt;
   if (side.built && (side.asleep() || session.paused)) {
     const Known& scene = known(session, side, other);

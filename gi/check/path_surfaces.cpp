@@ -175,11 +175,11 @@ glm::dvec3 Surfaces::bumped(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& 
   return unit(double{m.normalScale} * (s.x * tangent + s.y * bitangent) + s.z * normal, normal);
 }
 
-SurfacePoint Surfaces::at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const {
+PathVertex Surfaces::at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const {
   const Triangle& t = triangles_[triangle];
   const Material& m = material(triangle);
   const bool front = glm::dot(direction, t.normal) < 0;
-  SurfacePoint p{.position = position(triangle, uv), .face = front ? t.normal : -t.normal};
+  PathVertex p{.position = position(triangle, uv), .face = front ? t.normal : -t.normal};
   const glm::dvec3 smooth = unit(interpolated(scene_.normals, t.corner, uv), p.face);
   const double side = glm::dot(smooth, p.face) < 0 ? -1 : 1;
   p.smooth = side * smooth;

@@ -41,7 +41,7 @@ struct Triangle {
 };
 
 /// A point of a surface as it is seen from one side.
-struct SurfacePoint {
+struct PathVertex {
   glm::dvec3 position{0};  ///< local
   glm::dvec3 face{0};      ///< unit, of the triangle, on the side that is seen
   glm::dvec3 smooth{0};    ///< unit, interpolated between the vertices, on the same side
@@ -74,7 +74,7 @@ struct Arriving {
 
 /// The share of the light from a direction that reaches a normal which a map has tilted: what leans towards light that
 /// grazes the surface is in the shadow of other bumps (Chiang, Li and Burley 2019, "Taming the Shadow Terminator").
-inline double pastBumps(const SurfacePoint& p, const glm::dvec3& towards) {
+inline double pastBumps(const PathVertex& p, const glm::dvec3& towards) {
   const double g = glm::dot(p.smooth, towards) / (glm::dot(p.smooth, p.normal) * glm::dot(p.normal, towards));
   return g >= 1 ? 1 : g > 0 ? g + g * g - g * g * g : 0;
 }
@@ -101,7 +101,7 @@ class Surfaces {
     return 1 - std::max({p.x, p.y, p.z});
   }
   /// A point of a triangle as a ray along `direction` sees it.
-  SurfacePoint at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
+  PathVertex at(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
   /// Nothing where the material is Lambertian, and on the back of a single-sided face.
   std::optional<Gloss> glossAt(uint32_t triangle, glm::dvec2 uv, const glm::dvec3& direction) const;
   /// How far a ray's start is moved off the face, m: a few units in the last place of the largest coordinate.

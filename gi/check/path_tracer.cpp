@@ -20,9 +20,9 @@ namespace {
 
 using truth::kNoTriangle;
 using truth::Lobe;
+using truth::PathVertex;
 using truth::Random;
 using truth::SkyLight;
-using truth::SurfacePoint;
 using truth::Surfaces;
 
 /// Keeps what decides at blended surfaces apart from a path's other random numbers, which are the same without them.
@@ -118,7 +118,7 @@ double largest(const glm::dvec3& v) {
 
 /// Where a path has come to.
 struct Vertex {
-  SurfacePoint point;
+  PathVertex point;
   Lobe lobe;              ///< none with TraceOptions::glossy off
   double lobeChoice = 0;  ///< probability that the path goes on by the lobe
   uint32_t triangle = kNoTriangle, depth = 0;
@@ -353,7 +353,7 @@ class EmbreeTracer : public PathTracer {
       bool mayBeDrawn = false;   // what lies here could have been drawn at the vertex before
       v.throughput *= met.tint;
       for (; met.triangle != kNoTriangle; ++v.depth) {
-        const SurfacePoint& point = v.point = surfaces.at(met.triangle, met.uv, direction);
+        const PathVertex& point = v.point = surfaces.at(met.triangle, met.uv, direction);
         v.triangle = met.triangle;
         // Emission that the ray has come upon. From the second vertex on it may have been drawn there, too.
         if (point.emission != glm::dvec3(0)) {
@@ -476,7 +476,7 @@ class EmbreeTracer : public PathTracer {
       const glm::dvec3 towards = way / distance;
       const double cosine = glm::dot(v.point.normal, towards);
       if (cosine <= 0 || glm::dot(v.point.face, towards) <= 0 || surfaces.cutOut(drawn.triangle, drawn.uv)) return;
-      SurfacePoint there = surfaces.at(drawn.triangle, drawn.uv, towards);
+      PathVertex there = surfaces.at(drawn.triangle, drawn.uv, towards);
       if (surfaces.blended(drawn.triangle)) there.emission *= surfaces.cover(drawn.triangle, drawn.uv);
       const double cosineThere = -glm::dot(there.face, towards);
       if (there.emission == glm::dvec3(0) || !(cosineThere > 0)) return;
