@@ -163,6 +163,7 @@ TEST_P(SpoiltStages, AreNamed) {
 }
 
 TEST_F(AttributionRuns, AKilledStudyGoesOnToTheSameFigures) {
+  IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   const Spoilt plain{"", {"voxel.resolution=8"}, std::nullopt};
   const RunResult whole = runIrad(study(plain, "whole"));

@@ -117,6 +117,7 @@ class NoMemory : public GpuTest {
 };
 
 TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
+  IRAD_ONLY_WITH_ALL();
   Settings ours = small(8), thesis = small(8, "thesis");
   ours.writeback.mode = WritebackMode::compute;
   ours.sky.source = SkySource::preetham;
@@ -135,6 +136,7 @@ TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
 }
 
 TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
+  IRAD_ONLY_WITH_ALL();
   const Pixels pictures[] = {fresh(context(), small(8)), fresh(context(), small(10))};
   ASSERT_FALSE(pictures[0] == pictures[1]);
   Pipeline pipeline(context(), box(), small(8));
