@@ -28,6 +28,16 @@ class Mouse {
     screen_.xdotool("mouseup 1");
     waitUntilSeen(place, /*down=*/false);  // a button that is let go elsewhere is not clicked
   }
+  /// Presses at the first place, moves through the others, and lets go at the last.
+  void dragThrough(const std::vector<std::string>& places) const {
+    pressAt(places.front());
+    for (const std::string& place : places) {
+      screen_.xdotool("mousemove " + place);
+      waitUntilSeen(place, /*down=*/true);
+    }
+    screen_.xdotool("mouseup 1");
+    waitUntilSeen(places.back(), /*down=*/false);
+  }
 
  private:
   /// Until a frame has been drawn with the mouse there, its button up or down.

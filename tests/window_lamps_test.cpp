@@ -34,12 +34,12 @@ class WindowLampsTest : public WindowTest {
   }
   /// Drags in steps, as a hand does.
   void pull(const std::string& name, glm::ivec2 by, const std::string& with = "") {
-    const glm::ivec2 from = at(name), half = by / 2, rest = by - half;
-    const std::string down = with.empty() ? "" : "keydown " + with + " ", up = with.empty() ? "" : " keyup " + with;
-    xdotool(
-        fmt::format("mousemove {} {} sleep 0.3 {}mousedown 1 sleep 0.3 mousemove_relative -- {} {} sleep 0.3 "
-                    "mousemove_relative -- {} {} sleep 0.3 mouseup 1{}",
-                    from.x, from.y, down, half.x, half.y, rest.x, rest.y, up));
+    const glm::ivec2 from = at(name), half = from + by / 2, to = from + by;
+    const auto place = [](const glm::ivec2& p) { return fmt::format("{} {}", p.x, p.y); };
+    mouse().moveTo(place(from));
+    if (!with.empty()) xdotool("keydown " + with);
+    mouse().dragThrough({place(from), place(half), place(to)});
+    if (!with.empty()) xdotool("keyup " + with);
     rests();
   }
 };

@@ -134,9 +134,7 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   click("Lights/point");
   ASSERT_TRUE(differs(again));
   const ScreenPart added = viewport();
-  xdotool(fmt::format(
-      "mousemove {} sleep 0.2 mousedown 1 sleep 0.2 mousemove {} sleep 0.2 mousemove {} sleep 0.2 mouseup 1", at(0, 0),
-      at(-100, -80), at(-200, -160)));
+  mouse().dragThrough({at(0, 0), at(-100, -80), at(-200, -160)});
   rests();
   ASSERT_TRUE(differs(added)) << "the light is not dragged";
   EXPECT_EQ(steps(), 3);
