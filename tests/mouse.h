@@ -31,9 +31,9 @@ class Mouse {
   /// Presses at the first place, moves through the others, and lets go at the last.
   void dragThrough(const std::vector<std::string>& places) const {
     pressAt(places.front());
-    for (const std::string& place : places) {
-      screen_.xdotool("mousemove " + place);
-      waitUntilSeen(place, /*down=*/true);
+    for (size_t i = 1; i < places.size(); ++i) {
+      screen_.xdotool("mousemove " + places[i]);
+      waitUntilSeen(places[i], /*down=*/true);
     }
     screen_.xdotool("mouseup 1");
     waitUntilSeen(places.back(), /*down=*/false);

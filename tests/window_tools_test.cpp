@@ -142,8 +142,7 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   press(at(585, 37));  // beside the scene: lets go
   away();
   // The split follows the mouse; X shows one side, then the other.
-  xdotool(fmt::format("mousemove {} sleep 0.5 mousedown 1 sleep 0.5 mousemove {} sleep 0.5 mouseup 1 sleep 0.5",
-                      at(0, 37), at(560, 37)));
+  mouse().dragThrough({at(0, 37), at(560, 37)});
   goAside();
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == alsoA; })) << "the split cannot be dragged";
   key("x");
