@@ -1,4 +1,4 @@
-// The table of emissive facets: specular rays and the samples of the first gather are sent to them.
+// The table of what emits: specular rays and the samples of the first gather are sent to it.
 #include "gi/emitters.h"
 
 #include <algorithm>
@@ -37,29 +37,35 @@ std::vector<Emitter> makeAliasTable(const std::vector<uint32_t>& facets, const s
 }
 
 Emitters listEmitters(Context& context, const FacetList& list) {
+  if (!list.hasEmission || list.count == 0) return {};
+  std::vector<uint32_t> facets(list.count);
+  std::iota(facets.begin(), facets.end(), 0u);
+  return listEmitters(context, facets, downloadAs<glm::vec3>(context, list.emission),
+                      downloadAs<float>(context, list.area));
+}
+
+Emitters listEmitters(Context& context, std::span<const uint32_t> things, std::span<const glm::vec3> exitances,
+                      std::span<const float> areas) {
   Emitters emitters;
-  if (!list.hasEmission || list.count == 0) return emitters;
-  const std::vector<float> areas = downloadAs<float>(context, list.area);
-  const std::vector<glm::vec3> emission = downloadAs<glm::vec3>(context, list.emission);
-  std::vector<uint32_t> facets;
+  std::vector<uint32_t> emitting;
   std::vector<double> powers;
-  for (uint32_t i = 0; i < list.count; ++i) {
-    const float exitance = luminance(emission[i]);
+  for (size_t i = 0; i < things.size(); ++i) {
+    const float exitance = luminance(exitances[i]);
     if (!(exitance > 0)) continue;
     emitters.brightest = std::max(emitters.brightest, exitance);
-    facets.push_back(i);
+    emitting.push_back(things[i]);
     powers.push_back(static_cast<double>(exitance) * areas[i]);
   }
-  if (facets.empty()) return emitters;
+  if (emitting.empty()) return emitters;
 
-  const std::vector<Emitter> table = makeAliasTable(facets, powers);
+  const std::vector<Emitter> table = makeAliasTable(emitting, powers);
   emitters.count = static_cast<uint32_t>(table.size());
   emitters.entries = makeBuffer(context, "emitters", Subsystem::Specular, std::span<const Emitter>(table));
   RecordMaker maker(context, "emitter table", Subsystem::Specular, sizeof(EmitterTable));
   EmitterTable record{};
   record.entries = maker.of(emitters.entries);
   record.count = emitters.count;
-  record.power = static_cast<float>(std::accumulate(powers.begin(), powers.end(), 0.0));
+  record.power = emitters.power = static_cast<float>(std::accumulate(powers.begin(), powers.end(), 0.0));
   emitters.record = maker.make(record);
   return emitters;
 }

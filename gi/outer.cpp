@@ -147,6 +147,11 @@ Outer makeOuter(Context& context, const SceneOnDevice& onDevice, const SceneRegi
         fmt::format("scene.region: {} triangles lie outside of it, which need {} points; at most {} can be",
                     outside.size(), points.size(), MOST_OUTER_POINTS));
   outer.count = static_cast<uint32_t>(points.size());
+  for (size_t k = 0; k < outside.size(); ++k) {
+    const glm::vec3* c = &corners[3 * k];
+    outer.areas.push_back(0.5f * static_cast<float>(sides(k)) * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])));
+  }
+  outer.triangles = outside;
   const auto make = [&]<class T>(const char* name, const std::vector<T>& values) {
     return makeBuffer<T>(context, name, Subsystem::Facets, std::span<const T>(values));
   };
@@ -215,16 +220,50 @@ void shadeOuter(Context& context, const SceneOnDevice& onDevice, Outer& outer) {
   }
   upload(context, outer.albedo, std::as_bytes(std::span(albedo)));
   upload(context, outer.exitance, std::as_bytes(std::span(exitance)));
+  std::vector<glm::vec3> emitted;
+  for (const uint32_t t : outer.triangles) emitted.push_back(exitance[t]);
+  outer.emitters = listEmitters(context, outer.triangles, emitted, outer.areas);
 }
 
 const Buffer& binsOf(const Outer& outer, const SkyOnDevice& sky) {
   return outer ? outer.bins : sky.bins;
 }
 
-void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facets, const Field& field,
-                const SkyOnDevice& sky) {
+namespace {
+
+/// What the points get from emitters far away.
+void lightFromEmitters(Frame& frame, const FacetList& facets, const Emitters& inGrid, const Field& field) {
+  const Outer& outer = facets.outer;
+  Pass pass = frame.pass("GI Gather");
+  OuterEmittersPush push{};
+  push.facets = facets.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
+  push.surface = pass.in(facets.surface.record);
+  push.chebyshev = pass.inIfAny(field.chebyshev);
+  push.byFacets = pass.inIfAny(inGrid.record);
+  push.byTriangles = pass.inIfAny(outer.emitters.record);
+  push.irradiance = pass.out(outer.irradiance);
+  push.dims = facets.grid.dims;
+  push.count = outer.count;
+  push.hasFacets = inGrid.count > 0;
+  push.power = inGrid.power + outer.emitters.power;
+  pass.shader("gi/outer_emitters.comp")
+      .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
+      .constant(CONSTANT_TINTED, facets.surface.tinted)
+      .push(push)
+      .dispatch(outer.count);
+}
+
+}  // namespace
+
+void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facets, const Emitters& emitters,
+                const Field& field, const SkyOnDevice& sky) {
   const Outer& outer = facets.outer;
   if (!outer) return;
+  const float power = emitters.power + outer.emitters.power;
+  if (power > 0)
+    lightFromEmitters(frame, facets, emitters, field);
+  else
+    frame.pass("GI Gather").fill(outer.irradiance, 0);
   if (sky.bins)
     frame.pass("GI Gather").copy(sky.bins, outer.bins, sky.bins.bytes);
   else
@@ -241,6 +280,7 @@ void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facet
   push.edge = facets.grid.edge;
   push.dims = facets.grid.dims;
   push.count = outer.count;
+  push.emitterPower = power;
   pass.shader("gi/outer_light.comp")
       .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
       .constant(CONSTANT_TINTED, facets.surface.tinted);

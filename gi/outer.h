@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "gi/emitters.h"
 #include "renderer/resources.h"
 #include "shaders/shared/outer.h"
 
@@ -25,6 +26,9 @@ struct Outer {
   Buffer record;                                                             ///< one OuterArrays
   uint32_t count = 0;                                                        ///< points
   std::vector<OuterLattice> lattices;                                        ///< `lattice`
+  std::vector<uint32_t> triangles;  ///< outside, and for each its area, of both sides that show, voxels^2
+  std::vector<float> areas;
+  Emitters emitters;               ///< of `triangles`
   std::map<int, glm::vec3> means;  ///< linear, of images that were looked at, by index
   explicit operator bool() const { return static_cast<bool>(record); }
 };
@@ -35,9 +39,10 @@ Outer makeOuter(Context& context, const SceneOnDevice& scene, const SceneRegion&
                 const std::vector<uint32_t>& repeated);
 /// Albedo and exitance by the scene's materials as they are.
 void shadeOuter(Context& context, const SceneOnDevice& scene, Outer& outer);
-/// The light of the points (nothing without any), after which `bins` holds the sky's and theirs. `sky`: may have none.
-void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facets, const Field& field,
-                const SkyOnDevice& sky);
+/// The light of the points (nothing without any), after which `bins` holds the sky's and theirs. `emitters`: the
+/// facets'. `sky`: may have none.
+void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facets, const Emitters& emitters,
+                const Field& field, const SkyOnDevice& sky);
 /// What rays that leave the grid may meet: the sky's bins, and the points behind them where something lies outside.
 /// Empty: nothing.
 const Buffer& binsOf(const Outer& outer, const SkyOnDevice& sky);

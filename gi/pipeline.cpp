@@ -392,7 +392,7 @@ struct Pipeline::Impl {
     if (due.has(Redo::Gather)) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
-      lightOuter(frame, onDevice, *p.facets, *p.field, skyOnDevice);
+      lightOuter(frame, onDevice, *p.facets, *p.emitters, *p.field, skyOnDevice);
       if (!framewise()) gatherSky(frame, *p.matrix, binsOf(p.facets->outer, skyOnDevice), *p.light);
       frame.submitAndWait();
     }

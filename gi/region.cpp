@@ -4,17 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <optional>
+#include <span>
 
 #include "gi/settings.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/material_edits.h"
 #include "shaders/shared/sampling.h"
 
 namespace irad {
 namespace {
 
+/// As scene.region takes it, to four digits of the largest extent: what is less is rounding.
 std::string corners(const glm::dvec3& lo, const glm::dvec3& hi) {
-  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+  const glm::dvec3 size = hi - lo;
+  const double extent = std::max({size.x, size.y, size.z});
+  const double step = extent > 0 ? std::pow(10.0, std::floor(std::log10(extent)) - 4) : 0;
+  const auto of = [&](double x) { return step > 0 ? std::round(x / step) * step + 0.0 : x; };  // -0 + 0 is 0
+  return fmt::format("{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", of(lo.x), of(lo.y), of(lo.z), of(hi.x),
+                     of(hi.y), of(hi.z));
 }
 
 bool holds(const SceneRegion& region, const glm::vec3& p) {
@@ -34,14 +44,26 @@ constexpr double kShared = 0.02;
 struct Weighted {
   double value, weight;
 };
-/// The least value up to which there is this share of the weight.
+double weightOf(std::span<const Weighted> of) {
+  return std::accumulate(of.begin(), of.end(), 0.0, [](double sum, const Weighted& w) { return sum + w.weight; });
+}
+/// The least value up to which there is this share of the weight. Every scene is asked: it is looked for by halves, not
+/// by sorting.
 double quantile(std::vector<Weighted>& of, double share) {
-  std::sort(of.begin(), of.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
-  double all = 0, sum = 0;
-  for (const Weighted& w : of) all += w.weight;
-  for (const Weighted& w : of)
-    if ((sum += w.weight) >= share * all) return w.value;
-  return of.back().value;
+  std::span<Weighted> in(of);
+  double wanted = share * weightOf(in);
+  while (in.size() > 1) {
+    const size_t half = in.size() / 2;
+    std::ranges::nth_element(in, in.begin() + static_cast<std::ptrdiff_t>(half), {}, &Weighted::value);
+    const double low = weightOf(in.first(half));
+    if (low >= wanted) {
+      in = in.first(half);
+    } else {
+      wanted -= low;
+      in = in.subspan(half);
+    }
+  }
+  return in.front().value;
 }
 
 double largest(const glm::dvec3& v) {
@@ -55,7 +77,7 @@ double sharedOutside(const Scene& scene, const SceneRegion& region) {
   std::vector<double> albedo(scene.triangleCount());
   std::vector<bool> bothSides(scene.triangleCount());
   for (const Draw& draw : scene.draws) {
-    const Material& m = scene.materials.at(draw.material);
+    const Material& m = fileMaterials(scene).at(draw.material);
     for (uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
       albedo[i / 3] = double{std::max({m.baseColor.r, m.baseColor.g, m.baseColor.b})} * (1 - double{m.metallic});
       bothSides[i / 3] = m.doubleSided;
@@ -99,7 +121,38 @@ double sharedOutside(const Scene& scene, const SceneRegion& region) {
   return sum / kRays;
 }
 
-/// The part that holds the detail; nothing where that is not small, or what lies around it lights itself.
+/// Emitters outside that fill less than this share of what is seen from the region are kept inside: rays would rarely
+/// meet them, and places are drawn on those alone that have facets.
+constexpr double kFew = 0.1;
+
+/// The box around the emitters that lie outside of another, where these are few; else that box.
+void keepFewEmitters(const Scene& scene, const std::vector<bool>& emits, glm::dvec3& lo, glm::dvec3& hi) {
+  const glm::dvec3 middle = 0.5 * (lo + hi);
+  glm::dvec3 outLo = lo, outHi = hi;
+  // Over the directions from the middle, the integrals of radiance and of its square: what they would be of even light
+  // from a part of the directions tells how large that part is.
+  double light = 0, squares = 0;
+  for (const Draw& draw : scene.draws) {
+    const glm::vec3 emission = fileMaterials(scene).at(draw.material).emission;
+    const double radiance{std::max({emission.r, emission.g, emission.b})};
+    for (uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3) {
+      if (!emits[i / 3]) continue;
+      const auto corner = [&](uint32_t k) { return glm::dvec3(scene.positions[scene.indices[i + k]]); };
+      const glm::dvec3 a = corner(0), b = corner(1), c = corner(2), away = (a + b + c) / 3.0 - middle;
+      const glm::dvec3 least = glm::min(a, glm::min(b, c)), most = glm::max(a, glm::max(b, c));
+      if (glm::all(glm::greaterThanEqual(least, lo)) && glm::all(glm::lessThanEqual(most, hi))) continue;
+      const double distance = glm::length(away),
+                   angle = 0.5 * std::abs(glm::dot(glm::cross(b - a, c - a), away)) / std::pow(distance, 3);
+      if (!(angle > 0)) continue;
+      light += radiance * angle, squares += radiance * radiance * angle;
+      outLo = glm::min(outLo, least), outHi = glm::max(outHi, most);
+    }
+  }
+  if (squares > 0 && light * light < kFew * 4 * std::numbers::pi * squares) lo = outLo, hi = outHi;
+}
+
+/// The part that holds the detail; nothing where that is not small, or what lies around it lights itself. By the file's
+/// materials: an edit of one moves no voxels.
 std::optional<SceneRegion> detailOf(const Scene& scene) {
   struct Face {
     glm::dvec3 lo, hi;
@@ -110,7 +163,7 @@ std::optional<SceneRegion> detailOf(const Scene& scene) {
   std::vector<bool> emits(scene.triangleCount());
   for (const Draw& draw : scene.draws)
     for (uint32_t i = draw.firstIndex; i < draw.firstIndex + draw.indexCount; i += 3)
-      emits[i / 3] = scene.materials.at(draw.material).emission != glm::vec3(0);
+      emits[i / 3] = fileMaterials(scene).at(draw.material).emission != glm::vec3(0);
   for (uint32_t t = 0; t < scene.triangleCount(); ++t) {
     const auto corner = [&](uint32_t i) { return glm::dvec3(scene.positions[scene.indices[3 * size_t{t} + i]]); };
     const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
@@ -140,6 +193,7 @@ std::optional<SceneRegion> detailOf(const Scene& scene) {
       const glm::dvec3 at = glm::clamp(camera.position - scene.origin, boundsLo, boundsHi);
       lo = glm::min(lo, at), hi = glm::max(hi, at);
     }
+  keepFewEmitters(scene, emits, lo, hi);
   lo = glm::max(lo, boundsLo), hi = glm::min(hi, boundsHi);
   if (largest(hi - lo) > 0.75 * whole) return std::nullopt;
   const SceneRegion region{glm::vec3(lo), glm::vec3(hi), false};
@@ -161,7 +215,8 @@ SceneRegion regionOf(const Scene& scene, const Settings& settings) {
                      glm::min(glm::vec3(hi - scene.origin), scene.boundsMax), false};
   if (glm::any(glm::greaterThan(region.lo, region.hi)))
     throw UsageError(
-        fmt::format("scene.region={}: holds nothing of the scene, which lies in {}", corners(lo, hi),
+        fmt::format("scene.region={},{},{},{},{},{}: holds nothing of the scene, which lies in {}", wanted.x0,
+                    wanted.y0, wanted.z0, wanted.x1, wanted.y1, wanted.z1,
                     corners(scene.origin + glm::dvec3(scene.boundsMin), scene.origin + glm::dvec3(scene.boundsMax))));
   region.whole = region.lo == scene.boundsMin && region.hi == scene.boundsMax;
   return region;

@@ -169,7 +169,7 @@ struct EffectSettings {
 };
 
 struct RegionSettings {
-  RegionMode mode = RegionMode::whole;
+  RegionMode mode = RegionMode::automatic;
   float x0 = -1, y0 = -1, z0 = -1, x1 = 1, y1 = 1, z1 = 1;  ///< of RegionMode::box: two of its corners, world
   bool operator==(const RegionSettings&) const = default;
 };

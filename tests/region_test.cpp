@@ -19,6 +19,7 @@
 #include "gi/traits.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/material_edits.h"
+#include "shaders/shared/pixel_emitters.h"
 #include "shaders/shared/sky.h"
 #include "tests/gi_fixture.h"
 
@@ -80,6 +81,49 @@ TEST_F(Regions, ADomeOutsideLightsWhatItIsAround) {
       EXPECT_NEAR(h.most, 1, 1e-5);
       EXPECT_NEAR(b.mean, 0.5, 1e-3);
     }
+  }
+}
+
+/// What a lamp under the ceiling of a black room brings to its floor, at the points of the floor outside the region, is
+/// Lambert's formula: no point is left dark because none of its few directions meets the lamp.
+TEST_F(Regions, ALampLightsWhatLiesOutside) {
+  const glm::vec3 lamp[] = {{-0.2f, 2.4f, -0.2f}, {0.2f, 2.4f, -0.2f}, {0.2f, 2.4f, 0.2f}, {-0.2f, 2.4f, 0.2f}};
+  // The lamp lies in the region, or outside it, or is cut by its border.
+  const std::pair<glm::vec3, glm::vec3> boxes[] = {
+      {{-0.5f, 2, -0.5f}, {0.5f, 2.5f, 0.5f}}, {{1, 0, 1}, {2, 1, 2}}, {{0, 2, -0.5f}, {1, 2.5f, 0.5f}}};
+  for (const auto& [lo, hi] : boxes) {
+    SceneBuilder b;
+    const uint32_t black = b.material(glm::vec3(0)), light = b.material(glm::vec3(0), glm::vec3(5));
+    b.box({black, black, black, black, black, black}, {-3, 0, -3}, {3, 2.5f, 3}, /*inward=*/true);
+    b.quad(light, lamp[0], lamp[1], lamp[2], lamp[3]);
+    Pipeline p(context(), b.finish("lamp"), boxed(lo, hi));
+    p.prepare();
+    const Outer& outer = p.facets().outer;
+    const std::vector<glm::vec4> found = downloadAs<glm::vec4>(context(), outer.irradiance);
+    const std::vector<OuterPoint> points = downloadAs<OuterPoint>(context(), outer.points);
+    const Scene& scene = p.scene();
+    size_t onFloor = 0;
+    double worst = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const uint32_t t = points[i].side, edges = outer.lattices[t].edges;
+      glm::vec3 c[3];
+      for (uint32_t k = 0; k < 3; ++k) c[k] = scene.positions[scene.indices[3 * t + k]];
+      if (edges == 0 || c[0].y > scene.boundsMin.y || c[1].y > scene.boundsMin.y || c[2].y > scene.boundsMin.y)
+        continue;
+      const glm::vec2 s = glm::vec2(points[i].place & 0xFFFF, points[i].place >> 16) / static_cast<float>(edges);
+      const glm::vec3 at = c[0] + s.x * (c[1] - c[0]) + s.y * (c[2] - c[0]) + glm::vec3(scene.origin);
+      const glm::vec3 up(0, 1, 0);
+      const float f = triangleFormFactor(lamp[0] - at, lamp[1] - at, lamp[2] - at, up) +
+                      triangleFormFactor(lamp[0] - at, lamp[2] - at, lamp[3] - at, up),
+                  expected = 5 * f;
+      if (std::abs(double{found[i].x} / expected - 1) > .1)
+        fmt::print("DBG {} {} {}: {} {}\n", at.x, at.y, at.z, found[i].x, expected);
+      worst = std::max(worst, std::abs(double{found[i].x} / expected - 1));
+      ++onFloor;
+    }
+    fmt::print("region from {}: {} points, at worst {:.2g} off\n", lo.x, onFloor, worst);
+    EXPECT_GT(onFloor, 50u);
+    EXPECT_LT(worst, 0.1) << lo.x;
   }
 }
 
@@ -249,6 +293,61 @@ TEST(RegionRule, AutoKeepsWhatReflects) {
     b.camera({0.3, -4.7, 0.3}, {0, -4.8, 0});
     EXPECT_EQ(regionOf(b.finish("vase"), s).whole, albedo > 0) << albedo;
   }
+}
+
+/// A thing on a black plane, beside it a small lamp that rays would rarely meet: it is kept inside, with the whole
+/// where that takes it; a dome is not, which all rays meet.
+TEST(RegionRule, AutoKeepsSmallLampsInside) {
+  for (const float away : {0.0f, 8.0f, 90.0f}) {
+    SceneBuilder b;
+    const uint32_t black = b.material(glm::vec3(0)), thing = b.material(glm::vec3(0.5f)),
+                   lamp = b.material(glm::vec3(0), glm::vec3(50)), dome = b.material(glm::vec3(0), glm::vec3(1));
+    b.quad(black, {-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, -100});
+    b.sphere(thing, glm::vec3(0, 1, 0), 1, /*inward=*/false, 16);
+    b.camera({2, 1, 2}, {0, 1, 0});
+    if (away > 0)
+      b.quad(lamp, {away, 1, -0.2f}, {away, 1, 0.2f}, {away, 1.4f, 0.2f}, {away, 1.4f, -0.2f});
+    else
+      b.sphere(dome, glm::vec3(0), 100, /*inward=*/true, 16);
+    const Scene scene = b.finish("lamp");
+    const SceneRegion region = regionOf(scene, Settings());
+    EXPECT_FALSE(region.whole) << away;
+    const float end = region.hi.x + static_cast<float>(scene.origin.x);
+    EXPECT_TRUE(away > 0 ? end >= away : end < 5) << end;
+  }
+}
+
+/// Users get a part where that is small without asking for it, and with the thesis's preset the whole.
+TEST(RegionRule, ThePartIsTheDefault) {
+  const Scene scene =
+      familyMember(*std::ranges::find(families(), std::string_view("under-dome"), &Family::name), 1, 64).scene;
+  for (const bool cpu : {false, true})
+    for (const std::string& preset : presetNames()) {
+      Settings s = defaultSettings(cpu);
+      EXPECT_FALSE(regionOf(scene, s).whole);
+      applyPreset(s, preset, cpu);
+      EXPECT_EQ(regionOf(scene, s).whole, preset == "thesis") << preset;
+    }
+}
+
+/// An edit in the window moves no voxels by itself: the rule goes by the file's materials.
+TEST(RegionRule, EditsOfMaterialsLeaveTheRegion) {
+  Scene scene = boxUnderDome();
+  const SceneRegion before = regionOf(scene, Settings());
+  EXPECT_FALSE(before.whole);
+  for (const std::string& name : materialNames(scene)) {
+    replaceMaterialEdits(scene, {{.material = name, .baseColor = glm::vec3(1), .emissionStrength = 0.0f}});
+    EXPECT_EQ(regionOf(scene, Settings()), before) << name;
+  }
+}
+
+TEST(RegionRule, WhatIsLeftOutIsSaidInFewDigits) {
+  SceneRegion region{glm::vec3(-1.0f / 3, 1.85966e-7f, -2e-9f), glm::vec3(1.0f / 3, 2, 1234.5678f), false};
+  Scene scene;
+  EXPECT_TRUE(contains(describe(scene, region), " -0.3,0,0,0.3,2,1234.6 ")) << describe(scene, region);
+  region = {glm::vec3(-1.0f / 3), glm::vec3(1.0f / 3, 1.0f / 3, 1.85966e-7f), false};
+  EXPECT_TRUE(contains(describe(scene, region), " -0.33333,-0.33333,-0.33333,0.33333,0.33333,0 "))
+      << describe(scene, region);
 }
 
 /// The rule takes a part of what has one, around it, and the whole of everything else.

@@ -1,32 +1,17 @@
 // "GI Gather" outside the grid (docs/method.md 6): of each point there, what lights bring it past the triangles of the
-// whole scene, what comes straight from the sky and from what emits, and the radiance that follows. The directions are
-// the same for all points, so that their noise is no pattern on a plane.
+// whole scene, what comes straight from the sky and from emitters that are near (gi/outer_emitters.comp has left there
+// what the others bring), and the radiance that follows. The directions are the same for all points, so that their noise
+// is no pattern on a plane.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/sampling.h"
 #include "shared/solve.h"
 #define IRAD_LIGHT_CONSTANTS GATHER_LIGHTS
 #include "forward/light.glsl"
-#include "gi/seen_point.glsl"
+#include "gi/outer_point.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { OuterLightPush p; };
-
-/// A share of a lattice's step by which its points lie off their triangle's edges, on which others may stand.
-const float INSET = 0.1f;
-
-SurfelPoint liftedPoint(SurfaceArrays surface, OuterArrays outer, OuterPoint point) {
-  uint triangle = point.side & ~SURFEL_BACK, edges = outer.lattice.at[triangle].edges;
-  Triangle t = triangleAt(surface.corners, triangle);
-  vec2 at = vec2(1.0f / 3.0f);
-  if (edges > 0u) {
-    at = vec2(float(point.place & 0xFFFFu), float(point.place >> 16)) / float(edges);
-    at += (vec2(1.0f / 3.0f) - at) * (INSET / float(edges));
-  }
-  vec3 facing = facingOf(t, (point.side & SURFEL_BACK) != 0u);
-  vec3 position = t.a + at.x * (t.b - t.a) + at.y * (t.c - t.a);
-  return SurfelPoint(liftedOff(surface, triangle, position, facing), facing, triangle);
-}
 
 void main() {
   uint index = irad_index();
@@ -48,16 +33,22 @@ void main() {
   vec3 sky = vec3(0.0f);
   for (uint k = 0u; k < OUTER_RAYS; ++k) {
     vec3 direction = toWorld(cosineDirection(hammersley(k, OUTER_RAYS, uvec2(0u))), from.facing);
-    uint met = traceScene(world, surface, from.position, direction, from.triangle).facet;
-    vec3 open = openChannels(closedChannels);
-    if (met == TRACE_ESCAPED)
+    TraceHit hit = traceScene(world, surface, from.position, direction, from.triangle);
+    vec3 open = openChannels(closedChannels), exitance = vec3(0.0f);
+    float sides = 1.0f;
+    if (hit.facet == TRACE_ESCAPED) {
       sky += open * IRAD_PI * p.bins.at[skyBin(direction, SKY_EDGE)].xyz;
-    else if (isOuter(met))
-      sky += open * outer.exitance.at[outer.points.at[met - metOuter(0u)].side & ~SURFEL_BACK];
-    else if (met <= TRACE_LAST_FACET && p.facets.hasEmission != 0u)
-      sky += open * p.facets.emission.at[met];
+    } else if (isOuter(hit.facet)) {
+      uint triangle = outer.points.at[hit.facet - metOuter(0u)].side & ~SURFEL_BACK;
+      exitance = outer.exitance.at[triangle];
+      sides = showsBack(surface.corners, triangle) ? 2.0f : 1.0f;
+    } else if (hit.facet <= TRACE_LAST_FACET && p.facets.hasEmission != 0u) {
+      exitance = p.facets.emission.at[hit.facet];
+    }
+    if (exitance != vec3(0.0f) && hit.t * hit.t < farFrom2(emitterDensity(exitance, sides, p.emitterPower)))
+      sky += open * exitance;
   }
-  sky /= float(OUTER_RAYS);
+  sky = sky / float(OUTER_RAYS) + p.irradiance.at[index].xyz;
   p.irradiance.at[index] = vec4(sky, 0.0f);
   uint triangle = point.side & ~SURFEL_BACK;
   vec3 radiosity = outer.exitance.at[triangle] + outer.albedo.at[triangle] * (direct + sky);

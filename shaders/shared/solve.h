@@ -113,7 +113,7 @@ struct GatherSurfelsPush {
 };
 
 /// gi/outer_light.comp: the radiance of the points outside the grid.
-IRAD_CONST uint OUTER_RAYS = 64u;  ///< of a point, to the sky and what emits
+IRAD_CONST uint OUTER_RAYS = 64u;  ///< of a point to the sky and what emits nearby, and as many to emitters far away
 struct OuterLightPush {
   SceneArray scene;
   FacetArrays facets;  ///< by value
@@ -124,6 +124,19 @@ struct OuterLightPush {
   float edge;
   uvec3 dims;
   uint count;
+  float emitterPower;  ///< of all tables of gi/outer_emitters.comp; 0: nothing emits
+};
+/// gi/outer_emitters.comp
+struct OuterEmittersPush {
+  FacetArrays facets;  ///< by value
+  SurfaceRecord surface;
+  ByteArray chebyshev;
+  EmitterRecord byFacets, byTriangles;  ///< what emits in the grid, where hasFacets; of triangles that reach beyond it
+  Vec4Array irradiance;
+  uvec3 dims;
+  uint count;
+  uint hasFacets;
+  float power;  ///< of both together
 };
 
 /// gi/emission.comp: vec3 exitance -> vec4.
