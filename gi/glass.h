@@ -8,7 +8,7 @@
 
 namespace irad {
 
-/// `draw` composes the picture of one layer of surfaces into targets.linear, which holds the whole picture in the end.
+/// `draw` composes the view of one layer of surfaces into targets.linear, which holds the whole picture in the end.
 /// `layers`: blended surfaces behind each other that are shown, at least 1; `tinted`: some of them tint what is behind.
 void drawLayers(Frame& frame, uint32_t layers, bool tinted, const std::function<void(Layer)>& draw, Targets& targets);
 

@@ -8,6 +8,7 @@
 
 #include "gi/check/check.h"
 #include "gi/picture.h"
+#include "gi/region.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/material_edits.h"
@@ -72,9 +73,10 @@ std::string Manifest::commandLine() const {
   for (const std::string& view : views) words.insert(words.end(), {"--view", view});
   if (frames && *frames != 1) words.insert(words.end(), {"--frames", std::to_string(*frames)});
   const Settings usual = defaultSettings(cpuDevice);
+  const Settings used = withRegionOf(*scene, *settings);
   for (const Setting& setting : settingTable())
-    if (setting.get(*settings) != setting.get(usual))
-      words.insert(words.end(), {"--set", fmt::format("{}={}", setting.name, setting.text(*settings))});
+    if (setting.get(used) != setting.get(usual))
+      words.insert(words.end(), {"--set", fmt::format("{}={}", setting.name, setting.text(used))});
   if (reference) words.insert(words.end(), {"--reference", reference->path.string()});
   if (scene->sky) words.insert(words.end(), {"--sky", scene->sky->path.string()});
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -95,7 +97,7 @@ std::string Manifest::toJson() const {
                       {"api", device->apiVersion},
                       {"memory_bytes", device->memoryBytes}};
   json["scene"] = {{"path", sceneArgument(*scene)}, {"sha256", scene->sha256}};
-  json["settings"] = Json::parse(settingsToJson(*settings));
+  json["settings"] = Json::parse(settingsToJson(withRegionOf(*scene, *settings)));
   json["seed"] = settings->matrix.gpu.seed;
   if (size) json["size"] = {size->x, size->y};
   if (frames) json["frames"] = *frames;

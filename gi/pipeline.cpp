@@ -58,6 +58,7 @@ struct Pipeline::Impl {
         surfaces(scene) {
     materials = onDevice.materialValues;
     content = {.lights = lightContent(onDevice.lightValues)};
+    lookAtRegion(regionOrWhole(scene, settings));
     lookAtSurfaces(scene.materials, content);
     lookAtSky(scene.lights);
     useSun();
@@ -81,6 +82,7 @@ struct Pipeline::Impl {
   // like one.
   SurfaceContent surfaces;
   SceneContent content;
+  SceneRegion region;  ///< that has voxels, by the settings
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
 
@@ -153,11 +155,17 @@ struct Pipeline::Impl {
     planned.traits.sky = sky.largest();
     content.sky = scene.sky ? Digest().add(std::as_bytes(std::span(scene.sky->sha256))).value() : 0;
   }
-  /// liesOutside(), which may look at every triangle, but where settings leave the region as it is.
-  bool outside(const Settings& wanted) const {
+  /// regionOrWhole(), which may look at every triangle, but where settings leave the region as it is.
+  SceneRegion regionWith(const Settings& wanted) const {
     const bool same =
         wanted.scene.region == settings.scene.region && wanted.matrix.gpu.hitRule == settings.matrix.gpu.hitRule;
-    return same ? planned.traits.outer : liesOutside(scene, wanted);
+    return same ? region : regionOrWhole(scene, wanted);
+  }
+  static uint64_t regionKey(const SceneRegion& of) { return Digest().add(of.lo).add(of.hi).value(); }
+  void lookAtRegion(const SceneRegion& now) {
+    region = now;
+    planned.traits.outer = !now.whole;
+    content.region = regionKey(now);
   }
   /// Settings or sky have changed.
   void lookAgain() {
@@ -534,7 +542,7 @@ const SceneTraits& Pipeline::traits() const {
 
 Redo Pipeline::set(const Settings& settings) {
   Impl& p = *impl_;
-  p.planned.traits.outer = p.outside(settings);
+  p.lookAtRegion(p.regionWith(settings));
   p.settings = settings;
   p.lookAgain();
   return p.due();
@@ -544,9 +552,19 @@ Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
   SceneTraits traits = p.planned.traits;
   traits.sky = makeSky(settings.sky, skyInputs(p.scene, p.scene.lights), &p.sky).largest();
-  traits.outer = p.outside(settings);
+  const SceneRegion region = p.regionWith(settings);
+  traits.outer = !region.whole;
+  SceneContent content = p.content;
+  content.region = Impl::regionKey(region);
   const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
-  return firstDifference(p.made, stageKeys(p.content, irad::obeyed(settings, plan)));
+  return firstDifference(p.made, stageKeys(content, irad::obeyed(settings, plan)));
+}
+
+void Pipeline::setRegion(const std::optional<RegionBox>& box) {
+  Impl& p = *impl_;
+  p.scene.region = box;
+  p.lookAtRegion(regionOrWhole(p.scene, p.settings));
+  p.lookAgain();
 }
 
 void Pipeline::setLights(std::vector<Light> lights) {
@@ -595,7 +613,6 @@ void Pipeline::setMaterials(std::vector<MaterialEdit> edits) {
   try {
     p.lookAtSurfaces(p.scene.materials, p.content);
     measureMaterials(p.scene, p.scene.materials, p.planned.traits);
-    p.planned.traits.outer = liesOutside(p.scene, p.settings);  // albedos have a say in it
     p.materials = gpuMaterials(p.scene);
     p.lookAgain();
   } catch (...) {
@@ -627,8 +644,8 @@ bool Pipeline::adopt(Scene& scene) {
     return false;
   setLights(scene.lights);
   setMaterials(scene.materialEdits);
-  p.scene = std::move(scene);                                 // where p.onDevice looks for it
-  p.planned.traits.outer = liesOutside(p.scene, p.settings);  // and so have cameras
+  p.scene = std::move(scene);                          // where p.onDevice looks for it
+  p.lookAtRegion(regionOrWhole(p.scene, p.settings));  // cameras have a say in it
   p.lookAgain();
   return true;
 }
@@ -796,7 +813,8 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
       writeBack(frame, inputs, p.camera, obeyed, p.skyOnDevice ? p.sky.largest() : 0.0f, targets);
   };
   const View seen = isFrom(FROM_PICTURE) ? p.pictureOf : view;
-  inputs.composed = p.planned.on(Effect::glass) && seen == VIEW_LIT;
+  const ViewInfo* info = viewInfo(seen);
+  inputs.composed = p.planned.on(Effect::glass) && info != nullptr && info->addsUp();
   targets.fitLayers(p.context, inputs.composed, p.planned.tinted());
   const auto drawLayer = [&](Layer layer) {
     drawSurfaces(layer);

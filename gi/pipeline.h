@@ -27,6 +27,7 @@ struct FormFactors;
 struct Light;
 struct Lighting;
 struct MaterialEdit;
+struct RegionBox;
 struct Scene;
 struct SavedFrames;
 struct SceneTraits;
@@ -86,10 +87,11 @@ class Pipeline {
   void setMaterials(std::vector<MaterialEdit> edits);
   /// The first stage that would be due with these.
   Redo due(const std::vector<MaterialEdit>& edits) const;
-  /// Takes another reading of the scene, such as its file after an edit, with other lights, edits of materials, cameras
-  /// and bookmarks.
-  /// False, and `scene` and this stay as they are, where its file's surfaces or materials differ by their content: that
-  /// takes another pipeline. Throws what setLights() throws.
+  /// Takes another box for the scene's (Scene::region), or none: with scene.region=auto all is built anew.
+  void setRegion(const std::optional<RegionBox>& box);
+  /// Takes another reading of the scene, such as its file after an edit, with other lights, edits of materials, region,
+  /// cameras and bookmarks. False, and `scene` and this stay as they are, where its file's surfaces or materials differ
+  /// by their content: that takes another pipeline. Throws what setLights() throws.
   bool adopt(Scene& scene);
   /// Lights were edited in device().lightValues: shadows, gather, solve, scatter follow.
   void lightsChanged();

@@ -206,20 +206,41 @@ SceneRegion regionOf(const Scene& scene, const Settings& settings) {
   const SceneRegion whole{scene.boundsMin, scene.boundsMax, true};
   const RegionSettings& wanted = settings.scene.region;
   if (wanted.mode == RegionMode::whole || scene.triangleCount() == 0) return whole;
-  if (wanted.mode == RegionMode::automatic) {
-    if (settings.matrix.gpu.hitRule == HitRule::thesis) return whole;
-    return detailOf(scene).value_or(whole);
+  const auto boxed = [&](const glm::dvec3& lo, const glm::dvec3& hi, const std::string& what) {
+    SceneRegion region{glm::max(glm::vec3(lo - scene.origin), scene.boundsMin),
+                       glm::min(glm::vec3(hi - scene.origin), scene.boundsMax), false};
+    if (glm::any(glm::greaterThan(region.lo, region.hi)))
+      throw UsageError(fmt::format(
+          "{}={},{},{},{},{},{}: holds nothing of the scene, which lies in {}", what, lo.x, lo.y, lo.z, hi.x, hi.y,
+          hi.z, corners(scene.origin + glm::dvec3(scene.boundsMin), scene.origin + glm::dvec3(scene.boundsMax))));
+    region.whole = region.lo == scene.boundsMin && region.hi == scene.boundsMax;
+    return region;
+  };
+  if (wanted.mode == RegionMode::box)
+    return boxed({wanted.x0, wanted.y0, wanted.z0}, {wanted.x1, wanted.y1, wanted.z1}, "scene.region");
+  if (settings.matrix.gpu.hitRule == HitRule::thesis) return whole;
+  if (scene.region) return boxed(scene.region->least, scene.region->largest, scene.sidecar.string() + ": region");
+  return detailOf(scene).value_or(whole);
+}
+
+SceneRegion regionOrWhole(const Scene& scene, const Settings& settings) {
+  const bool thesis = settings.matrix.gpu.hitRule == HitRule::thesis;
+  try {
+    if (!thesis) return regionOf(scene, settings);
+  } catch (const UsageError&) {
+    // As the build says.
   }
-  const glm::dvec3 lo(wanted.x0, wanted.y0, wanted.z0), hi(wanted.x1, wanted.y1, wanted.z1);
-  SceneRegion region{glm::max(glm::vec3(lo - scene.origin), scene.boundsMin),
-                     glm::min(glm::vec3(hi - scene.origin), scene.boundsMax), false};
-  if (glm::any(glm::greaterThan(region.lo, region.hi)))
-    throw UsageError(
-        fmt::format("scene.region={},{},{},{},{},{}: holds nothing of the scene, which lies in {}", wanted.x0,
-                    wanted.y0, wanted.z0, wanted.x1, wanted.y1, wanted.z1,
-                    corners(scene.origin + glm::dvec3(scene.boundsMin), scene.origin + glm::dvec3(scene.boundsMax))));
-  region.whole = region.lo == scene.boundsMin && region.hi == scene.boundsMax;
-  return region;
+  return {scene.boundsMin, scene.boundsMax, true};
+}
+
+Settings withRegionOf(const Scene& scene, const Settings& settings) {
+  Settings out = settings;
+  if (!scene.region || settings.scene.region.mode != RegionMode::automatic ||
+      settings.matrix.gpu.hitRule == HitRule::thesis)
+    return out;
+  const glm::vec3 &lo = scene.region->least, &hi = scene.region->largest;
+  out.scene.region = {RegionMode::box, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
+  return out;
 }
 
 std::vector<uint32_t> trianglesOutside(const Geometry& geometry, const SceneRegion& region) {

@@ -21,6 +21,11 @@ struct SceneRegion {
 /// What the settings ask for, within the scene's bounds. UsageError, with the setting and its value, where that holds
 /// nothing of the scene.
 SceneRegion regionOf(const Scene& scene, const Settings& settings);
+/// The same, but the whole where the settings are wrong.
+SceneRegion regionOrWhole(const Scene& scene, const Settings& settings);
+/// With the box that the scene brings along, where scene.region=auto takes it, as scene.region=box: the settings that
+/// say the same of a scene without.
+Settings withRegionOf(const Scene& scene, const Settings& settings);
 
 /// Triangles with a part outside the region, ascending.
 std::vector<uint32_t> trianglesOutside(const Geometry& geometry, const SceneRegion& region);

@@ -292,7 +292,8 @@ constexpr Setting kTable[] = {
     SETTING(scene.doubleSided, "scene.double_sided",
             "Every material double-sided, as path tracers without culling have them (read at load).", Voxels),
     SETTING(scene.region.mode, "scene.region",
-            "The part of the scene that has voxels. auto: a small part that holds the detail, if there is one; whole: "
+            "The part of the scene that has voxels. auto: a small part that holds the detail, if there is one, else "
+            "all; whole: "
             "all of it; box: that between scene.region_x0 and so on, also given as scene.region=x0,y0,z0,x1,y1,z1: "
             "what lies outside is lit directly and gives light, but passes none on.",
             Voxels),

@@ -141,7 +141,7 @@ StageKeys stageKeys(const SceneContent& content, const Settings& obeyed) {
   for (const Redo stage : kStages) {
     Digest digest;
     for (const Redo read : readBy(stage)) digest.add(keys[read]);
-    if (stage == Redo::Voxels) digest.add(content.surfaces);
+    if (stage == Redo::Voxels) digest.add(content.surfaces).add(content.region);
     if (stage == Redo::Materials) digest.add(content.materials);
     if (stage == Redo::Emission) digest.add(content.emission).add(own[static_cast<size_t>(Redo::Materials)].value());
     if (stage == Redo::Gather) digest.add(content.lights).add(content.sky);

@@ -41,6 +41,7 @@ struct SceneContent {
   uint64_t sky = 0;        ///< texels of a picture of it
   uint64_t materials = 0;  ///< all there is to them, with every texel
   uint64_t emission = 0;   ///< of that what emits
+  uint64_t region = 0;     ///< that has voxels
 };
 /// The keys of a scene's surfaces and materials, under edits too: what these leave alone is looked at once.
 class SurfaceContent {

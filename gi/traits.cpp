@@ -8,7 +8,6 @@
 #include <span>
 
 #include "gi/region.h"
-#include "renderer/base/error.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/scene/material_edits.h"
 #include "shaders/shared/emitters.h"
@@ -102,13 +101,7 @@ void measureMaterials(const Scene& scene, const std::vector<Material>& materials
 }
 
 bool liesOutside(const Scene& scene, const Settings& settings) {
-  const RegionSettings& r = settings.scene.region;
-  if (r.mode == RegionMode::whole || settings.matrix.gpu.hitRule == HitRule::thesis) return false;
-  try {
-    return !regionOf(scene, settings).whole;
-  } catch (const UsageError&) {
-    return false;  // as the build says
-  }
+  return !regionOrWhole(scene, settings).whole;
 }
 
 SceneTraits measure(const Scene& scene, uint32_t resolution) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <span>
 
 #include "renderer/base/csv.h"
 #include "renderer/shadow.h"
@@ -30,14 +31,22 @@ Scene glazed(Scene scene) {
   return scene;
 }
 const Scene kGlazed = glazed(room(/*emits=*/true, {spot()}));
+/// Or one that lets colours through.
+Scene stained(Scene scene) {
+  scene.materials[1].baseColor = glm::vec4(0.9f, 0.5f, 0.2f, 1);
+  scene.materials[1].transmission = 0.8f;
+  return scene;
+}
+const Scene kStained = stained(room(/*emits=*/true, {spot()}));
 
 /// How one effect is called for, and what it brings along. Among them are lights of each kind alone, a spot with one
 /// map and with six, and of any two kinds.
 struct Row {
   Effect effect;
   const Scene& scene;
-  Edit off, on;       ///< the scene no longer calls for the effect; it does
-  std::string terms;  ///< of EffectsTest::expect(), for the effect alone
+  Edit off, on;           ///< the scene no longer calls for the effect; it does
+  std::string terms;      ///< of EffectsTest::expect(), for the effect alone
+  const char* kind = "";  ///< tells rows of one effect apart
 };
 using E = Effect;
 std::string forwardWith(uint32_t constant) {
@@ -63,6 +72,11 @@ const Row kRows[] = {
      "shader forward/depth_masked.frag"},
     {E::glass, kGlazed, setting("effects.glass=off"), setting("effects.glass=auto"),
      "RE Glass, has layers of glass, shader forward/add_layer.comp, shader forward/depth_peeled.frag"},
+    {E::glass, kStained, setting("effects.glass=off"), setting("effects.glass=auto"),
+     "RE Glass, has layers of glass, has what shows behind panes, shader forward/add_tinted_layer.comp, "
+     "shader forward/depth_peeled.frag, " +
+         forwardWith(FORWARD_TINTED),
+     "tinted"},
     {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
      forwardWith(FORWARD_NORMAL_MAP)},
     {E::blur, kEven, lights({}), lights({spot(0.17f)}), "has blurred H"},
@@ -102,8 +116,32 @@ TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
 INSTANTIATE_TEST_SUITE_P(Plan, EffectRows, ::testing::Range(size_t{0}, std::size(kRows)), [](const auto& info) {
   std::string name = effectInfo(kRows[info.param].effect).name;
   std::erase(name, '-');
-  return name;
+  return name + kRows[info.param].kind;
 });
+
+/// The terms of the lit picture are weighted behind panes as it is, so that they add up to it, there too.
+TEST_F(Effects, TermsOfTheLightAddUpBehindPanes) {
+  constexpr View kTerms[] = {VIEW_LIT, VIEW_DIRECT, VIEW_INDIRECT, VIEW_SPECULAR};
+  for (const Scene* of : {&kGlazed, &kStained}) {
+    // From before the pane, which is the left wall, into the room.
+    Scene scene = glossy(*of);
+    scene.materials[1].doubleSided = true;
+    Camera& camera = scene.cameras.at(0);
+    camera.position = {-3, 0.8, 0.3};
+    camera.orientation = glm::quatLookAt(glm::normalize(glm::vec3(3, -0.3f, -0.3f)), glm::vec3(0, 1, 0));
+    const std::vector<glm::vec4> pixels = bench(scene)->picturesAsLit(kTerms);
+    const size_t n = pixels.size() / std::size(kTerms);
+    const std::span lit(pixels.data(), n), direct(&pixels[n], n), indirect(&pixels[2 * n], n),
+        specular(&pixels[3 * n], n);
+    double light = 0, byOthers = 0, apart = 0;
+    for (size_t i = 0; i < lit.size(); ++i) {
+      const glm::vec3 sum = glm::vec3(direct[i]) + glm::vec3(indirect[i]) + glm::vec3(specular[i]);
+      light += lit[i].y, byOthers += indirect[i].y, apart += std::abs(double{sum.y} - lit[i].y);
+    }
+    EXPECT_GT(byOthers, 0.05 * light) << "nothing is seen behind the pane";
+    EXPECT_LT(apart, 1e-5 * light);
+  }
+}
 
 /// Lamps that are dragged about: what is there after the first place stays, and what is not does not come.
 TEST_F(Effects, LightsThatMoveSwitchNothing) {

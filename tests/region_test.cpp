@@ -317,6 +317,53 @@ TEST(RegionRule, AutoKeepsSmallLampsInside) {
   }
 }
 
+/// The box that a scene brings along is that of scene.region=auto alone, and a run's settings say so without it.
+TEST(RegionRule, AutoTakesTheScenesBox) {
+  Scene scene = boxUnderDome();
+  scene.region = RegionBox{glm::vec3(-3), glm::vec3(4)};
+  Settings s;
+  EXPECT_EQ(regionOf(scene, s), (SceneRegion{glm::vec3(-3), glm::vec3(4), false}));
+  const Settings said = withRegionOf(scene, s);
+  EXPECT_EQ(said.scene.region, (RegionSettings{RegionMode::box, -3, -3, -3, 4, 4, 4}));
+  s.scene.region.mode = RegionMode::whole;
+  EXPECT_TRUE(regionOf(scene, s).whole);
+  EXPECT_EQ(withRegionOf(scene, s), s);
+  s = said;
+  s.scene.region.x1 = 5;
+  EXPECT_EQ(regionOf(scene, s).hi, glm::vec3(5, 4, 4)) << "what is set goes before it";
+  applyPreset(s, "thesis", true);
+  s.scene.region = {};
+  EXPECT_TRUE(regionOf(scene, s).whole);
+  scene.region = RegionBox{glm::vec3(300), glm::vec3(301)};
+  scene.sidecar = "X.irad.json";
+  try {
+    (void)regionOf(scene, Settings());
+    ADD_FAILURE() << "it holds nothing";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(contains(error.what(), "X.irad.json: region=300,300,300,301,301,301")) << error.what();
+  }
+}
+
+TEST_F(Regions, AnotherBoxBuildsAnewAndBackIsAsItWas) {
+  Pipeline p(context(), boxUnderDome(), at(16, 64));
+  p.prepare();
+  const float byItself = p.facets().grid.edge;
+  p.setRegion(RegionBox{glm::vec3(-2), glm::vec3(2)});
+  EXPECT_EQ(p.due(p.settings()), Redo::Voxels);
+  p.prepare();
+  EXPECT_NEAR(p.facets().grid.edge, 4.0 / 16, 1e-3);
+  p.setRegion({});
+  p.prepare();
+  EXPECT_EQ(p.facets().grid.edge, byItself);
+  // A box that nobody asks for calls for nothing.
+  Settings whole = p.settings();
+  whole.scene.region.mode = RegionMode::whole;
+  p.set(whole);
+  p.prepare();
+  p.setRegion(RegionBox{glm::vec3(-2), glm::vec3(2)});
+  EXPECT_GT(p.due(p.settings()), Redo::Matrix);
+}
+
 /// Users get a part where that is small without asking for it, and with the thesis's preset the whole.
 TEST(RegionRule, ThePartIsTheDefault) {
   const Scene scene =
@@ -371,9 +418,9 @@ TEST(RegionRule, AutoFindsWhatIsSmall) {
     }
 }
 
-TEST(RegionRule, AutoTakesTheWholeOfTheCatalogueAndTheBuiltIns) {
-  Settings s;
-  s.scene.region.mode = RegionMode::automatic;
+/// So that ordinary scenes keep their bits.
+TEST(RegionRule, TheDefaultTakesTheWholeOfOrdinaryScenes) {
+  const Settings s;
   size_t scenes = 0;
   for (const CheckCase& c : checkCases()) {
     if (c.scene == nullptr) continue;
@@ -385,11 +432,14 @@ TEST(RegionRule, AutoTakesTheWholeOfTheCatalogueAndTheBuiltIns) {
   }
   EXPECT_GT(scenes, 20u);
   std::vector<std::filesystem::path> folders{assets()};
-  if (const auto shared = sharedScenes()) folders.push_back(*shared / "sponza");
+  if (const auto shared = sharedScenes())
+    for (const char* folder : {"analytic", "cornell", "real", "sponza", "variants"})
+      folders.push_back(*shared / folder);
   for (const std::filesystem::path& folder : folders)
     for (const auto& file : std::filesystem::directory_iterator(folder)) {
       const std::string kind = file.path().extension();
-      if (kind != ".glb" && kind != ".gltf") continue;
+      const bool refused = file.path().stem().string().starts_with("REFUSE");
+      if ((kind != ".glb" && kind != ".gltf") || refused) continue;
       EXPECT_TRUE(regionOf(loadScene(file.path()), s).whole) << file.path();
     }
 }

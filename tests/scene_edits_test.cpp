@@ -1,5 +1,6 @@
 // What the window's user makes of a scene: lights, materials, objects and bookmarks, their names, what is unsaved,
 // where it is kept.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #if IRAD_UI
@@ -158,6 +159,37 @@ TEST_F(SceneEditsTest, HidesAndIsolatesNodes) {
   edits.showAll();
   EXPECT_TRUE(edits.hidden.empty());
   EXPECT_TRUE(edits.modified());
+}
+
+TEST_F(SceneEditsTest, TheRegionIsSavedAndComesBack) {
+  EXPECT_FALSE(edits.region);
+  const RegionBox box{{-0.1f, 0, 1e-3f}, {0.3f, 2, 1234.5f}};
+  edits.region = box;
+  EXPECT_TRUE(edits.modified());
+  edits.save();
+  EXPECT_TRUE(edits.kept());
+  EXPECT_FALSE(edits.modified());
+  EXPECT_EQ(readSidecar(file).region, box) << "to the last bit";
+  const Scene again = loadScene(path, {.sidecar = true});
+  EXPECT_EQ(again.region, box);
+  EXPECT_NE(sidecarNote(again).find("region"), std::string::npos) << sidecarNote(again);
+  EXPECT_FALSE(loadScene(path).region);
+  edits.begin(again, file, "");
+  EXPECT_EQ(edits.region, box);
+  edits.region.reset();
+  EXPECT_TRUE(edits.modified());
+  edits.revert();
+  EXPECT_EQ(edits.region, box);
+  // What is wrong with a box is an error that names it.
+  for (const char* bad :
+       {R"([0, 0, 0, 1, 1, 1])", R"({"least": [0, 0, 0]})", R"({"least": [0, 0], "largest": [1, 1, 1]})",
+        R"({"least": [0, 0, 0], "largest": [1, 0, 1]})", R"({"least": [0, 0, 0], "largest": [1, "a", 1]})"})
+    try {
+      (void)sidecarFromJson(fmt::format(R"({{"format": 1, "cameras": [], "region": {}}})", bad), "X");
+      ADD_FAILURE() << bad;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("X: region"), std::string::npos) << error.what();
+    }
 }
 
 TEST_F(SceneEditsTest, AreSavedElsewhereAndTakenFromThere) {

@@ -1,4 +1,7 @@
 // The part of the scene that has voxels, as a box in the picture.
+#include <nlohmann/json.hpp>
+
+#include "renderer/scene/sidecar.h"
 #include "tests/window_fixture.h"
 
 namespace irad::test::window_region_suite {
@@ -43,6 +46,50 @@ TEST_F(WindowRegionTest, ABoxIsDraggedByItsFaces) {
   rests();
   EXPECT_FALSE(has("region/largest x"));
   quit();
+}
+
+/// It belongs to the scene: its sidecar keeps it, a capture's manifest says it as a setting, and the same bits come of
+/// it.
+TEST_F(WindowRegionTest, TheBoxIsSavedAndComesBack) {
+  fold(R"(["Accuracy", "Effects", "Lights", "Materials", "Inspector", "Compare", "Solver", "Memory", "Timings"])");
+  const std::filesystem::path scene = folder_.path / "own.glb", sidecar = sidecarPath(scene);
+  std::filesystem::copy_file(assets() / "box.glb", scene);
+  const auto begin = [&] {
+    start({"--set", "voxel.resolution=16", "--set", "matrix.rays=16"}, scene);
+    away();
+    ASSERT_TRUE(viewportSettles(lit));
+  };
+  begin();
+  click("Scene/region");
+  ASSERT_TRUE(appears("region/largest x"));
+  drag("region/largest x", -picture().height / 4, 20);
+  EXPECT_TRUE(says("voxels are made of")) << window_->log();
+  away();
+  const std::string part = row("region");
+  EXPECT_NE(part, "whole");
+  click("Objects/Save");
+  ASSERT_TRUE(says("to " + sidecar.string()));
+  const std::optional<RegionBox> kept = readSidecar(sidecar).region;
+  ASSERT_TRUE(kept);
+  EXPECT_LT(kept->largest.x, 1);
+  quit();
+
+  begin();
+  EXPECT_TRUE(says("region of own.glb.irad.json"));
+  EXPECT_EQ(row("region"), part);
+  EXPECT_TRUE(has("region/largest x"));
+  quit();
+  // A run without the window takes it, too, and its manifest repeats it without the sidecar.
+  const std::string first = (folder_.path / "first").string(), again = (folder_.path / "again").string();
+  ASSERT_EQ(runIrad({"render", scene.string(), "--set", "voxel.resolution=16", "--set", "matrix.rays=16", "--size",
+                     "32x24", "--out", first})
+                .status,
+            0);
+  const std::string manifest = first + "/manifest.json";
+  EXPECT_EQ(nlohmann::json::parse(slurp(manifest))["settings"]["scene.region"], "box");
+  std::filesystem::remove(sidecar);
+  ASSERT_EQ(runIrad({"render", "--config", manifest, "--out", again}).status, 0);
+  EXPECT_EQ(slurp(first + "/lit.exr"), slurp(again + "/lit.exr"));
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ std::vector<std::string> contentInWords(const Autosave& autosave, const Settings
     lines.push_back(listInWords("hidden object", "hidden objects", autosave.edits.hidden.paths));
   if (!autosave.edits.bookmarks.empty())
     lines.push_back(listInWords("bookmark", "bookmarks", autosave.edits.bookmarks, &Camera::name));
+  if (autosave.edits.region) lines.emplace_back("scene.region: a box");
   const auto add = [&](const char* what, const Settings& settings) {
     std::vector<std::string> changed;
     for (const Setting& setting : settingTable())

@@ -21,6 +21,11 @@ namespace {
 
 constexpr const char* kCancelled = "cancelled";
 
+/// Whether the scene's file is read the same with either.
+bool readAlike(const SceneSettings& a, const SceneSettings& b) {
+  return a.lambertian == b.lambertian && a.doubleSided == b.doubleSided;
+}
+
 }  // namespace
 
 Builder::Builder(Context& context, Session& session, std::function<void()> breathe)
@@ -37,6 +42,7 @@ void Builder::load(const std::filesystem::path& path) {
       load.lights = session_.edits.lights;
       load.materials = session_.edits.materials;
       load.hidden = session_.edits.hidden;
+      load.region = session_.edits.region;
     }
     load.lambertian = session_.edited.scene.lambertian;
     load.doubleSided = session_.edited.scene.doubleSided;
@@ -77,7 +83,11 @@ void Builder::load(const std::filesystem::path& path) {
     forgetTimes();
     const bool cancelled = session_.work->cancel;
     session_.work.reset();
-    if (session_.pipeline) session_.returned |= std::exchange(session_.edited.scene, loaded_) != loaded_;
+    if (session_.pipeline && !readAlike(session_.edited.scene, loaded_)) {
+      session_.edited.scene.lambertian = loaded_.lambertian;
+      session_.edited.scene.doubleSided = loaded_.doubleSided;
+      session_.returned = true;
+    }
     if (!cancelled) throw;
     session_.note(fmt::format("{}: loading was cancelled", path.filename().string()));
   }
@@ -103,7 +113,8 @@ bool Builder::stale() const {
   if (stale_ || !session_.pipeline) return stale_;
   const Scene& scene = session_.pipeline->scene();
   // Materials and hidden objects that wait for the mouse to be let go wait like settings: session_.next says so.
-  const bool others = session_.edits.materials != scene.materialEdits || session_.edits.hidden != scene.hidden;
+  const bool others = session_.edits.materials != scene.materialEdits || session_.edits.hidden != scene.hidden ||
+                      session_.edits.region != scene.region;
   return session_.edits.lights != scene.lights || (others && session_.next == Redo::Nothing);
 }
 
@@ -146,6 +157,21 @@ Redo Builder::applyMaterials(bool held) {
       session_.returned = true;
       session_.error(error.what());
     }
+    session_.viewDirty = true;
+  }
+  return Redo::Nothing;
+}
+
+/// Both sides have the same box. One that builds anything anew is announced, and waits, as a setting does.
+Redo Builder::applyRegion(bool held) {
+  for (Side* side : session_.sides()) {
+    const Pipeline& pipeline = *side->pipeline;
+    if (session_.edits.region == pipeline.scene().region) continue;
+    const bool taken = pipeline.settings().scene.region.mode == RegionMode::automatic;
+    if (taken && (shownNext_ != Redo::Voxels || held)) return Redo::Voxels;
+    side->pipeline->setRegion(session_.edits.region);
+    session_.halted = false;
+    side->woke();
     session_.viewDirty = true;
   }
   return Redo::Nothing;
@@ -241,10 +267,10 @@ void Builder::openPicture(const std::filesystem::path& path) {
 void Builder::apply(bool held) {
   if (!session_.pipeline) return;
   applyLights();
-  const Redo waits = std::min(applyMaterials(held), applyHidden(held));
+  const Redo waits = std::min({applyMaterials(held), applyHidden(held), applyRegion(held)});
   Pipeline& pipeline = *session_.pipeline;
   if (session_.edited != pipeline.settings()) {
-    const bool reload = session_.edited.scene != loaded_;
+    const bool reload = !readAlike(session_.edited.scene, loaded_);
     const Redo redo = reload ? Redo::Voxels : pipeline.due(session_.edited);
     session_.next = redo;
     foresee(redo);

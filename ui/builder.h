@@ -44,6 +44,7 @@ class Builder {
   void applyLights();
   Redo applyMaterials(bool held);
   Redo applyHidden(bool held);
+  Redo applyRegion(bool held);
   void hide();
   void timeMaterials();
   void giveReference(Pipeline& pipeline);

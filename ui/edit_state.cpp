@@ -113,6 +113,8 @@ void addEdits(std::vector<std::string>& words, const Sidecar& from, const Sideca
   addMaterials(words, from.materials, to.materials);
   addHidden(words, from.hidden, to.hidden);
   addList(words, "bookmark", "bookmarks", from.bookmarks, to.bookmarks, bookmarkChange);
+  if (from.region != to.region)
+    words.emplace_back(to.region ? "scene.region by its box" : "scene.region without a box");
   if (words.size() == before && from != to) words.emplace_back("scene edits");
 }
 

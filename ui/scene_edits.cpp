@@ -29,6 +29,7 @@ void SceneEdits::begin(const Scene& scene, std::filesystem::path file, std::stri
   materials = scene.materialEdits;
   hidden = scene.hidden;
   bookmarks = scene.bookmarks;
+  region = scene.region;
   again(scene);
   saved_ = content();
 }
@@ -112,13 +113,15 @@ Sidecar SceneEdits::content() const {
   sidecar.materials = materials;
   sidecar.hidden = hidden;
   sidecar.bookmarks = bookmarks;
+  sidecar.region = region;
   sidecar.sceneSha256 = sceneSha256_;
   return sidecar;
 }
 
 bool SceneEdits::modified() const {
   const bool changed = lights == fileLights_ ? saved_.lights.has_value() : saved_.lights != lights;
-  return changed || materials != saved_.materials || hidden != saved_.hidden || bookmarks != saved_.bookmarks;
+  return changed || materials != saved_.materials || hidden != saved_.hidden || bookmarks != saved_.bookmarks ||
+         region != saved_.region;
 }
 
 void SceneEdits::save() {
@@ -141,6 +144,7 @@ void SceneEdits::restore(Sidecar content) {
   materials = std::move(content.materials);
   hidden = std::move(content.hidden);
   bookmarks = std::move(content.bookmarks);
+  region = content.region;
   const auto count = static_cast<int>(lights.size());
   if (lights.size() == before.size() + 1)
     selected = static_cast<int>(std::mismatch(before.begin(), before.end(), lights.begin()).first - before.begin());

@@ -1,5 +1,6 @@
 // What the window's user has made of a scene beside its file: lights, edits of materials, hidden nodes, camera
-// bookmarks. Panels and handles edit them, the builder makes a picture of them, the sidecar keeps them.
+// bookmarks, the box that has voxels. Panels and handles edit them, the builder makes a picture of them, the sidecar
+// keeps them.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +21,9 @@ class SceneEdits {
   std::vector<MaterialEdit> materials;  ///< sorted by name; none that changes nothing
   HiddenNodes hidden;
   std::vector<Camera> bookmarks;
-  int selected = -1;        ///< the light that has handles and whose fields are shown; -1: none
-  bool showHandles = true;  ///< in the picture; of other scenes too
+  std::optional<RegionBox> region;  ///< Scene::region
+  int selected = -1;                ///< the light that has handles and whose fields are shown; -1: none
+  bool showHandles = true;          ///< in the picture; of other scenes too
 
   /// Begins with what the scene came with. `file`: where save() writes; empty where `reason` says why nowhere.
   void begin(const Scene& scene, std::filesystem::path file, std::string reason);
@@ -52,7 +54,8 @@ class SceneEdits {
   bool modified() const;  ///< changed since it was loaded or saved
   /// The file holds something.
   bool kept() const {
-    return saved_.lights || !saved_.materials.empty() || !saved_.hidden.empty() || !saved_.bookmarks.empty();
+    return saved_.lights || !saved_.materials.empty() || !saved_.hidden.empty() || !saved_.bookmarks.empty() ||
+           saved_.region;
   }
   const std::filesystem::path& file() const { return file_; }
   const std::string& whyNowhere() const { return reason_; }

@@ -127,6 +127,9 @@ void againstTruth(CheckRun& run, Scene (*make)()) {
     const TruthError all = compare(picture, truth.lit);
     run.near(fmt::format("camera {}: mean / truth", c), all.ratio, 1, 0.03);
     run.atMost(fmt::format("camera {}: relMSE", c), all.relMse, 0.02);
+    // The light by way of other surfaces alone, of what lies behind panes, too.
+    const CheckPicture byOthers = run.picture(*pipeline, scene.cameras[c], VIEW_INDIRECT, kPicture);
+    run.near(fmt::format("camera {}: indirect mean / truth", c), compare(byOthers, truth.indirect).ratio, 1, 0.03);
     if (make == tintScene) {
       const glm::dvec3 by = ratios(picture, truth.lit);
       for (int i = 0; i < 3; ++i)

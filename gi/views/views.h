@@ -30,6 +30,8 @@ struct ViewInfo {
 
   /// Drawn from any of these.
   bool isFrom(uint32_t sources) const { return (from & sources) != 0; }
+  /// Radiance of what is seen, or a term of it: what lies behind panes adds to that of the panes, as in "lit".
+  bool addsUp() const { return kind == VIEW_KIND_LIGHT && isFrom(FROM_TARGETS); }
   /// Of distances, seeds and their errors: a value in every voxel, which view.isovalue cuts.
   bool ofField() const { return isFrom(FROM_ANY_FIELD); }
   /// Drawn through a colour map with a range.

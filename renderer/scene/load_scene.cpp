@@ -63,6 +63,7 @@ Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) {
     for (const std::string& unknown : unknownNodes(scene.nodes, hidden))
       scene.warnings.push_back((options.hidden ? "" : scene.sidecar.filename().string() + ": ") + unknown);
     hideNodes(scene, hidden);
+    if (options.region) scene.region = *options.region;
     scene.sky = options.sky;
     if (options.progress) options.progress(1.0f, "scene");
     return scene;

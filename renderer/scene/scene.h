@@ -129,6 +129,12 @@ struct HiddenNodes {
   bool operator==(const HiddenNodes&) const = default;
 };
 
+/// Corners, world; as settings have them.
+struct RegionBox {
+  glm::vec3 least{0.0f}, largest{0.0f};
+  bool operator==(const RegionBox&) const = default;
+};
+
 /// The surfaces of a scene.
 struct Geometry {
   glm::dvec3 origin{0.0};                      ///< world position of local (0,0,0): the centre of the bounds
@@ -169,9 +175,11 @@ struct Scene : Geometry {
   std::vector<Camera> bookmarks;  ///< further cameras, the sidecar's
   std::shared_ptr<const SkyImage>
       sky;                        ///< a picture of what is around (renderer/scene/sky_image.h), where one was given
-  std::filesystem::path sidecar;  ///< that lights, materials, objects and bookmarks come from; empty: none
+  std::filesystem::path sidecar;  ///< that lights, materials, objects, bookmarks and region come from; empty: none
 
   std::vector<std::string> warnings;  ///< in words, each once
+  /// That voxels are made of with scene.region=auto (gi/region.h), the sidecar's.
+  std::optional<RegionBox> region;
   bool defaultCamera = false, defaultLight = false;
 };
 
@@ -185,6 +193,7 @@ struct LoadOptions {
   std::optional<std::vector<Light>> lights;  ///< in place of the file's and the sidecar's
   std::optional<std::vector<MaterialEdit>> materials;              ///< in place of the sidecar's
   std::optional<HiddenNodes> hidden;                               ///< in place of the sidecar's
+  std::optional<std::optional<RegionBox>> region;                  ///< likewise
   std::shared_ptr<const SkyImage> sky;                             ///< Scene::sky
   std::function<void(float fraction, const char* step)> progress;  ///< may be empty
 };

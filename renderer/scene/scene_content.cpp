@@ -94,12 +94,12 @@ void addSky(Members& m, const SkyImage* image) {
 
 // A member that is added to a scene does not compile until it is known here. (Structured bindings do not take a class
 // and its base at once.)
-constexpr size_t kKnown = sizeof(Geometry) + sizeof(Scene::path) + sizeof(Scene::sha256) + sizeof(Scene::nodes) +
-                          sizeof(Scene::hidden) + sizeof(Scene::whole) + sizeof(Scene::materials) +
-                          sizeof(Scene::fileMaterials) + sizeof(Scene::materialEdits) + sizeof(Scene::images) +
-                          sizeof(Scene::lights) + sizeof(Scene::fileLights) + sizeof(Scene::cameras) +
-                          sizeof(Scene::bookmarks) + sizeof(Scene::sky) + sizeof(Scene::sidecar) +
-                          sizeof(Scene::warnings) + sizeof(Scene::defaultCamera) + sizeof(Scene::defaultLight);
+constexpr size_t kKnown =
+    sizeof(Geometry) + sizeof(Scene::path) + sizeof(Scene::sha256) + sizeof(Scene::nodes) + sizeof(Scene::hidden) +
+    sizeof(Scene::whole) + sizeof(Scene::materials) + sizeof(Scene::fileMaterials) + sizeof(Scene::materialEdits) +
+    sizeof(Scene::images) + sizeof(Scene::lights) + sizeof(Scene::fileLights) + sizeof(Scene::cameras) +
+    sizeof(Scene::bookmarks) + sizeof(Scene::region) + sizeof(Scene::sky) + sizeof(Scene::sidecar) +
+    sizeof(Scene::warnings) + sizeof(Scene::defaultCamera) + sizeof(Scene::defaultLight);
 static_assert(sizeof(Scene) == (kKnown + alignof(Scene) - 1) / alignof(Scene) * alignof(Scene));
 
 }  // namespace

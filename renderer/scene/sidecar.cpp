@@ -43,10 +43,18 @@ HiddenNodes readHidden(const JsonObject& json) {
   return hidden;
 }
 
+RegionBox readRegion(const OrderedJson& region, const std::string& label) {
+  const JsonObject json(region, label, {"least", "largest"});
+  const RegionBox box{glm::vec3(json.vector<3>("least")), glm::vec3(json.vector<3>("largest"))};
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(box.least[axis] < box.largest[axis])) json.refuse("largest", "each has to be more than its least");
+  return box;
+}
+
 Sidecar parse(const OrderedJson& parsed, const std::string& file) {
   checkFormat(parsed, file);
   const JsonObject json(parsed, file,
-                        {"format", "scene_sha256", "lights", "materials", "hidden", "isolated", "cameras"});
+                        {"format", "scene_sha256", "lights", "materials", "hidden", "isolated", "cameras", "region"});
   Sidecar sidecar;
   if (json.has("scene_sha256")) sidecar.sceneSha256 = json.text("scene_sha256");
   if (json.has("lights")) sidecar.lights = lightsFromJson(json.at("lights").dump(), file + ": lights");
@@ -54,6 +62,7 @@ Sidecar parse(const OrderedJson& parsed, const std::string& file) {
     sidecar.materials = materialEditsFromJson(json.at("materials").dump(), file + ": materials");
   sidecar.hidden = readHidden(json);
   if (json.has("cameras")) sidecar.bookmarks = camerasFromJson(json.at("cameras").dump(), file + ": cameras");
+  if (json.has("region")) sidecar.region = readRegion(json.at("region"), file + ": region");
   std::set<std::string> names;
   for (size_t i = 0; i < sidecar.bookmarks.size(); ++i) {
     const std::string& name = sidecar.bookmarks[i].name;
@@ -95,6 +104,12 @@ std::string sidecarToJson(const Sidecar& sidecar) {
   if (!sidecar.hidden.isolated.empty()) json["isolated"] = sidecar.hidden.isolated;
   json["cameras"] = OrderedJson::array();
   for (const Camera& camera : sidecar.bookmarks) json["cameras"].push_back(OrderedJson::parse(cameraToJson(camera)));
+  if (const auto& region = sidecar.region) {
+    const auto list = [](const glm::vec3& v) {  // 0.1, not 0.10000000149011612
+      return OrderedJson::parse(fmt::format("[{},{},{}]", v.x, v.y, v.z));
+    };
+    json["region"] = {{"least", list(region->least)}, {"largest", list(region->largest)}};
+  }
   return json.dump(2);
 }
 
@@ -116,6 +131,7 @@ void takeSidecar(Scene& scene) {
   replaceMaterialEdits(scene, std::move(sidecar.materials));
   scene.hidden = std::move(sidecar.hidden);
   scene.bookmarks = std::move(sidecar.bookmarks);
+  scene.region = sidecar.region;
   if (!sidecar.sceneSha256.empty() && sidecar.sceneSha256 != scene.sha256)
     scene.warnings.push_back(
         fmt::format("{} has changed since {} was saved", scene.path.filename().string(), path.filename().string()));
@@ -127,6 +143,7 @@ std::string sidecarNote(const Scene& scene) {
   if (!scene.materialEdits.empty()) what.emplace_back("materials");
   if (!scene.hidden.empty()) what.emplace_back("hidden objects");
   if (!scene.bookmarks.empty()) what.emplace_back("cameras");
+  if (scene.region) what.emplace_back("region");
   if (what.empty()) what.emplace_back("nothing");
   return fmt::format("{} of {}", fmt::join(what, " and "), scene.sidecar.filename().string());
 }

@@ -1,5 +1,5 @@
 // X.glb.irad.json, the sidecar of X.glb: what the viewer's user has made of a scene without touching its file: lights,
-// edits of materials, hidden nodes, camera bookmarks.
+// edits of materials, hidden nodes, camera bookmarks, the part that has voxels.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,8 @@ struct Sidecar {
   std::vector<MaterialEdit> materials;       ///< each of another material, sorted by name
   HiddenNodes hidden;
   std::vector<Camera> bookmarks;  ///< each has a name of its own
-  std::string sceneSha256;        ///< of the scene file when this was saved; empty: not known
+  std::optional<RegionBox> region;
+  std::string sceneSha256;  ///< of the scene file when this was saved; empty: not known
   bool operator==(const Sidecar&) const = default;
 };
 

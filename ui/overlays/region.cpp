@@ -1,5 +1,6 @@
 // The part of the scene that has voxels, where that is not all of it: a box over the picture. One that is given
-// (scene.region=box) has a handle in the middle of each face, which moves the face; it is built when it is let go.
+// (SceneEdits::region, or scene.region=box) has a handle in the middle of each face, which moves the face; it is built
+// when it is let go.
 #include <algorithm>
 #include <cmath>
 
@@ -22,22 +23,25 @@ struct Box {
   }
 };
 
-Box given(const RegionSettings& r) {
-  return {{r.x0, r.y0, r.z0}, {r.x1, r.y1, r.z1}};
+std::optional<Box> given(const Session& session) {
+  const RegionSettings& r = session.edited.scene.region;
+  if (r.mode == RegionMode::box) return Box{{r.x0, r.y0, r.z0}, {r.x1, r.y1, r.z1}};
+  const std::optional<RegionBox>& box = session.edits.region;
+  return r.mode == RegionMode::automatic && box ? std::optional(Box{box->least, box->largest}) : std::nullopt;
 }
 
 class RegionOverlay : public Overlay {
  public:
   bool draw(Session& session, const Picture& picture, const PictureMouse& mouse) override {
-    RegionSettings& wanted = session.edited.scene.region;
     if (!session.built || !session.edits.showHandles) return release();
     const Scene& scene = session.pipeline->scene();
-    if (wanted.mode != RegionMode::box) {
+    const std::optional<Box> wanted = given(session);
+    if (!wanted) {
       const SceneRegion& found = session.built->region;
       if (!found.whole) drawEdges(picture, {scene.origin + glm::dvec3(found.lo), scene.origin + glm::dvec3(found.hi)});
       return release();
     }
-    if (!held_) box_ = given(wanted);
+    if (!held_) box_ = *wanted;
 
     const bool down = ImGui::IsMouseDown(ImGuiMouseButton_Left);
     if (mouse.pressed) {
@@ -50,7 +54,7 @@ class RegionOverlay : public Overlay {
     }
     const bool clicked = held_ && mouse.clicked;
     if (!down) {
-      if (held_) keep(wanted);
+      if (held_) keep(session);
       held_.reset();
       over_.reset();
       if (mouse.hovered && !clicked) point(picture, mouse);
@@ -103,9 +107,10 @@ class RegionOverlay : public Overlay {
       hi = std::max(std::min((*to)[axis], high), lo + thinnest);
   }
 
-  void keep(RegionSettings& wanted) const {
-    float* const values[] = {&wanted.x0, &wanted.y0, &wanted.z0, &wanted.x1, &wanted.y1, &wanted.z1};
-    *values[*held_] = static_cast<float>(box_.middle(*held_)[*held_ % 3]);
+  /// With the scene, whose sidecar it is saved in, also where it was a setting until now.
+  void keep(Session& session) const {
+    session.edits.region = RegionBox{glm::vec3(box_.lo), glm::vec3(box_.hi)};
+    session.edited.scene.region = {};
   }
 
   static void drawEdges(const Picture& picture, const Box& box) {

@@ -69,20 +69,19 @@ class ScenePanel : public Panel {
     if (!session.built) return;
     RegionSettings& wanted = session.edited.scene.region;
     const SceneRegion& region = session.built->region;
-    const bool box = wanted.mode == RegionMode::box;
+    const bool box = wanted.mode == RegionMode::box || (wanted.mode == RegionMode::automatic && session.edits.region);
     ImGui::BeginDisabled(session.edited.matrix.gpu.hitRule == HitRule::thesis);
     if (ImGui::Button(box ? "Voxels of the whole scene###region" : "Voxels of a box\u2026###region", {-1, 0})) {
-      if (box) {
-        wanted.mode = RegionMode::whole;
-      } else {
-        const glm::dvec3& origin = session.pipeline->scene().origin;
-        const glm::vec3 lo(origin + glm::dvec3(region.lo)), hi(origin + glm::dvec3(region.hi));
-        wanted = {RegionMode::box, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z};
-      }
+      wanted = {.mode = box ? RegionMode::whole : RegionMode::automatic};
+      session.edits.region.reset();
+      const glm::dvec3& origin = session.pipeline->scene().origin;
+      if (!box)
+        session.edits.region =
+            RegionBox{glm::vec3(origin + glm::dvec3(region.lo)), glm::vec3(origin + glm::dvec3(region.hi))};
     }
     helpTooltip(box ? "scene.region=whole"
-                    : "scene.region=box, which begins as the part that has voxels now; its faces are dragged by their "
-                      "handles in the picture, and all voxels lie in it");
+                    : "A box that scene.region=auto takes, and that the sidecar keeps. It begins as the part that has "
+                      "voxels now; its faces are dragged by their handles in the picture, and all voxels lie in it");
     ImGui::EndDisabled();
   }
 
