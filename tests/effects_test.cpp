@@ -74,8 +74,7 @@ const Row kRows[] = {
      "RE Glass, has layers of glass, shader forward/add_layer.comp, shader forward/depth_peeled.frag"},
     {E::glass, kStained, setting("effects.glass=off"), setting("effects.glass=auto"),
      "RE Glass, has layers of glass, has what shows behind panes, shader forward/add_tinted_layer.comp, "
-     "shader forward/depth_peeled.frag, " +
-         forwardWith(FORWARD_TINTED),
+     "shader forward/depth_peeled.frag",
      "tinted"},
     {E::normalMap, kTextured, setting("effects.normal_map=off"), setting("effects.normal_map=auto"),
      forwardWith(FORWARD_NORMAL_MAP)},
