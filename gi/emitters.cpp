@@ -59,7 +59,7 @@ Emitters listEmitters(Context& context, const FacetList& list) {
   EmitterTable record{};
   record.entries = maker.of(emitters.entries);
   record.count = emitters.count;
-  record.power = static_cast<float>(std::accumulate(powers.begin(), powers.end(), 0.0));
+  record.power = emitters.power = static_cast<float>(std::accumulate(powers.begin(), powers.end(), 0.0));
   emitters.record = maker.make(record);
   return emitters;
 }

@@ -15,6 +15,7 @@ struct FacetList;
 struct Emitters {
   uint32_t count = 0;
   float brightest = 0;     ///< largest luminance(M), W/m^2
+  float power = 0;         ///< EmitterTable
   Buffer entries, record;  ///< Emitter per facet, one EmitterTable
 };
 Emitters listEmitters(Context& context, const FacetList& facets);
