@@ -7,6 +7,8 @@
 #include "gi/emitters.h"
 #include "gi/facets.h"
 #include "gi/gather_emitters.h"
+#include "gi/hits_on_host.h"
+#include "gi/host_trace.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/ray_kernel.h"
@@ -44,9 +46,22 @@ bool agrees(Context& context, const FormFactors& matrix, const Emitters& emitter
   return std::abs(bySamples - byRays) <= byRays * (kEmitterAgreement + 3 / std::sqrt(std::max(hits, 1.0)));
 }
 
-/// light.emitted becomes F M by samples, light.correction what that adds to F M by rays.
+/// What `host` finds of the emitters, in place of the kernel's rays.
+Buffer sampledByHost(Context& context, const FacetList& facets, const Emitters& emitters, const Settings& settings,
+                     const HostTrace& host) {
+  const auto table = downloadAs<Emitter>(context, emitters.entries);
+  const auto exitance = downloadAs<glm::vec3>(context, facets.emission);
+  std::vector<glm::vec4> light(facets.count);
+  timedOnHost(context, kGatherEmittersStage, [&] {
+    host.emitters({table, emitters.power, exitance, settings.matrix.emitterSamples, settings.matrix.gpu.seed}, light);
+  });
+  return makeBuffer(context, "emitters' light by the host", Subsystem::Solver, std::span<const glm::vec4>(light));
+}
+
+/// light.emitted becomes F M by samples, light.correction what that adds to F M by rays. `byHost`: the samples, if the
+/// host has traced them.
 void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& matrix, const EmitterSource& source,
-                   const Settings& settings, Lighting& light) {
+                   const Settings& settings, const Buffer& byHost, Lighting& light) {
   const RayKernel kernel = rayKernel(facets, *source.field, settings.matrix.gpu);
   light.correction = Buffer(frame.context().device, "emitters' correction", Subsystem::Solver, 16ull * facets.count);
   Pass pass = frame.pass(kGatherEmittersStage);
@@ -57,6 +72,7 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
   push.emitters = pass.in(source.emitters->record);
   push.emitted = pass.out(light.emitted);
   push.correction = pass.out(light.correction);
+  push.byHost = pass.inIfAny(byHost);
   push.surface = pass.inIfAny(facets.surface.record);
   push.dims = facets.grid.dims;
   push.jfaMax = source.field->jumpFlood.largest;
@@ -64,6 +80,7 @@ void recordSamples(Frame& frame, const FacetList& facets, const FormFactors& mat
   push.seed = settings.matrix.gpu.seed;
   kernel.configure(pass, frame.context().device, "gi/sample_emitters")
       .constant(CONSTANT_MATRIX_FORMAT, matrix.format)
+      .constant(CONSTANT_BY_HOST, static_cast<bool>(byHost))
       .push(push)
       .dispatch(facets.count);
 }
@@ -89,8 +106,12 @@ void gatherEmitters(Context& context, const FacetList& facets, const FormFactors
   };
   byRays();
   if (sampleEmitters(settings, source, facets.count)) {
+    Buffer byHost;
+    if (context.device.isCpu && source.onHost)
+      if (const auto host = hostTraceIfAny(context, facets, settings.matrix.gpu, kGatherEmittersStage))
+        byHost = sampledByHost(context, facets, *source.emitters, settings, *host);
     Frame frame = context.begin();
-    recordSamples(frame, facets, matrix, source, settings, light);
+    recordSamples(frame, facets, matrix, source, settings, byHost, light);
     frame.submitAndWait();
     const bool forced = settings.matrix.emitterSampling == EffectMode::on;
     if (!agrees(context, matrix, *source.emitters, light) && !forced) {

@@ -15,6 +15,7 @@ struct Settings;
 struct EmitterSource {
   const Emitters* emitters = nullptr;
   const Field* field = nullptr;
+  bool onHost = true;  ///< on CPU devices the host traces the samples, where this build can
 };
 /// `emitted`, with `correction` and `sampledShare` where the emitters are sampled. Before solve(), and again where the
 /// matrix or the emission has changed. Blocking.

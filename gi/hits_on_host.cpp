@@ -1,6 +1,5 @@
 #include "gi/hits_on_host.h"
 
-#include <functional>
 #include <span>
 
 #include "gi/host_trace.h"
@@ -9,15 +8,12 @@
 #include "renderer/resources.h"
 
 namespace irad {
-namespace {
 
 void timedOnHost(Context& context, const char* stage, const std::function<void()>& work) {
   const double began = context.timings.now();
   work();
   context.timings.add(stage, context.timings.now() - began);
 }
-
-}  // namespace
 
 std::unique_ptr<HostTrace> hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,
                                           const char* stage) {

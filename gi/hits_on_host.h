@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 namespace irad {
@@ -12,6 +13,9 @@ class HostTrace;
 struct FacetList;
 struct MatrixParams;
 struct RayKernel;
+
+/// Work of the host, as the time of a stage.
+void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
 
 /// The host's own rays, where the hit rule and this build allow them; else null. `stage`: whose time that is.
 std::unique_ptr<HostTrace> hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,

@@ -15,6 +15,7 @@
 #include "renderer/frame/context.h"
 #include "renderer/resources.h"
 #include "shaders/shared/sky.h"
+#include "shaders/shared/solve.h"
 #include "shaders/shared/trace.h"
 
 namespace irad {
@@ -155,16 +156,15 @@ class EmbreeTrace : public HostTrace {
   void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits, uint32_t threads,
             bool sky, uint32_t tintShift) const override {
     IRAD_CHECK_OP(hits.size(), >=, uint64_t{rows} * params.rays);
-    std::atomic<uint32_t> next = 0;
-    const auto work = [&] {
-      for (uint32_t block; (block = kBlock * next++) < rows;)
-        for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r)
-          row(params, firstRow + r, sky, tintShift, hits.subspan(uint64_t{r} * params.rays, params.rays));
-    };
-    if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> others;
-    for (uint32_t t = 1; t < threads; ++t) others.emplace_back(work);
-    work();
+    forRows(rows, threads, [&](uint32_t r) {
+      row(params, firstRow + r, sky, tintShift, hits.subspan(uint64_t{r} * params.rays, params.rays));
+    });
+  }
+
+  void emitters(const EmitterSamples& from, std::span<glm::vec4> light, uint32_t threads) const override {
+    IRAD_CHECK_OP(light.size(), >=, facets_.voxel.size());
+    IRAD_CHECK_OP(from.exitance.size(), ==, facets_.voxel.size());
+    forRows(static_cast<uint32_t>(facets_.voxel.size()), threads, [&](uint32_t f) { light[f] = lightOf(from, f); });
   }
 
   void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const override {
@@ -176,6 +176,19 @@ class EmbreeTrace : public HostTrace {
  private:
   /// The channels that panes have kept off, as bits, of each ray of a packet.
   using Closed = std::array<uint32_t, kPacket>;
+
+  /// Calls work(row) for every row, on several threads; what it does for one must not depend on others.
+  static void forRows(uint32_t rows, uint32_t threads, const auto& work) {
+    std::atomic<uint32_t> next = 0;
+    const auto blocks = [&] {
+      for (uint32_t block; (block = kBlock * next++) < rows;)
+        for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r) work(r);
+    };
+    if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> others;
+    for (uint32_t t = 1; t < threads; ++t) others.emplace_back(blocks);
+    blocks();
+  }
 
   static uint64_t free(const Allocator& memory) { return memory.budget() - std::min(memory.budget(), memory.used()); }
   static std::vector<glm::vec3> positions(const oracle::Facets& facets) {
@@ -190,12 +203,7 @@ class EmbreeTrace : public HostTrace {
 
   void row(const MatrixParams& params, uint32_t facet, bool sky, uint32_t tintShift, std::span<uint32_t> hits) const {
     const uvec4 shifts = rayShifts(facets_.voxel[facet], params.seed, params.jitter);
-    std::array<SurfelPoint, FACET_SURFELS> from;
-    for (uint32_t i = 0; i < FACET_SURFELS; ++i) {
-      const Surfel& s = facets_.surfels[FACET_SURFELS * size_t{facet} + i];
-      from[i] = surfelOn(triangleAt(facets_, s.triangle & ~SURFEL_BACK), s, unpackVoxel(facets_.voxel[facet]));
-      from[i].position = liftedOff(from[i]);
-    }
+    const FacetSurfels from = liftedSurfels(facet);
     const uint32_t rays = oracle::raysOf(facets_, facet, params);
     std::fill(hits.begin() + rays, hits.end(), TRACE_NOT_CAST);
     for (uint32_t first = 0; first < rays; first += kPacket) {
@@ -220,12 +228,127 @@ class EmbreeTrace : public HostTrace {
     }
   }
 
+  /// gi/sample_emitters.comp.
+  glm::vec4 lightOf(const EmitterSamples& emitters, uint32_t facet) const {
+    const uint32_t voxel = facets_.voxel[facet];
+    const uvec4 shifts = rayShifts(voxel, emitters.seed ^ EMITTERS_SEED, 1);
+    const FacetSurfels surfels = liftedSurfels(facet);
+    const float each = 1.0f / static_cast<float>(emitters.samples);
+    glm::vec3 sum(0);
+    float squares = 0;
+    // Samples wait until a packet is full.
+    std::array<HostRay, kPacket> rays;
+    std::array<float, kPacket> before;
+    std::array<glm::vec3, kPacket> brings;
+    uint32_t waiting = 0;
+    const auto send = [&] {
+      Closed closed{};
+      const uint32_t open = reaching(std::span(rays).first(waiting), before.data(), closed);
+      for (uint32_t i = 0; i < waiting; ++i) {
+        if ((open >> i & 1) == 0) continue;
+        const glm::vec3 brought = brings[i] * openChannels(closed[i]);
+        sum += brought;
+        squares += glm::dot(brought, brought);
+      }
+      waiting = 0;
+    };
+    for (uint32_t k = 0; k < emitters.samples; ++k) {
+      float x;
+      const uint32_t emitter =
+          emitterFacet(emitters.table, shifts.x + (2 * k + 1) * (0x80000000u / emitters.samples), x);
+      if (areNear(voxel, facets_.voxel[emitter])) continue;
+      const SurfelPoint to = liftedSurfel(emitter, static_cast<uint32_t>(x * static_cast<float>(FACET_SURFELS)));
+      const SurfelPoint& start = surfels[raySurfel(k, shifts)];
+      const glm::vec3 way = to.position - start.position;
+      const float reach = glm::length(way);
+      const glm::vec3 direction = way / reach;
+      const float cosines =
+          std::max(glm::dot(start.facing, direction), 0.0f) * std::max(-glm::dot(to.facing, direction), 0.0f);
+      if (cosines == 0) continue;
+      const glm::vec3 exitance = emitters.exitance[emitter];
+      rays[waiting] = {start.position, direction, start.triangle};
+      before[waiting] = reach * (1 - 1e-4f);
+      brings[waiting++] = exitance * (cosines * emitters.power / (luminance(exitance) * IRAD_PI * reach * reach));
+      if (waiting == kPacket) send();
+    }
+    if (waiting > 0) send();
+    const glm::vec3 mean = sum * each;
+    return {mean, each * std::max(squares * each - glm::dot(mean, mean), 0.0f)};
+  }
+
+  /// gi/emitter_point.glsl.
+  static uint32_t emitterFacet(std::span<const Emitter> table, uint32_t u, float& rest) {
+    const uint64_t place = uint64_t{u} * table.size();
+    const Emitter& e = table[place >> 32];
+    const float x = unitFloat(static_cast<uint32_t>(place));
+    const bool own = x < e.keep;
+    rest = own ? x / e.keep : (x - e.keep) / (1 - e.keep);
+    return own ? e.facet : e.other;
+  }
+  static bool areNear(uint32_t a, uint32_t b) {
+    const glm::vec3 d = glm::vec3(unpackVoxel(a)) - glm::vec3(unpackVoxel(b));
+    return glm::dot(d, d) < EMITTERS_NEAR * EMITTERS_NEAR;
+  }
+
+  /// Of a packet those, as bits, that meet nothing before `before`, but for panes.
+  uint32_t reaching(std::span<const HostRay> rays, const float* before, Closed& closed) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    alignas(32) int valid[kPacket] = {};
+    RTCRay8 packet{};
+    for (size_t i = 0; i < rays.size(); ++i) {
+      valid[i] = -1;
+      putRay(packet, i, rays[i], before[i]);
+    }
+    rtcOccluded8(valid, scene_.handle(), &context, &packet);
+    uint32_t open = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      if (packet.tfar[i] >= 0 || passes(rays[i], before[i], closed[i])) open |= 1u << i;
+    }
+    return open;
+  }
+  /// Whether a ray that comes upon something passes through it.
+  bool passes(const HostRay& ray, float before, uint32_t& closed) const {
+    std::vector<PassedThrough::Pane> panes;
+    PassedThrough passed{
+        .context = {}, .facets = &facets_, .ray = &ray, .hiddenBacks = false, .grid = gridOf(ray), .panes = &panes};
+    rtcInitIntersectContext(&passed.context);
+    passed.context.filter = passThrough;
+    RTCRay sent = EmbreeScene::ray(ray.origin, ray.direction, 0, before);
+    rtcOccluded1(scene_.handle(), &passed.context, &sent);
+    if (sent.tfar < 0) return false;
+    for (const PassedThrough::Pane& pane : panes) closed |= pane.closed;
+    return closed != TINT_NONE_LEFT;
+  }
+
+  using FacetSurfels = std::array<SurfelPoint, FACET_SURFELS>;
+  FacetSurfels liftedSurfels(uint32_t facet) const {
+    FacetSurfels all;
+    for (uint32_t i = 0; i < FACET_SURFELS; ++i) all[i] = liftedSurfel(facet, i);
+    return all;
+  }
+  SurfelPoint liftedSurfel(uint32_t facet, uint32_t i) const {
+    const Surfel& s = facets_.surfels[FACET_SURFELS * size_t{facet} + i];
+    SurfelPoint p = surfelOn(triangleAt(facets_, s.triangle & ~SURFEL_BACK), s, unpackVoxel(facets_.voxel[facet]));
+    p.position = liftedOff(p);
+    return p;
+  }
   /// gi/trace_triangles.glsl.
   glm::vec3 liftedOff(const SurfelPoint& p) const {
     if (lattices_.empty()) return liftedStart(p.position, p.facing);
     return liftedFar(p.position, p.facing, triangleAt(facets_, p.triangle));
   }
 
+  static void putRay(RTCRay8& packet, size_t i, const HostRay& ray, float far) {
+    packet.org_x[i] = ray.origin.x;
+    packet.org_y[i] = ray.origin.y;
+    packet.org_z[i] = ray.origin.z;
+    packet.dir_x[i] = ray.direction.x;
+    packet.dir_y[i] = ray.direction.y;
+    packet.dir_z[i] = ray.direction.z;
+    packet.tfar[i] = far;
+    packet.mask[i] = ~0u;
+  }
   void trace(std::span<const HostRay> rays, uint32_t* hits, Closed&& closed) const { trace(rays, hits, closed); }
   void trace(std::span<const HostRay> rays, uint32_t* hits, Closed& closed) const {
     RTCIntersectContext context;
@@ -234,14 +357,7 @@ class EmbreeTrace : public HostTrace {
     RTCRayHit8 packet{};
     for (size_t i = 0; i < rays.size(); ++i) {
       valid[i] = -1;
-      packet.ray.org_x[i] = rays[i].origin.x;
-      packet.ray.org_y[i] = rays[i].origin.y;
-      packet.ray.org_z[i] = rays[i].origin.z;
-      packet.ray.dir_x[i] = rays[i].direction.x;
-      packet.ray.dir_y[i] = rays[i].direction.y;
-      packet.ray.dir_z[i] = rays[i].direction.z;
-      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-      packet.ray.mask[i] = ~0u;
+      putRay(packet.ray, i, rays[i], std::numeric_limits<float>::infinity());
       packet.hit.geomID[i] = packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect8(valid, scene_.handle(), &context, &packet);

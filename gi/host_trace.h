@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "shaders/shared/emitters.h"
 #include "shaders/shared/gi_params.h"
 
 namespace irad {
@@ -22,6 +23,14 @@ struct HostRay {
   glm::vec3 at(float t) const { return origin + direction * t; }
 };
 
+/// What samples of the emitters are drawn from (gi/emitters.h).
+struct EmitterSamples {
+  std::span<const Emitter> table;
+  float power;                          ///< EmitterTable
+  std::span<const glm::vec3> exitance;  ///< of all facets, W/m^2
+  uint32_t samples, seed;
+};
+
 class HostTrace {
  public:
   virtual ~HostTrace() = default;
@@ -30,6 +39,9 @@ class HostTrace {
   /// `tintShift`: TraceRaysPush.
   virtual void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits,
                     uint32_t threads = 0, bool sky = false, uint32_t tintShift = 0) const = 0;
+  /// Per facet: the light that samples of the emitters bring, W/m^2, and (w) its variance, as the kernel without near
+  /// emitters (shaders/gi/sample_emitters.comp). `threads`: as above.
+  virtual void emitters(const EmitterSamples& from, std::span<glm::vec4> light, uint32_t threads = 0) const = 0;
   /// What rays from anywhere meet, one after the other: a facet or TRACE_*. For several threads at once.
   virtual void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const = 0;
 };

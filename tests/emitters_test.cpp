@@ -2,6 +2,7 @@
 // check tiny-emitter`.
 #include "gi/emitters.h"
 #include "gi/gather_emitters.h"
+#include "gi/host_trace.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
 #include "gi/solve.h"
@@ -157,6 +158,57 @@ TEST_F(EmitterSamples, SamplesThatLoseLightAreNotUsed) {
   EXPECT_FALSE(automatic.correction);
   EXPECT_EQ(values(automatic.emitted), values(rays.emitted));
   EXPECT_EQ(values(automatic.indirect), values(rays.indirect));
+}
+
+TEST_F(EmitterSamples, TheHostFindsWhatTheKernelFinds) {
+  if (!canTraceOnHost()) GTEST_SKIP() << "built without IRAD_EMBREE";
+  if (!context().device.isCpu) GTEST_SKIP() << "the kernel samples the emitters on GPUs";
+  // Past a ball, through a mask of vertices' alpha and a pane that tints.
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(0.7f, 0.5f, 0.2f)), lamp = b.material(glm::vec3(0.1f), glm::vec3(3, 2, 1)),
+                 pane = b.material(glm::vec3(0.9f, 0.5f, 0.2f)), veil = b.material(glm::vec3(0.6f));
+  b.box({m, m, m, m, m, m}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+  b.quad(lamp, {0.3f, 0.9f, 0.2f}, {0.8f, 0.9f, 0.2f}, {0.8f, 0.9f, 0.7f}, {0.3f, 0.9f, 0.7f});
+  b.sphere(m, glm::vec3(-0.4f, -0.3f, -0.2f), 0.35f, /*inward=*/false, 12);
+  b.quad(pane, {-1, 0.52f, 1}, {0.2f, 0.53f, 1}, {0.2f, 0.55f, -1}, {-1, 0.54f, -1});
+  b.quad(veil, {0, -0.1f, 1}, {1, -0.11f, 1}, {1, -0.15f, -1}, {0, -0.14f, -1});
+  b.edit(pane).transmission = 0.9f;
+  b.edit(veil).alpha = AlphaMode::Blend;
+  b.edit(veil).baseColor.a = 0.4f;
+  const World w = world(b.finish("veils"), at(24, 64));
+  const Emitters emitters = listEmitters(context(), w.facets);
+  const FormFactors f = buildMatrix(context(), w.facets, w.field, w.settings);
+  const auto found = [&](bool onHost) {
+    Lighting light = makeLighting(context(), w.facets, w.settings);
+    gatherEmitters(context(), w.facets, f, {&emitters, &w.field, onHost}, w.settings, light);
+    EXPECT_TRUE(light.correction);
+    return values(light.emitted);
+  };
+  const std::vector<glm::vec4> host = found(true), kernel = found(false);
+  EXPECT_EQ(host, found(true)) << "the same bits twice";
+  size_t differ = 0;
+  glm::dvec4 byHost(0), byKernel(0);
+  for (size_t i = 0; i < host.size(); ++i) {
+    byHost += host[i];
+    byKernel += kernel[i];
+    // A ray of 128 that ends otherwise changes more than this.
+    differ += glm::length(glm::vec3(host[i] - kernel[i])) > 1e-4f * glm::length(glm::vec3(kernel[i])) + 1e-6f;
+  }
+  fmt::print(
+      "F M of {} of {} facets differs between host and kernel; sums apart by {:.2g} {:.2g} {:.2g}, variance {:.2g}\n",
+      differ, host.size(), byHost.x / byKernel.x - 1, byHost.y / byKernel.y - 1, byHost.z / byKernel.z - 1,
+      byHost.w / byKernel.w - 1);
+  EXPECT_LT(differ, host.size() / 50) << "ties alone";
+  for (int c = 0; c < 4; ++c) EXPECT_NEAR(byHost[c] / byKernel[c], 1, 1e-3) << c;
+
+  // The threads that share the work do not show.
+  const auto table = downloadAs<Emitter>(context(), emitters.entries);
+  const auto exitance = downloadAs<glm::vec3>(context(), w.facets.emission);
+  const auto trace = makeHostTrace(context(), w.facets);
+  std::vector<glm::vec4> one(w.facets.count), three(w.facets.count);
+  trace->emitters({table, emitters.power, exitance, 32, 1}, one, /*threads=*/1);
+  trace->emitters({table, emitters.power, exitance, 32, 1}, three, /*threads=*/3);
+  EXPECT_EQ(one, three);
 }
 
 }  // namespace

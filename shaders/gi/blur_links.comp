@@ -20,7 +20,7 @@ void main() {
   FacetLinks links = linksOf(surface, facet, p.voxel.at[facet]);
   vec3 own = p.indirect.at[facet].xyz;
   vec3 sumH = vec3(0.0), sumE = vec3(0.0);
-  float sumSquares = 0.0, sumNoise = 0.0, total = 0.0;
+  float sumSquares = 0.0, sumNoise = 0.0, sumVariance = 0.0, ownWeight = 0.0, total = 0.0;
   for (uint i = 0u; i < 27u; ++i) {
     uint other = linkedFacet(surface, p.reverse, p.dims, links, i);
     if (other == NO_FACET) continue;
@@ -29,7 +29,12 @@ void main() {
                    max(surface.area.at[other], 1e-6);
     vec3 h = p.indirect.at[other].xyz;
     sumH += weight * h;
-    if (EMITTED) sumE += weight * p.emitted.at[other].xyz;
+    if (EMITTED) {
+      vec4 emitted = p.emitted.at[other];
+      sumE += weight * emitted.xyz;
+      sumVariance += weight * weight * emitted.w;
+      if (i == OWN_VOXEL) ownWeight = weight;
+    }
     if (WEIGHS) {
       // About the facet's own H: sums of squares of H itself would lose what small differences there are.
       vec3 off = h - own, error = p.error.at[other].xyz;
@@ -47,7 +52,13 @@ void main() {
     if (variance > noise) keep = 1.0 - noise / variance;
   }
   if (STORES) p.blurred.at[facet] = vec4(mix(mean, own, keep), 0.0);
-  if (STORES && EMITTED) p.blurredEmitted.at[facet] = vec4(mix(sumE / total, p.emitted.at[facet].xyz, keep), 0.0);
+  if (STORES && EMITTED) {
+    vec4 emitted = p.emitted.at[facet];
+    // The variance that is left of the samples', w; the facet's own are in the mean, too.
+    float inMean = (1.0 - keep) / total;
+    float variance = inMean * inMean * sumVariance + keep * (keep + 2.0 * inMean * ownWeight) * emitted.w;
+    p.blurredEmitted.at[facet] = vec4(mix(sumE / total, emitted.xyz, keep), variance);
+  }
   // At most: what is kept is not known where nothing is stored, and the plan wants one number either way.
   vec3 change = abs(mean - own);
   uint bits = floatBitsToUint(max(change.r, max(change.g, change.b)));

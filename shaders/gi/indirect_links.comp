@@ -26,6 +26,9 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D directTarget;
 #include "gi/sought_facet.glsl"
 #include "gi/outer_irradiance.glsl"
 
+/// Of F M, over its mean: what one sees as blotches.
+const float LEAST_NOISE = 0.05;
+
 void keepFacet(ivec2 pixel, uint facet) {
   if (uint64_t(push.facet) != 0ul) push.facet.at[uint(pixel.y) * push.size.x + uint(pixel.x)] = facet;
 }
@@ -81,10 +84,11 @@ void main() {
     SurfaceTaps taps = surfaceTaps(surface, push.reverse, push.voxel, grid.dims, facet, p, push.sampling.filter_);
     h = lookup.x * tapped(taps, push.shaded);
     if (EMITTED) {
-      float spread;
-      vec3 emitted = tapped(taps, push.shadedEmitted, spread);
-      // How much of F M a pixel should look for itself: none where the facets around agree on it within 3 tenths.
-      e = vec4(lookup.x * emitted, smoothstep(0.3, 0.5, spread));
+      float spread, noise;
+      vec3 emitted = tapped(taps, push.shadedEmitted, spread, noise);
+      // How much of F M a pixel should look for itself: none where the facets around know it and agree on it within 3
+      // tenths.
+      e = vec4(lookup.x * emitted, max(smoothstep(0.3, 0.5, spread), smoothstep(LEAST_NOISE, 2.0 * LEAST_NOISE, noise)));
     }
   }
   if (EMITTED) imageStore(emittedTarget, pixel, e);

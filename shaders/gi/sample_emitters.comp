@@ -10,6 +10,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_MATRIX_FORMAT) const uint FORMAT = MATRIX_CSR;
+layout(constant_id = CONSTANT_BY_HOST) const bool BY_HOST = false;
 layout(push_constant, scalar) uniform Push { SampleEmittersPush p; };
 
 #include "gi/emitter_point.glsl"
@@ -80,10 +81,16 @@ void main() {
   TraceWorld world = TraceWorld(f, p.chebyshev, p.dims, p.jfaMax);
   uint packedVoxel = f.voxel.at[facet];
   uvec3 voxel = unpackVoxel(packedVoxel);
-  uvec4 shifts = rayShifts(packedVoxel, p.seed ^ 0x5A3D9E71u, 1u);
+  uvec4 shifts = rayShifts(packedVoxel, p.seed ^ EMITTERS_SEED, 1u);
 
   Estimate close = nearEmitters(f, p.matrix.at[0], facet, voxel);
-  Estimate far = sampled(table, f, world, p.surface.at[0], facet, voxel, shifts);
+  Estimate far;
+  if (BY_HOST) {
+    vec4 found = p.byHost.at[facet];
+    far = Estimate(found.xyz, found.w);
+  } else {
+    far = sampled(table, f, world, p.surface.at[0], facet, voxel, shifts);
+  }
   vec3 light = close.mean + far.mean;
   p.correction.at[facet] = vec4(light - p.emitted.at[facet].xyz, 0.0f);
   p.emitted.at[facet] = vec4(light, close.variance + far.variance);

@@ -66,20 +66,22 @@ vec3 tapped(SurfaceTaps taps, Vec4Array values) {
   return sum;
 }
 
-/// The same, and by how much the largest channel of what is summed differs: 1 - least / most.
-vec3 tapped(SurfaceTaps taps, Vec4Array values, out float spread) {
-  vec3 sum = vec3(0.0);
+/// The same of values with a variance, w, and how little they say of the point between them: `spread`, by how much their
+/// largest channels differ (1 - least / most), and `noise`, their standard deviation over their mean.
+vec3 tapped(SurfaceTaps taps, Vec4Array values, out float spread, out float noise) {
+  vec4 sum = vec4(0.0);
   float least = 1e30, most = 0.0;
   for (int i = 0; i < 8; ++i) {
     if (taps.weight[i] <= 0.0) continue;
-    vec3 value = values.at[taps.facet[i]].xyz;
+    vec4 value = values.at[taps.facet[i]];
     sum += taps.weight[i] * value;
     float largest = max(value.r, max(value.g, value.b));
     least = min(least, largest);
     most = max(most, largest);
   }
   spread = most > 0.0 ? 1.0 - least / most : 0.0;
-  return sum;
+  noise = sum.w > 0.0 ? sqrt(sum.w) / length(sum.xyz) : 0.0;
+  return sum.xyz;
 }
 
 #endif

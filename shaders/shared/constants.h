@@ -28,6 +28,7 @@ IRAD_CONST uint CONSTANT_BLUR_WEIGHS = 29u;    ///< gi/blur_links.comp
 IRAD_CONST uint CONSTANT_EMITTED = 36u;        ///< F M too, beside H
 IRAD_CONST uint CONSTANT_SOLVE_VECTORS = 37u;  ///< gi/solve_sums.comp, gi/extrapolate.comp: n
 IRAD_CONST uint CONSTANT_REFLECTED = 38u;      ///< there is light written back, W
+IRAD_CONST uint CONSTANT_BY_HOST = 28u;        ///< gi/sample_emitters.comp: the host has traced the samples
 IRAD_CONST uint CONSTANT_FRAMES = 39u;         ///< light by brute force: there is no matrix
 
 // Pictures.

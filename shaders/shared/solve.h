@@ -174,11 +174,13 @@ struct SampleEmittersPush {
   EmitterRecord emitters;
   Vec4Array emitted;     ///< F M by rays; becomes that by samples, w: their variance were they independent
   Vec4Array correction;  ///< the difference
+  Vec4Array byHost;      ///< CONSTANT_BY_HOST: what samples bring, w: the variance
   uvec3 dims;
   float jfaMax;
   uint samples, seed;
   SurfaceRecord surface;  ///< hit rule triangles
 };
+IRAD_CONST uint EMITTERS_SEED = 0x5A3D9E71u;  ///< with that of the rays: the samples' directions are others
 /// Emitters nearer than this, in voxels from centre to centre, are left to the rays: a sample of so near a face would
 /// weigh too much.
 IRAD_CONST float EMITTERS_NEAR = 4.0f;

@@ -259,7 +259,7 @@ struct BlurLinksPush {
   SurfaceRecord surface;
   UintArray voxel, reverse;
   Vec4Array indirect, emitted;
-  Vec4Array blurred, blurredEmitted;
+  Vec4Array blurred, blurredEmitted;  ///< of emitted w: the variance of samples
   UintArray change;  ///< [0]: float bits of the largest |mean over the links - H|, W/m^2
   Vec4Array error;   ///< xyz: a vector as long as the standard error of H, W/m^2
   uvec3 dims;
