@@ -145,7 +145,8 @@ void SceneArguments::declare(Options& options) {
   options.value(
       "--sky", "FILE", sky,
       "Picture of the sky, equirectangular (.hdr, .exr, .pfm), or a built-in one (evening); sky.* turn and scale it");
-  options.flag("--no-sidecar", noSidecar, "Leave lights, materials, hidden nodes, cameras and region of SCENE.irad.json aside");
+  options.flag("--no-sidecar", noSidecar,
+               "Leave lights, materials, hidden nodes, cameras and region of SCENE.irad.json aside");
 }
 
 /// A file that is there, or a built-in one by its name: a folder "box" does not hide it.
