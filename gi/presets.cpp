@@ -46,8 +46,8 @@ void fast(Settings& s, bool cpuDevice) {
 }
 
 void reference(Settings& s, bool cpuDevice) {
-  s.voxel.resolution = cpuDevice ? 128 : 320;
-  s.matrix.gpu.rays = cpuDevice ? 512 : 992;  // what an entry of 32 bits counts beside four million facets
+  s.voxel.resolution = cpuDevice ? 128 : 512;
+  s.matrix.gpu.rays = cpuDevice ? 512 : 384;
   s.solver.tolerance = 1e-4f;
   s.sample.emitters = EmitterLookup::pixels;
   s.sample.emitterRays = 32;

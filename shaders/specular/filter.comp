@@ -1,6 +1,7 @@
 // "RE Specular": one step of an edge-aware a-trous filter over the traced radiance (Dammertz et al. 2010): 3 x 3 taps
-// STEP pixels apart, weighted by plane, normal and roughness, at the listed pixels. The last step (RESOLVE) multiplies
-// by the lobe's reflectance and blends with the reflection of the diffuse irradiance near max_roughness.
+// STEP pixels apart, weighted by plane, normal and roughness, at the listed pixels. Normals may differ by as much as
+// those of the lobe's microfacets do: further off, a curved surface shows another reflection. The last step (RESOLVE)
+// multiplies by the lobe's reflectance and blends with the reflection of the diffuse irradiance near max_roughness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"
@@ -17,6 +18,9 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D indirectTarget;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D from;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D to;
 
+/// Normals are known to half floats.
+const float LEAST_LOBE = 0.01;
+
 void main() {
   GpuCamera camera = push.camera.at[0];  // before any branch: read once for all lanes
   ivec2 pixel;
@@ -32,6 +36,8 @@ void main() {
     float footprint = 2.0 * length(camera.inverseViewProjection[1].xyz) / float(camera.size.y) *
                       (camera.orthographic != 0u ? 1.0 : centre.w);
     float tolerance = 1.0 / (footprint * float(STEP));
+    float alpha = max(normal.w * normal.w, LEAST_LOBE);
+    float sharpness = 1.0 / (alpha * alpha);
     vec3 sum = vec3(0.0);
     float total = 0.0;
     for (int i = 0; i < 9; ++i) {
@@ -41,12 +47,11 @@ void main() {
       vec4 tap = imageLoad(from, at);
       if (tap.w < 0.0) continue;
       vec4 other = imageLoad(normalTarget, at);
-      float facing = max(dot(normal.xyz, other.xyz), 0.0);
-      facing *= facing;
-      facing *= facing;
+      vec3 turned = other.xyz - normal.xyz;
       float plane = abs(dot(face, pixelPosition(camera, at, tap.w, axis) - position)) * tolerance;
-      float weight = (offset.x == 0 ? 2.0 : 1.0) * (offset.y == 0 ? 2.0 : 1.0) * facing * facing * facing *
-                     clamp(2.0 - plane, 0.0, 1.0) * clamp(1.0 - 8.0 * abs(other.w - normal.w), 0.0, 1.0);
+      float weight = (offset.x == 0 ? 2.0 : 1.0) * (offset.y == 0 ? 2.0 : 1.0) *
+                     exp2(-dot(turned, turned) * sharpness) * clamp(2.0 - plane, 0.0, 1.0) *
+                     clamp(1.0 - 8.0 * abs(other.w - normal.w), 0.0, 1.0);
       sum += weight * tap.rgb;
       total += weight;
     }
