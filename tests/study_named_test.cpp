@@ -116,9 +116,9 @@ TEST(NamedFits, AreThoseOfTheirCurves) {
   const auto parabola = [](double x) { return std::pair(x, (x - .73) * (x - .73)); };
   EXPECT_NEAR(leastAt({parabola(.5), parabola(.6), parabola(.7), parabola(.8), parabola(1)}), .73, 1e-12);
   EXPECT_EQ(leastAt({{.5, 3}, {.9, 2}, {1, 1}}), 1) << "an end is the least";
-  EXPECT_EQ(compare({1, .1}, {1.15, .1}), Order::Equal);
-  EXPECT_EQ(compare({1, .1}, {1.3, .1}), Order::Less);
-  EXPECT_EQ(compare({1, HUGE_VAL}, {1.3, .1}), Order::Unknown) << "one seed";
+  EXPECT_EQ(compare({1, .1}, {1.15, .1}), IntervalOrder::Equal);
+  EXPECT_EQ(compare({1, .1}, {1.3, .1}), IntervalOrder::Less);
+  EXPECT_EQ(compare({1, HUGE_VAL}, {1.3, .1}), IntervalOrder::Unknown) << "one seed";
 }
 
 TEST(Judges, OfBruteForce) {

@@ -45,14 +45,14 @@ Answer normalsMatterLittle(const NamedResults& r) {
 
 Answer octahedralIsBetterOnCurves(const NamedResults& r) {
   const ExperimentResult& e = experimentOf(r, "curved-thesis");
-  const Order order = compare(encoded(e, "oct8").flip, encoded(e, "axis26").flip);
+  const IntervalOrder order = compare(encoded(e, "oct8").flip, encoded(e, "axis26").flip);
   std::string text = fmt::format("FLIP by encoding, {}", encodings(e));
   for (const ExperimentResult* ours : r.measured("curved-ours")) text += "; " + encodings(*ours);
-  text += order == Order::Less    ? ". Octahedral normals are better than axes."
-          : order == Order::More  ? ". Octahedral normals are worse than axes."
-          : order == Order::Equal ? ". Octahedral normals and axes cannot be told apart."
-                                  : ". One seed does not tell them apart.";
-  return {order == Order::Unknown ? Judgement::Open : agreesIf(order == Order::Less), text};
+  text += order == IntervalOrder::Less    ? ". Octahedral normals are better than axes."
+          : order == IntervalOrder::More  ? ". Octahedral normals are worse than axes."
+          : order == IntervalOrder::Equal ? ". Octahedral normals and axes cannot be told apart."
+                                          : ". One seed does not tell them apart.";
+  return {order == IntervalOrder::Unknown ? Judgement::Open : agreesIf(order == IntervalOrder::Less), text};
 }
 
 Answer voxelsAreMissing(const NamedResults& r) {
@@ -187,7 +187,7 @@ Answer premultiplyingMendsEdges(const NamedResults& r) {
   for (const ExperimentResult* e : ending(r, "-thesis")) {
     const PointSummary &without = mode(*e, "blur", "false"), &with = mode(*e, "blur", "true");
     const double light = e->light(without) / e->light(with) - 1;
-    mends = mends && light < -.02 && compare(with.flip, without.flip) != Order::More;
+    mends = mends && light < -.02 && compare(with.flip, without.flip) != IntervalOrder::More;
     parts.push_back(fmt::format("{}: {} of the mean light without it, FLIP {} instead of {}", e->experiment.name,
                                 signedPercent(light), withInterval(without.flip), withInterval(with.flip)));
   }
@@ -204,9 +204,9 @@ Answer edgeRemovalMendsEdges(const NamedResults& r) {
   for (const ExperimentResult* e : ending(r, "-thesis")) {
     const PointSummary &off = pointOf(*e, {{"scatter.edge_removal", "false"}}),
                        &on = pointOf(*e, {{"scatter.edge_removal", "true"}});
-    const Order order = compare(on.flip, off.flip);
-    better += order == Order::Less ? 1 : 0;
-    known = known && order != Order::Unknown;
+    const IntervalOrder order = compare(on.flip, off.flip);
+    better += order == IntervalOrder::Less ? 1 : 0;
+    known = known && order != IntervalOrder::Unknown;
     const double truth = figureOf(*e, "truth_mean");
     parts.push_back(fmt::format("{}: FLIP {} with it, {} without; mean light {} of the truth instead of {}",
                                 e->experiment.name, withInterval(on.flip), withInterval(off.flip),
