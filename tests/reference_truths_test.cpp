@@ -67,6 +67,17 @@ TEST_F(ExactSolve, AFurnaceIsExact) {
   }
 }
 
+TEST_F(ExactSolve, EndsWhereItsProgressSaysSo) {
+  Pipeline pipeline(context(), furnaceBox(0.5f), at(12, 16));
+  pipeline.prepare();
+  // While rows are read, and within a sweep.
+  for (const int last : {1, 2, 3}) {
+    int asked = 0;
+    EXPECT_THROW(solveExactly(context(), pipeline, 1e-12, [&](float) { return ++asked < last; }), WorkError);
+    EXPECT_EQ(asked, last);
+  }
+}
+
 TEST_F(ExactSolve, TheSolverIsWithinItsBound) {
   // Lamps, points, spots; emitters that are sampled.
   for (const SolverAcceleration acceleration : {SolverAcceleration::off, SolverAcceleration::anderson})

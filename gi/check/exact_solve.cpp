@@ -14,6 +14,9 @@
 namespace irad {
 namespace {
 
+/// Progress is told of after so many rows: a sweep over a large matrix takes seconds.
+constexpr uint32_t kBetweenRows = 1 << 14;
+
 /// Rows of F, one after the other.
 struct Rows {
   std::vector<size_t> first{0};
@@ -31,9 +34,11 @@ struct Rows {
   }
 };
 
-Rows rowsOf(Context& context, const FormFactors& matrix) {
+Rows rowsOf(Context& context, const FormFactors& matrix, const std::function<void()>& watch) {
   Rows rows;
-  forEachRow(context, matrix, [&](uint32_t, const HostRow& row) {
+  rows.columns.reserve(matrix.stats.entries), rows.hits.reserve(matrix.stats.entries);
+  forEachRow(context, matrix, [&](uint32_t index, const HostRow& row) {
+    if (index % kBetweenRows == 0) watch();
     rows.columns.insert(rows.columns.end(), row.columns.begin(), row.columns.end());
     rows.hits.insert(rows.hits.end(), row.hits.begin(), row.hits.end());
     rows.first.push_back(rows.columns.size());
@@ -53,8 +58,12 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
   const FacetList& list = pipeline.facets();
   const Lighting& light = pipeline.lighting();
   IRAD_CHECK(pipeline.matrix() && light, "there is neither matrix nor light to solve");
+  const auto report = [&](float done) {
+    if (progress && !progress(done)) throw WorkError("cancelled");
+  };
+  report(0);
   const HostFacets facets = hostFacets(context, list);
-  const Rows rows = rowsOf(context, pipeline.matrix());
+  const Rows rows = rowsOf(context, pipeline.matrix(), [&] { report(0); });
   const std::vector<glm::vec3> direct = perFacet(context, list, light.direct), sky = perFacet(context, list, light.sky),
                                correction = perFacet(context, list, light.correction),
                                reflected = perFacet(context, list, light.writeback.used),
@@ -73,9 +82,11 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
   ExactLight out;
   out.indirect.resize(count);
   out.radiosity.assign(start.begin(), start.end());
+  float solved = 0;  // share of the way
   const auto sweep = [&] {
     double change = 0;
     for (size_t i = 0; i < count; ++i) {
+      if (i % kBetweenRows == 0) report(solved);
       // The sweeps' own equation (shaders/gi/solve.glsl): the emitters' correction never takes H below 0.
       glm::dvec3 h = rows.product(i, out.radiosity) + lambda * glm::dvec3(correction[i]);
       h = glm::max(h, glm::dvec3(0)) + glm::dvec3(sky[i]);
@@ -111,8 +122,9 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
           fmt::format("after {} sweeps in double precision H is known to {:.3g} of its mean, which gets no "
                       "better; {:.3g} was asked for",
                       out.sweeps, out.bound / out.meanH, tolerance));
-    const double done = allowed > 0 && first > allowed ? std::log(first / out.bound) / std::log(first / allowed) : 0;
-    if (progress && !progress(static_cast<float>(done))) throw WorkError("cancelled");
+    solved = allowed > 0 && first > allowed
+                 ? static_cast<float>(std::log(first / out.bound) / std::log(first / allowed))
+                 : 0;
   }
   // H of the B that came out, as the equation has it.
   std::vector<glm::dvec3> h(count);
