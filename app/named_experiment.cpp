@@ -316,6 +316,15 @@ void ExperimentRunner::measureFigures(const Experiment& e, const StudyRun& run, 
     return pipeline;
   };
   const auto failed = [&](size_t point) { return run.results().hasFailed(point); };
+  if (e.engine == "EEVEE" && e.view == "lit" && !has("cycles_flip")) {
+    // How far EEVEE is from Cycles, whatever ours are like.
+    const LinearPicture cycles = blenderPart(task.out.parent_path() / "blender",
+                                             {scene_->path, e.camera, "CYCLES", task.size, scale_.samples}, e.view);
+    figures["cycles_mean"] = meanOf(cycles.pixels);
+    figures["cycles_flip"] =
+        measurePicture(task.size, run.truth().first, cycles.pixels, {}, std::exp2(session_.settings.camera.exposureEv))
+            .flip;
+  }
   if (e.flicker)
     for (size_t point = 0; point < grid.size(); ++point) {
       throwIfStopped();
