@@ -90,18 +90,20 @@ std::vector<std::optional<glm::dvec3>> gatherAtPixels(Context& context, const Fa
   };
 
   std::atomic<uint32_t> next = 0;
+  std::atomic<bool> ended = false;  // before it is done
   const auto work = [&](bool watches) {
-    for (uint32_t row; (row = next++) < task.size.y;) {
-      for (uint32_t x = 0; x < task.size.x; ++x) out[row * task.size.x + x] = pixel(row * task.size.x + x);
-      if (watches) watch();
-    }
+    for (uint32_t row; (row = next++) < task.size.y;)
+      for (uint32_t x = 0; x < task.size.x && !ended; ++x) {
+        out[row * task.size.x + x] = pixel(row * task.size.x + x);
+        if (watches) watch();
+      }
   };
   std::vector<std::jthread> others;
   for (uint32_t t = 1; t < std::max(1u, std::thread::hardware_concurrency()); ++t) others.emplace_back(work, false);
   try {
     work(true);
   } catch (...) {
-    next = task.size.y;  // no further row for the others
+    ended = true;
     throw;
   }
   return out;

@@ -422,7 +422,7 @@ struct Pipeline::Impl {
     const Settings& obeyed = planned.settings();
     if (!framewise()) {
       solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps,
-            goesOn);
+            maxSweeps == 0 ? goesOn : std::function<bool()>());  // few sweeps are done before anybody asks
       return;
     }
     const bool byFrames = maxSweeps != 0;

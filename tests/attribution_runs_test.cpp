@@ -235,12 +235,11 @@ std::optional<double> aboutSeconds(const std::string& text) {
 TEST_F(AttributionRuns, SayBeforehandHowLongTheyTake) {
   IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
-  // Scenes whose times go to different stages: the gather; many rays; finer voxels.
+  // Times go to the gather and to many rays; to finer voxels.
   struct Kind {
     const char *scene, *voxels, *rays, *gather, *finer;
   };
-  for (const Kind& k : {Kind{"box", "16", "32", "256", "2"}, Kind{"park", "24", "64", "16", "2"},
-                        Kind{"check:bent-tunnel", "20", "32", "16", "3"}}) {
+  for (const Kind& k : {Kind{"box", "12", "64", "512", "1.5"}, Kind{"check:bent-tunnel", "12", "32", "16", "3"}}) {
     const fs::path err = folder_.path / "err";
     Process process(iradProgram(),
                     {"study",
@@ -255,7 +254,7 @@ TEST_F(AttributionRuns, SayBeforehandHowLongTheyTake) {
                      "--repeats",
                      "2",
                      "--reference-samples",
-                     "128",
+                     "64",
                      "--set",
                      std::string("voxel.resolution=") + k.voxels,
                      "--set",
@@ -267,7 +266,7 @@ TEST_F(AttributionRuns, SayBeforehandHowLongTheyTake) {
                      "--finer",
                      k.finer,
                      "--out",
-                     at(std::string("out-") + k.voxels)},
+                     at(std::string("out-") + k.finer)},
                     "/dev/null", err);
     while (!process.poll() && !aboutSeconds(slurp(err))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const auto began = std::chrono::steady_clock::now();
