@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "gi/matrix.h"
 #include "gi/study/attribution.h"
 #include "gi/study/attribution_time.h"
 #include "renderer/base/csv.h"
@@ -306,6 +307,14 @@ TEST(Foreseen, IsTheSumOfWhatIsNotThereYet) {
   times.took({rays}, {.build = {0, 0, 100, 4}, .draw = 1});
   EXPECT_DOUBLE_EQ(*times.predict({rays}, true, Ideals{}), 105);
   EXPECT_DOUBLE_EQ(*times.predict({}, false, Ideals{rays}), 14);
+}
+
+TEST(ManyRays, AreAtMostWhatARowCountsBesideItsColumns) {
+  // Of 32 bits 21 name one of 1.6 million facets, and 3 more which channels panes keep off.
+  EXPECT_EQ(mostRaysOfRows(1'600'000, false), 2047u);
+  EXPECT_EQ(mostRaysOfRows(1'600'000, true), 255u);
+  EXPECT_EQ(mostRaysOfRows(1u << 20, false), 4095u);
+  EXPECT_EQ(mostRaysOfRows(0, false), mostRaysOfRows(2, false)) << "there is no scene, and a row of one bit";
 }
 
 TEST(Foreseen, FramesOfBruteForceAreAsLongEach) {
