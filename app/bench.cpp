@@ -55,13 +55,13 @@ void Bench::collect(WorkKind kind) {
 }
 
 void Bench::prepare(const Progress& progress) {
-  pipeline_.prepare(progress);
+  pipeline_.prepare(progress ? progress : watch_);
   collect(WorkKind::Setup);
 }
 
 void Bench::rebuild() {
   pipeline_.invalidate(Redo::Voxels);
-  pipeline_.prepare();
+  pipeline_.prepare(watch_);
   collect(WorkKind::Setup);
 }
 
@@ -70,12 +70,12 @@ void Bench::relight() {
   const float factor = relights_++ % 2 == 0 ? 1.02f : 1.0f / 1.02f;
   for (GpuLight& light : pipeline_.device().lightValues) light.intensity *= factor;
   pipeline_.lightsChanged();
-  pipeline_.prepare();
+  pipeline_.prepare(watch_);
   collect(WorkKind::Relight);
 }
 
 void Bench::settle() {
-  pipeline_.settleReflections(camera_, targets_);
+  pipeline_.settleReflections(camera_, targets_, watch_);
   context_.timings.reset();
 }
 
@@ -136,8 +136,8 @@ TickWork Bench::ticks(Moving moving, uint32_t count, bool redraws) {
 
 std::vector<glm::vec4> Bench::pictures(std::span<const View> views, const std::function<void()>& whileLit) {
   std::vector<glm::vec4> pixels;
-  pipeline_.solvedAfresh({}, [&] {
-    pipeline_.settleReflections(camera_, targets_);
+  pipeline_.solvedAfresh(watch_, [&] {
+    pipeline_.settleReflections(camera_, targets_, watch_);
     pixels = picturesAsLit(views);
     if (whileLit) whileLit();
   });

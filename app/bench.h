@@ -27,7 +27,9 @@ struct TickWork {
 class Bench {
  public:
   Bench(Context& context, Scene scene, const Settings& settings, glm::uvec2 size, View view, const Camera& camera);
-  void prepare(const Progress& progress);
+  /// Called between steps of whatever is called from now on, prepare() with a progress of its own apart. It may throw.
+  void watch(Progress watch) { watch_ = std::move(watch); }
+  void prepare(const Progress& progress = {});
   void rebuild();      ///< voxels to matrix anew (Setup), and the relight that follows (Cold)
   void relight();      ///< lights nudged by 2 %: shadows, gather, solve, scatter
   void cameraFrame();  ///< one picture, nothing else dirty
@@ -67,6 +69,7 @@ class Bench {
   void collect(WorkKind kind);
   void draw();
   Context& context_;
+  Progress watch_;
   Pipeline pipeline_;
   Targets targets_;
   View view_;

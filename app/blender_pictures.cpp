@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "app/named_experiment.h"
@@ -23,14 +24,18 @@ fs::path blender() {
   return findProgram("blender");
 }
 
-struct Parts {
-  std::string_view view;
+struct Part {
   const char *light, *color;  ///< passes that are multiplied; no colour: the light as it is
 };
-constexpr Parts kParts[] = {{"lit", "combined", nullptr},
-                            {"direct", "diffdir", "diffcol"},
-                            {"indirect", "diffind", "diffcol"},
-                            {"specular", "glossind", "glosscol"}};
+struct Parts {
+  std::string_view view;
+  std::vector<Part> sum;
+};
+/// Our direct light has highlights of lights in it, and what surfaces emit.
+const Parts kParts[] = {{"lit", {{"combined", nullptr}}},
+                        {"direct", {{"diffdir", "diffcol"}, {"glossdir", "glosscol"}, {"emit", nullptr}}},
+                        {"indirect", {{"diffind", "diffcol"}}},
+                        {"specular", {{"glossind", "glosscol"}}}};
 
 }  // namespace
 
@@ -42,8 +47,8 @@ std::string whyNoBlender() {
 }
 
 LinearPicture blenderPart(const fs::path& folder, const BlenderPicture& picture, std::string_view view) {
-  const auto* const part = std::ranges::find(kParts, view, &Parts::view);
-  IRAD_CHECK(part != std::end(kParts), "a view that Blender's passes give");
+  const auto* const parts = std::ranges::find(kParts, view, &Parts::view);
+  IRAD_CHECK(parts != std::end(kParts), "a view that Blender's passes give");
   const std::string stem = fmt::format("{}.{}.{}.{}x{}.{}", picture.scene.stem().string(), picture.camera,
                                        picture.engine, picture.size.x, picture.size.y, picture.samples);
   const fs::path done = folder / stem;  // all passes, or it is not there
@@ -88,10 +93,15 @@ LinearPicture blenderPart(const fs::path& folder, const BlenderPicture& picture,
       throw NoPicture(fmt::format("{}: {} x {} pixels", fileOf(pass).string(), out.size.x, out.size.y));
     return out;
   };
-  LinearPicture out = read(part->light);
-  if (!part->color) return out;
-  const LinearPicture color = read(part->color);
-  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] *= color.pixels[i];
+  LinearPicture out{picture.size, std::vector<glm::vec4>(size_t{picture.size.x} * picture.size.y, {0, 0, 0, 1})};
+  for (const Part& part : parts->sum) {
+    const LinearPicture light = read(part.light);
+    const std::optional<LinearPicture> color = part.color ? std::optional(read(part.color)) : std::nullopt;
+    for (size_t i = 0; i < out.pixels.size(); ++i) {
+      const glm::vec3 tint = color ? glm::vec3(color->pixels[i]) : glm::vec3(1);
+      out.pixels[i] += glm::vec4(glm::vec3(light.pixels[i]) * tint, 0);
+    }
+  }
   return out;
 }
 

@@ -23,8 +23,9 @@ struct BlenderPicture {
 struct NoPicture : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// What a view of ours is in Blender's passes, as linear radiance: lit, direct, indirect (diffuse) or specular
-/// (indirect glossy). Made in `folder` where it is not there yet. NoPicture where Blender fails.
+/// What a view of ours is in Blender's passes, as linear radiance: lit, direct (with highlights, and what is
+/// emitted), indirect (diffuse) or specular (indirect glossy). Made in `folder` where it is not there yet. NoPicture
+/// where Blender fails.
 LinearPicture blenderPart(const std::filesystem::path& folder, const BlenderPicture& picture, std::string_view view);
 
 }  // namespace irad::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/bench.h"
 #include "app/device_session.h"
@@ -87,6 +88,15 @@ std::vector<glm::vec4> FacetTruths::half(Settings settings, uint32_t seed, const
   }
   settings.matrix.gpu.seed = seed;
   const auto began = std::chrono::steady_clock::now();
+  if (!light(settings)) return {};
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+  FramesState state{made, spent.count(), saveFrames(*session_.context, bench_.pipeline().lighting())};
+  makeFolder(folder_);
+  writeFrames(file, state);
+  return std::move(state.frames.indirect);
+}
+
+bool FacetTruths::light(const Settings& settings) {
   Pipeline& pipeline = bench_.pipeline();
   pipeline.set(settings);
   bench_.prepare([&](const char*, float fraction) {
@@ -96,12 +106,36 @@ std::vector<glm::vec4> FacetTruths::half(Settings settings, uint32_t seed, const
   bench_.forget();
   for (const Finding& finding : pipeline.findings())
     if (finding.severity == Finding::Severity::Error) throw DeviceError(finding.text);
-  if (!pipeline.lighting() || pipeline.lighting().report.frames == 0) return {};  // no light, or no facets
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-  FramesState state{made, spent.count(), saveFrames(*session_.context, pipeline.lighting())};
-  makeFolder(folder_);
-  writeFrames(file, state);
-  return std::move(state.frames.indirect);
+  return pipeline.lighting() && pipeline.lighting().report.frames > 0;
+}
+
+double FacetTruths::secondsMissing(const std::vector<Settings>& points) {
+  constexpr uint32_t kTried = 4;  // frames, after as many that begin
+  std::set<std::string> seen;
+  double seconds = 0;
+  for (const Settings& point : points) {
+    Settings settings = bruteForceOf(point, rays_);
+    const std::string made = madeOf(settings);
+    if (!seen.insert(made).second) continue;
+    std::error_code ignored;
+    double halves = 0;
+    for (const char* half : {"a", "b"}) halves += fs::exists(folder_ / fileNameOf(made, half), ignored) ? 0 : 1;
+    if (halves == 0) continue;
+    const double frames = halves * settings.solver.frames;
+    try {
+      settings.solver.frames = kTried;
+      if (!light(settings)) continue;
+      settings.solver.frames = 2 * kTried;
+      const auto began = std::chrono::steady_clock::now();
+      light(settings);
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+      seconds += spent.count() / kTried * frames;
+    } catch (const DeviceError&) {  // the point will have no truth of H, and say so
+      session_.device->waitIdle();
+      session_.timings.reset();
+    }
+  }
+  return seconds;
 }
 
 }  // namespace irad::app

@@ -32,8 +32,12 @@ class FacetTruths {
   /// Of the facets and lights of these settings, whatever their solver; made where there is none yet, with the bench's
   /// pipeline, which then has other settings. DeviceError where the device has no memory for it.
   const FacetTruth& of(const Settings& settings);
+  /// What those take that these settings lack, by a trial of few frames each.
+  double secondsMissing(const std::vector<Settings>& points);
 
  private:
+  /// Light by brute force; false: there is none, or no facets.
+  bool light(const Settings& settings);
   std::vector<glm::vec4> half(Settings settings, uint32_t seed, const std::string& made, const char* name);
   DeviceSession& session_;
   Bench& bench_;

@@ -13,6 +13,7 @@
 #include "app/blender_pictures.h"
 #include "app/interrupts.h"
 #include "app/memory_table.h"
+#include "app/study_ahead.h"
 #include "app/study_merge.h"
 #include "gi/check/path_tracer.h"
 #include "gi/check/writeback_figures.h"
@@ -223,7 +224,7 @@ ExperimentsAhead ExperimentRunner::ahead(std::vector<std::pair<Experiment, fs::p
   std::ranges::stable_sort(experiments, {}, [](const auto& e) { return e.first.scene; });
   ExperimentsAhead out;
   std::set<std::string> truths;
-  std::map<std::string, double> ofPicture;  // seconds, by scene
+  std::map<std::string, PictureTrial> tried;  // by scene
   for (const auto& [e, folder] : experiments) {
     throwIfStopped();
     if (!whyNot(e).empty()) continue;
@@ -241,9 +242,13 @@ ExperimentsAhead ExperimentRunner::ahead(std::vector<std::pair<Experiment, fs::p
     task.repeats = repeatsOf(e);
     std::error_code ignored;
     const bool begun = fs::exists(folder / "study.json", ignored);
-    double pictures =
-        picturesMissing(begun ? readResults(folder) : StudyResults{}, points, grid.base().matrix.gpu.seed, task);
-    out.pictures += pictures;
+    const StudyResults there = begun ? readResults(folder) : StudyResults{};
+    PicturesMissing pictures;
+    for (const size_t point : points) {
+      const PicturesMissing missing = picturesMissing(there, point, grid.base().matrix.gpu.seed, task);
+      pictures.errors += missing.errors, pictures.timed += missing.timed;
+    }
+    out.pictures += pictures.all();
     bool trace = false;
     if (computed) {
       ++out.asking;
@@ -251,17 +256,17 @@ ExperimentsAhead ExperimentRunner::ahead(std::vector<std::pair<Experiment, fs::p
       if (truths.insert(recipe.name()).second && !TruthStore(truths_.folder).has(recipe)) {
         ++out.missing;
         trace = task.truth.samples.has_value();
-        if (!trace) pictures += 2;
+        if (!trace) pictures.errors += 2;
       }
     }
-    if (trace) out.seconds += secondsOfTruth(scene, grid.settings(0).sky, task);
-    if (pictures == 0) continue;
-    const auto [one, first] = ofPicture.try_emplace(e.scene, 0);
+    if (trace) out.seconds += secondsOfTracing(scene, grid.settings(0).sky, task, *task.truth.samples);
+    if (pictures.all() == 0) continue;
+    const auto [one, first] = tried.try_emplace(e.scene);
     if (first) {
       session_.progress("trial", 0);
-      one->second = secondsOfPicture(session_, scene, grid.settings(points.front()), task);
+      one->second = tryPicture(session_, scene, grid.settings(points.front()), task);
     }
-    out.seconds += pictures * one->second;
+    out.seconds += one->second.of(pictures);
   }
   out.truths = truths.size();
   return out;
@@ -307,10 +312,19 @@ void ExperimentRunner::measureFigures(const Experiment& e, const StudyRun& run, 
   const auto has = [&](const std::string& name) { return figures.contains(name); };
   const auto pipelineOf = [&](size_t point) {
     auto pipeline = std::make_unique<Pipeline>(*session_.context, *scene_, grid.settings(point));
-    pipeline->prepare();
+    pipeline->prepare([](const char*, float) { return throwIfStopped(), true; });
     return pipeline;
   };
   const auto failed = [&](size_t point) { return run.results().hasFailed(point); };
+  if (e.engine == "EEVEE" && e.view == "lit" && !has("cycles_flip")) {
+    // How far EEVEE is from Cycles, whatever ours are like.
+    const LinearPicture cycles = blenderPart(task.out.parent_path() / "blender",
+                                             {scene_->path, e.camera, "CYCLES", task.size, scale_.samples}, e.view);
+    figures["cycles_mean"] = meanOf(cycles.pixels);
+    figures["cycles_flip"] =
+        measurePicture(task.size, run.truth().first, cycles.pixels, {}, std::exp2(session_.settings.camera.exposureEv))
+            .flip;
+  }
   if (e.flicker)
     for (size_t point = 0; point < grid.size(); ++point) {
       throwIfStopped();

@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "app/interrupts.h"
 #include "app/reference.h"
+#include "app/study_ahead.h"
 #include "app/table.h"
 #include "app/version.h"
 #include "gi/check/path_state.h"
@@ -90,7 +90,7 @@ void requirePathTracer(const ViewInfo& view, const Settings& settings) {
                     view.name));
 }
 
-StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task)
+StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task, const PicturesOfItsOwn& own)
     : session_(session),
       scene_(std::move(scene)),
       sceneContent_(sceneContent(scene_)),
@@ -113,9 +113,10 @@ StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyT
   const GridTexts grids = gridsOf(folder_->identity());
   for (size_t i = grid_.texts().size(); i < grids.size(); ++i) grid_.add(grids[i]);
   makeFolder(task_.out / "pictures");
-  announce();
   bench_.emplace(*session_.context, scene_, grid_.settings(0), task_.size, task_.view.view, task_.camera);
+  bench_->watch([](const char*, float) { return throwIfStopped(), true; });
   if (task_.facetRays) facetTruths_.emplace(session_, *bench_, task_.out / "facets", *task_.facetRays);
+  announce(own);
   exposure_ = std::exp2(grid_.base().camera.exposureEv);
   if (!needsTruth()) return;
   makeTruth();
@@ -255,81 +256,68 @@ void StudyRun::makeHalves(const TruthStore& store, const TruthRecipe& recipe) {
 
 // ---- What is ahead ----
 
-double picturesMissing(const StudyResults& results, const std::vector<size_t>& points, uint32_t firstSeed,
-                       const StudyTask& task) {
-  double missing = 0;
-  for (const size_t point : points) {
-    if (results.hasFailed(point)) continue;
-    for (uint32_t i = 0; i < task.seeds; ++i) missing += results.hasError(point, firstSeed + i) ? 0 : 1;
-    double repeats = 0;
-    for (uint32_t i = 0; i < task.repeats; ++i) repeats += results.hasTimes(point, i) ? 0 : 1;
-    missing += repeats > 0 ? repeats + 1 : 0;
-  }
-  return missing;
-}
-
-double secondsOfPicture(DeviceSession& session, const Scene& scene, const Settings& settings, const StudyTask& task) {
-  double seconds = 0;
-  try {
-    Bench bench(*session.context, scene, settings, task.size, task.view.view, task.camera);
-    bench.prepare({});  // which compiles, too
-    bench.cameraFrame();
-    throwIfStopped();
-    const auto began = std::chrono::steady_clock::now();
-    bench.rebuild(), bench.relight(), bench.cameraFrame();
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  } catch (const DeviceError&) {
-    seconds = 0;  // the point itself will be a row that says so
-  } catch (const UsageError&) {
-    seconds = 0;
-  }
-  session.device->waitIdle();
-  session.timings.reset();
-  return seconds;
-}
-
-double secondsOfTruth(const Scene& scene, const SkySettings& sky, const StudyTask& task) {
-  using Clock = std::chrono::steady_clock;
-  const glm::uvec2 some = glm::max(task.size / 8u, glm::min(task.size, glm::uvec2(16)));
-  const TraceOptions options = truthOptions(2);
-  const Clock::time_point began = Clock::now();
-  const auto tracer = makePathTracer(scene, makeSky(sky, skyInputs(scene, scene.lights)));
-  const Clock::time_point built = Clock::now();
-  TracedSums sums;
-  tracer->add(task.camera, some, options, sums);
-  const std::chrono::duration<double> build = built - began, spent = Clock::now() - built;
-  return build.count() + spent.count() * (double{1} * task.size.x * task.size.y * *task.truth.samples) /
-                             (double{1} * some.x * some.y * options.samples);
-}
-
 /// Where many studies share truths, those who run them tell of all.
-void StudyRun::announce() {
+void StudyRun::announce(const PicturesOfItsOwn& own) {
   if (task_.sharedTruths) return;
   const std::vector<size_t> points = ownPoints();
-  const double pictures = picturesMissing(folder_->results, points, grid_.base().matrix.gpu.seed, task_);
-  const std::optional<TruthRecipe> recipe = truthRecipe(session_, task_, scene_, sceneContent_, grid_.settings(0).sky);
+  const SkySettings& sky = grid_.settings(0).sky;
+  const std::optional<TruthRecipe> recipe = truthRecipe(session_, task_, scene_, sceneContent_, sky);
   const bool trace = needsTruth() && recipe && task_.truth.samples && !TruthStore(task_.out / "truths").has(*recipe);
-  if (pictures == 0 && !trace) return;
-  double seconds = trace ? secondsOfTruth(scene_, grid_.settings(0).sky, task_) : 0;
-  if (pictures > 0) {
-    // Grids mostly go from little to much: a point is taken to be as long as the first and the last are on average.
-    double sum = 0, tried = 0;
-    for (const size_t point : std::set{points.front(), points.back()})
-      if (const double one = secondsOfPicture(session_, scene_, grid_.settings(point), task_); one > 0)
-        sum += one, ++tried;
-    seconds += tried > 0 ? pictures * sum / tried : 0;
-  }
+  const WorkAhead ahead = own ? own(*this) : picturesAhead(points);
+  double samples = trace ? *task_.truth.samples : 0;
+  if (task_.shard.part == 1)
+    for (const uint32_t peer : task_.peerSamples) samples += folder_->results.hasPeer(kPathTracer, peer) ? 0 : peer;
+  if (ahead.pictures == 0 && samples == 0) return;
+  const double seconds = ahead.seconds + (samples > 0 ? secondsOfTracing(scene_, sky, task_, samples) : 0);
   const char* const truth = task_.truth.file ? "the truth is a file"
                             : trace          ? "1 truth is to be traced"
                                              : "the truth is there";
   session_.progress.note(fmt::format("{} points, {} seeds and {} repeats each: {:.0f} pictures to come; {}; about {}",
-                                     points.size(), task_.seeds, task_.repeats, pictures, truth, duration(seconds)));
+                                     points.size(), task_.seeds, task_.repeats, ahead.pictures, truth,
+                                     duration(seconds)));
+}
+
+double StudyRun::tryRepeat(size_t point) {
+  Pipeline& pipeline = bench_->pipeline();
+  pipeline.set(grid_.settings(point));
+  bench_->prepare();
+  const auto began = std::chrono::steady_clock::now();
+  bench_->rebuild(), bench_->relight(), bench_->cameraFrame();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+  pipeline.setLights(pipeline.scene().lights);  // which the relight has nudged
+  bench_->forget();
+  return spent.count();
+}
+
+WorkAhead StudyRun::picturesAhead(const std::vector<size_t>& points) {
+  WorkAhead out;
+  if (points.empty()) return out;
+  const uint32_t firstSeed = grid_.base().matrix.gpu.seed;
+  std::vector<PicturesMissing> missing;
+  for (const size_t point : points) {
+    missing.push_back(picturesMissing(folder_->results, point, firstSeed, task_));
+    out.pictures += missing.back().all();
+  }
+  if (out.pictures == 0) return out;
+  session_.progress("trial", 0);
+  const PictureTrial first = tryPicture(session_, scene_, grid_.settings(points.front()), task_),
+                     last =
+                         points.size() > 1 ? tryPicture(session_, scene_, grid_.settings(points.back()), task_) : first;
+  const std::vector<double> factors = pointFactors(grid_, points, first, last);
+  const PictureTrial& tried = first.timed > 0 ? first : last;
+  std::vector<Settings> toBeHeld;
+  for (size_t i = 0; i < points.size(); ++i) {
+    out.seconds += factors[i] * tried.of(missing[i]);
+    if (missing[i].errors > 0) toBeHeld.push_back(grid_.settings(points[i]));
+  }
+  if (facetTruths_) out.seconds += facetTruths_->secondsMissing(toBeHeld);
+  return out;
 }
 
 LinearPixels StudyRun::picture(const Settings& settings, const std::function<void()>& whileLit) {
   Pipeline& pipeline = bench_->pipeline();
   pipeline.set(settings);
-  bench_->prepare({});
+  bench_->prepare();
   bench_->forget();
   const View view = task_.view.view;
   LinearPixels out = bench_->pictures({&view, 1}, whileLit);
@@ -338,18 +326,23 @@ LinearPixels StudyRun::picture(const Settings& settings, const std::function<voi
   return out;
 }
 
-/// In passes, between which a signal ends it; the bits are those of one go.
+/// In passes of about a second, between which a signal ends it; the bits are those of one go.
 TracedPicture StudyRun::trace(const char* what, uint32_t samples, uint64_t seed, TracedSums sums,
                               const std::function<void(const TracedSums&)>& afterPass) {
-  constexpr uint32_t kPass = 16;
+  constexpr double kPass = 1;  // s
   if (!tracer_) tracer_ = makePathTracer(scene_, makeSky(grid_.settings(0).sky, skyInputs(scene_, scene_.lights)));
   const uint32_t before = sums.samples;
   TraceOptions options = truthOptions(0);
   options.seed = seed;
+  uint32_t next = 1;
   while (sums.samples < samples) {
     progress(what, sums.samples - before, samples - before);
-    options.samples = std::min(kPass, samples - sums.samples);
+    options.samples = std::min(next, samples - sums.samples);
+    const auto began = std::chrono::steady_clock::now();
     tracer_->add(task_.camera, task_.size, options, sums);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+    const double fitting = options.samples * kPass / std::max(spent.count(), 1e-6);
+    next = static_cast<uint32_t>(std::clamp(fitting, 1.0, 2.0 * options.samples));
     if (afterPass) afterPass(sums);
   }
   return pictureOf(sums);

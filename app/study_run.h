@@ -67,23 +67,24 @@ struct Truth {
 std::optional<TruthRecipe> truthRecipe(const DeviceSession& session, const StudyTask& task, const Scene& scene,
                                        const std::string& sceneContent, const SkySettings& sky);
 
-/// Pictures that these points lack, the round of times that warms up included.
-double picturesMissing(const StudyResults& results, const std::vector<size_t>& points, uint32_t firstSeed,
-                       const StudyTask& task);
-/// Seconds of a picture from the voxels on, by a trial; 0: there is no memory for it, or the settings do not go
-/// together.
-double secondsOfPicture(DeviceSession& session, const Scene& scene, const Settings& settings, const StudyTask& task);
-/// Seconds that the path tracer takes for a truth, by a trial of few samples of few pixels.
-double secondsOfTruth(const Scene& scene, const SkySettings& sky, const StudyTask& task);
-
 /// UsageError where the path tracer, which is diffuse, makes no truth of this view, or is not there.
 void requirePathTracer(const ViewInfo& view, const Settings& settings);
 
+class StudyRun;
+/// Pictures that a study is still to make.
+struct WorkAhead {
+  double pictures = 0, seconds = 0;
+};
+/// Of a study that makes its pictures itself: asked before the truth is made, when the run's folder and bench are
+/// there.
+using PicturesOfItsOwn = std::function<WorkAhead(StudyRun&)>;
+
 class StudyRun {
  public:
-  /// Opens the folder and makes the truth, where the shard has a point. The scene as DeviceSession::load gave it with
-  /// grid.base(). UsageError where sizes do not fit, or the folder holds another study.
-  StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task);
+  /// Opens the folder, says what is ahead and makes the truth, where the shard has a point. The scene as
+  /// DeviceSession::load gave it with grid.base(). UsageError where sizes do not fit, or the folder holds another
+  /// study.
+  StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task, const PicturesOfItsOwn& own = {});
   /// Measures what the folder does not have yet; notes.json is written at the end.
   void measure();
   /// Further seeds and repeats of one point, after those of measure().
@@ -98,10 +99,12 @@ class StudyRun {
   const Truth& truth() const { return truth_; }
   const StudyTask& task() const { return task_; }
   Bench& bench() { return *bench_; }  ///< for pictures of other settings, before measure()
+  double tryRepeat(size_t point);     ///< seconds of one, by a trial
   ReportNotes notes() const;
 
  private:
-  void announce();  ///< what is ahead, before it begins
+  void announce(const PicturesOfItsOwn& own);  ///< what is ahead, before it begins
+  WorkAhead picturesAhead(const std::vector<size_t>& points);
   bool needsTruth() const;
   void makeTruth();
   void makeHalves(const TruthStore& store, const TruthRecipe& recipe);

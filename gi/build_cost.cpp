@@ -33,6 +33,10 @@ constexpr double raysOf(const Settings& s) {
   return s.matrix.gpu.rays;
 }
 
+double grown(size_t part, double resolution, double rays) {
+  return std::pow(resolution, kGrowth[part].resolution) * std::pow(rays, kGrowth[part].rays);
+}
+
 /// Whether a part is redone where `first` is the first stage that is. Stages that need no redoing after it are counted:
 /// materials alone leave the matrix, and count as light.
 bool redone(BuildTimes::Part part, Redo first) {
@@ -64,6 +68,10 @@ BuildTimes::Part BuildTimes::partOf(const char* stage) {
   return Part::Light;
 }
 
+double BuildTimes::growth(Part part, const Settings& from, const Settings& to) {
+  return grown(static_cast<size_t>(part), resolutionOf(to) / resolutionOf(from), raysOf(to) / raysOf(from));
+}
+
 void BuildTimes::took(Part part, double ms, const Settings& settings) {
   seen_[static_cast<size_t>(part)] = Seen{ms, resolutionOf(settings), raysOf(settings)};
 }
@@ -74,8 +82,7 @@ std::optional<double> BuildTimes::predict(const Settings& wanted, Redo first) co
   for (size_t i = 0; i < kParts; ++i) {
     if (!redone(static_cast<Part>(i), first)) continue;
     if (!seen_[i]) return std::nullopt;
-    sum += seen_[i]->ms * std::pow(resolutionOf(wanted) / seen_[i]->resolution, kGrowth[i].resolution) *
-           std::pow(raysOf(wanted) / seen_[i]->rays, kGrowth[i].rays);
+    sum += seen_[i]->ms * grown(i, resolutionOf(wanted) / seen_[i]->resolution, raysOf(wanted) / seen_[i]->rays);
     any = true;
   }
   return any ? std::optional(sum) : std::nullopt;

@@ -31,6 +31,9 @@ class BuildTimes {
   /// The part that a stage's name in Progress belongs to.
   static Part partOf(const char* stage);
 
+  /// By how much its time grows from one settings' voxels and rays to other ones'.
+  static double growth(Part part, const Settings& from, const Settings& to);
+
   void took(Part part, double ms, const Settings& settings);
   /// Of all that is redone from `first` on; none where one of these stages has not been seen yet, or nothing is redone.
   std::optional<double> predict(const Settings& wanted, Redo first) const;

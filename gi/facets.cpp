@@ -95,10 +95,12 @@ FacetArrays FacetList::arrays(const std::function<uint64_t(const Buffer&)>& addr
   return arrays;
 }
 
-FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+                     const std::function<void()>& watch) {
   requireMatching(settings);
-  if (settings.matrix.gpu.hitRule == HitRule::triangles) return listFacets(context, scene, settings);
+  if (settings.matrix.gpu.hitRule == HitRule::triangles) return listFacets(context, scene, settings, watch);
   Voxels voxels = voxelize(context, scene, settings);
+  if (watch) watch();
   return compactFacets(context, voxels, settings);
 }
 

@@ -38,7 +38,9 @@ struct FacetList {
   FacetArrays arrays(const std::function<uint64_t(const Buffer&)>& addressOf) const;
 };
 /// The list that the hit rule goes by: by classes of surfels (listFacets), or a plane facet for each solid voxel.
-FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings);
+/// `watch`, which may be empty, is called between submissions: what it throws ends the work.
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+                     const std::function<void()>& watch = {});
 /// Albedo, exitance and normals of a list anew, by the scene's materials as they are: the same bits as in a list that
 /// is made with them. `parts`: made where they are called for and not there yet; they serve until the list is another
 /// one.

@@ -41,7 +41,12 @@ std::vector<std::optional<glm::dvec3>> gatherAtPixels(Context& context, const Fa
                                                       const glm::dvec3& origin, const GatherTask& task) {
   IRAD_CHECK_OP(task.seen.size(), ==, size_t{task.size.x} * task.size.y);
   IRAD_CHECK_OP(task.radiosity.size(), ==, size_t{list.count});
+  const auto watch = [&] {
+    if (task.watch) task.watch();
+  };
+  watch();
   const oracle::Facets facets = oracleFacets(context, list);
+  watch();
   const std::unique_ptr<HostTrace> trace = makeHostTrace(context, list);
   std::vector<std::optional<glm::dvec3>> out(task.seen.size());
 
@@ -85,13 +90,22 @@ std::vector<std::optional<glm::dvec3>> gatherAtPixels(Context& context, const Fa
   };
 
   std::atomic<uint32_t> next = 0;
-  const auto work = [&] {
+  std::atomic<bool> ended = false;  // before it is done
+  const auto work = [&](bool watches) {
     for (uint32_t row; (row = next++) < task.size.y;)
-      for (uint32_t x = 0; x < task.size.x; ++x) out[row * task.size.x + x] = pixel(row * task.size.x + x);
+      for (uint32_t x = 0; x < task.size.x && !ended; ++x) {
+        out[row * task.size.x + x] = pixel(row * task.size.x + x);
+        if (watches) watch();
+      }
   };
   std::vector<std::jthread> others;
-  for (uint32_t t = 1; t < std::max(1u, std::thread::hardware_concurrency()); ++t) others.emplace_back(work);
-  work();
+  for (uint32_t t = 1; t < std::max(1u, std::thread::hardware_concurrency()); ++t) others.emplace_back(work, false);
+  try {
+    work(true);
+  } catch (...) {
+    ended = true;
+    throw;
+  }
   return out;
 }
 

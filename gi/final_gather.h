@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -29,6 +30,7 @@ struct GatherTask {
   const Sky* sky = nullptr;                        ///< what those bring that escape
   uint32_t rays = 256;                             ///< per pixel, cosine-weighted
   uint32_t seed = 0;
+  std::function<void()> watch;  ///< called now and then by the thread that called; what it throws ends the work
 };
 /// W/m^2 by pixel; none where nothing is seen, or where of no ray it is known what it meets. `origin`: Scene::origin.
 /// The same on any number of threads, to the bit.

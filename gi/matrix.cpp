@@ -90,6 +90,13 @@ void mergeAndPackOnHost(CsrBuild& build, const Chunk& chunk, const Buffer& hits)
   if (!sky.empty()) upload(build.context, build.matrix.rowSky, std::as_bytes(std::span(sky)), 4ull * chunk.firstRow);
 }
 
+uint32_t facetBitsOf(uint32_t facets) {
+  return std::max(1, static_cast<int>(std::bit_width(std::max(facets, 1u) - 1)));
+}
+uint32_t columnBitsOf(uint32_t facets, bool tinted) {
+  return facetBitsOf(facets) + (tinted ? TINT_BITS : 0);
+}
+
 /// csr: each chunk of rows is traced once into a scratch array, and turned into a segment of the exact size. `sky`:
 /// rays that escape are kept by bins.
 void buildCsr(Context& context, const FacetList& facets, const Field& field, const MatrixParams& params, bool sky,
@@ -97,14 +104,14 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   const Device& device = context.device;
   const uint32_t rows = matrix.rows, rays = params.rays;
   MatrixArrays arrays{};
-  const uint32_t facetBits = std::max(1, static_cast<int>(std::bit_width(rows - 1)));
-  arrays.columnBits = facetBits + (matrix.tinted ? TINT_BITS : 0);
-  if (uint64_t{rays} >= uint64_t{1} << (32 - arrays.columnBits))
-    throw UsageError(fmt::format(
-        "matrix.rays = {} with {} facets: a csr entry of 32 bits gives {} bits to the column and {} to the "
-        "hit count, which holds at most {}; take fewer rays, a lower voxel.resolution or "
-        "matrix.format=padded",
-        rays, rows, arrays.columnBits, 32 - arrays.columnBits, (uint64_t{1} << (32 - arrays.columnBits)) - 1));
+  const uint32_t facetBits = facetBitsOf(rows);
+  arrays.columnBits = columnBitsOf(rows, matrix.tinted);
+  if (rays > mostRaysOfRows(rows, matrix.tinted))
+    throw UsageError(
+        fmt::format("matrix.rays = {} with {} facets: a csr entry of 32 bits gives {} bits to the column and {} to the "
+                    "hit count, which holds at most {}; take fewer rays, a lower voxel.resolution or "
+                    "matrix.format=padded",
+                    rays, rows, arrays.columnBits, 32 - arrays.columnBits, mostRaysOfRows(rows, matrix.tinted)));
   arrays.segmentShift = std::clamp(static_cast<int>(std::bit_width(raysPerSubmission(device) / rays)) - 1, 6, 20);
   const uint32_t segmentRows = std::min(rows, 1u << arrays.segmentShift);
   const uint64_t places = uint64_t{segmentRows} * rays;
@@ -138,6 +145,10 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
 }
 
 }  // namespace
+
+uint32_t mostRaysOfRows(uint32_t facets, bool tinted) {
+  return static_cast<uint32_t>((uint64_t{1} << (32 - columnBitsOf(facets, tinted))) - 1);
+}
 
 FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
                         const std::function<bool(float)>& progress) {

@@ -33,6 +33,8 @@ struct FormFactors {
   MatrixStats stats;
   explicit operator bool() const { return static_cast<bool>(record); }
 };
+/// The most rays that rows can count which name one of so many facets (format csr; `tinted`: FormFactors).
+uint32_t mostRaysOfRows(uint32_t facets, bool tinted);
 /// `progress` (0..1) may be empty; it returns false to cancel, upon which a WorkError "cancelled" is thrown.
 FormFactors buildMatrix(Context& context, const FacetList& facets, const Field& field, const Settings& settings,
                         const std::function<bool(float)>& progress = {});

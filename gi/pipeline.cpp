@@ -315,7 +315,7 @@ struct Pipeline::Impl {
     // for, with what albedo, normal and emission; in Morton order, with the map back from voxels.
     if (first <= Redo::Voxels) {
       report("GI Voxelization", 0);
-      p.facets = makeFacets(context, onDevice, obeyed);
+      p.facets = makeFacets(context, onDevice, obeyed, [&] { report("GI Voxelization", 0); });
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
       p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);
@@ -376,7 +376,9 @@ struct Pipeline::Impl {
     const auto start = std::chrono::steady_clock::now();
     ++revision.light;
     // A new list has no light yet: if it were given up now it would stay black.
-    if (progress && !progress("GI Solve", 0) && p.light) throw WorkError("cancelled");
+    const bool mayEnd = p.light.has_value();
+    const auto goesOn = [&] { return !progress || progress("GI Solve", 0) || !mayEnd; };
+    if (!goesOn()) throw WorkError("cancelled");
     if (due.has(Redo::Gather) || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
     // The other method's light lacks what this one keeps, and has what this one does not need. By brute force so has
@@ -407,7 +409,7 @@ struct Pipeline::Impl {
     if (due.has(Redo::Solve)) {
       useReflections(*p.light, p.facets->count);
       const bool restarts = due.has(Redo::Materials) || due.has(Redo::Emission) || due.has(Redo::Gather);
-      solveFor(p, restarts, maxSweeps, progress);
+      solveFor(p, restarts, maxSweeps, progress, goesOn);
       solvedFrame = frameIndex;
     }
     showSolved(p);
@@ -423,10 +425,12 @@ struct Pipeline::Impl {
 
   /// `restarts`: frames of brute force begin anew. `maxSweeps` 0: as many as it takes; else one frame of brute force,
   /// which costs as much as a matrix.
-  void solveFor(Products& p, bool restarts, uint32_t maxSweeps, const Progress& progress) {
+  void solveFor(Products& p, bool restarts, uint32_t maxSweeps, const Progress& progress,
+                const std::function<bool()>& goesOn) {
     const Settings& obeyed = planned.settings();
     if (!framewise()) {
-      solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps);
+      solve(context, *p.facets, *p.matrix, *p.light, obeyed, maxSweeps != 0 ? maxSweeps : obeyed.solver.maxSweeps,
+            maxSweeps == 0 ? goesOn : std::function<bool()>());  // few sweeps are done before anybody asks
       return;
     }
     const bool byFrames = maxSweeps != 0;
@@ -708,7 +712,7 @@ WritebackRounds Pipeline::settleReflections(const Camera& camera, Targets& targe
     const float change = p.now.light->writeback.report->change;
     since = change <= 0.5f * least ? 0 : since + 1;
     if (since == 0) least = change;
-    prepare();
+    prepare(progress);
   }
   return done;
 }

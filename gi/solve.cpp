@@ -144,7 +144,7 @@ void DivergenceGuard::judge(float gain, float residual) {
 }
 
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
-                  const Settings& settings, uint32_t maxSweeps) {
+                  const Settings& settings, uint32_t maxSweeps, const std::function<bool()>& goesOn) {
   IRAD_CHECK_OP(matrix.rows, ==, facets.count);
   SolveReport report;
   if (facets.count == 0) {
@@ -175,6 +175,7 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   bool proven = false;  // kappa, in this call, in which the matrix stays as it is
   float left = 0;       // residual, of this call's last sweep or mix
   while (report.sweeps < maxSweeps && !report.settled()) {
+    if (goesOn && !goesOn()) throw WorkError("cancelled");
     const uint32_t count =
         std::min({batch, maxSweeps - report.sweeps, history.on() ? history.left() : SOLVE_RESIDUALS});
     sweep.omega = guard.omega;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 namespace irad {
 
@@ -16,9 +17,10 @@ struct SolveResidual;
 struct SolverParams;
 
 /// Runs sweeps until the bound is met, `maxSweeps` at most; warm start from light.radiosity (from the dark where the
-/// last report has something not finite). Blocking.
+/// last report has something not finite). Blocking. `goesOn` is asked before each submission, and may be empty: where
+/// it returns false a WorkError "cancelled" leaves the light as far as it came.
 SolveReport solve(Context& context, const FacetList& facets, const FormFactors& matrix, Lighting& light,
-                  const Settings& settings, uint32_t maxSweeps);
+                  const Settings& settings, uint32_t maxSweeps, const std::function<bool()>& goesOn = {});
 
 /// Makes the guard of a solve that begins, or that goes on: the window calls for a few sweeps at a time. Where light
 /// may grow without bound it keeps what is there.

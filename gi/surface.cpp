@@ -90,7 +90,7 @@ void scanToEnd(Frame& frame, const Buffer& values, uint32_t count, const Buffer&
 }
 
 Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid, const Buffer& gridRecord,
-                  const Buffer& corners) {
+                  const Buffer& corners, const std::function<void()>& look) {
   const Device& device = context.device;
   Pieces p;
   const auto ranges = scene.scene.triangleCount() > 0 ? triangleRanges(scene) : std::vector<TriangleRange>{};
@@ -117,6 +117,7 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     exclusiveScan(frame, kListStage, blockPieces, push.blocks, pieces);
     frame.submitAndWait();
   }
+  look();
   p.solid = downloadAs<uint32_t>(context, solid).at(0);
   p.count = downloadAs<uint32_t>(context, pieces).at(0);
 
@@ -401,7 +402,11 @@ struct Listed {
   FacetParts parts;
 };
 
-Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings& settings,
+                   const std::function<void()>& watch = {}) {
+  const auto look = [&] {
+    if (watch) watch();
+  };
   const Device& device = context.device;
   const uint32_t triangles = scene.scene.triangleCount();
   Listed listed;
@@ -437,7 +442,8 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings&
     pass.shader("gi/surface_corners.comp").push(push).dispatch(triangles);
     frame.submit();
   }
-  Pieces pieces = listPieces(context, scene, list.grid, grid, surface.corners);
+  Pieces pieces = listPieces(context, scene, list.grid, grid, surface.corners, look);
+  look();
 
   list.solidVoxels = pieces.solid;
   surface.pieces = std::move(pieces.triangle);
@@ -448,7 +454,9 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings&
   makeRecord(context, list);
   Points points;
   findMasks(context, scene, grid, pieces, surface);
+  look();
   if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
+  look();
   pieces.facings = Buffer();
   allocateFacets(device, list);
   surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
@@ -465,6 +473,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings&
   if (list.count > 0) {
     const Buffer facings = words(device, "facings of facets", 3ull * list.count);
     fillFacets(context, grid, pieces, points, list, facings);
+    look();
     linkFacets(context, list, facings);
     makeRecord(context, list);
   }
@@ -531,8 +540,10 @@ uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& sc
   return downloadAs<uint32_t>(context, clamped).at(0);
 }
 
-FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
-  Listed listed = listSurface(context, scene, settings);
+FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+                     const std::function<void()>& watch) {
+  Listed listed = listSurface(context, scene, settings, watch);
+  if (watch) watch();
   FacetList& facets = listed.list;
   if (facets.count > 0)
     facets.clampedAlbedo = shadeParts(context, kVoxelizeStage, scene, listed.grid, listed.parts, facets);

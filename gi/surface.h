@@ -1,6 +1,8 @@
 // The true surface by voxels, and the facets that it is divided into (docs/method.md 4).
 #pragma once
 
+#include <functional>
+
 #include "renderer/resources.h"
 
 namespace irad {
@@ -29,8 +31,10 @@ struct FacetParts {
   explicit operator bool() const { return static_cast<bool>(solid); }
 };
 
-/// The list of facets by classes of surfels: as many in a voxel as its surface has sides.
-FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings);
+/// The list of facets by classes of surfels: as many in a voxel as its surface has sides. `watch`: as makeFacets has
+/// it.
+FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+                     const std::function<void()>& watch = {});
 /// The parts of the list that listFacets() makes: it does not keep them, since they are larger than itself and only
 /// edits of materials ask for them again.
 FacetParts listParts(Context& context, const SceneOnDevice& scene, const Settings& settings);

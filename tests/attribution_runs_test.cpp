@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <thread>
@@ -197,6 +198,85 @@ TEST_F(AttributionRuns, AKilledStudyGoesOnToTheSameFigures) {
   const RunResult refused = runIrad(other);
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(contains(refused.err, "holds another study: study ")) << refused.err;
+}
+
+TEST_F(AttributionRuns, ASignalIsSeenWithinAPicture) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  // Its gather alone is 4 thousand million rays: minutes.
+  Strings arguments = study(
+      {.stage = "", .settings = {}, .truth = std::nullopt, .options = {"--gather-rays", "65536"}, .size = "256x256"},
+      "stopped");
+  const fs::path err = folder_.path / "err";
+  Process process(iradProgram(), arguments, "/dev/null", err);
+  for (int i = 0; i < 60'000 && !process.poll() && !contains(slurp(err), "\ntrial\n"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ASSERT_FALSE(process.poll()) << slurp(err);
+  ::kill(process.pid(), SIGINT);
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_EQ(process.wait(), 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5));
+  EXPECT_TRUE(contains(slurp(err), "stopped by a signal; the same command goes on from here")) << slurp(err);
+  for (const auto& entry : fs::directory_iterator(at("stopped/linear")))
+    ADD_FAILURE() << entry.path() << " is not whole";
+}
+
+/// The seconds of "about 45 s", "3 min 07 s".
+std::optional<double> aboutSeconds(const std::string& text) {
+  const size_t at = text.find("; about ");
+  int first = 0, second = 0;
+  if (at == text.npos) return std::nullopt;
+  const char* words = text.c_str() + at;
+  if (std::sscanf(words, "; about %d min %d s", &first, &second) == 2) return 60 * first + second;
+  if (std::sscanf(words, "; about %d s", &first) == 1) return first;
+  return std::nullopt;
+}
+
+TEST_F(AttributionRuns, SayBeforehandHowLongTheyTake) {
+  IRAD_ONLY_WITH_ALL();
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  // Times go to the gather and to many rays; to finer voxels.
+  struct Kind {
+    const char *scene, *voxels, *rays, *gather, *finer;
+  };
+  for (const Kind& k : {Kind{"box", "12", "64", "512", "1.5"}, Kind{"check:bent-tunnel", "12", "32", "16", "3"}}) {
+    const fs::path err = folder_.path / "err";
+    Process process(iradProgram(),
+                    {"study",
+                     "attribution",
+                     k.scene,
+                     "--view",
+                     "indirect",
+                     "--size",
+                     "64x64",
+                     "--seeds",
+                     "4",
+                     "--repeats",
+                     "2",
+                     "--reference-samples",
+                     "64",
+                     "--set",
+                     std::string("voxel.resolution=") + k.voxels,
+                     "--set",
+                     std::string("matrix.rays=") + k.rays,
+                     "--set",
+                     "scene.lambertian=true",
+                     "--gather-rays",
+                     k.gather,
+                     "--finer",
+                     k.finer,
+                     "--out",
+                     at(std::string("out-") + k.finer)},
+                    "/dev/null", err);
+    while (!process.poll() && !aboutSeconds(slurp(err))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const auto began = std::chrono::steady_clock::now();
+    ASSERT_EQ(process.wait(), 0) << slurp(err);
+    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
+                 foreseen = *aboutSeconds(slurp(err));
+    printf("%s: foreseen %.0f s, took %.1f s\n", k.scene, foreseen, took);
+    EXPECT_GT(foreseen + 0.5, took / 2) << k.scene;
+    EXPECT_LT(foreseen - 0.5, took * 2) << k.scene;
+  }
 }
 
 TEST_F(AttributionRuns, AStageWithoutMemoryIsARowThatSaysSo) {

@@ -7,7 +7,9 @@
 #include <numeric>
 #include <random>
 
+#include "gi/matrix.h"
 #include "gi/study/attribution.h"
+#include "gi/study/attribution_time.h"
 #include "renderer/base/csv.h"
 #include "renderer/metrics.h"
 #include "tests/support.h"
@@ -254,6 +256,72 @@ TEST(Split, NeedsEachPictureOnce) {
     chain.push_back(fmt::format("{}: {}", stage ? nameOf(*stage) : "model", ideals.name()));
   EXPECT_EQ(chain, (std::vector<std::string>{"model: voxels+storage+sweeps", "voxels: storage+sweeps",
                                              "rays: storage+sweeps", "storage: sweeps", "sweeps: as-is"}));
+}
+
+// ---- How long pictures will take ----
+
+/// Seconds of a study whose many rays are 16 times as many, in order: what is told of each, and what it takes.
+struct Foreseen {
+  using enum ErrorStage;
+  explicit Foreseen(SolverMethod method = SolverMethod::matrix) {
+    asIs.matrix.gpu.rays = 32, many.matrix.gpu.rays = 512;
+    asIs.solver.method = many.solver.method = method;
+    asIs.solver.frames = 100, many.solver.frames = 1600;
+  }
+  Settings asIs, many;
+  // voxels, field, matrix, light
+  PictureTime plain{.build = {2, 1, 10, 3}, .draw = 1},
+      exact{.build = {2, 1, 10, 5}, .exact = 20, .draw = 1, .gather = 7},
+      finer{.build = {8, 8, 40, 20}, .exact = 80, .draw = 2, .gather = 9};
+};
+
+TEST(Foreseen, TriesThePictureWithMostIdealOfEachKindOfFacets) {
+  using enum ErrorStage;
+  const Ideals all{voxels, storage, sweeps, lookup}, most{storage, sweeps, lookup};
+  EXPECT_EQ(AttributionTimes::toBeTried({{}, {voxels}, {rays}, {sweeps}, most, {lookup}, all}),
+            (std::vector<Ideals>{most, all, {}}));
+  EXPECT_EQ(AttributionTimes::toBeTried({{rays}}), std::vector<Ideals>{{rays}}) << "there is no other";
+  EXPECT_TRUE(AttributionTimes::toBeTried({}).empty());
+}
+
+TEST(Foreseen, IsTheSumOfWhatIsNotThereYet) {
+  using enum ErrorStage;
+  const Foreseen f;
+  AttributionTimes times(f.asIs, f.many);
+  EXPECT_FALSE(times.predict({}, false, {}));
+  const Ideals all{voxels, storage, sweeps, lookup}, most{storage, sweeps, lookup};
+  times.took({}, f.plain), times.took(most, f.exact), times.took(all, f.finer);
+  // From the voxels on; of the next seed; of the same matrix.
+  EXPECT_DOUBLE_EQ(*times.predict({}, false, {}), 17);
+  EXPECT_DOUBLE_EQ(*times.predict({}, false, Ideals{}), 14);
+  EXPECT_DOUBLE_EQ(*times.predict({lookup}, true, Ideals{}), 4 + 7);
+  // Light is that of the picture that solves as this one does; in double precision once for two.
+  EXPECT_DOUBLE_EQ(*times.predict({sweeps}, true, Ideals{}), 6);
+  EXPECT_DOUBLE_EQ(*times.predict({storage, sweeps}, true, Ideals{}), 26);
+  EXPECT_DOUBLE_EQ(*times.predict(most, true, Ideals{storage, sweeps}), 6 + 7);
+  EXPECT_DOUBLE_EQ(*times.predict(most, false, Ideals{storage, sweeps}), 10 + 26 + 7);
+  EXPECT_DOUBLE_EQ(*times.predict({voxels}, true, Ideals{}), 8 + 8 + 40 + 20 + 2);
+  // Many rays: 16^.93 times the matrix, 16^.4 the light.
+  EXPECT_NEAR(*times.predict({rays}, true, Ideals{}), 10 * std::pow(16, .93) + 3 * std::pow(16, .4) + 1, 1e-9);
+  // What has been seen of the picture itself counts for more.
+  times.took({rays}, {.build = {0, 0, 100, 4}, .draw = 1});
+  EXPECT_DOUBLE_EQ(*times.predict({rays}, true, Ideals{}), 105);
+  EXPECT_DOUBLE_EQ(*times.predict({}, false, Ideals{rays}), 14);
+}
+
+TEST(ManyRays, AreAtMostWhatARowCountsBesideItsColumns) {
+  // Of 32 bits 21 name one of 1.6 million facets, and 3 more which channels panes keep off.
+  EXPECT_EQ(mostRaysOfRows(1'600'000, false), 2047u);
+  EXPECT_EQ(mostRaysOfRows(1'600'000, true), 255u);
+  EXPECT_EQ(mostRaysOfRows(1u << 20, false), 4095u);
+  EXPECT_EQ(mostRaysOfRows(0, false), mostRaysOfRows(2, false)) << "there is no scene, and a row of one bit";
+}
+
+TEST(Foreseen, FramesOfBruteForceAreAsLongEach) {
+  const Foreseen f(SolverMethod::bruteForce);
+  AttributionTimes times(f.asIs, f.many);
+  times.took({}, {.build = {2, 1, 0, 30}, .draw = 1});
+  EXPECT_DOUBLE_EQ(*times.predict({ErrorStage::rays}, true, Ideals{}), 16 * 30 + 1);
 }
 
 TEST(Split, TimesAndMemoryBelongToStages) {

@@ -51,19 +51,31 @@ class ExactSolve : public GpuTest {
 };
 
 TEST_F(ExactSolve, AFurnaceIsExact) {
-  // Rows of 64 rays sum to 1 to the bit, so that B = M / (1 - rho) with the albedo as it is stored.
-  for (const float rho : {0.5f, 0.9f}) {
-    Pipeline pipeline(context(), furnaceBox(rho), at(12, 64));
+  // Rows of 64 rays sum to 1 to the bit, and of 8, so that B = M / (1 - rho) with the albedo as it is stored. The last
+  // list is long enough for several threads.
+  for (const auto& [rho, resolution, rays] : {std::tuple(0.5f, 12u, 64u), {0.9f, 12u, 64u}, {0.5f, 80u, 8u}}) {
+    Pipeline pipeline(context(), furnaceBox(rho), at(resolution, rays));
     pipeline.prepare();
     const ExactLight light = solveExactly(context(), pipeline, 1e-12);
     const HostFacets facets = hostFacets(context(), pipeline.facets());
-    ASSERT_GT(facets.count(), 0u);
+    ASSERT_GT(facets.count(), resolution == 80 ? 32'768u : 0u);
     for (size_t i = 0; i < facets.count(); ++i) {
       const double m = facets.emission[i].x, a = facets.albedo[i].x;
       ASSERT_NEAR(light.radiosity[i].x, m / (1 - a), 2e-12 * m / (1 - a)) << i;
       ASSERT_NEAR(light.indirect[i].x, m / (1 - a), 2e-12 * m / (1 - a)) << i;
     }
     EXPECT_LE(light.bound, 1e-12 * light.meanH);
+  }
+}
+
+TEST_F(ExactSolve, EndsWhereItsProgressSaysSo) {
+  Pipeline pipeline(context(), furnaceBox(0.5f), at(12, 16));
+  pipeline.prepare();
+  // While rows are read, and within a sweep.
+  for (const int last : {1, 2, 3}) {
+    int asked = 0;
+    EXPECT_THROW(solveExactly(context(), pipeline, 1e-12, [&](float) { return ++asked < last; }), WorkError);
+    EXPECT_EQ(asked, last);
   }
 }
 

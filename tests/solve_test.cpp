@@ -199,6 +199,19 @@ TEST_F(Solve, LightsOffEndsInExactZeroAndDarkStaysZero) {
   EXPECT_TRUE(allZero(light.radiosity) && allZero(light.indirect)) << "largest H " << light.report.largestH;
 }
 
+TEST_F(Solve, EndsBetweenTwoSubmissions) {
+  const Settings settings = at(12, 16);
+  const World w = world(lampRoom().finish("room"), settings);
+  const FormFactors m = buildMatrix(context(), w.facets, w.field, settings);
+  Lighting light = makeLighting(context(), w.facets, settings);
+  setDirect(light, someLight(w.facets.count));
+  int asked = 0;
+  EXPECT_THROW(solve(context(), w.facets, m, light, settings, 1000, [&] { return ++asked < 3; }), WorkError);
+  EXPECT_EQ(asked, 3);
+  // What has come of it is a start as good as any.
+  EXPECT_TRUE(solve(context(), w.facets, m, light, settings, 1000).converged);
+}
+
 TEST_F(Solve, SameBitsTwiceAndWarmStartIsAtRest) {
   const Settings settings = at(20, 48);
   const World w = world(lampRoom().finish("room"), settings);

@@ -215,7 +215,7 @@ TEST_F(NamedRuns, AskBlenderWhereItIs) {
   writeFile(
       bin / "blender",
       "#!/bin/sh\nwhile [ $# -gt 0 ]; do\n  [ \"$1\" = --out ] && out=$2\n  [ \"$1\" = EEVEE ] && exit 3\n  shift\n"
-      "done\nfor part in combined diffdir diffind diffcol glossind glosscol; do\n  cp " +
+      "done\nfor part in combined diffdir diffind diffcol glossdir glossind glosscol emit; do\n  cp " +
           pass.string() + " \"${out}_$part.pfm\"\ndone\n");
   fs::permissions(bin / "blender", fs::perms::owner_all);
   const std::string path = std::getenv("PATH");
@@ -227,6 +227,8 @@ TEST_F(NamedRuns, AskBlenderWhereItIs) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(file("rq1", "box-cycles-lit/figures.csv"), "truth_mean,0.5\n"));
   EXPECT_TRUE(contains(file("rq1", "park-cycles-indirect/figures.csv"), "truth_mean,0.25\n")) << "light times colour";
+  EXPECT_TRUE(contains(file("rq1", "park-cycles-direct/figures.csv"), "truth_mean,1\n"))
+      << "diffuse light times colour, glossy light times colour, and what is emitted";
   EXPECT_TRUE(contains(run.out, "box-cycles-specular: mean radiance ")) << run.out;
   EXPECT_TRUE(contains(run.out, "box-eevee-lit skipped: blender ended with status 3: see ")) << run.out;
 }

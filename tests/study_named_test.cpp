@@ -116,9 +116,9 @@ TEST(NamedFits, AreThoseOfTheirCurves) {
   const auto parabola = [](double x) { return std::pair(x, (x - .73) * (x - .73)); };
   EXPECT_NEAR(leastAt({parabola(.5), parabola(.6), parabola(.7), parabola(.8), parabola(1)}), .73, 1e-12);
   EXPECT_EQ(leastAt({{.5, 3}, {.9, 2}, {1, 1}}), 1) << "an end is the least";
-  EXPECT_EQ(compare({1, .1}, {1.15, .1}), Order::Equal);
-  EXPECT_EQ(compare({1, .1}, {1.3, .1}), Order::Less);
-  EXPECT_EQ(compare({1, HUGE_VAL}, {1.3, .1}), Order::Unknown) << "one seed";
+  EXPECT_EQ(compare({1, .1}, {1.15, .1}), IntervalOrder::Equal);
+  EXPECT_EQ(compare({1, .1}, {1.3, .1}), IntervalOrder::Less);
+  EXPECT_EQ(compare({1, HUGE_VAL}, {1.3, .1}), IntervalOrder::Unknown) << "one seed";
 }
 
 TEST(Judges, OfBruteForce) {
@@ -321,13 +321,21 @@ TEST(Judges, OfBlender) {
   EXPECT_EQ(verdict(claims::cyclesIsMatched, results({lit("sponza-thesis", 1.05, .1), lit("sponza-ours", 2, .1)})),
             kYes);
   EXPECT_EQ(verdict(claims::cyclesIsMatched, results({lit("sponza-thesis", .7, .1)})), kNo);
-  const auto both = [&](double cycles, double eevee) {
-    return results({lit("box-cycles-lit", 1, cycles), lit("park-cycles-lit", 1, cycles), lit("box-eevee-lit", 1, eevee),
-                    lit("park-eevee-lit", 1, eevee)});
+  // Ours to Cycles; EEVEE's to Cycles, and the share of its light.
+  const auto both = [&](double ours, double eevee, double share) {
+    std::vector<ExperimentResult> out;
+    for (const char* scene : {"box", "park"}) {
+      out.push_back(lit(fmt::format("{}-cycles-lit", scene).c_str(), 1, ours));
+      out.push_back(lit(fmt::format("{}-eevee-lit", scene).c_str(), 1, .2));
+      out.back().figures["truth_mean"] = share, out.back().figures["cycles_mean"] = 1;
+      out.back().figures["cycles_flip"] = eevee;
+    }
+    return results(std::move(out));
   };
-  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.1, .3)), kYes);
-  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.3, .1)), kNo);
-  EXPECT_EQ(verdict(claims::cyclesIsMatched, both(.1, .3)), kYes);
+  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.1, .3, .2)), kYes);
+  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.3, .1, .2)), kNo);
+  EXPECT_EQ(verdict(claims::eeveeIsFarOff, both(.1, .3, .95)), kNo) << "not dark";
+  EXPECT_EQ(verdict(claims::cyclesIsMatched, both(.1, .3, .2)), kYes);
 }
 
 TEST(ThesisTables, HoldWhatWasPublishedBesideWhatIsMeasured) {

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <random>
 
+#include "app/study_ahead.h"
 #include "gi/study/front.h"
 #include "gi/study/html.h"
 #include "gi/study/loaded.h"
@@ -484,6 +485,35 @@ TEST(LoadedStudies, SayWhatIsWrongWithAFolder) {
   EXPECT_TRUE(contains(refusal("study.json", R"({"settings": {}, "sweeps": [["voxel.resolution=3"]]})"),
                        "voxel.resolution: '3' is not allowed"));
   EXPECT_TRUE(contains(refusal("attribution.csv", "stage,error\n"), "attribution.csv: no column 'relmse'"));
+}
+
+TEST(Ahead, PointsBetweenTwoThatWereTriedGrowAsIsKnown) {
+  using app::PictureTrial, app::pointFactors;
+  const SettingGrid grid(std::vector<std::string>{"voxel.resolution=16,32,64", "matrix.rays=32,128"}, Settings{});
+  std::vector<size_t> points(grid.size());
+  std::iota(points.begin(), points.end(), 0);
+  const auto grown = [](double n, double r) { return std::pow(n, 1.93) * std::pow(r, .93); };
+  // Half of the first is the matrix; the last takes what that grows to.
+  PictureTrial first{.error = 3, .timed = 2, .parts = {0, 0, 1, 0}}, last = first;
+  last.timed = 1 + grown(4, 4);
+  const std::vector<double> factors = pointFactors(grid, points, first, last);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Settings s = grid.settings(i);
+    EXPECT_NEAR(factors[i], .5 + .5 * grown(s.voxel.resolution / 16.0, s.matrix.gpu.rays / 32.0), 1e-9) << i;
+  }
+  // The last one is what it is; those between follow it.
+  last.timed = 20;
+  const std::vector<double> less = pointFactors(grid, points, first, last);
+  EXPECT_DOUBLE_EQ(less.front(), 1);
+  EXPECT_NEAR(less.back(), 10, 1e-9);
+  for (size_t i = 1; i < points.size(); ++i) EXPECT_LT(less[i], factors[i]);
+  // Settings whose growth nobody knows: as long as the two on average.
+  const SettingGrid other(std::vector<std::string>{"solver.tolerance=0.01,0.001,0.0001"}, Settings{});
+  EXPECT_EQ(pointFactors(other, {0, 1, 2}, first, last), (std::vector<double>{5.5, 5.5, 5.5}));
+  // One alone, and one that found no memory, tell of themselves.
+  EXPECT_EQ(pointFactors(other, {0}, first, first), std::vector<double>{1});
+  EXPECT_EQ(pointFactors(grid, {0, 5}, first, {})[1], 1);
+  EXPECT_EQ(pointFactors(grid, {0, 5}, {}, last)[1], 1);
 }
 
 TEST(Results, AsTablesNameFailuresAndDominators) {

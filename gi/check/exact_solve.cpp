@@ -1,7 +1,9 @@
 #include "gi/check/exact_solve.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "gi/facets.h"
 #include "gi/host_facets.h"
@@ -14,6 +16,11 @@
 namespace irad {
 namespace {
 
+/// Progress is told of after so many rows: a sweep over a large matrix takes seconds.
+constexpr uint32_t kBetweenRows = 1 << 14;
+/// Rows of a block, which one thread sweeps, and how many blocks there are.
+constexpr size_t kLeastBlock = 1 << 14, kMostBlocks = 32;
+
 /// Rows of F, one after the other.
 struct Rows {
   std::vector<size_t> first{0};
@@ -24,6 +31,16 @@ struct Rows {
     for (size_t k = first[row]; k < first[row + 1]; ++k) sum += double{1} * hits[k] * b[columns[k]];
     return sum * weight[row];
   }
+  /// Of `now` between two rows, of `before` elsewhere.
+  glm::dvec3 product(size_t row, const std::vector<glm::dvec3>& now, const std::vector<glm::dvec3>& before,
+                     size_t begin, size_t end) const {
+    glm::dvec3 sum(0);
+    for (size_t k = first[row]; k < first[row + 1]; ++k) {
+      const size_t j = columns[k];
+      sum += double{1} * hits[k] * (j >= begin && j < end ? now : before)[j];
+    }
+    return sum * weight[row];
+  }
   double sum(size_t row) const {
     double n = 0;
     for (size_t k = first[row]; k < first[row + 1]; ++k) n += hits[k];
@@ -31,9 +48,11 @@ struct Rows {
   }
 };
 
-Rows rowsOf(Context& context, const FormFactors& matrix) {
+Rows rowsOf(Context& context, const FormFactors& matrix, const std::function<void()>& watch) {
   Rows rows;
-  forEachRow(context, matrix, [&](uint32_t, const HostRow& row) {
+  rows.columns.reserve(matrix.stats.entries), rows.hits.reserve(matrix.stats.entries);
+  forEachRow(context, matrix, [&](uint32_t index, const HostRow& row) {
+    if (index % kBetweenRows == 0) watch();
     rows.columns.insert(rows.columns.end(), row.columns.begin(), row.columns.end());
     rows.hits.insert(rows.hits.end(), row.hits.begin(), row.hits.end());
     rows.first.push_back(rows.columns.size());
@@ -53,8 +72,12 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
   const FacetList& list = pipeline.facets();
   const Lighting& light = pipeline.lighting();
   IRAD_CHECK(pipeline.matrix() && light, "there is neither matrix nor light to solve");
+  const auto report = [&](float done) {
+    if (progress && !progress(done)) throw WorkError("cancelled");
+  };
+  report(0);
   const HostFacets facets = hostFacets(context, list);
-  const Rows rows = rowsOf(context, pipeline.matrix());
+  const Rows rows = rowsOf(context, pipeline.matrix(), [&] { report(0); });
   const std::vector<glm::vec3> direct = perFacet(context, list, light.direct), sky = perFacet(context, list, light.sky),
                                correction = perFacet(context, list, light.correction),
                                reflected = perFacet(context, list, light.writeback.used),
@@ -73,11 +96,18 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
   ExactLight out;
   out.indirect.resize(count);
   out.radiosity.assign(start.begin(), start.end());
-  const auto sweep = [&] {
+  float solved = 0;  // share of the way
+  // Gauss-Seidel within blocks of rows, which take what other blocks had before the sweep: so that threads share them,
+  // and bits do not show how many there are.
+  const size_t blocks = std::clamp<size_t>(count / kLeastBlock, 1, kMostBlocks);
+  std::vector<glm::dvec3> before;
+  const auto sweepBlock = [&](size_t block, bool reports) {
+    const size_t begin = count * block / blocks, end = count * (block + 1) / blocks;
     double change = 0;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = begin; i < end; ++i) {
+      if (reports && i % kBetweenRows == 0) report(solved);
       // The sweeps' own equation (shaders/gi/solve.glsl): the emitters' correction never takes H below 0.
-      glm::dvec3 h = rows.product(i, out.radiosity) + lambda * glm::dvec3(correction[i]);
+      glm::dvec3 h = rows.product(i, out.radiosity, before, begin, end) + lambda * glm::dvec3(correction[i]);
       h = glm::max(h, glm::dvec3(0)) + glm::dvec3(sky[i]);
       const glm::dvec3 b = lambda * (glm::dvec3(facets.emission[i]) + glm::dvec3(reflected[i]) +
                                      glm::dvec3(facets.albedo[i]) * (glm::dvec3(direct[i]) + h));
@@ -85,14 +115,35 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
       out.indirect[i] = h;
       out.radiosity[i] = b;
     }
-    ++out.sweeps;
     return change;
+  };
+  const auto sweep = [&] {
+    report(solved);
+    before = out.radiosity;
+    std::vector<double> changes(blocks);
+    std::atomic<size_t> next = 0;
+    const auto work = [&](bool reports) {
+      for (size_t block; (block = next++) < blocks;) changes[block] = sweepBlock(block, reports);
+    };
+    std::vector<std::jthread> others;
+    for (size_t t = 1; t < std::min<size_t>(blocks, std::thread::hardware_concurrency()); ++t)
+      others.emplace_back(work, false);
+    try {
+      work(true);
+    } catch (...) {
+      next = blocks;  // none further for the others
+      throw;
+    }
+    others.clear();
+    ++out.sweeps;
+    return *std::ranges::max_element(changes);
   };
   double allowed = 0, first = 0, least = INFINITY;
   uint32_t since = 0;
   while (true) {
     const double change = sweep();
-    // B is now within gain / (1 - gain) of its last change: the sweeps contract in the largest norm.
+    // B is now within gain / (1 - gain) of its last change: the sweeps contract in the largest norm, whether a row
+    // takes what another has now or had before.
     out.bound = change * gain / (1 - gain);
     glm::dvec3 sum(0);
     double area = 0;
@@ -111,8 +162,9 @@ ExactLight solveExactly(Context& context, const Pipeline& pipeline, double toler
           fmt::format("after {} sweeps in double precision H is known to {:.3g} of its mean, which gets no "
                       "better; {:.3g} was asked for",
                       out.sweeps, out.bound / out.meanH, tolerance));
-    const double done = allowed > 0 && first > allowed ? std::log(first / out.bound) / std::log(first / allowed) : 0;
-    if (progress && !progress(static_cast<float>(done))) throw WorkError("cancelled");
+    solved = allowed > 0 && first > allowed
+                 ? static_cast<float>(std::log(first / out.bound) / std::log(first / allowed))
+                 : 0;
   }
   // H of the B that came out, as the equation has it.
   std::vector<glm::dvec3> h(count);

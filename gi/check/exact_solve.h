@@ -20,9 +20,10 @@ struct ExactLight {
   std::vector<std::vector<glm::dvec3>> bounces;
 };
 /// Solves H = F B + S, B = lambda (M + W + rho (D + H)), with the rows, sources and albedos as the pipeline holds them,
-/// by Gauss-Seidel sweeps until `bound` is at most `tolerance` x meanH. WorkError where row gains reach 1, and where
-/// the roundings of double precision keep it from that. The pipeline has a matrix and light. `progress` may be empty;
-/// where it returns false a WorkError ends the solve. `bounces`: how many ExactLight::bounces there are to be.
+/// by Gauss-Seidel sweeps, of long lists in blocks that threads share, until `bound` is at most `tolerance` x meanH.
+/// WorkError where row gains reach 1, and where the roundings of double precision keep it from that. The pipeline has a
+/// matrix and light. `progress` may be empty; where it returns false a WorkError ends the solve. `bounces`: how many
+/// ExactLight::bounces there are to be.
 ExactLight solveExactly(Context& context, const Pipeline& pipeline, double tolerance,
                         const std::function<bool(float)>& progress = {}, uint32_t bounces = 0);
 

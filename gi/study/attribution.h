@@ -48,6 +48,7 @@ class Ideals {
   }
   bool has(ErrorStage stage) const { return bits_[static_cast<size_t>(stage)]; }
   void set(ErrorStage stage) { bits_.set(static_cast<size_t>(stage)); }
+  size_t count() const { return bits_.count(); }
   std::string name() const;  ///< "as-is", "storage+sweeps"
   bool operator==(const Ideals&) const = default;
 

@@ -194,7 +194,7 @@ Answer rowsQuietHardLight(const NamedResults& r) {
     return pointOf(e, {{"matrix.rays", fmt::format("{:.0f}", rays)}});
   };
   const PointSummary &few = at(f.shortest), &many = at(f.longest);
-  const Order order = compare(many.rmse, few.rmse);
+  const IntervalOrder order = compare(many.rmse, few.rmse);
   std::string text = fmt::format(
       "RMSE {} with {:.0f} places, {} with {:.0f}. By a fit of a + b/R to its square, {} of it is noise at "
       "{:.0f} and {} at {:.0f}.",
@@ -205,8 +205,8 @@ Answer rowsQuietHardLight(const NamedResults& r) {
     text += fmt::format(" By the present defaults these shares are {} and {}.",
                         percent(ours.fit.noiseShare(ours.shortest)), percent(ours.fit.noiseShare(ours.longest)));
   }
-  if (order == Order::Unknown) return {Judgement::Open, text + " One seed says nothing about noise."};
-  return {agreesIf(order == Order::Less), text};
+  if (order == IntervalOrder::Unknown) return {Judgement::Open, text + " One seed says nothing about noise."};
+  return {agreesIf(order == IntervalOrder::Less), text};
 }
 
 Answer rowsDoLittleInAverageLight(const NamedResults& r) {
@@ -255,9 +255,9 @@ Answer sdfLosesNoQuality(const NamedResults& r) {
   for (const ExperimentResult* e : allMeasured(r)) {
     const PointSummary &dda = traversed(*e, "dda", nullptr), &jfa = traversed(*e, "sdf", "jfa"),
                        &exact = traversed(*e, "sdf", "chebyshev");
-    const Order order = compare(jfa.flip, dda.flip);
-    known = known && order != Order::Unknown;
-    worse += order == Order::More && jfa.flip.mean > 1.1 * dda.flip.mean ? 1 : 0;
+    const IntervalOrder order = compare(jfa.flip, dda.flip);
+    known = known && order != IntervalOrder::Unknown;
+    worse += order == IntervalOrder::More && jfa.flip.mean > 1.1 * dda.flip.mean ? 1 : 0;
     parts.push_back(fmt::format("{} {}, {}, {}", e->experiment.scene, withInterval(dda.flip), withInterval(jfa.flip),
                                 withInterval(exact.flip)));
   }

@@ -123,9 +123,9 @@ const NamedStudy* findNamedStudy(std::string_view name);  ///< null where there 
 
 /// Slope of log y over log x by least squares: of two points or more, NaN of fewer.
 double exponentOf(const std::vector<std::pair<double, double>>& points);
-enum class Order { Less, Equal, More, Unknown };
+enum class IntervalOrder { Less, Equal, More, Unknown };
 /// By means and 95 % intervals: Equal where these overlap; Unknown where one of them is of a single seed.
-Order compare(const MeanInterval& a, const MeanInterval& b);
+IntervalOrder compare(const MeanInterval& a, const MeanInterval& b);
 /// y = a + b / x by least squares.
 struct NoiseFit {
   double bias = 0, slope = 0;

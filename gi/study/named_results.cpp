@@ -70,10 +70,10 @@ double exponentOf(const std::vector<std::pair<double, double>>& points) {
   return n < 2 || spread <= 0 ? std::numeric_limits<double>::quiet_NaN() : (n * xy - x * y) / spread;
 }
 
-Order compare(const MeanInterval& a, const MeanInterval& b) {
-  if (!std::isfinite(a.half) || !std::isfinite(b.half)) return Order::Unknown;
-  if (std::abs(a.mean - b.mean) <= a.half + b.half) return Order::Equal;
-  return a.mean < b.mean ? Order::Less : Order::More;
+IntervalOrder compare(const MeanInterval& a, const MeanInterval& b) {
+  if (!std::isfinite(a.half) || !std::isfinite(b.half)) return IntervalOrder::Unknown;
+  if (std::abs(a.mean - b.mean) <= a.half + b.half) return IntervalOrder::Equal;
+  return a.mean < b.mean ? IntervalOrder::Less : IntervalOrder::More;
 }
 
 NoiseFit fitNoise(const std::vector<std::pair<double, double>>& points) {

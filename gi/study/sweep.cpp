@@ -49,11 +49,11 @@ std::vector<std::string> expandRange(const Setting& setting, std::string_view ra
   return out;
 }
 
-Sweep parseSweep(const std::string& text) {
+SettingSweep parseSweep(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos)
     throw UsageError(fmt::format("--sweep '{}': expected NAME=VALUE,VALUE,... or NAME=FIRST..LAST*FACTOR", text));
-  Sweep sweep{&findSetting(text.substr(0, equals)), {}};
+  SettingSweep sweep{&findSetting(text.substr(0, equals)), {}};
   if (std::string_view(sweep.setting->name) == "matrix.seed")
     throw UsageError("--sweep matrix.seed: the seeds of a study are --seeds and --seed");
   size_t start = equals + 1;
@@ -77,7 +77,7 @@ Sweep parseSweep(const std::string& text) {
 
 }  // namespace
 
-std::string Sweep::text() const {
+std::string SettingSweep::text() const {
   return fmt::format("{}={}", setting->name, fmt::join(values, ","));
 }
 
@@ -90,12 +90,12 @@ SettingGrid::SettingGrid(std::span<const std::vector<std::string>> grids, const 
 }
 
 void SettingGrid::add(std::span<const std::string> texts) {
-  std::vector<Sweep> sweeps;
+  std::vector<SettingSweep> sweeps;
   std::vector<std::string> plain;
   size_t count = 1;
   for (const std::string& text : texts) {
-    Sweep sweep = parseSweep(text);
-    for (const Sweep& before : sweeps)
+    SettingSweep sweep = parseSweep(text);
+    for (const SettingSweep& before : sweeps)
       if (before.setting == sweep.setting)
         throw UsageError(fmt::format("--sweep {}: is swept twice", sweep.setting->name));
     count *= sweep.values.size();
@@ -108,7 +108,7 @@ void SettingGrid::add(std::span<const std::string> texts) {
 
   SettingGrid out = *this;
   std::vector<size_t> columns;
-  for (const Sweep& sweep : sweeps) {
+  for (const SettingSweep& sweep : sweeps) {
     const auto column = std::ranges::find(out.swept_, sweep.setting);
     columns.push_back(static_cast<size_t>(column - out.swept_.begin()));
     if (column != out.swept_.end()) continue;

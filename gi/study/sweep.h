@@ -12,7 +12,7 @@
 namespace irad {
 
 /// One setting and the values that it takes, as Setting::text gives them, each once.
-struct Sweep {
+struct SettingSweep {
   const Setting* setting = nullptr;
   std::vector<std::string> values;
   std::string text() const;  ///< "matrix.rays=32,64,128"

@@ -99,6 +99,7 @@ void lookAt(SurfaceArrays surface, uint place) {
 
 void main() {
   uint lane = gl_LocalInvocationIndex, firstFacet_ = LINK_FACETS * irad_workgroup();
+  if (firstFacet_ >= push.count) return;  // where groups make up several rows the last one has some too many
   uint count = min(LINK_FACETS, push.count - firstFacet_), places = 27u * count;
   SurfaceArrays surface = push.surface.at[0];
   for (uint i = lane; i < count; i += gl_WorkGroupSize.x) {
