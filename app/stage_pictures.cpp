@@ -361,8 +361,8 @@ LinearPixels StagePictures::picture(const Ideals& ideals, uint32_t seed, Picture
     const bool solved = exact_ && AttributionTimes::sameLight(ideals, exact_->of.ideals) && exact_->of.seed == seed;
     if (!solved) {
       exact_.reset();
-      exact_.emplace(Due{seed, ideals},
-                     solveExactly(*session_.context, pipeline, kSolved, [](float) { return throwIfStopped(), true; }));
+      exact_ = Exact{{seed, ideals},
+                     solveExactly(*session_.context, pipeline, kSolved, [](float) { return throwIfStopped(), true; })};
     }
     h = exact_->light.indirect, b = exact_->light.radiosity;
     pipeline.showLight(asVec4(h), asVec4(b));
