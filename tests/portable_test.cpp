@@ -60,8 +60,10 @@ TEST_F(Portable, RendersTheFullBuildsPictureFromItsCache) {
   ASSERT_EQ(exported.status, 0) << exported.err;
   for (const auto& [which, scene, out] :
        {std::tuple{iradProgram(), cache.string(), full}, std::tuple{program.string(), std::string("kept"), small}}) {
-    const RunResult run = runProgram(which, {"render", scene, "--view", "lit", "--size", "48x48", "--set",
-                                             "voxel.resolution=24", "--set", "matrix.rays=32", "--out", out});
+    // Samples of the emitters would differ in their last bits: on CPU devices the full build's host sums them.
+    const RunResult run =
+        runProgram(which, {"render", scene, "--view", "lit", "--size", "48x48", "--set", "voxel.resolution=24", "--set",
+                           "matrix.rays=32", "--set", "matrix.emitter_sampling=off", "--out", out});
     ASSERT_EQ(run.status, 0) << which << ": " << run.err;
   }
   const ExrPicture a = readExr(fs::path(full) / "lit.exr"), b = readPfm(fs::path(small) / "lit.pfm");
