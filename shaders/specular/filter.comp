@@ -61,8 +61,9 @@ void main() {
     vec3 view = towardsViewer(camera, pixelPosition(camera, pixel, centre.w, axis), axis);
     float nv = max(dot(normalize(normal.xyz), view), 1e-3);
     vec3 diffuse = imageLoad(indirectTarget, pixel).rgb * (1.0 / IRAD_PI);
-    vec3 radiance = mix(diffuse, result.rgb, tracedShare(normal.w));
-    result = vec4(radiance * environmentBrdf(imageLoad(f0Target, pixel).rgb, normal.w, nv), 1.0);
+    vec4 f0 = imageLoad(f0Target, pixel);
+    vec3 radiance = mix(diffuse, result.rgb, tracedShare(f0, normal.w));
+    result = vec4(radiance * environmentBrdf(f0.rgb, normal.w, nv), 1.0);
   }
   imageStore(to, pixel, result);
 }
