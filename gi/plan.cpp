@@ -177,10 +177,14 @@ class Planner {
     auto [lobes, reason] = materials([](const MaterialTraits& m) { return m.f0 > 0; }, "with a specular lobe");
     if (lobes > 0) {
       const float least = std::ranges::min(used_, {}, &MaterialTraits::leastRoughness).leastRoughness;
-      smoothness_ = 1 + 10 * (double{rays.maxRoughness} - least);
-      reason +=
-          fmt::format("{}; roughness {:.3g} at least, rays up to {:.3g} where F0 H is above {:.3g} of the largest H",
-                      shines_ ? "" : ", no light to reflect", least, rays.maxRoughness, rays.threshold);
+      smoothness_ = -INFINITY;
+      for (const MaterialTraits& m : used_)
+        if (m.f0 > 0)
+          smoothness_ = std::max(smoothness_, 1 + 10 * (double{roughnessLimit(rays, m.f0)} - m.leastRoughness));
+      reason += fmt::format(
+          "{}; roughness {:.3g} at least, rays up to {:.3g} (metals {:.3g}) where F0 H is above {:.3g} of the largest "
+          "H",
+          shines_ ? "" : ", no light to reflect", least, rays.maxRoughness, rays.metalRoughness, rays.threshold);
     }
     decide(Effect::specular, lobes > 0 && shines_, std::move(reason), bytes);
     if (s_.effects.specular == EffectMode::on) smoothness_ = INFINITY;

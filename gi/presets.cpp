@@ -30,6 +30,7 @@ void thesis(Settings& s) {
   s.specular.gpu.rays = 2;
   s.specular.gpu.traversal = Traversal::dda;
   s.specular.gpu.filter_ = 0;
+  s.specular.gpu.metalRoughness = s.specular.gpu.maxRoughness;
   // The thesis's stages run whatever the scene holds. But lights without intensity stay out, and light at rest is not
   // solved again.
   forceEffects(s, EffectMode::on);

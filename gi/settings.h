@@ -102,7 +102,7 @@ struct SampleSettings {
 };
 struct SpecularSettings {
   SpecularMode mode = SpecularMode::compute;
-  SpecularParams gpu{4, Traversal::sdf, 0.6f, 0.15f, 1e-4f, true};
+  SpecularParams gpu{4, Traversal::sdf, 0.6f, 1.0f, 0.15f, 1e-4f, true};
   bool operator==(const SpecularSettings&) const = default;
 };
 struct WritebackSettings {

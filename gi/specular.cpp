@@ -147,6 +147,7 @@ void traceSpecular(Frame& frame, const ViewInputs& inputs, const Buffer& camera,
         .constant(CONSTANT_FILTER_STEP, settings.specular.gpu.filter_ != 0 ? kFilter[i].step : 0)
         .constant(CONSTANT_FILTER_RESOLVE, last)
         .constant(CONSTANT_LEAST_ROUGHNESS, std::bit_cast<uint32_t>(kFilter[i].leastRoughness))
+        .sample(targets.depth, pointSampler(frame.context().device))
         .read(targets.normal, targets.geometric, targets.f0, targets.indirect, *from)
         .write(*to)
         .push(push)

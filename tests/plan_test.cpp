@@ -128,7 +128,8 @@ const Case kCases[]{
     {E::specular, thesis, "on: *"},
     {E::specular, none, "off: none of 2 materials with a specular lobe"},
     {E::specular, glossy,
-     "on: 1 of 2 materials with a specular lobe; roughness 0.3 at least, rays up to 0.6 where F0 H is above 0.0001 *"},
+     "on: 1 of 2 materials with a specular lobe; roughness 0.3 at least, rays up to 0.6 (metals 1) where F0 H is above "
+     "0.0001 *"},
     {E::specular, EDIT(glossy(t, s), unlit(t, s)), "off: 1 of 2 materials * lobe, no light to reflect; *"},
     {E::specular, noMode, "off: specular.mode = off"},
     {E::specular, EDIT(noMode(t, s), s.effects.specular = EffectMode::on), "off: specular.mode = off"},

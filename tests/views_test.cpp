@@ -303,6 +303,42 @@ TEST_F(Views, RaysToEmittersKeepTheMeanAndQuietIt) {
   EXPECT_LT(error(aimed), error(plain) / 2);
 }
 
+TEST_F(Views, TheFilterTakesTheNoiseAndLeavesTheReflection) {
+  // A metal floor on which a panel stands: its reflection ends sharply where they touch.
+  for (const float roughness : {0.15f, 0.3f, 0.6f}) {
+    SceneBuilder b;
+    Material& metal = b.scene.materials[0];
+    metal.lambertian = false;
+    metal.metallic = 1;
+    metal.roughness = roughness;
+    b.addQuad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+    Material& panel = b.newMaterial();
+    panel.lambertian = true;
+    panel.emission = glm::vec3(5);
+    b.addQuad({-0.5f, 0, -1}, {1, 0, 0}, {0, 0.5f, 0});
+    b.addCamera({0, 2, 8}, {0, 0.2, 0}, 0.4f);
+    Settings settings = smallSettings();
+    settings.specular.gpu.threshold = 0;
+    Lit lit(context(), b.finish(), settings);
+    const auto draw = [&](uint32_t rays, bool filtered) {
+      lit.stage.settings.specular.gpu.rays = rays;
+      lit.stage.settings.specular.gpu.filter_ = filtered;
+      return lit.stage.draw(VIEW_SPECULAR, {128, 128}, 0, lit.inputs(), lit.indirect());
+    };
+    const Picture truth = draw(64, false), plain = draw(4, false), filtered = draw(4, true);
+    const auto error = [&](const Picture& p) {
+      double sum = 0;
+      for (size_t i = 0; i < p.linear.size(); ++i) {
+        const double d = p.linear[i].x - truth.linear[i].x;
+        sum += d * d;
+      }
+      return std::sqrt(sum / static_cast<double>(p.linear.size()));
+    };
+    fmt::print("roughness {}: root mean square {:.4f}, filtered {:.4f}\n", roughness, error(plain), error(filtered));
+    EXPECT_LT(error(filtered), error(plain)) << roughness;
+  }
+}
+
 TEST(AliasTable, DrawsInProportion) {
   // The probability of a facet is the sum over entries of what they keep or pass on, each drawn with 1 / count.
   const std::vector<uint32_t> facets{4, 7, 9, 12, 20};
@@ -333,6 +369,23 @@ TEST_F(Views, RoughnessAtTheLimitTracesNoRays) {
   EXPECT_TRUE(at.linear == lit.draw(VIEW_SPECULAR).linear);
   lit.stage.settings.specular.gpu.maxRoughness = 0.61f;
   EXPECT_FALSE(at.linear == lit.draw(VIEW_SPECULAR).linear);
+}
+
+TEST_F(Views, MetalsHaveARoughnessLimitOfTheirOwn) {
+  for (const float metallic : {0.0f, 1.0f}) {
+    Scene scene = cornerScene();
+    scene.materials[0].lambertian = false;
+    scene.materials[0].metallic = metallic;
+    scene.materials[0].roughness = 1;
+    Settings settings = smallSettings();
+    settings.specular.gpu.threshold = 0;
+    Lit lit(context(), std::move(scene), settings);
+    const std::vector<glm::vec4> b(lit.facets.count, glm::vec4(100));
+    upload(context(), lit.light.radiosity, std::as_bytes(std::span(b)));
+    const Picture traced = lit.draw(VIEW_SPECULAR);
+    lit.stage.settings.specular.gpu.metalRoughness = 0.6f;
+    EXPECT_EQ(traced.linear == lit.draw(VIEW_SPECULAR).linear, metallic == 0) << metallic;
+  }
 }
 
 TEST_F(Views, LambertianSceneHasNoSpecularAtAll) {

@@ -55,12 +55,23 @@ struct SampleParams {
 struct SpecularParams {
   uint rays;
   IRAD_AS(Traversal) traversal;
-  float maxRoughness;     ///< rougher surfaces take H / pi instead of traced rays
-  float fade;             ///< width of the blend below maxRoughness
+  float maxRoughness;     ///< rougher surfaces take H / pi instead of traced rays; 1: none does
+  float metalRoughness;   ///< the same of those with F0 of METAL_F0 and more; in between for F0 in between
+  float fade;             ///< width of the blend below these
   float threshold;        ///< skip where F0 x H is below this share of the largest H
   IRAD_AS(Flag) filter_;  ///< edge-aware filter over the G-buffer after tracing
   IRAD_EQUALITY(SpecularParams)
 };
+
+/// F0 of what reflects so much that one sees how rough metals reflect.
+IRAD_CONST float DIELECTRIC_F0 = 0.04f;
+IRAD_CONST float METAL_F0 = 0.2f;
+/// From which roughness on a surface takes H / pi; more than any has where all are traced. `f0`: of its largest channel.
+IRAD_FN float roughnessLimit(SpecularParams params, float f0) {
+  float metal = min(max((f0 - DIELECTRIC_F0) / (METAL_F0 - DIELECTRIC_F0), 0.0f), 1.0f);
+  float limit = params.maxRoughness + metal * (params.metalRoughness - params.maxRoughness);
+  return limit < 1.0f ? limit : 2.0f;
+}
 
 /// Of writeback.mode = mask: which fragments write (T eq. 25-28, shared/writeback.h).
 struct WritebackParams {

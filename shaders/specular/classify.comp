@@ -1,5 +1,5 @@
 // "RE Specular", first step: every pixel takes the reflection of its diffuse irradiance, and those that trace rays are
-// listed, so that the steps which follow run on them alone. For the filter, depth -1 (w) marks the others.
+// listed, so that the steps which follow run on them alone. For the filter -1 (w) marks the others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"

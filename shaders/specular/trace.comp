@@ -1,5 +1,5 @@
 // "RE Specular": LOBE_LANES invocations per listed pixel. Writes the mean reflected radiance (without the lobe's
-// reflectance) and the view depth.
+// reflectance) and how near what is reflected is: the mean of 1 / distance, 1 / voxels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/trace.glsl"
@@ -13,9 +13,10 @@ layout(set = 0, binding = 4, rgba32f) uniform readonly image2D indirectTarget;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D tracedTarget;
 
 shared vec4 lobes[gl_WorkGroupSize.x];
+shared float nearness[gl_WorkGroupSize.x];
 
 /// What a lane finds (traceLobe) for a pixel at view depth `z`.
-vec4 reflectedAt(GpuCamera camera, ivec2 pixel, float z, uint lane) {
+vec4 reflectedAt(GpuCamera camera, ivec2 pixel, float z, uint lane, out float near_) {
   TraceWorld world = TraceWorld(push.facets.at[0], push.chebyshev, push.dims, push.jfaMax);
   SurfaceArrays surface = tracedSurface();
   vec4 normal = imageLoad(normalTarget, pixel);
@@ -34,7 +35,7 @@ vec4 reflectedAt(GpuCamera camera, ivec2 pixel, float z, uint lane) {
   uvec2 first = uvec2(pixel.x * 3242174889u + pixel.y * 2447445414u, pixel.x * 2447445414u + pixel.y * 1847517997u);
   uvec4 shift =
       uvec4(first, pixel.x * 2447445414u + pixel.y * 3242174889u, pixel.x * 1847517997u + pixel.y * 2447445414u);
-  return traceLobe(world, surface, s, shift, lane);
+  return traceLobe(world, surface, s, shift, lane, near_);
 }
 
 void main() {
@@ -43,10 +44,16 @@ void main() {
   ivec2 pixel;
   bool listed = pickedPixel(push.glossy, gl_GlobalInvocationID.x / LOBE_LANES, pixel);
   float z = viewDepth(camera, texelFetch(depthTarget, pixel, 0).r);
-  lobes[at] = listed ? reflectedAt(camera, pixel, z, lane) : vec4(0.0);
+  lobes[at] = vec4(0.0);
+  nearness[at] = 0.0;
+  if (listed) lobes[at] = reflectedAt(camera, pixel, z, lane, nearness[at]);
   barrier();
   if (!listed || lane != 0u) return;
   vec4 lobe = lobes[at];
-  for (uint i = 1u; i < LOBE_LANES; ++i) lobe += lobes[at + i];
-  imageStore(tracedTarget, pixel, vec4(lobe.w > 0.0 ? lobe.xyz / (lobe.w * IRAD_PI) : vec3(0.0), z));
+  float near_ = nearness[at];
+  for (uint i = 1u; i < LOBE_LANES; ++i) {
+    lobe += lobes[at + i];
+    near_ += nearness[at + i];
+  }
+  imageStore(tracedTarget, pixel, lobe.w > 0.0 ? vec4(lobe.xyz / IRAD_PI, near_) / lobe.w : vec4(0.0));
 }

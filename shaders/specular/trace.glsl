@@ -18,6 +18,9 @@ layout(constant_id = CONSTANT_SKY) const bool SKY = false;
 /// Start of the rays where voxels are met: off the surface, so that its own are behind them.
 const float RAY_LIFT = 1.5;
 
+/// Of what a ray meets, voxels.
+const float LEAST_DISTANCE = 0.01;
+
 struct Surface {
   vec3 position;  ///< voxel units
   vec3 normal;    ///< shading
@@ -77,7 +80,8 @@ layout(constant_id = CONSTANT_LOBE_LANES) const uint LOBE_LANES = 4u;
 /// weighted with F G2 / G1 and the sum divided by the weights; with emitters a quarter as many more go to points of
 /// these, and what either kind finds there is weighted by the balance heuristic (Veach and Guibas 1995): a small bright
 /// face in the lobe's tail is otherwise met by few rays, each of which is a white dot. `shift` decorrelates pixels.
-vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, uint lane) {
+/// `nearness`: the sum of weight / distance of what the lobe's rays meet, 1 / voxels.
+vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, uint lane, out float nearness) {
   float alpha = s.roughness * s.roughness;
   bool mirror = alpha < 1e-3;
   uint rays = mirror ? 1u : push.params.rays;
@@ -93,6 +97,7 @@ vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, 
   float density = float(rays) / (4.0 * v.z * (1.0 + ggxLambda(v.z, max(alpha, 1e-3))));
   vec3 sum = vec3(0.0);
   float weights = 0.0;
+  nearness = 0.0;
   for (uint k = lane; k < rays + aimed; k += LOBE_LANES) {
     vec3 direction, l;
     // Of a ray to an emitter:
@@ -133,6 +138,7 @@ vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, 
         continue;
       }
     }
+    if (reach == 0.0) nearness += weight / max(hit.t, LEAST_DISTANCE);
     vec3 open = openChannels(closedChannels);
     vec3 at = rayStart(s) + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);

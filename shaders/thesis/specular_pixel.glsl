@@ -65,7 +65,8 @@ vec4 specularOf(Reflection r, vec3 met) {
   if (!r.shows) return vec4(0.0, 0.0, 0.0, 1.0);
   Surface s = r.surface;
   vec3 radiance = r.diffuse;
-  if (r.traces) radiance = mix(radiance, met / (float(push.params.rays) * IRAD_PI), tracedShare(s.roughness));
+  if (r.traces)
+    radiance = mix(radiance, met / (float(push.params.rays) * IRAD_PI), tracedShare(vec4(s.f0, 1.0), s.roughness));
   return vec4(radiance * environmentBrdf(s.f0, s.roughness, max(dot(s.normal, s.view), 1e-3)), 1.0);
 }
 
