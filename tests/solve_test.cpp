@@ -12,6 +12,7 @@
 #include "gi/scatter.h"
 #include "gi/solve.h"
 #include "gi/thesis/volume.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/sampling.h"
 #include "tests/gi_fixture.h"
 

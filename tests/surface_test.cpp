@@ -19,6 +19,7 @@
 #include "gi/ray_kernel.h"
 #include "gi/scatter.h"
 #include "gi/subsystems.h"
+#include "renderer/base/error.h"
 #include "renderer/frame/workgroups.h"
 #include "renderer/targets.h"
 #include "shaders/shared/trace.h"

@@ -1,4 +1,5 @@
 // The registry of views and what each draws: composition, colour map, voxels, odd values.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
