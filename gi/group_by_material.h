@@ -46,16 +46,19 @@ void dispatchByMaterial(Frame& frame, const char* stage, const char* shader, con
     if (std::ranges::none_of(order.groups, takes)) continue;
     Pass pass = frame.pass(stage);
     auto push = makePush(pass);
-    pass.shader(shader).constant(CONSTANT_SAMPLES_TEXTURES, textured).run([&](Commands& commands) {
-      for (const MaterialGroup& group : order.groups) {
-        if (!takes(group)) continue;
-        commands.bindMaterial(scene.materialSets.at(group.material));
-        push.first = group.first;
-        push.count = group.count;
-        commands.push(push);
-        commands.dispatch(group.count);
-      }
-    });
+    pass.shader(shader)
+        .constant(CONSTANT_SAMPLES_TEXTURES, textured)
+        .constant(CONSTANT_CLIPS_SHARED, frame.context().device.isCpu)
+        .run([&](Commands& commands) {
+          for (const MaterialGroup& group : order.groups) {
+            if (!takes(group)) continue;
+            commands.bindMaterial(scene.materialSets.at(group.material));
+            push.first = group.first;
+            push.count = group.count;
+            commands.push(push);
+            commands.dispatch(group.count);
+          }
+        });
   }
 }
 

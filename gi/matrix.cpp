@@ -90,6 +90,14 @@ void mergeAndPackOnHost(CsrBuild& build, const Chunk& chunk, const Buffer& hits)
   if (!sky.empty()) upload(build.context, build.matrix.rowSky, std::as_bytes(std::span(sky)), 4ull * chunk.firstRow);
 }
 
+/// Rays whose hits, and lists of those that wait, are in memory at a time. Each chunk ends with some slow rays, beside
+/// which no others run: the larger, the better, within a sixteenth of the device's memory.
+uint64_t raysPerChunk(const Device& device) {
+  if (device.isCpu) return raysPerSubmission(device);
+  const uint64_t rays = device.memory().budget() / 16 / (sizeof(uint32_t) + kWaitingBytes);
+  return std::clamp(rays, uint64_t{1} << 23, uint64_t{1} << 26);
+}
+
 uint32_t facetBitsOf(uint32_t facets) {
   return std::max(1, static_cast<int>(std::bit_width(std::max(facets, 1u) - 1)));
 }
@@ -112,7 +120,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
                     "hit count, which holds at most {}; take fewer rays, a lower voxel.resolution or "
                     "matrix.format=padded",
                     rays, rows, arrays.columnBits, 32 - arrays.columnBits, mostRaysOfRows(rows, matrix.tinted)));
-  arrays.segmentShift = std::clamp(static_cast<int>(std::bit_width(raysPerSubmission(device) / rays)) - 1, 6, 20);
+  arrays.segmentShift = std::clamp(static_cast<int>(std::bit_width(raysPerChunk(device) / rays)) - 1, 6, 20);
   const uint32_t segmentRows = std::min(rows, 1u << arrays.segmentShift);
   const uint64_t places = uint64_t{segmentRows} * rays;
 
@@ -125,6 +133,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   Buffer sums(device, "matrix scratch: sums", Subsystem::Matrix, sizeof(ChunkCounts));
   RayKernel kernel = rayKernel(facets, field, params);
   if (matrix.tinted) kernel.tintShift = facetBits;
+  const WaitingLists waiting = raysWait(device, kernel) ? makeWaitingLists(device, places) : WaitingLists{};
   CsrBuild build{context, matrix, rows, arrays.segmentShift};
   const std::unique_ptr<HostTrace> host =
       device.isCpu ? hostTraceIfAny(context, facets, params, kMatrixStage) : nullptr;
@@ -135,7 +144,7 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
       mergeAndPackOnHost(build, chunk, hits);
     } else {
       Frame frame = context.begin();
-      traceRows(frame, kernel, params, first, chunk.rows, hits, sky, kMatrixStage);
+      traceRows(frame, kernel, params, first, chunk.rows, hits, sky, kMatrixStage, waiting);
       mergeAndPackOnDevice(build, std::move(frame), chunk, hits, counts, total, sums);
     }
     reportRows(progress, uint64_t{first} + chunk.rows, rows);

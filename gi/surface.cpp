@@ -69,6 +69,7 @@ void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, c
   push.counts = pass.accumulate(counts);
   if (pieces) push.pieces = pass.accumulate(*pieces);
   push.lists = pieces != nullptr;
+  // Its polygons stay in shared memory on GPUs, too: it is faster so.
   pass.shader("gi/list_pieces.comp").run([&](Commands& commands) {
     for (size_t i = 0; i < ranges.size(); ++i) {
       push.firstTriangle = ranges[i].first;
@@ -162,7 +163,10 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
       sort.pieceVoxel = pass.out(p.pieceVoxel);
       sort.corners = pass.in(corners);
       sort.count = p.solid;
-      pass.shader("gi/sort_pieces.comp").push(sort).dispatchWorkgroups(p.solid);
+      pass.shader("gi/sort_pieces.comp")
+          .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+          .push(sort)
+          .dispatchWorkgroups(p.solid);
     }
     Pass pass = frame.pass(kListStage);
     PieceShapePush shape{};
@@ -177,7 +181,10 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     shape.points = pass.out(p.firstPoint);
     shape.cuts = pass.out(p.firstCut);
     shape.count = p.count;
-    pass.shader("gi/piece_shape.comp").push(shape).dispatch(p.count);
+    pass.shader("gi/piece_shape.comp")
+        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+        .push(shape)
+        .dispatch(p.count);
     Pass around = frame.pass(kListStage);
     PieceGroupsPush groups{};
     groups.firstPiece = around.in(p.first);
@@ -251,7 +258,10 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
     push.sides = pass.out(surface.sides);
     push.cuts = pass.out(surface.cuts);
     push.count = pieces.count;
-    pass.shader("gi/piece_points.comp").push(push).dispatch(pieces.count);
+    pass.shader("gi/piece_points.comp")
+        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+        .push(push)
+        .dispatch(pieces.count);
   }
   const auto classify = [&](const char* shader) {
     Pass pass = frame.pass(kListStage);
@@ -324,7 +334,10 @@ void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces
     push.area = pass.out(list.area);
     push.dims = list.grid.dims;
     push.count = list.count;
-    pass.shader("gi/facet_surfels.comp").push(push).dispatch(list.count);
+    pass.shader("gi/facet_surfels.comp")
+        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+        .push(push)
+        .dispatch(list.count);
   }
   frame.submitAndWait();
 }

@@ -1,6 +1,7 @@
 // Rays on the device against the double-precision oracle (docs/method.md 3, 5); the traversals against each other are
 // `irad check traversal`.
 #include <cmath>
+#include <cstring>
 
 #include "gi/host_facets.h"
 #include "gi/ray_kernel.h"
@@ -15,10 +16,11 @@ namespace {
 
 class Trace : public GiTest {
  protected:
-  std::vector<uint32_t> hits(const World& w, const MatrixParams& params) {
+  std::vector<uint32_t> hits(const World& w, const MatrixParams& params, const WaitingLists& waiting = {}) {
     const Buffer out(context().device, "hits", Subsystem::Matrix, 4ull * w.facets.count * params.rays);
     Frame frame = context().begin();
-    traceRows(frame, rayKernel(w.facets, w.field, params), params, 0, w.facets.count, out);
+    traceRows(frame, rayKernel(w.facets, w.field, params), params, 0, w.facets.count, out, /*sky=*/false,
+              "GI BuildMatrix", waiting);
     frame.submitAndWait();
     return downloadAs<uint32_t>(context(), out);
   }
@@ -49,6 +51,26 @@ class Trace : public GiTest {
     return met;
   }
 };
+
+TEST_F(Trace, RaysThatWaitMeetTheSame) {
+  Settings settings = defaults();
+  settings.voxel.resolution = 24;
+  settings.matrix.gpu.rays = 64;
+  const World w = world(furnishedRoom(), settings);
+  const std::vector<uint32_t> expected = hits(w, settings.matrix.gpu);
+  const WaitingLists enough = makeWaitingLists(context().device, expected.size()),
+                     few = makeWaitingLists(context().device, 50);  // most go on for want of room
+  for (const WaitingLists* waiting : {&enough, &few}) {
+    EXPECT_EQ(hits(w, settings.matrix.gpu, *waiting), expected);
+    for (size_t i = 0; i < waiting->lists.size(); ++i) {
+      const std::vector<uint32_t> words = downloadAs<uint32_t>(context(), waiting->lists[i]);
+      WaitingHead head{};
+      std::memcpy(&head, words.data(), sizeof(head));
+      EXPECT_GT(head.count, 0u);  // of its last round
+      EXPECT_EQ(head.groups.x, (std::min(head.count, waiting->room[i]) + WAITING_GROUP - 1) / WAITING_GROUP);
+    }
+  }
+}
 
 TEST_F(Trace, TheThesissHitsEqualTheOracle) {
   Settings settings = defaults();

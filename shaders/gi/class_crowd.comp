@@ -8,7 +8,7 @@ shared uint next;
 shared uint leaders[LAST_CLASS + 1u];
 /// By blocks of the voxel's points those that belong to no class yet, and of these those that may belong to the
 /// leader's: far fewer, so that all invocations take turns at them.
-const uint BLOCK = 16u * gl_WorkGroupSize.x;
+const uint BLOCK = 4u * gl_WorkGroupSize.x;
 shared uint open[BLOCK], likely[BLOCK];
 shared uint opened, likelies;
 

@@ -8,21 +8,32 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 
 // A workgroup takes some facets, and each of these the voxels around it: places. Most of them hold no facet whose way
-// has to be looked at, so that all invocations take turns at those that do: one facet of each place a round.
+// has to be looked at, so that all invocations take turns at those that do: one facet of each place a round. What is kept
+// of a place is packed: the fewer bytes a workgroup has, the more of them there are at a time.
 const uint PLACES = 27u * LINK_FACETS;
 const uint NOTHING_STANDS = 0xFFFFu;
 shared uint sides[LINK_FACETS];                        ///< triangle | SURFEL_BACK of each facet
 shared vec3 facings[LINK_FACETS];
 shared vec3 surfels[LINK_FACETS][FACET_SURFELS];       ///< their positions
 shared float lifts[LINK_FACETS][FACET_SURFELS];
-shared uint entries[PLACES], whole[PLACES];
-shared uint link[PLACES], next[PLACES];           ///< best so far, and the facet to look at next
-shared float best[PLACES];
+shared uint entries[PLACES];
+shared uint state[PLACES];                        ///< link, pair and next
+shared uint wholeOrApart[PLACES];                 ///< before the rounds wholePiece(); in them apart
+shared float best[PLACES];                        ///< apart, of the best so far
 shared uint queue[PLACES];                        ///< places with a facet to look at in this round
 shared uint likely[PLACES];                       ///< of these, those whose facet may continue the surface
-shared uint pairs[PLACES];                        ///< of both facets the nearest surfels, own + FACET_SURFELS * other
-shared float apart[PLACES];                       ///< the square of their distance
 shared uint queued[2], likelies[2];
+
+/// The best facet so far, or NO_LINK.
+uint linkOf(uint place) { return state[place] & 0xFFu; }
+void setLink(uint place, uint facet) { state[place] = (state[place] & ~0xFFu) | facet; }
+/// The facet to look at next.
+uint nextOf(uint place) { return state[place] >> 16; }
+void setNext(uint place, uint facet) { state[place] = (state[place] & 0xFFFFu) | (facet << 16); }
+/// Of both facets the nearest surfels, own + FACET_SURFELS * other; apart: the square of their distance.
+uint pairOf(uint place) { return (state[place] >> 8) & 0xFFu; }
+void setPair(uint place, uint pair) { state[place] = (state[place] & ~0xFF00u) | (pair << 8); }
+float apartOf(uint place) { return uintBitsToFloat(wholeOrApart[place]); }
 
 /// The facet of a side of a triangle in a voxel, counted from the first; NO_LINK where others stand on it, or it is too
 /// small to have one; NOTHING_STANDS where the triangle has no piece.
@@ -47,7 +58,7 @@ bool goesOn(uint own, ivec3 step_) {
   for (int corner = 0; corner < 8; ++corner) {
     ivec3 part = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
     ivec3 at = part * step_ + 1;
-    if (all(equal(part * abs(step_), part)) && whole[27u * own + at.x + 3 * at.y + 9 * at.z] == NO_LINK) return false;
+    if (all(equal(part * abs(step_), part)) && wholeOrApart[27u * own + at.x + 3 * at.y + 9 * at.z] == NO_LINK) return false;
   }
   return true;
 }
@@ -75,7 +86,7 @@ uint ownSurfel(uint own, vec3 point) {
 }
 
 /// The facet to look at in this round.
-uint otherFacet(uint place) { return firstFacet(entries[place]) + next[place]; }
+uint otherFacet(uint place) { return firstFacet(entries[place]) + nextOf(place); }
 
 /// Finds the surfels between which the way is to be, and whether there may be one that is nearer than the best.
 bool findPair(SurfaceArrays surface, uint place) {
@@ -83,18 +94,20 @@ bool findPair(SurfaceArrays surface, uint place) {
   vec3 border = vec3(unpackVoxel(push.voxel.at[facet])) + 0.5 + 0.5 * vec3(stepOf(place));
   uint nearest = ownSurfel(own, border), other;
   SurfelPoint from = surfelOf(surface, facet, nearest);
-  SurfelPoint to = nearestSurfel(surface, otherFacet(place), from.position, apart[place], other);
-  pairs[place] = nearest + FACET_SURFELS * other;
-  return apart[place] < best[place] && mayContinue(from, to);
+  float apart;
+  SurfelPoint to = nearestSurfel(surface, otherFacet(place), from.position, apart, other);
+  setPair(place, nearest + FACET_SURFELS * other);
+  wholeOrApart[place] = floatBitsToUint(apart);
+  return apart < best[place] && mayContinue(from, to);
 }
 
 void lookAt(SurfaceArrays surface, uint place) {
-  uint own = place / 27u, nearest = pairs[place] % FACET_SURFELS;
+  uint own = place / 27u, nearest = pairOf(place) % FACET_SURFELS;
   SidePoint from = SidePoint(surfelOf(surface, LINK_FACETS * irad_workgroup() + own, nearest), lifts[own][nearest]);
-  SurfelPoint to = surfelOf(surface, otherFacet(place), pairs[place] / FACET_SURFELS);
+  SurfelPoint to = surfelOf(surface, otherFacet(place), pairOf(place) / FACET_SURFELS);
   if (!continues(surface, push.reverse, push.dims, from, to)) return;
-  best[place] = apart[place];
-  link[place] = next[place];
+  best[place] = apartOf(place);
+  setLink(place, nextOf(place));
 }
 
 void main() {
@@ -116,24 +129,25 @@ void main() {
   for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
     ivec3 voxel = ivec3(unpackVoxel(push.voxel.at[firstFacet_ + i / 27u]));
     entries[i] = entryOf(push.reverse, push.dims, voxel + stepOf(i));
-    whole[i] = wholePiece(surface, entries[i], sides[i / 27u]);
+    wholeOrApart[i] = wholePiece(surface, entries[i], sides[i / 27u]);
   }
   barrier();
   for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
     uint own = i / 27u, middle = 27u * own + OWN_VOXEL;
     uint inVoxel = firstFacet_ + own - firstFacet(entries[middle]);
-    link[i] = NO_LINK;
+    state[i] = NO_LINK;
+    setNext(i, 0xFFFFu);
     best[i] = 1e30;
-    next[i] = 0xFFFFu;
-    if (i == middle) link[i] = inVoxel;
+    if (i == middle) setLink(i, inVoxel);
     else if (entries[i] != NO_FACET) {
-      if (whole[middle] == inVoxel && goesOn(own, stepOf(i))) link[i] = min(whole[i], NO_LINK);
-      if (link[i] == NO_LINK) next[i] = nextAlike(i, 0u);
+      if (wholeOrApart[middle] == inVoxel && goesOn(own, stepOf(i))) setLink(i, min(wholeOrApart[i], NO_LINK));
+      if (linkOf(i) == NO_LINK) setNext(i, nextAlike(i, 0u));
     }
   }
+  barrier();
   for (uint round = 0u;; ++round) {
     for (uint i = lane; i < places; i += gl_WorkGroupSize.x)
-      if (next[i] < facetsOf(entries[i])) queue[atomicAdd(queued[round & 1u], 1u)] = i;
+      if (nextOf(i) < facetsOf(entries[i])) queue[atomicAdd(queued[round & 1u], 1u)] = i;
     barrier();
     uint all_ = queued[round & 1u];
     if (all_ == 0u) break;
@@ -145,15 +159,15 @@ void main() {
     for (uint i = lane; i < all_; i += gl_WorkGroupSize.x) lookAt(surface, likely[i]);
     barrier();
     for (uint i = lane; i < places; i += gl_WorkGroupSize.x)
-      if (next[i] < facetsOf(entries[i])) next[i] = nextAlike(i, next[i] + 1u);
+      if (nextOf(i) < facetsOf(entries[i])) setNext(i, nextAlike(i, nextOf(i) + 1u));
   }
   for (uint i = lane; i < FACET_LINKS * count; i += gl_WorkGroupSize.x) {
     uint own = i / FACET_LINKS, at = i % FACET_LINKS;
-    push.found.at[FACET_LINKS * firstFacet_ + i] = uint8_t(at < 27u ? link[27u * own + at] : NO_LINK);
+    push.found.at[FACET_LINKS * firstFacet_ + i] = uint8_t(at < 27u ? linkOf(27u * own + at) : NO_LINK);
   }
   for (uint i = lane; i < count; i += gl_WorkGroupSize.x) {
     uint mask = 0u;
-    for (uint at = 0u; at < 27u; ++at) mask |= at != OWN_VOXEL && link[27u * i + at] != NO_LINK ? 1u << at : 0u;
+    for (uint at = 0u; at < 27u; ++at) mask |= at != OWN_VOXEL && linkOf(27u * i + at) != NO_LINK ? 1u << at : 0u;
     push.masks.at[firstFacet_ + i] = mask;
     push.counts.at[firstFacet_ + i] = bitCount(mask);
   }

@@ -7,12 +7,12 @@
 
 /// A point of the clipped polygon, uniform over its area for u uniform over the square.
 vec3 polygonPoint(uint from, uint n, float area, vec2 u) {
-  vec3 first = clipCorners[clipPlace(from, 0u)];
+  vec3 first = clipCorner(from, 0u);
   float left = u.x * area;
   vec3 d = vec3(0.0), e = vec3(0.0);
   [[dont_unroll]] for (uint i = 2u; i < n; ++i) {
-    d = clipCorners[clipPlace(from, i - 1u)] - first;
-    e = clipCorners[clipPlace(from, i)] - first;
+    d = clipCorner(from, i - 1u) - first;
+    e = clipCorner(from, i) - first;
     float fan = 0.5 * length(cross(d, e));
     if (left < fan || i + 1u == n) {
       float x = fan > 0.0 ? clamp(left / fan, 0.0, 1.0) : 0.5;

@@ -20,7 +20,7 @@ void main() {
   push.facings.at[piece] = facingOf(t, false);
   push.area.at[piece] = n > 0u ? polygonArea(from, n, centre) : 0.0;
   for (uint i = 0u; i < n; ++i) {
-    vec3 corner = clipCorners[clipPlace(from, i)];
+    vec3 corner = clipCorner(from, i);
     low = min(low, corner);
     high = max(high, corner);
   }

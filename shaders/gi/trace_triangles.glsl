@@ -144,6 +144,14 @@ void leaveCube(inout TriangleWalk w, vec3 exits, float around) {
   ++w.hit.steps;
 }
 
+/// Finds the pieces of the solid cell that the ray is in and leaves by `exits`.
+void lookUpPieces(TraceWorld world, SurfaceArrays surface, vec3 exits, inout TriangleWalk w) {
+  w.entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
+  w.piece = surface.firstPiece.at[firstFacet(w.entry)];
+  w.endPiece = surface.firstPiece.at[firstFacet(w.entry) + facetsOf(w.entry)];
+  w.leave = least(exits);
+}
+
 /// Rays meet about three times as many cells as pieces whose box they meet, so that a turn takes one piece but several
 /// cells, and rays side by side wait little for each other.
 const int CELLS_A_TURN = 2;
@@ -171,10 +179,7 @@ bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w
       leaveCube(w, exits, around);
       continue;
     }
-    w.entry = world.facets.reverse.at[traceIndex(w.cell, world.dims)];
-    w.piece = surface.firstPiece.at[firstFacet(w.entry)];
-    w.endPiece = surface.firstPiece.at[firstFacet(w.entry) + facetsOf(w.entry)];
-    w.leave = least(exits);
+    lookUpPieces(world, surface, exits, w);
     // Every solid cell has pieces. Lanes of a picture's edge that Mesa's CPU driver runs without drawing them read 0
     // for everything, and would stay here until it ends the loops of all lanes beside them.
     return w.piece < w.endPiece;

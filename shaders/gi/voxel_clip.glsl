@@ -1,19 +1,34 @@
 // The part of a triangle inside a cell (Sutherland and Hodgman 1974, "Reentrant Polygon Clipping"), in workgroups of 64.
 #extension GL_EXT_control_flow_attributes : require
+#include "shared/constants.h"
 
-/// Two polygons of up to nine corners per invocation. In shared memory, because a private array with computed indices is
-/// spilled on a GPU and becomes a ladder of branches on lavapipe (2 s to compile instead of .4 s).
-shared vec3 clipCorners[2u * 9u * 64u];
-uint clipPlace(uint polygon, uint corner) { return (polygon * 9u + corner) * 64u + gl_LocalInvocationIndex; }
+/// Two polygons of up to nine corners per invocation. Of its own, on GPUs: 13.5 KiB of shared memory for a workgroup leave
+/// half of the invocations out that fit otherwise. On lavapipe arrays with computed indices become ladders of branches (2 s
+/// to compile instead of .4 s), but for those in shared memory.
+layout(constant_id = CONSTANT_CLIPS_SHARED) const bool CLIPS_SHARED = true;
+const uint CLIP_CORNERS = 2u * 9u;
+shared vec3 clipShared[CLIPS_SHARED ? CLIP_CORNERS * 64u : 1u];
+vec3 clipOwn[CLIPS_SHARED ? 1u : CLIP_CORNERS];
+
+/// Corner i of one of the two polygons.
+vec3 clipCorner(uint polygon, uint i) {
+  uint place = polygon * 9u + i;
+  return CLIPS_SHARED ? clipShared[place * 64u + gl_LocalInvocationIndex] : clipOwn[place];
+}
+void setClipCorner(uint polygon, uint i, vec3 corner) {
+  uint place = polygon * 9u + i;
+  if (CLIPS_SHARED) clipShared[place * 64u + gl_LocalInvocationIndex] = corner;
+  else clipOwn[place] = corner;
+}
 
 /// a, b, c are relative to the cell's lower corner; the cell is larger by `slack` on all sides. Returns how many corners
-/// the triangle's part in it has, 0 where there is none; they are at clipPlace(from, i).
+/// the triangle's part in it has, 0 where there is none; they are clipCorner(from, i).
 uint clipPolygon(vec3 a, vec3 b, vec3 c, float slack, out uint from) {
   from = 0u;
   uint n = 3u;
-  clipCorners[clipPlace(from, 0u)] = a;
-  clipCorners[clipPlace(from, 1u)] = b;
-  clipCorners[clipPlace(from, 2u)] = c;
+  setClipCorner(from, 0u, a);
+  setClipCorner(from, 1u, b);
+  setClipCorner(from, 2u, c);
   vec3 lo = min(a, min(b, c));
   vec3 hi = max(a, max(b, c));
   [[dont_unroll]] for (uint plane = 0u; plane < 6u; ++plane) {
@@ -24,14 +39,14 @@ uint clipPolygon(vec3 a, vec3 b, vec3 c, float slack, out uint from) {
     float base = (upper ? 1.0 : 0.0) + slack;
     if (base + min(dot(lo, axis), dot(hi, axis)) >= 0.0) continue;  // the whole triangle is inside
     uint m = 0u;
-    vec3 previous = clipCorners[clipPlace(from, n - 1u)];
+    vec3 previous = clipCorner(from, n - 1u);
     float dp = base + dot(previous, axis);
     [[dont_unroll]] for (uint i = 0u; i < n; ++i) {
-      vec3 current = clipCorners[clipPlace(from, i)];
+      vec3 current = clipCorner(from, i);
       float dc = base + dot(current, axis);
       if ((dp >= 0.0) != (dc >= 0.0) && m < 9u)
-        clipCorners[clipPlace(1u - from, m++)] = previous + (current - previous) * (dp / (dp - dc));
-      if (dc >= 0.0 && m < 9u) clipCorners[clipPlace(1u - from, m++)] = current;
+        setClipCorner(1u - from, m++, previous + (current - previous) * (dp / (dp - dc)));
+      if (dc >= 0.0 && m < 9u) setClipCorner(1u - from, m++, current);
       previous = current;
       dp = dc;
     }
@@ -46,11 +61,11 @@ uint clipPolygon(vec3 a, vec3 b, vec3 c, float slack, out uint from) {
 float polygonArea(uint from, uint n, out vec3 centre) {
   float area = 0.0;
   vec3 weighted = vec3(0.0);
-  vec3 first = clipCorners[clipPlace(from, 0u)];
+  vec3 first = clipCorner(from, 0u);
   vec3 previous = first;
   vec3 sum = first;
   [[dont_unroll]] for (uint i = 1u; i < n; ++i) {
-    vec3 current = clipCorners[clipPlace(from, i)];
+    vec3 current = clipCorner(from, i);
     vec3 d = previous - first;
     vec3 e = current - first;
     float fan = 0.5 * length(cross(d, e));

@@ -9,11 +9,15 @@ IRAD_BEGIN
 // Facets.
 IRAD_CONST uint CONSTANT_NORMALS = 18u;           ///< how their normals are encoded
 IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 19u;  ///< gi/voxel_material.glsl
+IRAD_CONST uint CONSTANT_CLIPS_SHARED = 22u;      ///< gi/voxel_clip.glsl
 
 // Rays through the voxels (gi/trace.glsl).
 IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;
 IRAD_CONST uint CONSTANT_TRACE_HIT_RULE = 21u;
 IRAD_CONST uint CONSTANT_TRACE_EMITTERS = 23u;  ///< specular/trace.glsl
+IRAD_CONST uint CONSTANT_JITTER = 17u;          ///< each facet has a ray set of its own (matrix.jitter)
+IRAD_CONST uint CONSTANT_FEW_RAYS = 26u;        ///< these two: gi/trace_triangle_rays.comp
+IRAD_CONST uint CONSTANT_RESUMES = 27u;
 IRAD_CONST uint CONSTANT_TINTED = 25u;          ///< rows tell what panes on the way have let through (openChannels)
 IRAD_CONST uint CONSTANT_SKY = 24u;             ///< there is a sky: of whatever knows one
 

@@ -76,6 +76,33 @@ IRAD_FN vec3 rayDirection(vec3 facing, uint k, uint rays, uvec4 shifts) {
   return toWorld(cosineDirection(hammersley(k, rays, uvec2(shifts.x, shifts.y))), facing);
 }
 
+/// A ray on its way, which waits until enough others do to go on beside it.
+struct WaitingRay {
+  uint ray;        ///< its place among the hits
+  uint cell;       ///< packVoxel
+  float t;         ///< where it enters the cell
+  uint piece;      ///< the next one to ask there, or NOT_LOOKED_UP: which it holds is not known yet
+  uint hitPiece;   ///< what it would meet if nothing else were nearer: WAITING_FRONT or 0, and one more than the piece; 0: none
+  uint hitEntry;   ///< this and the following: of what it would meet (TriangleWalk)
+  float hitT, nearest;
+};
+IRAD_CONST uint NOT_LOOKED_UP = 0xFFFFFFFFu;
+IRAD_CONST uint WAITING_FRONT = 0x80000000u;
+/// What a list of these begins with.
+struct WaitingHead {
+  uvec3 groups;  ///< of the dispatch over them, WAITING_GROUP rays each
+  uint count;    ///< may be more than there is room for: those beyond have gone on
+};
+IRAD_CONST uint WAITING_GROUP = 128u;  ///< there is room for whole groups
+#ifdef __cplusplus
+using WaitingRays = uint64_t;
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer WaitingRays {
+  WaitingHead head;
+  WaitingRay at[];
+};
+#endif
+
 /// Pushed to gi/trace_rays.comp and gi/trace_triangle_rays.comp.
 struct TraceRaysPush {
   FacetArrays facets;  ///< by value: lavapipe knows only pointers in push constants to be uniform
@@ -83,9 +110,11 @@ struct TraceRaysPush {
   UintArray hits;  ///< rays x rows words: facet met, or TRACE_*
   uvec3 dims;
   float jfaMax;
-  uint firstRow, rows, rays, jitter, seed;
+  uint firstRow, rows, rays, seed;
+  uint mostWaiting;  ///< that `waiting` has room for
   uint tintShift;  ///< where the channels go that panes keep off; 0: they are not told
   SurfaceRecord surface;
+  WaitingRays resumed, waiting;  ///< rule `triangles`: those that go on, and those that are to wait
 };
 
 IRAD_END
