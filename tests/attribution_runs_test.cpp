@@ -70,7 +70,7 @@ const Spoilt kSpoilt[] = {
     // Light so weak that the solver puts out most of it.
     {"storage", {"matrix.jitter=false", "solver.flush=0.001"}, std::nullopt, "indirect", {}, "dim.glb"},
     {"sweeps", {"matrix.jitter=false", "solver.max_sweeps=1", "solver.acceleration=off"}, std::nullopt},
-    {"shadows", {"matrix.jitter=false"}, Strings{"matrix.jitter=false", "light.shadow_resolution=4096"}, "lit"},
+    {"shadows", {"matrix.jitter=false"}, Strings{"matrix.jitter=false", "light.shadow_resolution=1024"}, "lit"},
     // Blocks of 8 x 8 pixels smaller than a voxel, and hardly any noise.
     {"lookup",
      {"voxel.resolution=8", "matrix.rays=1024", "sample.filter=nearest"},

@@ -75,7 +75,8 @@ void capacityCase(CheckRun& run) {
     const bool no = refused(
         [&] {
           const auto made = there.prepare(mixedRoom(), run.small());
-          differing += countDiffering(before, there.picture(*made, made->scene().cameras.at(0), VIEW_LIT, kGuardPicture));
+          differing +=
+              countDiffering(before, there.picture(*made, made->scene().cameras.at(0), VIEW_LIT, kGuardPicture));
           ++pictures;
         },
         "needs");

@@ -108,7 +108,9 @@ void toggle(const Setting& setting, Settings& settings) {
 void toggleCase(CheckRun& run) {
   const Settings settings = run.small();
   const auto pipeline = run.prepare(mixedRoom(), settings);
-  const auto shot = [&] { return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kStabilityPicture); };
+  const auto shot = [&] {
+    return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kStabilityPicture);
+  };
   const CheckPicture untoggled = shot();
   uint64_t count = 0, bad = 0;
   const auto round = [&] {
@@ -157,7 +159,8 @@ void poisonCase(CheckRun& run) {
     const auto pipeline = there.prepare(mixedRoom(), run.small());
     light[poison] = there.read(*pipeline, pipeline->lighting().indirect);
     for (const ViewInfo& view : views())
-      pictures[poison].push_back(there.picture(*pipeline, pipeline->scene().cameras.at(0), view.view, kStabilityPicture));
+      pictures[poison].push_back(
+          there.picture(*pipeline, pipeline->scene().cameras.at(0), view.view, kStabilityPicture));
   }
   uint64_t pixels = 0, facets = 0;
   for (size_t v = 0; v < pictures[0].size(); ++v) pixels += countDiffering(pictures[0][v], pictures[1][v]);
