@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "gi/embree_scene.h"
@@ -12,6 +10,7 @@
 #include "gi/host_facets.h"
 #include "gi/oracle/rays.h"
 #include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
 #include "renderer/frame/context.h"
 #include "renderer/resources.h"
 #include "shaders/shared/sky.h"
@@ -156,15 +155,17 @@ class EmbreeTrace : public HostTrace {
   void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits, uint32_t threads,
             bool sky, uint32_t tintShift) const override {
     IRAD_CHECK_OP(hits.size(), >=, uint64_t{rows} * params.rays);
-    forRows(rows, threads, [&](uint32_t r) {
-      row(params, firstRow + r, sky, tintShift, hits.subspan(uint64_t{r} * params.rays, params.rays));
-    });
+    const auto trace = [&](size_t r) {
+      row(params, firstRow + static_cast<uint32_t>(r), sky, tintShift, hits.subspan(r * params.rays, params.rays));
+    };
+    parallelFor(rows, trace, threads, kBlock);
   }
 
   void emitters(const EmitterSamples& from, std::span<glm::vec4> light, uint32_t threads) const override {
     IRAD_CHECK_OP(light.size(), >=, facets_.voxel.size());
     IRAD_CHECK_OP(from.exitance.size(), ==, facets_.voxel.size());
-    forRows(static_cast<uint32_t>(facets_.voxel.size()), threads, [&](uint32_t f) { light[f] = lightOf(from, f); });
+    const auto gather = [&](size_t f) { light[f] = lightOf(from, static_cast<uint32_t>(f)); };
+    parallelFor(facets_.voxel.size(), gather, threads, kBlock);
   }
 
   void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const override {
@@ -176,19 +177,6 @@ class EmbreeTrace : public HostTrace {
  private:
   /// The channels that panes have kept off, as bits, of each ray of a packet.
   using Closed = std::array<uint32_t, kPacket>;
-
-  /// Calls work(row) for every row, on several threads; what it does for one must not depend on others.
-  static void forRows(uint32_t rows, uint32_t threads, const auto& work) {
-    std::atomic<uint32_t> next = 0;
-    const auto blocks = [&] {
-      for (uint32_t block; (block = kBlock * next++) < rows;)
-        for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r) work(r);
-    };
-    if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> others;
-    for (uint32_t t = 1; t < threads; ++t) others.emplace_back(blocks);
-    blocks();
-  }
 
   static uint64_t free(const Allocator& memory) { return memory.budget() - std::min(memory.budget(), memory.used()); }
   static std::vector<glm::vec3> positions(const oracle::Facets& facets) {
