@@ -52,7 +52,7 @@ class FrameTracer {
     if (mean.hits.bytes != bytes)
       mean.hits = Buffer(device, "brute force: hits of some facets", Subsystem::Solver, bytes,
                          device.isCpu ? Access::Readback : Access::Device);
-    if (device.isCpu && !mean.host) mean.host = hostTraceIfAny(context, facets, settings.matrix.gpu, kBruteForceStage);
+    host_ = hostTraceIfAny(context, facets, settings.matrix.gpu, kBruteForceStage);
   }
 
   /// D, and B for the rays of the first frame.
@@ -82,7 +82,7 @@ class FrameTracer {
     for (uint32_t first = 0; first < facets_.count; first += chunk_) {
       const uint32_t rows = std::min(chunk_, facets_.count - first);
       if (context_.device.isCpu)
-        traceMapped(context_, kernel_, mean.host.get(), params, first, rows, mean.hits, sky(), kBruteForceStage);
+        traceMapped(context_, kernel_, host_, params, first, rows, mean.hits, sky(), kBruteForceStage);
       Frame frame = context_.begin();
       if (first == 0) frame.pass(kBruteForceStage).fill(light_.residual, 0);
       if (!context_.device.isCpu) traceRows(frame, kernel_, params, first, rows, mean.hits, sky(), kBruteForceStage);
@@ -146,7 +146,8 @@ class FrameTracer {
   Lighting& light_;
   const Settings& settings_;
   RayKernel kernel_;
-  uint32_t chunk_ = 1;  ///< facets whose rays are traced together
+  const HostTrace* host_ = nullptr;  ///< what traces rays on CPU devices, or null
+  uint32_t chunk_ = 1;               ///< facets whose rays are traced together
   float share_ = 1, toVariance_ = 0, toError_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "gi/outer.h"
@@ -16,6 +17,7 @@ namespace irad {
 
 class Context;
 class Device;
+class HostTrace;
 class SceneOnDevice;
 struct Settings;
 struct Voxels;
@@ -34,6 +36,7 @@ struct FacetList {
   Surface surface;  ///< what the facets are classes of, where the hit rule is `triangles`
   bool hasEmission = false;
   NormalEncoding encoding = NormalEncoding::oct16;
+  mutable std::shared_ptr<const HostTrace> hostTrace;  ///< by whoever first needs it: hostTraceIfAny()
   /// What the record holds; `addressOf` gives the addresses: a pass's in() or a RecordMaker's of().
   FacetArrays arrays(const std::function<uint64_t(const Buffer&)>& addressOf) const;
 };

@@ -107,8 +107,8 @@ void gatherEmitters(Context& context, const FacetList& facets, const FormFactors
   byRays();
   if (sampleEmitters(settings, source, facets.count)) {
     Buffer byHost;
-    if (context.device.isCpu && source.onHost)
-      if (const auto host = hostTraceIfAny(context, facets, settings.matrix.gpu, kGatherEmittersStage))
+    if (source.onHost)
+      if (const HostTrace* host = hostTraceIfAny(context, facets, settings.matrix.gpu, kGatherEmittersStage))
         byHost = sampledByHost(context, facets, *source.emitters, settings, *host);
     Frame frame = context.begin();
     recordSamples(frame, facets, matrix, source, settings, byHost, light);

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "gi/facets.h"
 #include "gi/host_trace.h"
 #include "gi/ray_kernel.h"
 #include "renderer/frame/frame.h"
@@ -15,12 +16,11 @@ void timedOnHost(Context& context, const char* stage, const std::function<void()
   context.timings.add(stage, context.timings.now() - began);
 }
 
-std::unique_ptr<HostTrace> hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,
-                                          const char* stage) {
-  std::unique_ptr<HostTrace> host;
-  if (params.hitRule == HitRule::triangles && canTraceOnHost())
-    timedOnHost(context, stage, [&] { host = makeHostTrace(context, facets); });
-  return host;
+const HostTrace* hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,
+                                const char* stage) {
+  if (!context.device.isCpu || params.hitRule != HitRule::triangles || !canTraceOnHost()) return nullptr;
+  if (!facets.hostTrace) timedOnHost(context, stage, [&] { facets.hostTrace = makeHostTrace(context, facets); });
+  return facets.hostTrace.get();
 }
 
 void traceMapped(Context& context, const RayKernel& kernel, const HostTrace* host, const MatrixParams& params,

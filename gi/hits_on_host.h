@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 
 namespace irad {
 
@@ -17,9 +16,11 @@ struct RayKernel;
 /// Work of the host, as the time of a stage.
 void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
 
-/// The host's own rays, where the hit rule and this build allow them; else null. `stage`: whose time that is.
-std::unique_ptr<HostTrace> hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,
-                                          const char* stage);
+/// The host's own rays, for devices that are CPUs, where the hit rule and this build allow them; else null. They are
+/// kept with the list, since they go by its geometry alone: the first that asks makes them, and its `stage` has that
+/// time.
+const HostTrace* hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,
+                                const char* stage);
 
 /// What the rays of some rows meet, as traceRows has it (gi/ray_kernel.h), in `hits`, which is mapped: by `host`, or by
 /// the kernel where that is null. Blocking; the host may read and the device may be given what is there.

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "gi/embree_scene.h"
@@ -12,6 +10,7 @@
 #include "gi/host_facets.h"
 #include "gi/oracle/rays.h"
 #include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
 #include "renderer/frame/context.h"
 #include "renderer/resources.h"
 #include "shaders/shared/sky.h"
@@ -156,15 +155,17 @@ class EmbreeTrace : public HostTrace {
   void rows(const MatrixParams& params, uint32_t firstRow, uint32_t rows, std::span<uint32_t> hits, uint32_t threads,
             bool sky, uint32_t tintShift) const override {
     IRAD_CHECK_OP(hits.size(), >=, uint64_t{rows} * params.rays);
-    forRows(rows, threads, [&](uint32_t r) {
-      row(params, firstRow + r, sky, tintShift, hits.subspan(uint64_t{r} * params.rays, params.rays));
-    });
+    const auto trace = [&](size_t r) {
+      row(params, firstRow + static_cast<uint32_t>(r), sky, tintShift, hits.subspan(r * params.rays, params.rays));
+    };
+    parallelFor(rows, trace, threads, kBlock);
   }
 
   void emitters(const EmitterSamples& from, std::span<glm::vec4> light, uint32_t threads) const override {
     IRAD_CHECK_OP(light.size(), >=, facets_.voxel.size());
     IRAD_CHECK_OP(from.exitance.size(), ==, facets_.voxel.size());
-    forRows(static_cast<uint32_t>(facets_.voxel.size()), threads, [&](uint32_t f) { light[f] = lightOf(from, f); });
+    const auto gather = [&](size_t f) { light[f] = lightOf(from, static_cast<uint32_t>(f)); };
+    parallelFor(facets_.voxel.size(), gather, threads, kBlock);
   }
 
   void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const override {
@@ -176,19 +177,6 @@ class EmbreeTrace : public HostTrace {
  private:
   /// The channels that panes have kept off, as bits, of each ray of a packet.
   using Closed = std::array<uint32_t, kPacket>;
-
-  /// Calls work(row) for every row, on several threads; what it does for one must not depend on others.
-  static void forRows(uint32_t rows, uint32_t threads, const auto& work) {
-    std::atomic<uint32_t> next = 0;
-    const auto blocks = [&] {
-      for (uint32_t block; (block = kBlock * next++) < rows;)
-        for (uint32_t r = block; r < std::min(rows, block + kBlock); ++r) work(r);
-    };
-    if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> others;
-    for (uint32_t t = 1; t < threads; ++t) others.emplace_back(blocks);
-    blocks();
-  }
 
   static uint64_t free(const Allocator& memory) { return memory.budget() - std::min(memory.budget(), memory.used()); }
   static std::vector<glm::vec3> positions(const oracle::Facets& facets) {
@@ -256,7 +244,7 @@ class EmbreeTrace : public HostTrace {
       float x;
       const uint32_t emitter =
           emitterFacet(emitters.table, shifts.x + (2 * k + 1) * (0x80000000u / emitters.samples), x);
-      if (areNear(voxel, facets_.voxel[emitter])) continue;
+      if (areNear(unpackVoxel(voxel), unpackVoxel(facets_.voxel[emitter]))) continue;
       const SurfelPoint to = liftedSurfel(emitter, static_cast<uint32_t>(x * static_cast<float>(FACET_SURFELS)));
       const SurfelPoint& start = surfels[raySurfel(k, shifts)];
       const glm::vec3 way = to.position - start.position;
@@ -267,7 +255,7 @@ class EmbreeTrace : public HostTrace {
       if (cosines == 0) continue;
       const glm::vec3 exitance = emitters.exitance[emitter];
       rays[waiting] = {start.position, direction, start.triangle};
-      before[waiting] = reach * (1 - 1e-4f);
+      before[waiting] = shortOf(reach);
       brings[waiting++] = exitance * (cosines * emitters.power / (luminance(exitance) * IRAD_PI * reach * reach));
       if (waiting == kPacket) send();
     }
@@ -279,28 +267,16 @@ class EmbreeTrace : public HostTrace {
   /// gi/emitter_point.glsl.
   static uint32_t emitterFacet(std::span<const Emitter> table, uint32_t u, float& rest) {
     const uint64_t place = uint64_t{u} * table.size();
-    const Emitter& e = table[place >> 32];
-    const float x = unitFloat(static_cast<uint32_t>(place));
-    const bool own = x < e.keep;
-    rest = own ? x / e.keep : (x - e.keep) / (1 - e.keep);
-    return own ? e.facet : e.other;
-  }
-  static bool areNear(uint32_t a, uint32_t b) {
-    const glm::vec3 d = glm::vec3(unpackVoxel(a)) - glm::vec3(unpackVoxel(b));
-    return glm::dot(d, d) < EMITTERS_NEAR * EMITTERS_NEAR;
+    rest = unitFloat(static_cast<uint32_t>(place));
+    return drawnFacet(table[place >> 32], rest);
   }
 
   /// Of a packet those, as bits, that meet nothing before `before`, but for panes.
   uint32_t reaching(std::span<const HostRay> rays, const float* before, Closed& closed) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    alignas(32) int valid[kPacket] = {};
+    Down down;
     RTCRay8 packet{};
-    for (size_t i = 0; i < rays.size(); ++i) {
-      valid[i] = -1;
-      putRay(packet, i, rays[i], before[i]);
-    }
-    rtcOccluded8(valid, scene_.handle(), &context, &packet);
+    for (size_t i = 0; i < rays.size(); ++i) down.put(packet, i, rays[i], before[i]);
+    rtcOccluded8(down.valid, scene_.handle(), &down.context, &packet);
     uint32_t open = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
       if (packet.tfar[i] >= 0 || passes(rays[i], before[i], closed[i])) open |= 1u << i;
@@ -310,10 +286,7 @@ class EmbreeTrace : public HostTrace {
   /// Whether a ray that comes upon something passes through it.
   bool passes(const HostRay& ray, float before, uint32_t& closed) const {
     std::vector<PassedThrough::Pane> panes;
-    PassedThrough passed{
-        .context = {}, .facets = &facets_, .ray = &ray, .hiddenBacks = false, .grid = gridOf(ray), .panes = &panes};
-    rtcInitIntersectContext(&passed.context);
-    passed.context.filter = passThrough;
+    PassedThrough passed = through(ray, /*hiddenBacks=*/false, &panes);
     RTCRay sent = EmbreeScene::ray(ray.origin, ray.direction, 0, before);
     rtcOccluded1(scene_.handle(), &passed.context, &sent);
     if (sent.tfar < 0) return false;
@@ -339,33 +312,49 @@ class EmbreeTrace : public HostTrace {
     return liftedFar(p.position, p.facing, triangleAt(facets_, p.triangle));
   }
 
-  static void putRay(RTCRay8& packet, size_t i, const HostRay& ray, float far) {
-    packet.org_x[i] = ray.origin.x;
-    packet.org_y[i] = ray.origin.y;
-    packet.org_z[i] = ray.origin.z;
-    packet.dir_x[i] = ray.direction.x;
-    packet.dir_y[i] = ray.direction.y;
-    packet.dir_z[i] = ray.direction.z;
-    packet.tfar[i] = far;
-    packet.mask[i] = ~0u;
-  }
+  /// What goes down the tree beside a packet, and which of its rays there are.
+  struct Down {
+    Down() { rtcInitIntersectContext(&context); }
+    void put(RTCRay8& packet, size_t i, const HostRay& ray, float far) {
+      valid[i] = -1;
+      packet.org_x[i] = ray.origin.x;
+      packet.org_y[i] = ray.origin.y;
+      packet.org_z[i] = ray.origin.z;
+      packet.dir_x[i] = ray.direction.x;
+      packet.dir_y[i] = ray.direction.y;
+      packet.dir_z[i] = ray.direction.z;
+      packet.tfar[i] = far;
+      packet.mask[i] = ~0u;
+    }
+    RTCIntersectContext context;
+    alignas(32) int valid[kPacket] = {};
+  };
   void trace(std::span<const HostRay> rays, uint32_t* hits, Closed&& closed) const { trace(rays, hits, closed); }
   void trace(std::span<const HostRay> rays, uint32_t* hits, Closed& closed) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    alignas(32) int valid[kPacket] = {};
+    Down down;
     RTCRayHit8 packet{};
     for (size_t i = 0; i < rays.size(); ++i) {
-      valid[i] = -1;
-      putRay(packet.ray, i, rays[i], std::numeric_limits<float>::infinity());
+      down.put(packet.ray, i, rays[i], std::numeric_limits<float>::infinity());
       packet.hit.geomID[i] = packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid, scene_.handle(), &context, &packet);
+    rtcIntersect8(down.valid, scene_.handle(), &down.context, &packet);
     for (size_t i = 0; i < rays.size(); ++i) {
       const glm::vec3 normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
       const std::optional<uint32_t> met = facetMet(rays[i], packet.hit.primID[i], packet.ray.tfar[i], normal);
       hits[i] = met ? *met : traceThrough(rays[i], closed[i]);
     }
+  }
+
+  PassedThrough through(const HostRay& ray, bool hiddenBacks, std::vector<PassedThrough::Pane>* panes) const {
+    PassedThrough passed{.context = {},
+                         .facets = &facets_,
+                         .ray = &ray,
+                         .hiddenBacks = hiddenBacks,
+                         .grid = gridOf(ray),
+                         .panes = panes};
+    rtcInitIntersectContext(&passed.context);
+    passed.context.filter = passThrough;
+    return passed;
   }
 
   /// A ray that has come upon something to pass through, as few do.
@@ -382,14 +371,7 @@ class EmbreeTrace : public HostTrace {
   /// `t`: where.
   uint32_t traceBetween(const HostRay& ray, float near, float far, bool hiddenBacks,
                         std::vector<PassedThrough::Pane>* panes = nullptr, float* t = nullptr) const {
-    PassedThrough passed{.context = {},
-                         .facets = &facets_,
-                         .ray = &ray,
-                         .hiddenBacks = hiddenBacks,
-                         .grid = gridOf(ray),
-                         .panes = panes};
-    rtcInitIntersectContext(&passed.context);
-    passed.context.filter = passThrough;
+    PassedThrough passed = through(ray, hiddenBacks, panes);
     RTCRayHit met{.ray = EmbreeScene::ray(ray.origin, ray.direction, near, far), .hit = {}};
     met.hit.geomID = met.hit.primID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.handle(), &passed.context, &met);

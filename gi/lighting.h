@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
 
 #include "gi/brute_force.h"
 #include "gi/solve_report.h"
@@ -15,7 +14,6 @@
 namespace irad {
 
 class Context;
-class HostTrace;
 struct FacetList;
 struct Settings;
 
@@ -47,8 +45,7 @@ struct FrameMean {
   Buffer next;           ///< beside Lighting::radiosityNext: B that the rays of one frame bring, and those of the next
   Buffer standardError;  ///< of H; w: share of the rays that meet a facet
   Buffer hits;           ///< scratch, while frames are traced
-  std::shared_ptr<const HostTrace> host;  ///< CPU devices: what traces them
-  double meanH = 0;                       ///< after the last frame, W/m^2
+  double meanH = 0;      ///< after the last frame, W/m^2
   /// What shading sampled before an edit of light, and goes on to sample for the first frames after it.
   Buffer held, heldEmitted;
   uint32_t heldFor = 0;  ///< frames

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <memory>
 
 #include "gi/facets.h"
 #include "gi/hits_on_host.h"
@@ -135,12 +134,11 @@ void buildCsr(Context& context, const FacetList& facets, const Field& field, con
   if (matrix.tinted) kernel.tintShift = facetBits;
   const WaitingLists waiting = raysWait(device, kernel) ? makeWaitingLists(device, places) : WaitingLists{};
   CsrBuild build{context, matrix, rows, arrays.segmentShift};
-  const std::unique_ptr<HostTrace> host =
-      device.isCpu ? hostTraceIfAny(context, facets, params, kMatrixStage) : nullptr;
+  const HostTrace* host = hostTraceIfAny(context, facets, params, kMatrixStage);
   for (uint32_t first = 0; first < rows; first += segmentRows) {
     const Chunk chunk{first, std::min(segmentRows, rows - first), rays, arrays.columnBits};
     if (device.isCpu) {
-      traceMapped(context, kernel, host.get(), params, first, chunk.rows, hits, sky, kMatrixStage);
+      traceMapped(context, kernel, host, params, first, chunk.rows, hits, sky, kMatrixStage);
       mergeAndPackOnHost(build, chunk, hits);
     } else {
       Frame frame = context.begin();

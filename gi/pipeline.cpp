@@ -331,10 +331,12 @@ struct Pipeline::Impl {
 
     // 5. F_ij: share of cosine-weighted directions from facet i that first meet facet j.
     report("GI BuildMatrix", 0);
-    // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first.
+    // The old matrix is the largest thing there is; a rebuild under a changed list cannot use it, so it goes first,
+    // and what the host traces its rays with.
     if (first <= Redo::Voxels) {
       made.forget(Redo::Matrix);
       now.matrix.reset();
+      if (now.facets) now.facets->hostTrace.reset();
     }
     p.matrix = planned.on(Effect::matrix)
                    ? buildMatrix(context, *p.facets, field ? *field : *p.field, obeyed,

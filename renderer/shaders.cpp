@@ -1,11 +1,10 @@
 #include "renderer/shaders.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
-#include <thread>
 
 #include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
 #include "shaders/embedded.h"
 
 namespace irad {
@@ -85,28 +84,19 @@ ShaderReload ShaderLibrary::reload(const std::filesystem::path& sources) {
     jobs.push_back({.old = module, .source = std::move(source), .definition = added ? "" : embedded->definition});
   }
   // On all cores: one alone takes some seconds, in which a window that asked for it stands still.
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i; (i = next++) < jobs.size();) {
-      Job& job = jobs[i];
-      try {
-        ShaderModule compiled = reflect(job.old.name, compileGlsl(sources, job.source, job.definition));
-        if (withoutDebugInfo(compiled.spirv) == withoutDebugInfo(job.old.spirv)) continue;
-        if (!sameInterface(compiled, job.old))
-          throw WorkError(
-              fmt::format("{}: its images or push constants have changed: build the program again", job.old.name));
-        job.changed = std::move(compiled);
-      } catch (const WorkError& error) {
-        job.error = error.what();
-      }
+  parallelFor(jobs.size(), [&](size_t i) {
+    Job& job = jobs[i];
+    try {
+      ShaderModule compiled = reflect(job.old.name, compileGlsl(sources, job.source, job.definition));
+      if (withoutDebugInfo(compiled.spirv) == withoutDebugInfo(job.old.spirv)) return;
+      if (!sameInterface(compiled, job.old))
+        throw WorkError(
+            fmt::format("{}: its images or push constants have changed: build the program again", job.old.name));
+      job.changed = std::move(compiled);
+    } catch (const WorkError& error) {
+      job.error = error.what();
     }
-  };
-  {
-    std::vector<std::jthread> threads;
-    const size_t count = std::min<size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
-    for (size_t t = 1; t < count; ++t) threads.emplace_back(work);
-    work();
-  }
+  });
   ShaderReload result;
   for (const Job& job : jobs) {
     if (!job.error.empty()) result.errors += job.error + "\n";

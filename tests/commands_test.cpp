@@ -64,7 +64,7 @@ TEST(Render, WritesPicturesTablesAndAManifestThatReplaysToTheSameBits) {
 
   const auto manifest = nlohmann::json::parse(files.at("manifest.json"));
   EXPECT_EQ(manifest["seed"], 3);
-  EXPECT_EQ(manifest["settings"]["voxel.resolution"], 24);
+  EXPECT_EQ(manifest["settings"]["voxel.resolution"], 12);
   EXPECT_EQ(manifest["size"], (nlohmann::json{64, 48}));
   EXPECT_EQ(manifest["views"], (nlohmann::json{"lit", "irradiance"}));
   EXPECT_EQ(manifest["scene"]["sha256"].get<std::string>().size(), 64u);

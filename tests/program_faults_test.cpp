@@ -88,9 +88,9 @@ TEST(ProgramFaults, ABudgetIsAnOption) {
   const RunResult tight = runIrad(smallRender(folder.path, {"--memory-budget", "1"}));
   EXPECT_EQ(tight.status, 4) << tight.err;
   EXPECT_TRUE(contains(tight.err, " of 1.0 MiB are free")) << tight.err;
-  const RunResult padded =
-      runIrad(smallRender(folder.path, {"--memory-budget", "5", "--set", "matrix.hit_rule=thesis", "--set",
-                                        "matrix.format=padded", "--set", "matrix.rays=512"}));
+  const RunResult padded = runIrad(smallRender(
+      folder.path, {"--memory-budget", "5", "--set", "voxel.resolution=24", "--set", "matrix.hit_rule=thesis", "--set",
+                    "matrix.format=padded", "--set", "matrix.rays=512"}));
   EXPECT_EQ(padded.status, 4) << padded.err;
   EXPECT_TRUE(contains(padded.err, "the padded matrix of ")) << padded.err;
   EXPECT_TRUE(contains(padded.err, "matrix.format=csr")) << padded.err;
@@ -157,7 +157,7 @@ void fillDisks(const Arguments& arguments) {
 }
 
 TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholePicturesOnly) {
-  fillDisks([](const fs::path& out) { return smallRender(out); });
+  fillDisks(quickRender);
 }
 
 TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholeArraysOnly) {
@@ -281,13 +281,13 @@ TEST(ProgramFaults, KilledWhileExportingLeavesWholeFilesOnly) {
 }
 
 TEST(ProgramFaults, KilledWhileRenderingLeavesWholeFilesOnly) {
-  killThroughout(1, [](const fs::path& out) { return smallRender(out); });
+  killThroughout(1, quickRender);
 }
 
 TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
   // The manifest vouched for files that now partly belong to another run.
   TemporaryFolder folder;
-  ASSERT_EQ(runIrad(smallRender(folder.path)).status, 0);
+  ASSERT_EQ(runIrad(quickRender(folder.path)).status, 0);
   const RunResult failed = runIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=250"}));
   ASSERT_EQ(failed.status, 1) << failed.err;
   EXPECT_FALSE(fs::exists(folder.path / "manifest.json"));

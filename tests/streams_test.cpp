@@ -91,19 +91,19 @@ TEST_F(Streams, WorkWithProgressGoesOn) {
   const std::string small = "--set voxel.resolution=8 --set matrix.rays=4 --set specular.mode=off";
   for (const Stream err : {Stream::Closed, Stream::Full, Stream::Unread}) {
     expect("plan box " + small, 0, /*results=*/true, Stream::Fine, err);
-    const std::string render = fmt::format("{}", fmt::join(test::smallRender("pictures"), " "));
+    const std::string render = fmt::format("{}", fmt::join(test::quickRender("pictures"), " "));
     expect(render, 0, /*results=*/true, Stream::Fine, err);
     EXPECT_TRUE(std::filesystem::exists(folder_.path / "pictures/manifest.json"));
     std::filesystem::remove_all(folder_.path / "pictures");
   }
   // Results that have no place: what is saved is saved.
-  expect(fmt::format("{}", fmt::join(test::smallRender("pictures"), " ")), 0, true, Stream::Full, Stream::Closed);
+  expect(fmt::format("{}", fmt::join(test::quickRender("pictures"), " ")), 0, true, Stream::Full, Stream::Closed);
   EXPECT_TRUE(std::filesystem::exists(folder_.path / "pictures/manifest.json"));
 }
 
 /// A closed stream leaves its number free: messages must not end up in the next file that is opened.
 TEST_F(Streams, ThatAreClosedAreNoFilesOfTheWork) {
-  const std::string render = fmt::format("{}", fmt::join(test::smallRender("pictures"), " "));
+  const std::string render = fmt::format("{}", fmt::join(test::quickRender("pictures"), " "));
   expect(render, 0, true, Stream::Fine, Stream::Fine);
   auto wanted = test::contents(folder_.path / "pictures");
   std::filesystem::remove_all(folder_.path / "pictures");

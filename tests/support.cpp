@@ -109,11 +109,15 @@ std::vector<std::string> smallRender(const std::filesystem::path& out, const std
                                      "--out",  out.string(),
                                      "--size", "64x48",
                                      "--view", "lit,irradiance",
-                                     "--set",  "voxel.resolution=24",
+                                     "--set",  "voxel.resolution=12",
                                      "--set",  "matrix.rays=16",
                                      "--set",  "light.shadow_resolution=64"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+std::vector<std::string> quickRender(const std::filesystem::path& out) {
+  return smallRender(out, {"--set", "matrix.hit_rule=thesis", "--set", "specular.mode=off"});
 }
 
 }  // namespace irad::test

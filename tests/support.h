@@ -73,5 +73,8 @@ RunResult runProgram(const std::string& program, const std::vector<std::string>&
                      double timeoutSeconds = 600);
 /// `irad render box` into `out`, two views, so small that a CPU device takes a second or two; and `more` options.
 std::vector<std::string> smallRender(const std::filesystem::path& out, const std::vector<std::string>& more = {});
+/// The same files in half of its time, which goes into the driver's pipelines: for tests to which it is all the same
+/// what the pictures show.
+std::vector<std::string> quickRender(const std::filesystem::path& out);
 
 }  // namespace irad::test

@@ -14,7 +14,7 @@
 namespace irad {
 namespace {
 
-constexpr glm::uvec2 kPicture(96, 64);
+constexpr glm::uvec2 kGlassPicture(96, 64);
 
 /// A closed room of 2 x 1.2 x 1.2 with two cameras, which look at each other's half.
 SceneBuilder closedRoom() {
@@ -122,13 +122,13 @@ void againstTruth(CheckRun& run, Scene (*make)()) {
   const auto tracer = makePathTracer(scene);
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const TracedPicture truth =
-        tracer->render(scene.cameras[c], kPicture, {.samples = run.options.quick ? 256u : 1024u, .centred = true});
-    const CheckPicture picture = run.picture(*pipeline, scene.cameras[c], VIEW_LIT, kPicture);
+        tracer->render(scene.cameras[c], kGlassPicture, {.samples = run.options.quick ? 256u : 1024u, .centred = true});
+    const CheckPicture picture = run.picture(*pipeline, scene.cameras[c], VIEW_LIT, kGlassPicture);
     const TruthError all = compare(picture, truth.lit);
     run.near(fmt::format("camera {}: mean / truth", c), all.ratio, 1, 0.03);
     run.atMost(fmt::format("camera {}: relMSE", c), all.relMse, 0.02);
     // The light by way of other surfaces alone, of what lies behind panes, too.
-    const CheckPicture byOthers = run.picture(*pipeline, scene.cameras[c], VIEW_INDIRECT, kPicture);
+    const CheckPicture byOthers = run.picture(*pipeline, scene.cameras[c], VIEW_INDIRECT, kGlassPicture);
     run.near(fmt::format("camera {}: indirect mean / truth", c), compare(byOthers, truth.indirect).ratio, 1, 0.03);
     if (make == tintScene) {
       const glm::dvec3 by = ratios(picture, truth.lit);

@@ -15,12 +15,12 @@
 namespace irad {
 namespace {
 
-constexpr glm::uvec2 kSize(64, 64);
+constexpr glm::uvec2 kGuardPicture(64, 64);
 
 void capacityCase(CheckRun& run) {
   Settings settings = run.small();
   const auto pipeline = run.prepare(mixedRoom(), settings);
-  const CheckPicture before = run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize);
+  const CheckPicture before = run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kGuardPicture);
 
   // Nothing is dropped: every ray is in its row, or counted as what became of it.
   uint64_t hits = 0;
@@ -62,7 +62,7 @@ void capacityCase(CheckRun& run) {
   pipeline->set(run.small());
   pipeline->prepare();
   run.none("pixels that the refusals changed",
-           countDiffering(before, run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize)));
+           countDiffering(before, run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kGuardPicture)));
 
   // A tiny budget: refused by name, or enough; the same bits where it is enough.
   uint32_t refusals = 0, pictures = 0;
@@ -75,7 +75,8 @@ void capacityCase(CheckRun& run) {
     const bool no = refused(
         [&] {
           const auto made = there.prepare(mixedRoom(), run.small());
-          differing += countDiffering(before, there.picture(*made, made->scene().cameras.at(0), VIEW_LIT, kSize));
+          differing +=
+              countDiffering(before, there.picture(*made, made->scene().cameras.at(0), VIEW_LIT, kGuardPicture));
           ++pictures;
         },
         "needs");
@@ -86,7 +87,7 @@ void capacityCase(CheckRun& run) {
   run.none("pixels that a budget changes", differing);
 }
 
-Scene whiteRoom() {
+Scene brightRoom() {
   return furnaceBox(0.9f);
 }
 
@@ -95,7 +96,7 @@ void divergenceCase(CheckRun& run) {
     Settings settings = run.settings;
     settings.solver.gpu.lambda = 1;
     settings.matrix.gpu.rays = 64;  // all meet the same B
-    const auto pipeline = run.prepare(whiteRoom(), settings);
+    const auto pipeline = run.prepare(brightRoom(), settings);
     settings.solver.gpu.lambda = lambda;  // row gain .9 lambda
     pipeline->set(settings);
     pipeline->prepare();
@@ -120,7 +121,7 @@ std::vector<CheckCase> guardCases() {
       {"capacity", "rows, grid and memory budget exceeded", "reported, nothing dropped", "exact", capacityCase,
        mixedRoom},
       {"divergence", "lambda such that the spectral radius is 1.8 and 1.035", "stopped within 20 sweeps, said in words",
-       "finite", divergenceCase, whiteRoom},
+       "finite", divergenceCase, brightRoom},
   };
 }
 

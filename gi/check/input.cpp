@@ -15,10 +15,10 @@
 namespace irad {
 namespace {
 
-constexpr glm::uvec2 kSize(96);
+constexpr glm::uvec2 kInputPicture(96);
 
 CheckPicture picture(CheckRun& run, Pipeline& pipeline, View view) {
-  return run.picture(pipeline, pipeline.scene().cameras[0], view, kSize);
+  return run.picture(pipeline, pipeline.scene().cameras[0], view, kInputPicture);
 }
 
 /// Facets whose light differs, and pixels.
@@ -31,10 +31,6 @@ void expectSame(CheckRun& run, const std::string& name, Pipeline& got, Pipeline&
 }
 
 // ---- degenerate ----
-
-Scene stillScene() {
-  return stillLife().finish("still life");
-}
 
 /// Adds triangles of a glaring material that have no area or next to none.
 Scene degenerateScene() {
@@ -164,11 +160,6 @@ Scene flatScene(int axis) {
 Scene flatAcrossY() {
   return flatScene(1);
 }
-/// A plane sees nothing of itself.
-glm::dvec3 noLight(const glm::dvec3&, const glm::dvec3&) {
-  return glm::dvec3(0);
-}
-
 void flatCase(CheckRun& run) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name = fmt::format("across {}", "xyz"[axis]);

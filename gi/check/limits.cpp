@@ -142,9 +142,6 @@ void albedoBadCase(CheckRun& run) {
            countNonFinite(run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, {64, 64})));
 }
 
-glm::dvec3 noLight(const glm::dvec3&, const glm::dvec3&) {
-  return glm::dvec3(0);
-}
 glm::dvec3 firstGather(const glm::dvec3&, const glm::dvec3&) {
   return glm::dvec3(1);
 }

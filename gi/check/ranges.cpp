@@ -15,15 +15,11 @@
 namespace irad {
 namespace {
 
-constexpr glm::uvec2 kSize(96);
-
-Scene stillScene() {
-  return stillLife().finish("still life");
-}
+constexpr glm::uvec2 kRangePicture(96);
 
 CheckPicture lit(CheckRun& run, Scene scene) {
   const auto pipeline = run.prepare(std::move(scene));
-  return run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, kSize);
+  return run.picture(*pipeline, pipeline->scene().cameras[0], VIEW_LIT, kRangePicture);
 }
 
 void emissionRangeCase(CheckRun& run) {

@@ -20,7 +20,7 @@
 namespace irad {
 namespace {
 
-constexpr glm::uvec2 kPicture(64, 64);
+constexpr glm::uvec2 kRoomPicture(64, 64);
 constexpr uint32_t kJudged = 128;  ///< the resolution that lit families are judged at
 
 /// A member of a family with its light.
@@ -59,7 +59,7 @@ void judgeSealed(CheckRun& run, const Lit& lit) {
   }
   double pixel = 0;
   for (const Camera& camera : lit.member.scene.cameras)
-    for (const glm::vec4& p : run.picture(lit.pipeline, camera, VIEW_LIT, kPicture).pixels)
+    for (const glm::vec4& p : run.picture(lit.pipeline, camera, VIEW_LIT, kRoomPicture).pixels)
       pixel = std::max({pixel, double{p.x}, double{p.y}, double{p.z}});
   const auto judge = [&](const char* what, double value) {
     const double share = value / outside;
@@ -98,10 +98,10 @@ void judgeLit(CheckRun& run, const Lit& lit) {
   const TraceOptions options{.samples = judged ? 1024u : 256u, .centred = true};
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const Camera& camera = scene.cameras[c];
-    const TracedPicture truth = tracer->render(camera, kPicture, options);
+    const TracedPicture truth = tracer->render(camera, kRoomPicture, options);
     const std::string seen = fmt::format("{}, camera {}: ", lit.name, c);
-    const TruthError all = compare(run.picture(lit.pipeline, camera, VIEW_LIT, kPicture), truth.lit),
-                     indirect = compare(run.picture(lit.pipeline, camera, VIEW_INDIRECT, kPicture), truth.indirect);
+    const TruthError all = compare(run.picture(lit.pipeline, camera, VIEW_LIT, kRoomPicture), truth.lit),
+                     indirect = compare(run.picture(lit.pipeline, camera, VIEW_INDIRECT, kRoomPicture), truth.indirect);
     if (judged) {
       run.near(seen + "mean / truth", all.ratio, 1, 0.05);
       run.atMost(seen + "relMSE", all.relMse, 0.02);
@@ -126,9 +126,9 @@ void judgeOutside(CheckRun& run, const Lit& lit) {
   const auto tracer = makePathTracer(scene);
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const Camera& camera = scene.cameras[c];
-    const TracedPicture truth = tracer->render(camera, kPicture, {.samples = 512, .centred = true});
+    const TracedPicture truth = tracer->render(camera, kRoomPicture, {.samples = 512, .centred = true});
     const auto error = [&](Pipeline& of, View view) {
-      return compare(run.picture(of, camera, view, kPicture), view == VIEW_LIT ? truth.lit : truth.indirect);
+      return compare(run.picture(of, camera, view, kRoomPicture), view == VIEW_LIT ? truth.lit : truth.indirect);
     };
     for (const View view : {VIEW_LIT, VIEW_INDIRECT}) {
       const std::string seen = fmt::format("{}, camera {}, {}: ", lit.name, c, view == VIEW_LIT ? "lit" : "indirect");

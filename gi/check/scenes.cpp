@@ -268,4 +268,12 @@ SceneBuilder stillLife(float light) {
   return b;
 }
 
+Scene stillScene() {
+  return stillLife().finish("still life");
+}
+
+glm::dvec3 noLight(const glm::dvec3&, const glm::dvec3&) {
+  return glm::dvec3(0);
+}
+
 }  // namespace irad

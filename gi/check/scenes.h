@@ -69,7 +69,11 @@ Scene mixedRoom();
 /// A room of 2 x 1.25 x 1.25, open towards +z, seen from there: coloured walls, a lamp, a point light, a turned box and
 /// a glossy ball, to be finished. Exitance and intensity are multiplied by `light`.
 SceneBuilder stillLife(float light = 1.0f);
+/// stillLife() as it is.
+Scene stillScene();
 
+/// H where no light comes from anywhere; of a plane, too, which sees nothing of itself.
+glm::dvec3 noLight(const glm::dvec3& position, const glm::dvec3& normal);
 /// Form factor from a point of a surface to a polygon in front of it (Lambert 1760).
 double formFactorPolygon(const glm::dvec3& position, const glm::dvec3& normal,
                          const std::array<glm::dvec3, 4>& corners);

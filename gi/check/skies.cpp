@@ -49,7 +49,7 @@ void skySphereCase(CheckRun& run) {
 }
 
 /// A room that is open to the sky and its sun; all of it Lambertian, as the path tracer has it.
-Scene openRoom() {
+Scene roomUnderASky() {
   SceneBuilder b = stillLife(/*light=*/0);
   b.sun(glm::normalize(glm::vec3(0.5f, -0.8f, -1)), 3);
   Scene scene = b.finish("room under a sky");
@@ -83,7 +83,7 @@ void skyGroundCase(CheckRun& run) {
   for (size_t i = 0; i < h.size(); ++i) sum += area[i] * double{h[i].x}, all += area[i];
   run.near("sheet: H / expected", sum / all / (0.5 * (down + 3 * double{towards.y})), 1, 0.005);
 
-  const auto room = run.prepare(openRoom(), settings);
+  const auto room = run.prepare(roomUnderASky(), settings);
   constexpr glm::uvec2 kSize(64, 48);
   const Camera& camera = room->scene().cameras.at(0);
   const CheckPicture seen = run.picture(*room, camera, VIEW_LIT, kSize);
@@ -103,7 +103,7 @@ std::vector<CheckCase> skyCases() {
       {"sky-sphere", "sphere, open by a cone of 45 degrees, under an even sky", "B = rho pi L f/(1 - rho (1 - f))",
        "+- .5 %", skySphereCase, openSphere},
       {"sky-ground", "Preetham's sky with the scene's sun: a sheet above its ground, an open room",
-       "H = albedo x what comes down; a path tracer", "H .5 %; mean 3 %, relMSE .02", skyGroundCase, openRoom},
+       "H = albedo x what comes down; a path tracer", "H .5 %; mean 3 %, relMSE .02", skyGroundCase, roomUnderASky},
   };
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr glm::uvec2 kSize(64, 64);
+constexpr glm::uvec2 kStabilityPicture(64, 64);
 
 /// Memory that is the process's own, without mapped files, MiB: a driver's devices are among these (one maps 4 MiB
 /// more, once, after some thousands of submissions).
@@ -54,7 +54,7 @@ uint64_t ulps(float a, float b) {
 void soakCase(CheckRun& run) {
   const uint32_t frames = run.options.quick ? 500 : 10000, settled = frames / 5;
   const auto pipeline = run.prepare(mixedRoom(), run.small());
-  Targets targets(run.context, kSize);
+  Targets targets(run.context, kStabilityPicture);
   std::vector<glm::vec3> before;
   uint64_t deviceBefore = 0;
   double memory[3] = {};  // of the process: when it has settled, half-way from there, at the end
@@ -108,7 +108,9 @@ void toggle(const Setting& setting, Settings& settings) {
 void toggleCase(CheckRun& run) {
   const Settings settings = run.small();
   const auto pipeline = run.prepare(mixedRoom(), settings);
-  const auto shot = [&] { return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kSize); };
+  const auto shot = [&] {
+    return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kStabilityPicture);
+  };
   const CheckPicture untoggled = shot();
   uint64_t count = 0, bad = 0;
   const auto round = [&] {
@@ -157,7 +159,8 @@ void poisonCase(CheckRun& run) {
     const auto pipeline = there.prepare(mixedRoom(), run.small());
     light[poison] = there.read(*pipeline, pipeline->lighting().indirect);
     for (const ViewInfo& view : views())
-      pictures[poison].push_back(there.picture(*pipeline, pipeline->scene().cameras.at(0), view.view, kSize));
+      pictures[poison].push_back(
+          there.picture(*pipeline, pipeline->scene().cameras.at(0), view.view, kStabilityPicture));
   }
   uint64_t pixels = 0, facets = 0;
   for (size_t v = 0; v < pictures[0].size(); ++v) pixels += countDiffering(pictures[0][v], pictures[1][v]);

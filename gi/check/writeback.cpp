@@ -11,7 +11,7 @@
 namespace irad {
 namespace {
 
-constexpr glm::uvec2 kPicture(96, 72);
+constexpr glm::uvec2 kFloorPicture(96, 72);
 
 Settings writingBack(Settings settings, WritebackMode mode) {
   settings.writeback.mode = mode;
@@ -49,7 +49,7 @@ void facingMirrorsCase(CheckRun& run) {
   const auto judge = [&](const char* walls, const Scene& scene, WritebackMode mode) {
     const auto pipeline = run.prepare(scene, writingBack(run.small(), mode));
     const WritebackFigures f =
-        measureWriteback(run.context, *pipeline, pipeline->scene().cameras.at(0), kPicture, /*frames=*/2);
+        measureWriteback(run.context, *pipeline, pipeline->scene().cameras.at(0), kFloorPicture, /*frames=*/2);
     const std::vector<glm::vec3> b = run.read(*pipeline, pipeline->lighting().radiosity);
     double largest = 0;
     for (const glm::vec3& v : b) largest = std::max({largest, double{v.x}, double{v.y}, double{v.z}});
@@ -88,24 +88,24 @@ Scene floorScene(const glm::mat3& turn) {
   return b.finish("glossy floor");
 }
 
-glm::mat3 turned(float degrees, const glm::vec3& axis) {
+glm::mat3 turnedAbout(float degrees, const glm::vec3& axis) {
   return glm::mat3(glm::rotate(glm::mat4(1.0f), glm::radians(degrees), axis));
 }
 Scene flatFloor() {
   return floorScene(glm::mat3(1.0f));
 }
 Scene slopingFloor() {
-  return floorScene(turned(45, {0, 0, 1}));
+  return floorScene(turnedAbout(45, {0, 0, 1}));
 }
 Scene tiltedFloor() {
-  return floorScene(turned(31, glm::normalize(glm::vec3(1, 2, 3))));
+  return floorScene(turnedAbout(31, glm::normalize(glm::vec3(1, 2, 3))));
 }
 
 void floorCase(CheckRun& run, Scene (*scene)()) {
   constexpr uint32_t frames = 8;
   const auto measured = [&](WritebackMode mode) {
     const auto pipeline = run.prepare(scene(), writingBack(run.small(), mode));
-    return measureWriteback(run.context, *pipeline, pipeline->scene().cameras.at(0), kPicture, frames);
+    return measureWriteback(run.context, *pipeline, pipeline->scene().cameras.at(0), kFloorPicture, frames);
   };
   const double without = measured(WritebackMode::off).meanB;
   for (const WritebackMode mode : {WritebackMode::mask, WritebackMode::compute}) {

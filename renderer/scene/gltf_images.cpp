@@ -1,10 +1,9 @@
 // Images: found, read, decoded in parallel. What cannot be had becomes pink, with a warning that names it.
-#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "renderer/base/parallel.h"
 #include "renderer/scene/gltf_document.h"
 
 namespace irad::gltf {
@@ -120,17 +119,8 @@ void loadImages(Document& doc, const std::vector<ImageRequest>& requests, const 
   for (size_t j = 0; j < jobs.size(); ++j) locate(doc, sources[j], jobs[j]), measure(jobs[j], total);
   for (const size_t j : jobOf) doc.take(jobs[j].header.resultBytes(), "images");
 
-  std::atomic<size_t> next = 0;
   Scratch scratch;
-  const auto work = [&] {
-    for (size_t j = next++; j < jobs.size(); j = next++) decode(jobs[j], scratch);
-  };
-  const size_t threadCount = std::min<size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
-  {
-    std::vector<std::jthread> threads;
-    for (size_t t = 1; t < threadCount; ++t) threads.emplace_back(work);
-    work();
-  }
+  parallelFor(jobs.size(), [&](size_t j) { decode(jobs[j], scratch); });
   if (options.progress) options.progress(0.8f, "images");
 
   std::vector<size_t> uses(jobs.size(), 0);

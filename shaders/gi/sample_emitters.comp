@@ -17,11 +17,6 @@ layout(push_constant, scalar) uniform Push { SampleEmittersPush p; };
 #include "gi/matrix_row.glsl"
 #include "gi/seen_point.glsl"
 
-bool near(uvec3 a, uvec3 b) {
-  vec3 d = vec3(a) - vec3(b);
-  return dot(d, d) < EMITTERS_NEAR * EMITTERS_NEAR;
-}
-
 /// A mean of what rays or samples bring, and the mean's variance were they independent, over the channels together.
 struct Estimate {
   vec3 mean;
@@ -40,7 +35,7 @@ Estimate nearEmitters(FacetArrays f, MatrixArrays m, uint row, uvec3 voxel) {
   for (uint i = 0u; i < r.count; ++i) {
     RowEntry e = rowEntry(r, m.columnBits, i);
     vec3 exitance = f.emission.at[e.column];
-    if (exitance == vec3(0.0f) || !near(voxel, unpackVoxel(f.voxel.at[e.column]))) continue;
+    if (exitance == vec3(0.0f) || !areNear(voxel, unpackVoxel(f.voxel.at[e.column]))) continue;
     if (TINTED) exitance *= openChannels(e.closed);
     sum += e.weight * exitance;
     squares += e.weight * dot(exitance, exitance);
@@ -56,7 +51,7 @@ Estimate sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArr
   for (uint k = 0u; k < p.samples; ++k) {
     float x;
     uint emitter = emitterFacet(table, shifts.x + (2u * k + 1u) * (0x80000000u / p.samples), x);
-    if (near(voxel, unpackVoxel(f.voxel.at[emitter]))) continue;
+    if (areNear(voxel, unpackVoxel(f.voxel.at[emitter]))) continue;
     SurfelPoint to = liftedSurfel(surface, emitter, uint(x * float(FACET_SURFELS)));
     SurfelPoint from = liftedSurfel(surface, facet, raySurfel(k, shifts));
     vec3 way = to.position - from.position;

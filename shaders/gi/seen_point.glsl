@@ -14,11 +14,9 @@ SurfelPoint liftedSeen(SurfaceArrays surface, uint triangle, vec3 p, vec3 viewer
   return SurfelPoint(liftedOff(surface, triangle, p - facing * dot(facing, p - t.a), facing), facing, triangle);
 }
 
-/// Whether a ray from a lifted point meets nothing before `reach`, but for panes: closedChannels. A ten-thousandth of it is more than the roundings of
-/// the point of a triangle that may be there.
+/// Whether a ray from a lifted point meets nothing before `reach`, where a triangle may be, but for panes: closedChannels.
 bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 direction, float reach) {
-  float before = reach * (1.0 - 1e-4);
-  return !blockedInScene(world, surface, from.position, direction, from.triangle, before);
+  return !blockedInScene(world, surface, from.position, direction, from.triangle, shortOf(reach));
 }
 
 #ifdef IRAD_FORWARD_LIGHT_GLSL

@@ -2,6 +2,7 @@
 // that specular rays and the samples of the first gather can be sent to them.
 #ifndef IRAD_SHARED_EMITTERS_H
 #define IRAD_SHARED_EMITTERS_H
+#include "shared/sampling.h"
 #include "shared/types.h"
 IRAD_BEGIN
 
@@ -15,6 +16,13 @@ struct Emitter {
   float keep;
 };
 IRAD_ARRAY(EmitterArray, Emitter, 4)
+
+/// The facet that an entry stands for, by x in (0, 1), which becomes uniform there again.
+IRAD_FN uint drawnFacet(Emitter e, IRAD_INOUT(float) x) {
+  bool own = x < e.keep;
+  x = own ? x / e.keep : (x - e.keep) / (1.0f - e.keep);
+  return own ? e.facet : e.other;
+}
 
 struct EmitterTable {
   EmitterArray entries;

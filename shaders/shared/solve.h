@@ -184,6 +184,10 @@ IRAD_CONST uint EMITTERS_SEED = 0x5A3D9E71u;  ///< with that of the rays: the sa
 /// Emitters nearer than this, in voxels from centre to centre, are left to the rays: a sample of so near a face would
 /// weigh too much.
 IRAD_CONST float EMITTERS_NEAR = 4.0f;
+IRAD_FN bool areNear(uvec3 a, uvec3 b) {
+  vec3 d = vec3(a) - vec3(b);
+  return dot(d, d) < EMITTERS_NEAR * EMITTERS_NEAR;
+}
 
 /// thesis/scatter_volume.comp (T 5.9): one facet per solid voxel into the sampled volume.
 struct ScatterVolumePush {

@@ -1,8 +1,8 @@
 // "RE Specular": one step of an edge-aware a-trous filter over the traced radiance (Dammertz et al. 2010): 3 x 3 taps
 // STEP pixels apart, weighted by plane, normal and roughness, at the listed pixels. Normals may differ by as much as
 // those of the lobe's microfacets do, and places be as far apart as the lobe is wide where it meets what is reflected:
-// further off another reflection is seen. The last step (RESOLVE)
-// multiplies by the lobe's reflectance and blends with the reflection of the diffuse irradiance near max_roughness.
+// further off another reflection is seen. The last step (RESOLVE) multiplies by the lobe's reflectance and blends with
+// the reflection of the diffuse irradiance near max_roughness.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "specular/surface.glsl"
