@@ -50,7 +50,7 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
     return std::abs(p.meanLuminance() - shining) < 0.01 * shining;
   })) << "redo does not bring it back";
   click("Materials/Save");
-  ASSERT_TRUE(says("Saved lights, materials, objects and bookmarks to " + sidecar.string()));
+  ASSERT_TRUE(says("Saved lights, materials, objects, bookmarks and region to " + sidecar.string()));
   const std::vector<MaterialEdit> kept{{.material = "green wall", .emissionStrength = 4.0f}};
   EXPECT_EQ(readSidecar(sidecar).materials, kept);
   EXPECT_FALSE(readSidecar(sidecar).lights);

@@ -137,7 +137,7 @@ TEST_F(WindowObjectsTest, AreHiddenAsIfTheFileHadThemNotAndKept) {
   EXPECT_EQ(captured.at("lit.exr"), slurp(folder_.path / "stripped/lit.exr"));
 
   click("Objects/Save");
-  ASSERT_TRUE(says("Saved lights, materials, objects and bookmarks to " + sidecar.string()));
+  ASSERT_TRUE(says("Saved lights, materials, objects, bookmarks and region to " + sidecar.string()));
   EXPECT_EQ(readSidecar(sidecar).hidden, (HiddenNodes{{"metal sphere"}, ""}));
   quit();
 
@@ -156,7 +156,7 @@ TEST_F(WindowObjectsTest, HidingIsCancelled) {
   const ScreenPart all = part();  // above the messages
   // By its box in the list.
   const std::string box = placeOf(std::string(kFloor) + "/shown");
-  cancel([&] { xdotool("mousemove " + box + " sleep 0.05 mousedown 1 sleep 0.05 mouseup 1"); });
+  cancel([&] { mouse().tap(box); });
   EXPECT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == all; }));
   EXPECT_TRUE(isOn(std::string(kFloor) + "/shown"));
   quit();

@@ -233,7 +233,7 @@ TEST_F(WindowUnsavedTest, LightsOfABuiltInSceneAreSavedWhereTheUserSays) {
   ASSERT_TRUE(drop({file}));
   EXPECT_TRUE(appears(kCancel)) << "unsaved lights are replaced";
   click(kDiscard);
-  EXPECT_TRUE(says("Lights, materials, objects and bookmarks are those of lamps.irad.json"));
+  EXPECT_TRUE(says("Lights, materials, objects, bookmarks and region are those of lamps.irad.json"));
   quitDiscarding();
 }
 
