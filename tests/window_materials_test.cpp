@@ -23,7 +23,7 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   const double first = viewport().meanLuminance();
 
   // A click on the red wall, and a button that opens its fields.
-  press("420 250");
+  press(at(-490, -49));
   click("Inspector/Material");
   ASSERT_TRUE(appears("Materials/red wall/roughness")) << "the click does not pick the wall";
   EXPECT_TRUE(isOn("Materials/red wall"));

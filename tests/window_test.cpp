@@ -63,7 +63,7 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   ASSERT_TRUE(viewportSettles(lit));
   goAside();
   const ScreenPart first = viewport();
-  const auto column = [this] { return screen_->grab(5, 40, 280, 600); };
+  const auto column = [this, wide = picture().x - 20] { return screen_->grab(5, 40, wide, 600); };
   const ScreenPart panels = column();
 
   key("F1");

@@ -357,7 +357,7 @@ TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
   closes("Settings/preset", "Settings/preset/fast");
   closes("Effects/emission", "Effects/emission/off");
   closes("View/view", "View/view/lit");
-  press("480 480");
+  press(at(0, 100));
   ASSERT_TRUE(appears("Inspector/Clear"));
   closes("Inspector/filter", "");
   for (int i = 0; i < 4; ++i) hold("Escape");

@@ -68,7 +68,7 @@ TEST_F(WindowUnsavedTest, EscClosesWhatIsOnTopAndNeverQuits) {
   click("Compare/Compare with these settings");
   ASSERT_TRUE(appears("Compare/End the comparison"));
   click("Lights/0");
-  press("480 480");
+  press(at(0, 100));
   ASSERT_TRUE(appears("Inspector/Clear"));
   away();
   const ScreenPart picture = viewport();
@@ -134,7 +134,7 @@ TEST_F(WindowUnsavedTest, SettingsAreKeptAsAPresetDiscardedOrStay) {
 
 TEST_F(WindowUnsavedTest, ACaptureKeepsSettingsAndAPickIsNone) {
   begin();
-  press("480 480");
+  press(at(0, 100));
   ASSERT_TRUE(appears("Inspector/Clear"));
   choose("Settings/sample.filter", "linear");
   key("F12");

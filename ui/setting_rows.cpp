@@ -233,8 +233,8 @@ bool differenceTable(const char* id, const Settings& a, const Settings& b, const
   if (differing.empty()) return false;
   if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return true;
   ImGui::TableSetupColumn("setting", 0, 2.2f);
-  ImGui::TableSetupColumn(titleA);
-  ImGui::TableSetupColumn(titleB);
+  ImGui::TableSetupColumn(titleA, 0, 1);
+  ImGui::TableSetupColumn(titleB, 0, 1);
   ImGui::TableHeadersRow();
   for (const Setting* setting : differing)
     for (const std::string& text : {std::string(setting->name), setting->text(a), setting->text(b)}) {

@@ -401,7 +401,8 @@ void Window::takeRequests() {
     else
       session_.comparison.reset();
   }
-  if (session_.comparison && !session_.viewDirty) measureComparison(context_, session_);
+  if (session_.comparison && !session_.viewDirty && measureComparison(context_, session_))
+    framesLeft_ = kFramesPerEvent;
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
   keeper_.keep(session_);
 }

@@ -77,7 +77,7 @@ void AccuracyTimes::draw(const Session& session) {
   };
   if (ImGui::BeginTable("times", 2, ImGuiTableFlags_SizingStretchProp)) {
     ImGui::TableSetupColumn("stage", 0, 1.6f);
-    ImGui::TableSetupColumn("ms");
+    ImGui::TableSetupColumn("ms", 0, 1);
     group("build", CostOf::Build,
           "Milliseconds of the GPU for all stages of a rebuild: medians of the rebuilds since the start; click: each "
           "stage");

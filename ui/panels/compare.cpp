@@ -109,8 +109,8 @@ class ComparePanel : public Panel {
       if (info.view == view) unit = info.unit;
     if (!ImGui::BeginTable("result", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("B against A", 0, 1.3f);
-    ImGui::TableSetupColumn("picture");
-    ImGui::TableSetupColumn("H of voxels");
+    ImGui::TableSetupColumn("picture", 0, 1);
+    ImGui::TableSetupColumn("H of voxels", 0, 1);
     ImGui::TableHeadersRow();
     const auto row = [](const char* name, const std::string& picture, const std::string& voxels,
                         const std::string& help) {
@@ -118,6 +118,10 @@ class ComparePanel : public Panel {
       ImGui::TextColored(theme::dim, "%s", name);
       helpTooltip(help);
       ImGui::TableNextColumn();
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      if (Controls::current())
+        ImGui::tellPlace(fmt::format("result/{}", name).c_str(), {at.x, at.y},
+                         {at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetTextLineHeight()});
       rightText(picture);
       ImGui::TableNextColumn();
       rightText(voxels);
