@@ -84,8 +84,9 @@ void AccuracyStudy::drawOrigin(Session& session, const LoadedStudy& study) const
   if (!study.device.empty() && study.device != session.context.device.info.name)
     accuracyParagraph(theme::warning, fmt::format("Its times are of another device: {}.", study.device));
   if (misfit_.usable() && !misfit_.size.empty())
-    accuracyParagraph(theme::dim, fmt::format("Of pictures of {}: what grows with them is left out.", misfit_.size));
-  if (!study.view.empty()) accuracyParagraph(theme::dim, fmt::format("Of {}.", study.view));
+    accuracyParagraph(theme::dim,
+                      fmt::format("Of pictures of {}: costs that grow with their size are not offered.", misfit_.size));
+  if (!study.view.empty()) accuracyParagraph(theme::dim, fmt::format("Of the view {}.", study.view));
 }
 
 /// Of those that hold for the picture as it is.

@@ -155,7 +155,7 @@ class ObjectsPanel : public Panel {
         ImGui::SameLine(start + indent);
         drawArrow(index);
       }
-      indent += 1.1f * em;
+      indent += 1.4f * em;  // the arrow, and by how much a row reaches over its text
     }
     ImGui::SameLine(start + indent);
     if (ImGui::Selectable("##", index == session.object, ImGuiSelectableFlags_AllowDoubleClick)) {
