@@ -143,6 +143,7 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   undo();
   EXPECT_TRUE(isOn("Lights/1")) << "it comes back, and is chosen";
   undo();
+  away();  // the button's tooltip reaches over the picture
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(added) < 0.01; })) << "a drag is one step";
   undo();
   EXPECT_FALSE(has("Lights/1"));
