@@ -44,7 +44,9 @@ struct ViewArguments {
     options.value("--shaders", "DIR", shaders, "Sources that F5 compiles (default: those the program was built from)");
     options.value("--exit-after", "FRAMES", exitAfter,
                   "End after so many frames in which nothing was left to do (for tests)");
-    options.value("--screenshot", "FILE", screenshot, "The whole window as PNG when it ends (for tests)");
+    options.value(
+        "--screenshot", "FILE", screenshot,
+        "Write the whole window as PNG once nothing is left to do, and end (with --exit-after: when that ends it)");
     options.value("--controls", "FILE", controls,
                   "Written with every frame: names and places of all controls (for tests)");
     reference.declare(options);
@@ -54,7 +56,8 @@ struct ViewArguments {
   }
 };
 
-constexpr size_t kTimedFrames = 3000;  ///< that the timing table remembers
+constexpr size_t kTimedFrames = 3000;       ///< that the timing table remembers
+constexpr uint32_t kScreenshotFrames = 10;  ///< in which the panels take their sizes, once nothing is left to do
 
 float parseScale(const std::string& text) {
   char* end = nullptr;
@@ -96,7 +99,10 @@ void run(const ViewArguments& arguments) {
   if (arguments.captures) options.captures = *arguments.captures;
   if (arguments.exitAfter)
     options.exitAfter = static_cast<uint32_t>(parseInteger("--exit-after", *arguments.exitAfter, 1, 1'000'000));
-  if (arguments.screenshot) options.screenshot = *arguments.screenshot;
+  if (arguments.screenshot) {
+    options.screenshot = *arguments.screenshot;
+    if (!arguments.exitAfter) options.exitAfter = kScreenshotFrames;
+  }
   if (arguments.controls) options.controls = fs::absolute(*arguments.controls);
   if (options.exitAfter == 0) options.preferences = preferencesFile();
   ProgressReport notes;

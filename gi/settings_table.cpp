@@ -56,8 +56,14 @@ constexpr Setting kTable[] = {
             "raster: each triangle is drawn along its dominant axis, as the thesis does it, which leaves pin-holes; "
             "conservative: every voxel that a triangle touches, watertight.",
             Voxels),
-    SETTING(voxel.normals, "voxel.normals", "Encoding of facet normals.", Voxels),
-    SETTING(field.method, "field.method", "Distance field that rays with sdf traversal read.", Field),
+    SETTING(voxel.normals, "voxel.normals",
+            "How a facet's normal is stored: as the nearest of 6 or 26 directions, or in an octahedral grid of 8 or 16 "
+            "bits.",
+            Voxels),
+    SETTING(field.method, "field.method",
+            "Distance field that rays with matrix.traversal=sdf read. chebyshev: exact, along the axes; jfa: by jump "
+            "flooding, as the thesis makes it.",
+            Field),
     SETTING(matrix.format, "matrix.format",
             "padded: the thesis's rows of a fixed length, 8 bytes per hit; csr: rows of the exact length, 4 bytes per "
             "distinct column.",
@@ -81,7 +87,9 @@ constexpr Setting kTable[] = {
             Emission),
     SETTING(matrix.emitterSamples, "matrix.emitter_samples", {1, 256, "rays"}, "Rays per facet to the emitters.",
             Emission),
-    SETTING(matrix.gpu.seed, "matrix.seed", {0, 4294967295.0}, "Seed of the ray directions (--seed).", Matrix),
+    SETTING(matrix.gpu.seed, "matrix.seed", {0, 4294967295.0},
+            "Number from which the random directions of rays are made (--seed): another one gives other noise.",
+            Matrix),
     SETTING(solver.method, "solver.method",
             "matrix: form factors are traced once and kept; brute_force: none are kept, matrix.rays rays per facet are "
             "traced anew in every frame and H is the mean of what they bring, with its standard error as a view "
@@ -94,7 +102,7 @@ constexpr Setting kTable[] = {
     SETTING(solver.gpu.omega, "solver.omega", {0.05, 1},
             "Under-relaxation: a sweep goes this share of the way to its result; the solution stays the same.", Solve),
     SETTING(solver.gpu.flush, "solver.flush", {0, 1e-3, "W/m^2", /*logarithmic=*/true},
-            "Smaller values become exact zero.", Solve),
+            "Values of light smaller than this become exactly 0.", Solve),
     SETTING(
         solver.tolerance, "solver.tolerance", {1e-7, 1, "", /*logarithmic=*/true},
         "The solver stops when its error bound on H (brute force: the mean standard error) is below this share of the "
@@ -126,7 +134,9 @@ constexpr Setting kTable[] = {
             "darken it.",
             Shade),
     SETTING(sample.gpu.normalOffset, "sample.normal_offset", {0, 2, "voxels"},
-            "Offset of the lookup in the thesis's volume along the normal.", Shade),
+            "How far a point is moved along its normal before its indirect light is looked up, with "
+            "matrix.hit_rule=thesis.",
+            Shade),
     SETTING(sample.emitters, "sample.emitters",
             "Who gives a pixel the light that comes straight from emissive faces. facets: the voxels around it, like "
             "the rest of H; pixels: the faces' true outlines, with shadow rays of each pixel; auto: pixels where the "
@@ -145,11 +155,16 @@ constexpr Setting kTable[] = {
     SETTING(specular.gpu.maxRoughness, "specular.max_roughness", {0, 1},
             "Rougher surfaces take the diffuse irradiance instead of rays; 1: none does.", Shade),
     SETTING(specular.gpu.metalRoughness, "specular.metal_roughness", {0, 1},
-            "The same of metals, whose reflections are most of what one sees of them.", Shade),
-    SETTING(specular.gpu.fade, "specular.fade", {0, 1}, "Width of the blend below these.", Shade),
+            "As specular.max_roughness, for metals, whose reflections are most of what one sees of them.", Shade),
+    SETTING(specular.gpu.fade, "specular.fade", {0, 1},
+            "Range of roughness below specular.max_roughness (and metal_roughness) over which rays give way to the "
+            "diffuse irradiance.",
+            Shade),
     SETTING(specular.gpu.threshold, "specular.threshold", {0, 1, "", /*logarithmic=*/true},
-            "No rays where F0 x H is below this share of the scene's largest H.", Shade),
-    SETTING(specular.gpu.filter_, "specular.filter", "Edge-aware filter over traced reflections.", Shade),
+            "No rays where reflectance F0 times indirect irradiance H is below this share of the scene's largest H.",
+            Shade),
+    SETTING(specular.gpu.filter_, "specular.filter", "Smooths the noise of traced reflections, but not across edges.",
+            Shade),
     SETTING(writeback.mode, "writeback.mode",
             "Reflections as a source of the facets that show them, so that they light the scene. mask: the fragments "
             "nearest to voxel centres write theirs, as the thesis does it; compute: the mean over a facet's pixels.",
@@ -213,10 +228,14 @@ constexpr Setting kTable[] = {
         "such surfaces its pictures are drawn once for each and once more.",
         Nothing),
     SETTING(camera.gpu.toneCurve, "camera.tone_curve", "linear, or Khronos PBR Neutral.", Nothing),
-    SETTING(camera.gpu.shadowBias, "camera.shadow_bias", {0, 10, "texels"}, "Normal offset of shadow lookups.", Gather),
+    SETTING(camera.gpu.shadowBias, "camera.shadow_bias", {0, 10, "texels"},
+            "How far a point is moved along its normal before it is looked up in a shadow map: too little, and "
+            "surfaces shade themselves in stripes; too much, and shadows come off what casts them.",
+            Gather),
     SETTING(camera.gpu.pcf, "camera.pcf", {1, 5, "taps", /*logarithmic=*/false, /*step=*/2},
-            "Percentage-closer filter taps per axis.", Gather),
-    SETTING(camera.gpu.specularDirect, "camera.specular_direct", "Specular lobe of direct lights.", Shade),
+            "Samples per axis of light.shadow_filter=pcf and vsm: more widen the shadows' soft edges.", Gather),
+    SETTING(camera.gpu.specularDirect, "camera.specular_direct",
+            "Highlights of suns, points and spots on surfaces that are not Lambertian.", Shade),
     SETTING(view.shape, "view.shape",
             "How a volume is shown: cubes where it is solid, a slice, a projection along the line of sight (distances: "
             "the sum of their inverses; errors: the largest; else the mean), the surface at a distance; auto: as suits "

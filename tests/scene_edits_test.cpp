@@ -1,4 +1,4 @@
-// What the window's user makes of a scene: lights, materials, objects and bookmarks, their names, what is unsaved,
+// What the window's user makes of a scene: lights, materials, objects, bookmarks and region, their names, what is unsaved,
 // where it is kept.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -16,6 +16,7 @@ namespace irad::test {
 class WindowTest : public ::testing::Test {
  protected:
   bool exposesFiles_ = false;  ///< as the window does where no exposure is given
+  std::string windowSize_ = "1280x720";
 
   void SetUp() override {
     for (const char* program : {"Xvfb", "xdotool"})
@@ -30,7 +31,7 @@ class WindowTest : public ::testing::Test {
   void start(std::vector<std::string> more = {}, const std::filesystem::path& scene = assets() / "box.glb") {
     std::vector<std::string> command{iradProgram(),  "view",
                                      scene.string(), "--size",
-                                     "1280x720",     "--validate",
+                                     windowSize_,    "--validate",
                                      "--set",        "voxel.resolution=32",
                                      "--set",        "matrix.rays=32",
                                      "--set",        "specular.mode=off",
@@ -121,8 +122,18 @@ class WindowTest : public ::testing::Test {
   }
   /// From its middle, by so many pixels.
   void drag(const std::string& name, int right, int down = 0, double across = 0.5) {
-    mouse().pressAt(placeOf(name, across));
-    xdotool(fmt::format("mousemove_relative --sync -- {} {} sleep 0.1 mouseup 1", right, down));
+    const std::string from = placeOf(name, across);
+    const size_t space = from.find(' ');
+    mouse().dragThrough(
+        {from, fmt::format("{} {}", std::stoi(from.substr(0, space)) + right, std::stoi(from.substr(space)) + down)});
+    rests();
+  }
+  /// Turns the wheel there with Ctrl, which is held until that has been seen.
+  void zoomAt(const std::string& place, int turns) {
+    mouse().moveTo(place);
+    xdotool(fmt::format("keydown ctrl click --repeat {} --delay 1 4", turns));
+    rests();
+    xdotool("keyup ctrl");
     rests();
   }
   /// Presses a key long enough for ImGui, which looks at keys once per frame, to see it.

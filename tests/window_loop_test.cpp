@@ -98,8 +98,9 @@ class WindowLoop : public ::testing::Test {
     };
     EXPECT_TRUE(until(find)) << "no " << name;
     const Control::Area at = findControl(readControls(options_.controls), name).area;
-    Mouse(*screen_, options_.controls).tap(fmt::format("{} {}", at.x + at.width / 2, at.y + at.height / 2));
+    mouse().tap(fmt::format("{} {}", at.x + at.width / 2, at.y + at.height / 2));
   }
+  Mouse mouse() const { return {*screen_, options_.controls}; }
   /// Of the first setting in view, down to which the left column is scrolled.
   std::string placeOfSetting() const {
     for (int turns = 0; turns < 60; ++turns) {
@@ -191,8 +192,8 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
     before = context_->counters();
     from = timings_.now();
     screen_->xdotool("keydown w sleep 0.5 keyup w");
-    screen_->xdotool(fmt::format("mousemove {} mousedown 3 sleep 0.2 mousemove {} sleep 0.2 mouseup 3 mousemove {}",
-                                 at(168, 270), at(208, 280), aside()));
+    mouse().dragThrough({at(168, 270), at(208, 280)}, /*button=*/3);
+    screen_->xdotool("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     to = timings_.now();
     after = context_->counters();
@@ -285,13 +286,14 @@ TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
     EXPECT_EQ(values.size(), 3u);
     EXPECT_FALSE(values.contains(""));
     rendersNothing("pointed at");
-    screen_->xdotool(
-        fmt::format("mousemove {} keydown ctrl click 4 sleep 0.1 click 4 sleep 0.1 click 4 keyup ctrl", at(308, 270)));
+    mouse().moveTo(at(308, 270));
+    screen_->xdotool("keydown ctrl click --repeat 3 --delay 1 4");
     EXPECT_TRUE(until([&] { return reading("zoom") != ""; })) << "the wheel does not zoom";
     EXPECT_TRUE(until([&] { return rests(); }));
+    screen_->xdotool("keyup ctrl");
     rendersNothing("zoomed");
-    screen_->xdotool(fmt::format("mousedown 2 sleep 0.2 mousemove {} sleep 0.2 mouseup 2 sleep 0.2 mousemove {}",
-                                 at(328, 290), aside()));
+    mouse().dragThrough({at(308, 270), at(328, 290)}, /*button=*/2);
+    screen_->xdotool("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     EXPECT_GT(viewport().difference(whole), 0.2);
     rendersNothing("moved");
@@ -336,11 +338,11 @@ TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
     from = timings_.now();
     // The handle of the Box's spot light, in the upper right of the picture.
     const Control::Area p = picture();
-    const std::string lamp = at(p.width / 2 + 325 * p.height / 1000, p.height / 2 - 416 * p.height / 1000);
-    screen_->xdotool(
-        fmt::format("mousemove {} sleep 1 mousedown 1 sleep 1 mousemove_relative -- -69 18 sleep 1 "
-                    "mousemove_relative -- -60 30 sleep 1 mouseup 1 mousemove {}",
-                    lamp, aside()));
+    const auto lamp = [&](int right, int down) {
+      return at(p.width / 2 + 325 * p.height / 1000 + right, p.height / 2 - 416 * p.height / 1000 + down);
+    };
+    mouse().dragThrough({lamp(0, 0), lamp(-69, 18), lamp(-129, 48)});
+    screen_->xdotool("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     moved = viewport();
     to = timings_.now();

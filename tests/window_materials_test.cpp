@@ -23,7 +23,7 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   const double first = viewport().meanLuminance();
 
   // A click on the red wall, and a button that opens its fields.
-  press("420 250");
+  press(at(-490, -49));
   click("Inspector/Material");
   ASSERT_TRUE(appears("Materials/red wall/roughness")) << "the click does not pick the wall";
   EXPECT_TRUE(isOn("Materials/red wall"));
@@ -50,7 +50,7 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
     return std::abs(p.meanLuminance() - shining) < 0.01 * shining;
   })) << "redo does not bring it back";
   click("Materials/Save");
-  ASSERT_TRUE(says("Saved lights, materials, objects and bookmarks to " + sidecar.string()));
+  ASSERT_TRUE(says("Saved lights, materials, objects, bookmarks and region to " + sidecar.string()));
   const std::vector<MaterialEdit> kept{{.material = "green wall", .emissionStrength = 4.0f}};
   EXPECT_EQ(readSidecar(sidecar).materials, kept);
   EXPECT_FALSE(readSidecar(sidecar).lights);

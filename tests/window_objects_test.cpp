@@ -97,11 +97,55 @@ TEST_F(WindowObjectsTest, OutlinesToThePixel) {
   quit();
 }
 
+/// Of all of the object the outline is drawn; where something is before it, with less of the colour.
+TEST_F(WindowObjectsTest, TheOutlineIsFaintBehindOtherThings) {
+  begin({"--view", "albedo"});
+  enter("Objects/search", "pedestal");
+  away();
+  const ScreenPart plain = viewport();
+  click("Objects/28");  // a sphere stands before its lower edge
+  away();
+  ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p != plain; })) << "no outline";
+  const ScreenPart outlined = viewport();
+  int clear = 0, faint = 0, rim = 0, other = 0;
+  constexpr int accent[] = {237, 168, 66};
+  for (int y = 0; y < plain.height; ++y)
+    for (int x = 0; x < plain.width; ++x) {
+      const auto is = [&](double opacity, bool black) {
+        for (int c = 0; c < 3; ++c)
+          if (std::abs(outlined.at(x, y, c) - ((1 - opacity) * plain.at(x, y, c) + (black ? 0 : opacity * accent[c]))) >
+              1)
+            return false;
+        return true;
+      };
+      if (is(0, false)) continue;
+      (is(1, false) ? clear : is(0.3, false) ? faint : is(0.6, true) || is(0.18, true) ? rim : other)++;
+    }
+  EXPECT_GT(clear, 200);
+  EXPECT_GT(faint, 60);
+  EXPECT_GT(rim, 100);
+  EXPECT_EQ(other, 0);
+  quit();
+}
+
+TEST_F(WindowObjectsTest, AreFoldedUnderTheirNode) {
+  begin();
+  ASSERT_TRUE(appears("Objects/7"));
+  click("Objects/6/fold");
+  EXPECT_TRUE(appears("Objects/7", false)) << "what is under the node is still listed";
+  EXPECT_TRUE(has("Objects/6"));
+  // One that is chosen in the picture is listed again.
+  press(at(-114, 53));
+  EXPECT_TRUE(appears("Objects/8"));
+  EXPECT_TRUE(isOn("Objects/8"));
+  quit();
+}
+
 TEST_F(WindowObjectsTest, AreHiddenAsIfTheFileHadThemNotAndKept) {
   const std::filesystem::path scene = begin(), sidecar = sidecarPath(scene);
   const ScreenPart first = sphere();
   // A click in the picture chooses it in the list, too.
-  press("588 430");
+  press(at(-147, 319));
   ASSERT_TRUE(appears(kSphere)) << "the list does not follow";
   EXPECT_TRUE(isOn(kSphere));
   hold("Escape");  // the inspected facet
@@ -137,7 +181,7 @@ TEST_F(WindowObjectsTest, AreHiddenAsIfTheFileHadThemNotAndKept) {
   EXPECT_EQ(captured.at("lit.exr"), slurp(folder_.path / "stripped/lit.exr"));
 
   click("Objects/Save");
-  ASSERT_TRUE(says("Saved lights, materials, objects and bookmarks to " + sidecar.string()));
+  ASSERT_TRUE(says("Saved lights, materials, objects, bookmarks and region to " + sidecar.string()));
   EXPECT_EQ(readSidecar(sidecar).hidden, (HiddenNodes{{"metal sphere"}, ""}));
   quit();
 
@@ -156,7 +200,7 @@ TEST_F(WindowObjectsTest, HidingIsCancelled) {
   const ScreenPart all = part();  // above the messages
   // By its box in the list.
   const std::string box = placeOf(std::string(kFloor) + "/shown");
-  cancel([&] { xdotool("mousemove " + box + " sleep 0.05 mousedown 1 sleep 0.05 mouseup 1"); });
+  cancel([&] { mouse().tap(box); });
   EXPECT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == all; }));
   EXPECT_TRUE(isOn(std::string(kFloor) + "/shown"));
   quit();

@@ -128,8 +128,7 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == whole; })) << "not the whole picture again";
   EXPECT_EQ(reading("zoom"), "");
   // A click picks what is seen there.
-  xdotool(fmt::format("mousemove {} keydown ctrl click 4 sleep 0.2 click 4 keyup ctrl", at(-488, -63)));
-  rests();
+  zoomAt(at(-488, -63), 2);
   EXPECT_EQ(reading("material"), "red wall");
   key("0");
   rests();
@@ -146,8 +145,7 @@ TEST_F(WindowPointingTest, EndsOfTheRangeAreDraggedOnTheHistogram) {
   const auto dragEnd = [&](const std::string& end, int by) {
     point(placeOf(end));
     EXPECT_TRUE(isOn(end)) << "the mouse is not on it";
-    xdotool(fmt::format("mousedown 1 sleep 0.2 mousemove_relative -- {} 0 sleep 0.2 mouseup 1", by));
-    rests();
+    drag(end, by);
   };
   dragEnd("View/histogram/high", -40);
   EXPECT_TRUE(appears("View/view.high")) << "it cannot be dragged";

@@ -45,8 +45,7 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
 
   // A right drag looks around.
   const ScreenPart nearer = viewport();
-  goAside();
-  xdotool("sleep 0.4 mousedown 3 sleep 0.4 mousemove_relative 60 5 sleep 0.4 mouseup 3");
+  mouse().dragThrough({aside(), fmt::format("{} {}", p.x + 88, p.bottom() - 17)}, /*button=*/3);
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(nearer) > 0.2; }))
       << "the drag changed nothing";
 
@@ -64,7 +63,7 @@ TEST_F(WindowTest, HelpAndHiddenPanelsComeAndGo) {
   ASSERT_TRUE(viewportSettles(lit));
   goAside();
   const ScreenPart first = viewport();
-  const auto column = [this] { return screen_->grab(5, 40, 280, 600); };
+  const auto column = [this, wide = picture().x - 20] { return screen_->grab(5, 40, wide, 600); };
   const ScreenPart panels = column();
 
   key("F1");
@@ -387,7 +386,7 @@ TEST_F(WindowTest, SurvivesBeingUnmappedAndResizedInAHurry) {
 }
 
 TEST_F(WindowTest, ScreenshotOfTheWholeWindow) {
-  start({"--exit-after", "3", "--screenshot", "window.png"});
+  start({"--screenshot", "window.png"});
   ASSERT_EQ(window_->wait(120), 0);
   // The PNG header's width and height.
   const std::string png = slurp(folder_.path / "window.png");

@@ -194,8 +194,8 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
   pick(at(-637, 37));
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; })) << "not let go";
   EXPECT_EQ(panel(), empty);
-  xdotool(fmt::format("mousemove {} sleep 0.3 mousedown 1 sleep 0.2 mousemove {} sleep 0.2 mouseup 1 mousemove {}",
-                      at(-130, 37), at(29, 77), aside()));
+  mouse().dragThrough({at(-130, 37), at(29, 77)});
+  away();
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.05; }));
   EXPECT_EQ(panel(), empty) << "a drag picks";
   quit();
@@ -235,7 +235,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
     away();
   };
   save();
-  ASSERT_TRUE(says("Saved lights, materials, objects and bookmarks to " + sidecar.string()));
+  ASSERT_TRUE(says("Saved lights, materials, objects, bookmarks and region to " + sidecar.string()));
   const Sidecar kept = readSidecar(sidecar);
   ASSERT_TRUE(kept.lights);
   ASSERT_EQ(kept.lights->size(), 2u);
@@ -256,7 +256,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   std::filesystem::create_directory(sidecar);
   drag(x - 100, y - 80, x + 35, y + 19);
   save();
-  EXPECT_TRUE(says("Lights, materials, objects and bookmarks stay in this window, unsaved"));
+  EXPECT_TRUE(says("Lights, materials, objects, bookmarks and region stay in this window, unsaved"));
   std::filesystem::remove(sidecar);
   save();
   for (int i = 0; i < 100 && !std::filesystem::exists(sidecar); ++i) pause(0.1);

@@ -68,7 +68,7 @@ TEST_F(WindowUnsavedTest, EscClosesWhatIsOnTopAndNeverQuits) {
   click("Compare/Compare with these settings");
   ASSERT_TRUE(appears("Compare/End the comparison"));
   click("Lights/0");
-  press("480 480");
+  press(at(0, 100));
   ASSERT_TRUE(appears("Inspector/Clear"));
   away();
   const ScreenPart picture = viewport();
@@ -134,7 +134,7 @@ TEST_F(WindowUnsavedTest, SettingsAreKeptAsAPresetDiscardedOrStay) {
 
 TEST_F(WindowUnsavedTest, ACaptureKeepsSettingsAndAPickIsNone) {
   begin();
-  press("480 480");
+  press(at(0, 100));
   ASSERT_TRUE(appears("Inspector/Clear"));
   choose("Settings/sample.filter", "linear");
   key("F12");
@@ -233,7 +233,7 @@ TEST_F(WindowUnsavedTest, LightsOfABuiltInSceneAreSavedWhereTheUserSays) {
   ASSERT_TRUE(drop({file}));
   EXPECT_TRUE(appears(kCancel)) << "unsaved lights are replaced";
   click(kDiscard);
-  EXPECT_TRUE(says("Lights, materials, objects and bookmarks are those of lamps.irad.json"));
+  EXPECT_TRUE(says("Lights, materials, objects, bookmarks and region are those of lamps.irad.json"));
   quitDiscarding();
 }
 

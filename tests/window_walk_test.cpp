@@ -253,8 +253,7 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   // Inspector: a click on the floor, a filter that nothing passes, done.
   click("Inspector");
   press(at(-130, 415));
-  xdotool("mousemove 1130 300 click 5 click 5 click 5");  // its table lies below the window's edge
-  rests();
+  WindowTest::shown("Inspector/Trace this ray");  // below its table
   const auto table = [this] {
     const Area filter = WindowTest::shown("Inspector/filter").area;
     return screen_->grab(picture().right() + 6, filter.bottom() + 28, 230, 80);

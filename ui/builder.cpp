@@ -68,7 +68,7 @@ void Builder::load(const std::filesystem::path& path) {
     if (session_.comparison) session_.note("The comparison has ended: a scene was loaded.");
     session_.comparison.reset();
     if (unsaved && !again)
-      session_.note(fmt::format("{}: lights, materials, objects and bookmarks were not saved",
+      session_.note(fmt::format("{}: lights, materials, objects, bookmarks and region were not saved",
                                 session_.pipeline->scene().path.filename().string()));
     session_.inspection.leavePipeline();
     session_.pipeline = std::move(pipeline);

@@ -106,7 +106,7 @@ void CapturesDialog::drawRow(Session& session, ImGuiLayer& layer, const CaptureE
   if (ImGui::Selectable("##choose", chosen_ == entry.name,
                         ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowItemOverlap, {0, high}))
     chosen_ = entry.name;
-  helpTooltip(fmt::format("{}\n{}\n{}", entry.folder.string(), entry.config.scene->string(), differs));
+  helpTooltip([&] { return fmt::format("{}\n{}\n{}", entry.folder.string(), entry.config.scene->string(), differs); });
   const ImVec2 under = ImGui::GetCursorPos();
   ImGui::SetCursorPos(at);
   capturePicture(layer, thumbnailOf(session, entry), {16 * high / 9, high}, entry.recording ? "timings" : "no picture");
@@ -209,7 +209,7 @@ void CapturesDialog::drawChosen(Session& session, ImGuiLayer& layer, float heigh
   ImGui::EndDisabled();
   helpTooltip("Its linear picture becomes what the views reference-picture and error compare with");
   if (ImGui::Button("Copy path", {half, 0})) ImGui::SetClipboardText(entry->folder.c_str());
-  helpTooltip(fmt::format("Puts {} on the clipboard", entry->folder.string()));
+  helpTooltip([&] { return fmt::format("Puts {} on the clipboard", entry->folder.string()); });
   ImGui::SameLine();
   if (ImGui::Button("Open folder", {half, 0})) session.openFolder = entry->folder;
   helpTooltip("In the desktop's file manager, by xdg-open");

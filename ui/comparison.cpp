@@ -15,10 +15,10 @@ std::vector<glm::vec4> linearPixels(Context& context, const Targets& targets) {
 
 }  // namespace
 
-void measureComparison(Context& context, Session& session) {
+bool measureComparison(Context& context, Session& session) {
   Comparison& comparison = *session.comparison;
   const Side &a = session.sideA(), &b = session.sideB();
-  if (comparison.result || !session.allAsleep() || !a.targets.linear || a.targets.size != b.targets.size) return;
+  if (comparison.result || !session.allAsleep() || !a.targets.linear || a.targets.size != b.targets.size) return false;
   const auto irradiance = [&](const Pipeline& p) {
     return readVolume(context, Volume::irradiance, p.facets(), p.field(), p.lighting());
   };
@@ -26,6 +26,7 @@ void measureComparison(Context& context, Session& session) {
   comparison.result = Comparison::Result{.picture = measurePicture(a.targets.size, linearPixels(context, b.targets),
                                                                    linearPixels(context, a.targets), {}, exposure),
                                          .voxels = compareVoxels(irradiance(*b.pipeline), irradiance(*a.pipeline))};
+  return true;
 }
 
 }  // namespace irad

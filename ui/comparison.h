@@ -5,8 +5,8 @@
 
 namespace irad {
 
-/// Fills session.comparison->result once both sides are asleep and drawn. Reads pictures and light back: once per
-/// change.
-void measureComparison(Context& context, Session& session);
+/// Fills session.comparison->result once both sides are asleep and drawn, and then returns true. Reads pictures and
+/// light back: once per change.
+bool measureComparison(Context& context, Session& session);
 
 }  // namespace irad

@@ -4,7 +4,9 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <fstream>
+#include <glm/vector_relational.hpp>
 
 namespace irad {
 namespace {
@@ -61,21 +63,47 @@ void Controls::tell(std::string_view label, bool on, bool disabled, glm::vec2 lo
     return fmt::format("{:.0f} {:.0f} {:.0f} {:.0f} ", from.x, from.y, to.x - from.x, to.y - from.y);
   };
   const ImRect& clip = window.ClipRect;
-  lines_ += rect(low, high) + rect({clip.Min.x, clip.Min.y}, {clip.Max.x, clip.Max.y}) +
-            fmt::format("{:d} {:d}\t{}\n", on, disabled, name);
+  std::string line = rect(low, high) + rect({clip.Min.x, clip.Min.y}, {clip.Max.x, clip.Max.y}) +
+                     fmt::format("{:d} {:d}", on, disabled);
+  told_.push_back({std::move(name), std::move(line), &window, 0.5f * (low + high)});
+}
+
+void Controls::help(std::string_view text, glm::vec2 low, glm::vec2 high) {
+  helps_.push_back({std::string(text), ImGui::GetCurrentWindowRead(), low, high});
+}
+
+std::string Controls::helpOf(const Told& told) const {
+  std::string text;
+  for (const Help& help : helps_)
+    if (help.window == told.window && glm::all(glm::lessThanEqual(help.low, told.middle)) &&
+        glm::all(glm::lessThan(told.middle, help.high)))
+      text += (text.empty() ? "" : " | ") + help.text;
+  std::ranges::replace(text, '\n', ' ');
+  return text;
 }
 
 void Controls::write() {
+  std::string lines, helps;
+  for (const Told& told : told_) {
+    lines += fmt::format("{}\t{}\n", told.line, told.name);
+    helps += fmt::format("{}\t{}\n", told.name, helpOf(told));
+  }
   // Where the mouse was and whether it was pressed in this frame, so that a test knows when it has been seen.
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsMousePosValid())
-    lines_ += fmt::format("{:.0f} {:.0f} 0 0 0 0 0 0 {:d} 0\tpointer\n", io.MousePos.x, io.MousePos.y,
-                          ImGui::IsAnyMouseDown());
-  std::filesystem::path whole = file_;
-  whole += ".part";
-  std::ofstream(whole) << lines_;
-  std::filesystem::rename(whole, file_);
-  lines_.clear();
+    lines += fmt::format("{:.0f} {:.0f} 0 0 0 0 0 0 {:d} 0\tpointer\n", io.MousePos.x, io.MousePos.y,
+                         ImGui::IsAnyMouseDown());
+  const auto replace = [](std::filesystem::path file, const std::string& content) {
+    std::filesystem::path whole = file;
+    whole += ".part";
+    std::ofstream(whole) << content;
+    std::filesystem::rename(whole, file);
+  };
+  std::filesystem::path beside = file_;
+  replace(beside += ".help", helps);
+  replace(file_, lines);
+  told_.clear();
+  helps_.clear();
   path_.clear();  // an error may have ended the frame within a panel
 }
 

@@ -28,17 +28,32 @@ class Controls {
   void add(std::string_view label, bool on);
   /// Something that is drawn, not an item: where it can be taken with the mouse (screen pixels).
   void place(std::string_view label, bool on, glm::vec2 low, glm::vec2 high);
+  /// What is said while the mouse rests in this area of ImGui's present window.
+  void help(std::string_view text, glm::vec2 low, glm::vec2 high);
 
   /// Those of the frame that has been drawn, one per line: the control's rectangle, the part of the window that its
   /// region shows (x, y, width, height in pixels), 1 where it is on, 1 where it is disabled, and after a tab its name.
-  /// "pointer" is the mouse, on while a button of it is pressed. The file is replaced as a whole.
+  /// "pointer" is the mouse, on while a button of it is pressed. The file is replaced as a whole, and so is FILE.help:
+  /// for each control its name and, after a tab, what is said while the mouse rests on its middle, in one line.
   void write();
 
  private:
+  struct Told {
+    std::string name, line;
+    const void* window;
+    glm::vec2 middle;
+  };
+  struct Help {
+    std::string text;
+    const void* window;
+    glm::vec2 low, high;
+  };
   void tell(std::string_view label, bool on, bool disabled, glm::vec2 low, glm::vec2 high);
+  std::string helpOf(const Told& told) const;
   std::filesystem::path file_;
   std::vector<std::string> path_;
-  std::string lines_;
+  std::vector<Told> told_;
+  std::vector<Help> helps_;
 };
 
 }  // namespace irad

@@ -21,6 +21,7 @@ void historyList(Session& session, float width) {
       ImGui::PushID(static_cast<int>(step));
       const float start = ImGui::GetCursorPosX();
       if (ImGui::Selectable("##", present, ImGuiSelectableFlags_DontClosePopups)) wanted = step;
+      helpTooltip(present ? "The state that is shown" : "Click: everything is as it was after this edit");
       ImGui::SameLine(start);
       ImGui::PushStyleColor(ImGuiCol_Text, step > session.history.at() ? theme::dim : theme::text);
       clippedText(steps[step].name, width);

@@ -107,30 +107,32 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
   const ImDrawData& data = *ImGui::GetDrawData();
 
   // All lists into one vertex and one index array; indices are made absolute on the way.
-  std::vector<ImDrawVert> vertices;
-  std::vector<uint32_t> indices;
+  const auto vertexCount = static_cast<size_t>(data.TotalVtxCount),
+             indexCount = static_cast<size_t>(data.TotalIdxCount);
+  vertices_ = Buffer(context_.device, "ui vertices", Subsystem::Ui, vertexCount * sizeof(ImDrawVert), Access::Upload);
+  indices_ = Buffer(context_.device, "ui indices", Subsystem::Ui, indexCount * sizeof(uint32_t), Access::Upload);
   struct Range {
     uint32_t first, count, texture;
     ImVec4 clip;
   };
   std::vector<Range> ranges;
+  uint32_t base = 0, first = 0;
   for (int l = 0; l < data.CmdListsCount; ++l) {
     const ImDrawList& list = *data.CmdLists[l];
-    const auto base = static_cast<uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
+    const auto count = static_cast<uint32_t>(list.VtxBuffer.Size);
+    if (count > 0)
+      std::memcpy(static_cast<ImDrawVert*>(vertices_.mapped) + base, list.VtxBuffer.Data, count * sizeof(ImDrawVert));
     for (const ImDrawCmd& command : list.CmdBuffer) {
       if (command.UserCallback) continue;  // none is installed
-      ranges.push_back({static_cast<uint32_t>(indices.size()), command.ElemCount,
-                        static_cast<uint32_t>(reinterpret_cast<uintptr_t>(command.TextureId)), command.ClipRect});
-      for (uint32_t i = 0; i < command.ElemCount; ++i)
-        indices.push_back(base + command.VtxOffset + list.IdxBuffer[static_cast<int>(command.IdxOffset + i)]);
+      ranges.push_back({first, command.ElemCount, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(command.TextureId)),
+                        command.ClipRect});
+      uint32_t* to = static_cast<uint32_t*>(indices_.mapped) + first;
+      const ImDrawIdx* from = list.IdxBuffer.Data + command.IdxOffset;
+      for (uint32_t i = 0; i < command.ElemCount; ++i) to[i] = base + command.VtxOffset + from[i];
+      first += command.ElemCount;
     }
+    base += count;
   }
-  vertices_ =
-      Buffer(context_.device, "ui vertices", Subsystem::Ui, vertices.size() * sizeof(ImDrawVert), Access::Upload);
-  indices_ = Buffer(context_.device, "ui indices", Subsystem::Ui, indices.size() * sizeof(uint32_t), Access::Upload);
-  if (!vertices.empty()) std::memcpy(vertices_.mapped, vertices.data(), vertices.size() * sizeof(ImDrawVert));
-  if (!indices.empty()) std::memcpy(indices_.mapped, indices.data(), indices.size() * sizeof(uint32_t));
 
   // Where a run of draws with one image begins, a pass begins: there is no descriptor indexing on Mesa's CPU driver,
   // and a branch over images would have it sample each of them.

@@ -20,15 +20,15 @@ struct Column {
 };
 
 const std::array kColumns{
-    Column{"voxel", "x y z of the far end", "000 000 000", LinkQuantity::voxel, false},
-    Column{"hits", "Rays of the receiver that met the sender", "000000", LinkQuantity::hits, false},
-    Column{"m", "Distance between the two facets", "00.00", LinkQuantity::dist, false},
+    Column{"voxel", "The voxel of the other facet: x y z, from 0", "000 000 000", LinkQuantity::voxel, false},
     Column{"F B", "Contribution to the receiver's H, luminance, W/m\u00B2", "0.00e-00", LinkQuantity::FB, false},
     Column{"F", "Form factor: share of the receiver's rays", "0.00e-00", LinkQuantity::F, false},
+    Column{"m", "Distance between the two facets, metres", "00.00", LinkQuantity::dist, false},
+    Column{"hits", "Rays of the receiver that met the sender", "000000", LinkQuantity::hits, false},
     Column{"B", "Radiosity of the sender, luminance, W/m\u00B2", "0.00e-00", LinkQuantity::B, true},
     Column{"back", "Reciprocity: A F the other way round over A F, 1 but for the noise of few rays", "00.00",
            LinkQuantity::back, true},
-    Column{"facet", "Index of the far end", "0000000", LinkQuantity::facet, true},
+    Column{"facet", "Number of the other facet in the list of facets", "0000000", LinkQuantity::facet, true},
 };
 
 std::string text(const Link& l, size_t column) {
@@ -77,7 +77,7 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
   for (size_t c = 0; c < kColumns.size(); ++c) {
     ImGuiTableColumnFlags flags = ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_PreferSortDescending;
     if (kColumns[c].hidden) flags |= ImGuiTableColumnFlags_DefaultHide;
-    if (c == 3) flags |= ImGuiTableColumnFlags_DefaultSort;
+    if (kColumns[c].quantity == LinkQuantity::FB) flags |= ImGuiTableColumnFlags_DefaultSort;
     ImGui::TableSetupColumn(kColumns[c].name, flags, ImGui::CalcTextSize(kColumns[c].widest).x);
   }
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);

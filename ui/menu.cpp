@@ -50,7 +50,7 @@ void drawFile(Session& session) {
   if (ImGui::MenuItem("Load again", nullptr, false, session.pipeline != nullptr))
     session.open(session.pipeline->scene().path);
   ImGui::Separator();
-  if (ImGui::MenuItem("Save lights, materials, objects, bookmarks", nullptr, false, session.edits.modified()))
+  if (ImGui::MenuItem("Save lights, materials, objects, bookmarks, region", nullptr, false, session.edits.modified()))
     session.saveEdits();
   actionItem(session, "Save this view", Action::Capture, false, session.built.has_value());
   actionItem(session, "Save all views", Action::CaptureAll, false, session.built.has_value());

@@ -10,6 +10,7 @@
 #include "ui/imgui.h"
 #include "ui/imgui_layer.h"
 #include "ui/layout.h"
+#include "ui/pixel_ray.h"
 #include "ui/session.h"
 #include "ui/theme.h"
 
@@ -25,7 +26,8 @@ void drawOutline(Session& session, Frame& frame, float scale) {
                        *session.object,
                        session.shown,
                        size,
-                       std::max(1, static_cast<int>(std::lround(1.5f * scale)))};
+                       std::max(1, static_cast<int>(std::lround(1.5f * scale))),
+                       showsSurfaces(session)};
   if (outline.of == of) return;
   const Scene& scene = pipeline.scene();
   outline.of.reset();
@@ -61,6 +63,7 @@ void drawOutline(Session& session, Frame& frame, float scale) {
   frame.pass("UI")
       .shader("ui/outline.comp")
       .sample(outline.depth, sampler(context.device, nearest))
+      .sample(of.surfaces ? session.targets.depth : outline.depth, sampler(context.device, nearest))
       .write(outline.picture)
       .push(OutlinePush{.size = size, .color_ = {color.x, color.y}, .blue = color.z, .reach = of.reach})
       .dispatch(size);

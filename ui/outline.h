@@ -1,4 +1,4 @@
-// The outline of the chosen object over the picture, to the pixel: all of it, also where something is before it. It is
+// The outline of the chosen object over the picture, to the pixel: all of it, faint where something is before it. It is
 // no part of the picture: captures and exports do not have it.
 #pragma once
 
@@ -25,6 +25,7 @@ struct Outline {
     Camera camera;
     glm::uvec2 size{0};
     int reach = 0;
+    bool surfaces = false;  ///< the picture's depth says what is before it
     bool operator==(const Of&) const = default;
   };
   std::optional<Of> of;  ///< what `picture` shows; none: nothing, or not yet

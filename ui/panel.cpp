@@ -19,12 +19,13 @@ Panels makePanels() {
 namespace {
 
 /// True while the panel is unfolded.
-bool drawHeader(const char* title, std::set<std::string>& folded) {
+bool drawHeader(const Panel& panel, std::set<std::string>& folded) {
   pushHeadingFont();
-  ImGui::SetNextItemOpen(!folded.contains(title));
-  const bool open = ImGui::CollapsingHeader(title);
+  ImGui::SetNextItemOpen(!folded.contains(panel.title()));
+  const bool open = ImGui::CollapsingHeader(panel.title());
   ImGui::PopFont();
-  keepFolded(folded, title, open);
+  helpTooltip(panel.help());
+  keepFolded(folded, panel.title(), open);
   return open;
 }
 
@@ -49,7 +50,7 @@ void drawPanels(Session& session, const Panels& panels, const Layout& layout) {
     if (strip) ImGui::PopStyleVar();
     for (const auto& panel : panels) {
       if (panel->region() != tile.region) continue;
-      const bool open = drawHeader(panel->title(), session.preferences.folded);
+      const bool open = drawHeader(*panel, session.preferences.folded);
       if (strip && !open) {
         ImGui::SameLine(ImGui::GetWindowWidth() * 0.5f);
         ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);

@@ -16,6 +16,7 @@ class Panel {
  public:
   virtual ~Panel() = default;
   virtual const char* title() const = 0;
+  virtual const char* help() const = 0;  ///< what it is for: the tooltip of its header
   virtual Region region() const = 0;
   virtual void draw(Session& session) = 0;
 };

@@ -47,8 +47,11 @@ void RecordingComparison::draw(Recorder& recorder) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::SetNextItemWidth(width);
     ImGui::InputTextWithHint("##folder", hints[i], folders_[i].data(), folders_[i].size());
+    helpTooltip("Folder of a recording, as Record or irad bench --record makes it");
     ImGui::SameLine();
-    if (ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
+    const bool known = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
+    if (!known) helpTooltip("Recordings that this window has made");
+    if (known) {
       if (recorder.recordings.empty()) ImGui::TextColored(theme::dim, "none has been made yet");
       for (const std::filesystem::path& path : recorder.recordings)
         if (ImGui::Selectable(path.string().c_str()))
@@ -59,6 +62,8 @@ void RecordingComparison::draw(Recorder& recorder) {
     ImGui::PopID();
   }
   if (ImGui::Button("Compare", {button, 0})) recorder.compare = {folders_[0].data(), folders_[1].data()};
+  helpTooltip(
+      "The second recording's times over the first's, stage by stage, and whether they differ by more than noise");
   drawRecordingChanges(recorder);
 }
 

@@ -70,10 +70,12 @@ void Session::beginEdits(bool kept) {
   materialEdit.reset();
   std::string nowhere;
   if (isCheckScene(scene.path))
-    nowhere = "A check scene is no file: lights, materials, objects and bookmarks have nothing to be kept beside.";
+    nowhere =
+        "A check scene is no file: lights, materials, objects, bookmarks and region have nothing to be kept beside.";
   else if (isOurs(scene.path))
     nowhere = fmt::format(
-        "{} is built in. Copy it to a folder of your own to keep lights, materials, objects and bookmarks beside it.",
+        "{} is built in. Copy it to a folder of your own to keep lights, materials, objects, bookmarks and region "
+        "beside it.",
         scene.path.filename().string());
   else if (!load.sidecar)
     nowhere =
@@ -92,9 +94,9 @@ std::vector<Camera> Session::cameras() const {
 void Session::saveEdits() {
   try {
     edits.save();
-    note(fmt::format("Saved lights, materials, objects and bookmarks to {}", edits.file().string()));
+    note(fmt::format("Saved lights, materials, objects, bookmarks and region to {}", edits.file().string()));
   } catch (const Error& e) {
-    error(fmt::format("{}\nLights, materials, objects and bookmarks stay in this window, unsaved.", e.what()));
+    error(fmt::format("{}\nLights, materials, objects, bookmarks and region stay in this window, unsaved.", e.what()));
   }
 }
 
@@ -177,12 +179,12 @@ void Session::openSidecar(const std::filesystem::path& path) {
     const std::vector<SceneNode>& nodes = pipeline->scene().nodes;
     sidecar.hidden = hiddenPaths(nodes, sidecar.hidden);
     edits.take(std::move(sidecar));
-    history.call(fmt::format("lights, materials, objects and bookmarks of {}", path.filename().string()));
+    history.call(fmt::format("lights, materials, objects, bookmarks and region of {}", path.filename().string()));
     for (const std::string& unknown : unknownMaterials(pipeline->scene(), edits.materials))
       note(fmt::format("{}: {}", path.filename().string(), unknown));
     for (const std::string& unknown : unknownNodes(nodes, edits.hidden))
       note(fmt::format("{}: {}", path.filename().string(), unknown));
-    note(fmt::format("Lights, materials, objects and bookmarks are those of {}", path.filename().string()));
+    note(fmt::format("Lights, materials, objects, bookmarks and region are those of {}", path.filename().string()));
   } catch (const Error& e) {
     openFailed(e.what());
   }

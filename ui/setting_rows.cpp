@@ -127,6 +127,8 @@ bool groupHeader(const std::string& group, bool edited, bool found, Settings& se
       ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
                                            ImGuiTreeNodeFlags_AllowItemOverlap);
   ImGui::PopStyleColor();
+  helpTooltip(
+      [&] { return fmt::format("The settings {}.*; in the colour of changed ones where it holds one", group); });
   if (!found) keepFolded(folded, title, open);
   if (!edited) return open;
   ImGui::PushID(group.c_str());
@@ -157,15 +159,18 @@ void row(const Setting& setting, Settings& settings, const Settings& defaults, c
   if (edited || waits) ImGui::PushStyleColor(ImGuiCol_Text, waits ? theme::warning : theme::accent);
   clippedText((waits ? "\u00B7 " : "") + label(setting.name), width * kLabelShare - gap);
   if (edited || waits) ImGui::PopStyleColor();
-  std::string help = fmt::format("{}\n{}\nAllowed: {}. Default: {}", setting.name, setting.help, setting.allowed(),
-                                 setting.text(defaults));
-  if (waits) help += fmt::format("\nNot applied yet: built with {}", setting.text(*built));
+  const auto help = [&] {
+    std::string text = fmt::format("{}\n{}\nAllowed: {}. Default: {}", setting.name, setting.help, setting.allowed(),
+                                   setting.text(defaults));
+    if (waits) text += fmt::format("\nNot applied yet: built with {}", setting.text(*built));
+    if (setting.redo != Redo::Nothing) text += fmt::format("\nA change redoes: {}", nameOf(setting.redo));
+    return text;
+  };
   helpTooltip(help);
   ImGui::SameLine(start + width * kLabelShare);
   ImGui::SetNextItemWidth(width * (1 - kLabelShare) - button - gap);
   edit(setting, settings);
-  helpTooltip(setting.redo == Redo::Nothing ? help
-                                            : fmt::format("{}\nA change redoes: {}", help, nameOf(setting.redo)));
+  helpTooltip(help);
   if (edited &&
       resetButton(start + width, button, fmt::format("Back to the default, {}", setting.text(defaults)).c_str()))
     setting.set(settings, setting.get(defaults));
@@ -212,7 +217,13 @@ bool settingRows(Settings& settings, const Settings& defaults, std::set<std::str
       group = setting.group();
       open = groupHeader(std::string(group), edited.contains(group), filter.on(), settings, defaults, folded);
     }
-    if (open) row(setting, settings, defaults, built);
+    if (!open) continue;
+    // A row that is scrolled out of view is but room; what is being edited stays.
+    const ImVec2 room{1, ImGui::GetFrameHeight()};
+    if (ImGui::IsRectVisible(room) || ImGui::IsAnyItemActive() || Controls::current())
+      row(setting, settings, defaults, built);
+    else
+      ImGui::Dummy(room);
   }
   return any;
 }
@@ -222,8 +233,8 @@ bool differenceTable(const char* id, const Settings& a, const Settings& b, const
   if (differing.empty()) return false;
   if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return true;
   ImGui::TableSetupColumn("setting", 0, 2.2f);
-  ImGui::TableSetupColumn(titleA);
-  ImGui::TableSetupColumn(titleB);
+  ImGui::TableSetupColumn(titleA, 0, 1);
+  ImGui::TableSetupColumn(titleB, 0, 1);
   ImGui::TableHeadersRow();
   for (const Setting* setting : differing)
     for (const std::string& text : {std::string(setting->name), setting->text(a), setting->text(b)}) {
@@ -256,6 +267,7 @@ void settingArrow(Settings& settings, std::string_view name) {
 
 void savePresetButton(const char* label, float width, std::string& name, Session& session, const Settings& settings) {
   const bool pressed = ImGui::Button(label, {width, 0});
+  helpTooltip("Keeps the settings as a preset under a name of your own; it is then in the list of presets");
   ImGui::PushID(label);
   if (pressed) ImGui::OpenPopup("name");
   if (ImGui::BeginPopup("name")) {

@@ -16,7 +16,7 @@ void sidecarRow(Session& session) {
   if (ImGui::Button("Save")) session.saveEdits();
   helpTooltip(edits.file().empty()
                   ? edits.whyNowhere()
-                  : fmt::format("Lights, materials, objects and bookmarks, to {}", edits.file().string()));
+                  : fmt::format("Lights, materials, objects, bookmarks and region, to {}", edits.file().string()));
   ImGui::EndDisabled();
   ImGui::SameLine();
   const bool toFile = !modified && edits.canRevert();
@@ -25,8 +25,8 @@ void sidecarRow(Session& session) {
     session.history.call(toFile ? "the file's own lights" : "revert to what was saved");
     edits.revert();
   }
-  helpTooltip(toFile ? "Back to the lights of the scene's own file; materials, objects and bookmarks stay"
-                     : "Back to lights, materials, objects and bookmarks as they were saved");
+  helpTooltip(toFile ? "Back to the lights of the scene's own file; materials, objects, bookmarks and region stay"
+                     : "Back to lights, materials, objects, bookmarks and region as they were saved");
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();

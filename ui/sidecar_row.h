@@ -1,5 +1,5 @@
-// Where lights, materials, objects and bookmarks are kept, whether they are saved, and the buttons for it: a row of the
-// panels that edit them.
+// Where lights, materials, objects, bookmarks and region are kept, whether they are saved, and the buttons for it: a
+// row of the panels that edit them.
 #pragma once
 
 #include "ui/session.h"

@@ -21,7 +21,7 @@ struct Leaving {
 
 /// What is lost by it.
 struct Unsaved {
-  bool edits = false;           ///< lights, materials, objects and bookmarks
+  bool edits = false;           ///< lights, materials, objects, bookmarks and region
   std::vector<Side*> settings;  ///< sides whose settings are nowhere else
   bool any() const { return edits || !settings.empty(); }
 };

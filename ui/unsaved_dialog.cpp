@@ -90,7 +90,8 @@ void UnsavedDialog::save(Session& session, const Unsaved& unsaved) {
         session.edits.saveAs(file_);
       else
         session.edits.save();
-      session.note(fmt::format("Saved lights, materials, objects and bookmarks to {}", session.edits.file().string()));
+      session.note(
+          fmt::format("Saved lights, materials, objects, bookmarks and region to {}", session.edits.file().string()));
     }
     for (Side* side : unsaved.settings) {
       const std::filesystem::path preset =

@@ -37,25 +37,47 @@ void valueRow(const char* label, const std::string& value) {
   ImGui::SameLine(width * kLabelShare);  // from the group's start
   clippedText(value, width * (1 - kLabelShare));
   ImGui::EndGroup();
+  if (Controls::current()) ImGui::tellControl(fmt::format("{}={}", label, value).c_str());
 }
 
-void fieldLabel(const char* label, const std::string& help) {
-  const float start = ImGui::GetCursorPosX();
-  const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::AlignTextToFramePadding();
-  clippedText(label, width * kLabelShare);
-  if (!help.empty()) helpTooltip(help);
-  ImGui::SameLine(start + width * kLabelShare);
-  ImGui::SetNextItemWidth(width * (1 - kLabelShare));
-}
+namespace {
 
-void helpTooltip(const std::string& text) {
-  if (!ImGui::IsItemHovered()) return;
+void showTooltip(std::string_view text) {
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);  // of what is disabled, too
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+bool itemPointedAt() {
+  return ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
+}
+
+}  // namespace
+
+bool wantsHelp() {
+  return itemPointedAt() || Controls::current();
+}
+
+void helpTooltip(std::string_view text) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  if (Controls* controls = Controls::current()) controls->help(text, {low.x, low.y}, {high.x, high.y});
+  if (itemPointedAt()) showTooltip(text);
+}
+
+void fieldLabel(const char* label, std::string_view help) {
+  const float start = ImGui::GetCursorPosX();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + ImGui::GetFrameHeight()};
+  ImGui::AlignTextToFramePadding();
+  clippedText(label, width * kLabelShare);
+  if (Controls* controls = Controls::current()) controls->help(help, {low.x, low.y}, {high.x, high.y});
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high) && !ImGui::IsAnyItemActive()) showTooltip(help);
+  ImGui::SameLine(start + width * kLabelShare);
+  ImGui::SetNextItemWidth(width * (1 - kLabelShare));
 }
 
 bool closePopup() {
@@ -73,19 +95,17 @@ void keepFolded(std::set<std::string>& folded, const std::string& title, bool op
 
 std::string clipped(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  std::string cut = text;
-  while (!cut.empty() && ImGui::CalcTextSize((cut + "\u2026").c_str()).x > width) {
-    // Drop one code point: its continuation bytes, then its first.
-    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80) cut.pop_back();
-    if (!cut.empty()) cut.pop_back();
-  }
-  return cut + "\u2026";
+  constexpr const char* kEllipsis = "\u2026";
+  const float room = std::max(width - ImGui::CalcTextSize(kEllipsis).x, 0.0f);
+  const char *begin = text.c_str(), *end = begin;  // of what has room before the ellipsis
+  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, begin, begin + text.size(), &end);
+  return std::string(begin, end) + kEllipsis;
 }
 
 void clippedText(const std::string& text, float width) {
   const std::string shown = clipped(text, width);
   ImGui::TextUnformatted(shown.c_str());
-  if (shown != text) helpTooltip(text);
+  if (shown != text && ImGui::IsItemHovered()) showTooltip(text);
 }
 
 void rightText(const std::string& text) {
@@ -132,9 +152,13 @@ bool beginNumberTable(const char* id, const std::vector<TableColumn>& columns) {
 
 bool Refresh::due(const Session& session) {
   const bool resting = session.asleep() && !session.viewDirty && !session.work;
+  const bool comesToRest = resting && !rested_;
+  rested_ = resting;
   const double now = ImGui::GetTime();
-  if (!resting && now - last_ < 0.25) return false;
+  ++frames_;
+  if (last_ >= 0 && !comesToRest && (now - last_ < 0.25 || frames_ < 8)) return false;
   last_ = now;
+  frames_ = 0;
   return true;
 }
 

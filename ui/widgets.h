@@ -1,6 +1,8 @@
 // Small pieces that panels share: rows of a label and a value, tables, help tooltips.
 #pragma once
 
+#include <concepts>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,11 +18,12 @@ struct Session;
 constexpr float kLabelShare = 0.42f;
 
 /// A label in the dim colour and a value at the column where values begin; a value too long is cut with an ellipsis and
-/// shown whole as a tooltip.
+/// shown whole as a tooltip. What it is, and its unit, is said by the helpTooltip() that follows. For tests it is
+/// "label=value".
 void valueRow(const char* label, const std::string& value);
 
-/// The label of a row, in the same place; the next widget takes the rest of it.
-void fieldLabel(const char* label, const std::string& help = {});
+/// The label of a row, in the same place; the next widget takes the rest of it. The help is the whole row's.
+void fieldLabel(const char* label, std::string_view help);
 
 /// Keeps in `folded` the titles of what is not open.
 void keepFolded(std::set<std::string>& folded, const std::string& title, bool open);
@@ -29,7 +32,15 @@ void keepFolded(std::set<std::string>& folded, const std::string& title, bool op
 /// none.
 bool closePopup();
 
-void helpTooltip(const std::string& text);
+/// Of the last item, also where it is disabled: what it is or does.
+void helpTooltip(std::string_view text);
+/// The tooltip of the last item is to be shown now, or a test wants all of them.
+bool wantsHelp();
+/// Texts that take time are made only where they are shown.
+template <std::invocable Text>
+void helpTooltip(Text&& text) {
+  if (wantsHelp()) helpTooltip(std::string(text()));
+}
 /// Text that ends in an ellipsis where the width does not suffice.
 std::string clipped(const std::string& text, float width);
 /// The same, and whole as a tooltip.
@@ -46,13 +57,16 @@ struct TableColumn {
 /// ImGui::EndTable().
 bool beginNumberTable(const char* id, const std::vector<TableColumn>& columns);
 
-/// When to recompute what is costly: four times a second while frames follow each other, and in the last of them.
+/// When to recompute what is costly: while frames follow each other four times a second, in every eighth of them at
+/// most; and when they come to rest.
 class Refresh {
  public:
   bool due(const Session& session);
 
  private:
   double last_ = -1;
+  bool rested_ = false;
+  uint32_t frames_ = 0;  ///< since then
 };
 
 }  // namespace irad

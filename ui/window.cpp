@@ -35,16 +35,16 @@
 #include "ui/theme.h"
 #include "ui/unsaved_dialog.h"
 #include "ui/viewport.h"
+#include "ui/work_keeper.h"
 
 namespace irad {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames while a load or a rebuild runs
-constexpr double kHiddenInterval = 0.1;           ///< seconds between looks whether a window without area has one again
-constexpr double kWatchInterval = 0.2;            ///< seconds between frames while all that goes on is a reference
-constexpr int kFramesPerEvent = 3;                ///< ImGui needs a few to settle after an event
-constexpr std::chrono::seconds kKeepInterval{2};  ///< between two writes of what is unsaved
+constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
+constexpr double kWatchInterval = 0.2;   ///< seconds between frames while all that goes on is a reference
+constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
 
 /// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
 double threadMilliseconds() {
@@ -75,12 +75,12 @@ class Window {
   bool bringBack(const std::filesystem::path& scene, const Settings& settings, const std::optional<Settings>& other,
                  const std::string& step, const std::function<void(EditState&)>& give);
   void replay(const std::filesystem::path& manifest);
-  void keepWork();
   void fly();
   void drawFrame();
   bool working() const;
   bool settled() const;
   bool measured();
+  void chooseAll();
   void wait();
 
   Context& context_;
@@ -101,18 +101,13 @@ class Window {
   bool visible_ = true;  ///< the last frame had something to be drawn on
   int framesLeft_ = kFramesPerEvent;
   uint32_t settledFrames_ = 0;
-  bool measuring_ = false;
+  bool measuring_ = false, choseAll_ = false;  ///< for WindowOptions::measuredFrames
   uint64_t frameIndex_ = 0;
   Clock::time_point lastDraw_;
   Preferences saved_;         ///< as the file has them
   bool compiling_ = false;    ///< the context has variants to compile
   bool toldUnsaved_ = false;  ///< the user was told that it cannot be written
-  Autosaves autosaves_;
-  std::optional<EditState> kept_;  ///< what the autosave holds; none: nothing is unsaved
-  bool keepDue_ = false;           ///< it is to be written, at keepNext_
-  Clock::time_point keepNext_;
-  bool keepFailed_ = false;          ///< the last time
-  bool toldNotKept_ = false;         ///< the user was told that it cannot be written
+  WorkKeeper keeper_;
   std::filesystem::path historyOf_;  ///< the scene whose edits session_.history holds
 };
 
@@ -125,8 +120,7 @@ Window::Window(Context& context, const WindowOptions& options)
       layer_(context, presenter_.window()),
       builder_(context, session_, [this] { breathe(); }),
       unsavedDialog_(options.captures),
-      autosaves_(options.preferences.empty() ? std::filesystem::path()
-                                             : options.preferences.parent_path() / "autosave") {
+      keeper_(options.preferences) {
   presenter_.attach(context);
   context.bridgeVariants(true);
   session_.edited = session_.saved = options.settings;
@@ -165,11 +159,7 @@ void Window::savePreferences() {
 }
 
 void Window::offerFound() {
-  try {
-    session_.found = autosaves_.find();
-  } catch (const Error& error) {
-    session_.error(fmt::format("Unsaved work of an earlier run cannot be offered. {}", error.what()));
-  }
+  keeper_.offer(session_);
   framesLeft_ = kFramesPerEvent;
 }
 
@@ -177,15 +167,12 @@ void Window::answerOffer(Session::Offer answer) {
   if (!session_.found) return;
   const Autosave found = *std::exchange(session_.found, std::nullopt);
   if (answer == Session::Offer::Discard) {
-    autosaves_.removeFound();
+    keeper_.removeFound();
     return offerFound();
   }
-  if (answer == Session::Offer::Take && take(found)) {
-    keepNext_ = {};
-    keepWork();  // first, so that it is in a file at every moment
-    if (!keepFailed_) autosaves_.removeFound();
-  }
-  autosaves_.leaveFound();
+  // It is in a file at every moment.
+  if (answer == Session::Offer::Take && take(found) && keeper_.keep(session_)) keeper_.removeFound();
+  keeper_.leaveFound();
 }
 
 /// Opens the scene, and makes what was kept of it one step of the history: these settings (of B, too, where there are
@@ -262,38 +249,6 @@ void Window::replay(const std::filesystem::path& manifest) {
   framesLeft_ = kFramesPerEvent;
 }
 
-/// What is unsaved is in a file soon after an edit, and not there any more once it is saved.
-void Window::keepWork() {
-  if (options_.preferences.empty() || !session_.pipeline || session_.history.steps().empty()) return;
-  if (!unsavedBefore(session_, {Leaving::What::Quit}).any()) {
-    keepDue_ = false;
-    kept_.reset();
-    keepNext_ = {};  // there is no file: what is edited, or redone, next goes into one at once
-    return autosaves_.removeKept();
-  }
-  const EditState& now = session_.history.steps()[session_.history.at()].state;
-  keepDue_ = !kept_ || !kept_->sameWork(now);
-  if (!keepDue_ || Clock::now() < keepNext_) return;
-  Autosave autosave{.scene = lastingPath(session_.pipeline->scene().path),
-                    .time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()),
-                    .edits = session_.edits.content(),
-                    .settings = now.a.settings,
-                    .view = now.view,
-                    .camera = now.camera};
-  if (now.b) autosave.other = now.b->settings;
-  kept_ = now;  // where it fails, until the next edit
-  keepDue_ = false;
-  keepNext_ = Clock::now() + kKeepInterval;
-  keepFailed_ = true;
-  try {
-    autosaves_.keep(autosave);
-    keepFailed_ = false;
-  } catch (const Error& error) {
-    if (!std::exchange(toldNotKept_, true))
-      session_.error(fmt::format("Unsaved work is not kept against a crash. {}", error.what()));
-  }
-}
-
 void Window::run() {
   builder_.load(options_.scene);
   sceneOpened();
@@ -326,15 +281,28 @@ void Window::run() {
     if (options_.exitAfter > 0 && settled() && ++settledFrames_ >= options_.exitAfter) break;
     if (options_.measuredFrames > 0 && measured()) break;
   }
-  if (session_.quit) autosaves_.removeKept();  // saved, or discarded
+  if (session_.quit) keeper_.end();  // saved, or discarded
   if (!options_.screenshot.empty() && image_) saveScreenshot(context_, image_, options_.screenshot);
 }
 
-/// Keeps pictures coming once the light is at rest; true when enough of them have been measured.
+/// Once the light is at rest, and then what is chosen is shown, keeps pictures coming; true when enough of them have
+/// been measured.
 bool Window::measured() {
-  if (!measuring_ && settled()) measuring_ = true;
+  if (!measuring_ && settled()) {
+    measuring_ = choseAll_;
+    if (!std::exchange(choseAll_, true)) chooseAll();
+  }
   session_.viewDirty |= measuring_;
   return options_.uiMilliseconds->size() >= options_.measuredFrames;
+}
+
+/// Every panel unfolded, and what there is to choose in them chosen: the first light; facet, material and object in the
+/// middle of the picture.
+void Window::chooseAll() {
+  session_.preferences.folded.clear();
+  if (!session_.edits.lights.empty()) session_.edits.selected = 0;
+  session_.inspection.pick = Inspection::Pick{.pixel = session_.targets.size / 2u};
+  framesLeft_ = kFramesPerEvent;
 }
 
 /// There is something to do that needs no frame.
@@ -361,8 +329,6 @@ void Window::wait() {
   const bool blinks = idle && ImGui::GetIO().WantTextInput;                                   // the text cursor
   const bool watches = idle && (session_.accuracy.tracingNow() || session_.captures.busy());  // their progress
   const auto message = session_.nextMessageEnds();
-  std::optional<Clock::time_point> due = message;
-  if (keepDue_) due = std::min(keepNext_, due.value_or(keepNext_));
   if (hidden)
     glfwWaitEventsTimeout(kHiddenInterval);
   else if (!idle)
@@ -371,8 +337,8 @@ void Window::wait() {
     glfwWaitEventsTimeout(kWatchInterval);
   else if (blinks)
     glfwWaitEventsTimeout(0.4);
-  else if (due)
-    glfwWaitEventsTimeout(std::max(std::chrono::duration<double>(*due - Clock::now()).count(), 0.01));
+  else if (message)
+    glfwWaitEventsTimeout(std::max(std::chrono::duration<double>(*message - Clock::now()).count(), 0.01));
   else
     glfwWaitEvents();
   if (input_.takeEvent() || (message && Clock::now() >= *message))
@@ -435,9 +401,10 @@ void Window::takeRequests() {
     else
       session_.comparison.reset();
   }
-  if (session_.comparison && !session_.viewDirty) measureComparison(context_, session_);
+  if (session_.comparison && !session_.viewDirty && measureComparison(context_, session_))
+    framesLeft_ = kFramesPerEvent;
   if (session_.openScene) open(*std::exchange(session_.openScene, std::nullopt));
-  keepWork();
+  keeper_.keep(session_);
 }
 
 /// What the settings call for, and a picture of it.
@@ -589,7 +556,7 @@ void Window::drawFrame() {
   drawGlossary(session_, {{0, 0}, glm::vec2(size)});
   builder_.announced();
   session_.seeEdits(/*held=*/ImGui::IsAnyItemActive() || input_.flying());
-  keepWork();
+  keeper_.keep(session_);
   double uiMs = threadMilliseconds() - uiBegan;
 
   // Frames that draw nothing but panels stay out of the timings: they say nothing of the method, and while a rebuild

@@ -53,7 +53,11 @@ class LegendOverlay : public Overlay {
     const Rect where = picture.clear();
     const float width = std::min(20 * em, where.size.x - 4 * margin);
     if (width < 8 * em) return std::nullopt;
-    const glm::vec2 size(width, height), corner = where.position + where.size - size - 2 * margin;
+    const glm::vec2 size(width, height);
+    glm::vec2 corner = where.position + where.size - size - 2 * margin;
+    for (const Rect& other : session.legends)  // above one that reaches as far to the right
+      if (corner.x < other.position.x + other.size.x + 0.5f * margin)
+        corner.y = std::min(corner.y, other.position.y - size.y - 1.5f * margin);
     const glm::vec2 high = corner + size + margin;
     ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y}, {high.x, high.y}, IM_COL32(20, 20, 22, 215),
                                               0.3f * em);

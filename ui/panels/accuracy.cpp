@@ -10,6 +10,9 @@ namespace {
 class AccuracyPanel : public Panel {
  public:
   const char* title() const override { return "Accuracy"; }
+  const char* help() const override {
+    return "How far the picture is from a reference, how long it takes, and what more time would buy";
+  }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {

@@ -19,9 +19,12 @@ void drawBound(const Session& session) {
   const bool known = std::isfinite(bound) && report.meanH > 0;
   valueRow(frames ? "standard error" : "solver's bound",
            known ? fmt::format("{} W/m\u00B2, {}", shortNumber(bound), sharePercent(bound / report.meanH)) : "\u2014");
-  helpTooltip(frames ? "Of H by brute force, and as a share of the mean H: known without a reference"
-                     : "No facet's B is further from the solution of its matrix than this; as a share of the mean H. "
-                       "Known without a reference; it covers sweeps alone, not rays, voxels or lookups");
+  helpTooltip(frames
+                  ? "Of the indirect irradiance H by brute force, W/m\u00B2, and as a share of the mean H: known "
+                    "without a reference"
+                  : "No facet's radiosity B is further from the solution of its matrix than this, W/m\u00B2; and as a "
+                    "share of the mean H. Known without a reference; it covers what sweeps are left alone, not the "
+                    "errors of rays, voxels or lookups.");
 }
 
 /// What is known of the noise of finitely many rays.
@@ -40,10 +43,9 @@ void drawNoise(const Session& session, const PlaceInStudy* place) {
   }
   valueRow("rays' noise", text);
   helpTooltip(
-      "One picture does not show the noise of its rays. It is known from a study (half of the 95 % interval of "
-      "relMSE "
-      "over seeds, of the point nearest to these settings), or from a comparison of two seeds (half of the relMSE "
-      "between them).");
+      "How far relMSE would vary with other random rays. One picture does not show that: it is known from a study "
+      "(half of the 95 % interval of relMSE over seeds, of the point nearest to these settings), or from a comparison "
+      "of two seeds (half of the relMSE between them).");
 }
 
 void drawDominating(const Session& session) {
@@ -67,9 +69,10 @@ void drawDominating(const Session& session) {
   }
   valueRow("largest part", text);
   helpTooltip(
-      "Of the error. Without an attribution.csv in the study's folder (irad study attribution) the window knows but "
-      "whether it is the sweeps: the square of the solver's bound over the mean H, against relMSE. The rest is "
-      "voxels, rays, lookups and shadows.");
+      "The stage that most of the error comes from. Without an attribution.csv in the study's folder (made by irad "
+      "study "
+      "attribution) the window can only tell whether it is the solver's sweeps: the square of its bound over the mean "
+      "H, against relMSE. The rest comes from voxels, rays, lookups and shadows.");
 }
 
 }  // namespace
@@ -105,7 +108,7 @@ void drawError(Session& session, const PlaceInStudy* place) {
       if (std::string_view(row.name) == "largest") continue;  // which is the reference's noise
       if (flip && !std::isfinite(accuracy.measured->flip)) {
         fieldLabel(row.name, row.help);
-        if (ImGui::Button("measure###flip", {-1, 0})) session.accuracy.wantFlip = true;
+        if (ImGui::Button("Measure###flip", {-1, 0})) session.accuracy.wantFlip = true;
         continue;
       }
       valueRow(row.name, row.text + (headline && !accuracy.fresh ? " \u2026" : ""));

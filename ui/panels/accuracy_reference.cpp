@@ -73,12 +73,13 @@ void drawTracing(Session& session) {
     ImGui::ProgressBar(static_cast<float>(state.samples) / static_cast<float>(std::max(state.wanted, 1u)), {-1, 0},
                        text.c_str());
     if (ImGui::Button("Cancel###cancel reference", {-1, 0})) accuracy.cancelReference = true;
-    helpTooltip("What there is of it stays");
+    helpTooltip("Stops tracing; what there is of the reference stays");
     return;
   }
   const bool can = hasPathTracer(), lambertian = session.edited.scene.lambertian;
   fieldLabel("compute",
-             "What to trace. The path tracer is diffuse: indirect light, or with scene.lambertian all of it");
+             "The light to trace. The path tracer knows diffuse surfaces only: it traces indirect light, or with "
+             "scene.lambertian (all surfaces diffuse) all of it.");
   ImGui::PushID("compute");
   if (ImGui::BeginCombo("##", accuracy.indirect || !lambertian ? "indirect" : "lit")) {
     if (ImGui::Selectable("indirect", accuracy.indirect || !lambertian)) accuracy.indirect = true;
@@ -89,7 +90,7 @@ void drawTracing(Session& session) {
     ImGui::EndCombo();
   }
   ImGui::PopID();
-  fieldLabel("samples", "Per pixel. Twice as many leave .71 of the noise");
+  fieldLabel("samples", "Light paths per pixel. Twice as many take twice as long and leave 0.71 of the noise.");
   ImGui::PushID("samples");
   if (ImGui::BeginCombo("##", std::to_string(accuracy.samples).c_str())) {
     for (const uint32_t samples : {16u, 64u, 256u, 1024u, 4096u})
@@ -100,11 +101,13 @@ void drawTracing(Session& session) {
   ImGui::BeginDisabled(!can);
   if (ImGui::Button("Compute a reference", {-1, 0})) accuracy.wantReference = true;
   ImGui::EndDisabled();
-  helpTooltip(fmt::format(
-      "A path tracer on the triangles, from this camera and at this size, on {} of the processor's threads at the "
-      "lowest priority. It stops where camera, scene, lights or materials change, and pauses while this panel is "
-      "folded.",
-      BackgroundReference::threads()));
+  helpTooltip([&] {
+    return fmt::format(
+        "A path tracer on the triangles, from this camera and at this size, on {} of the processor's threads at the "
+        "lowest priority. It stops where camera, scene, lights or materials change, and pauses while this panel is "
+        "folded.",
+        BackgroundReference::threads());
+  });
   if (!can) accuracyParagraph(theme::dim, "This build has no path tracer (IRAD_EMBREE).");
 }
 
@@ -122,6 +125,7 @@ void drawSave(Session& session) {
   ImGui::BeginDisabled(accuracy.saving() || accuracy.saveAs.empty());
   if (ImGui::Button("Save###save reference", {button, 0})) accuracy.wantSave = true;
   ImGui::EndDisabled();
+  helpTooltip("Writes the reference into the file on the left");
 }
 
 }  // namespace
@@ -134,11 +138,16 @@ void drawReference(Session& session) {
     std::string what =
         accuracy.traced() ? counted(accuracy.traced()->samples, "sample") : reference.path.filename().string();
     valueRow("reference", what);
-    helpTooltip(fmt::format("{}\n{} \u00D7 {} pixels", accuracy.traced() ? "Path traced here" : reference.path.string(),
-                            size.x, size.y));
+    helpTooltip([&] {
+      return fmt::format("What the picture is compared with.\n{}\n{} \u00D7 {} pixels",
+                         accuracy.traced() ? "Path traced here, so many samples per pixel" : reference.path.string(),
+                         size.x, size.y);
+    });
     if (accuracy.traced()) {
       valueRow("its noise", shortNumber(accuracy.traced()->noise));
-      helpTooltip("\u221ArelMSE of its pixels by their own standard errors; in relMSE above it cancels but for \u00B1");
+      helpTooltip(
+          "The reference's own error, as a share of its light: \u221ArelMSE of its pixels by their standard errors. In "
+          "relMSE above it has been taken out, but for the \u00B1.");
     }
     drawOf(session, reference);
     drawShow(session, reference);

@@ -56,9 +56,10 @@ void AccuracyStudy::draw(Session& session) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
   const bool entered = ImGui::InputTextWithHint("##study", "folder of irad study cost", &accuracy.folder,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
+  helpTooltip("A folder that irad study cost or irad study attribution has written, or both one after the other");
   ImGui::SameLine();
   if (ImGui::Button("Load", {button, 0}) || entered) accuracy.wantStudy = true;
-  helpTooltip("A folder of irad study cost, of irad study attribution, or one after the other of both");
+  helpTooltip("Reads the study in the folder on the left");
   if (accuracy.loading()) return ImGui::TextColored(theme::dim, "reading\u2026");
   if (!accuracy.studyError.empty()) return accuracyParagraph(theme::error, accuracy.studyError);
   if (!accuracy.study)
@@ -74,14 +75,18 @@ void AccuracyStudy::drawOrigin(Session& session, const LoadedStudy& study) const
   if (!misfit_.camera.empty()) {
     accuracyParagraph(theme::warning, fmt::format("Of another camera: {}.", misfit_.camera));
     const std::optional<Camera> from = cameraOf(study);
-    if (from && misfit_.scene.empty() && ImGui::Button("Go to its camera", {-1, 0})) session.startAt(*from);
+    if (from && misfit_.scene.empty()) {
+      if (ImGui::Button("Go to its camera", {-1, 0})) session.startAt(*from);
+      helpTooltip("Looks from where the study was made, so that its figures hold");
+    }
   }
   if (!misfit_.usable()) accuracyParagraph(theme::dim, "None of its figures are this picture's: they are not used.");
   if (!study.device.empty() && study.device != session.context.device.info.name)
     accuracyParagraph(theme::warning, fmt::format("Its times are of another device: {}.", study.device));
   if (misfit_.usable() && !misfit_.size.empty())
-    accuracyParagraph(theme::dim, fmt::format("Of pictures of {}: what grows with them is left out.", misfit_.size));
-  if (!study.view.empty()) accuracyParagraph(theme::dim, fmt::format("Of {}.", study.view));
+    accuracyParagraph(theme::dim,
+                      fmt::format("Of pictures of {}: costs that grow with their size are not offered.", misfit_.size));
+  if (!study.view.empty()) accuracyParagraph(theme::dim, fmt::format("Of the view {}.", study.view));
 }
 
 /// Of those that hold for the picture as it is.
@@ -89,7 +94,7 @@ const CostKind& AccuracyStudy::chooseCost() {
   const std::vector<CostKind>& kinds = costKinds();
   const auto holds = [&](const CostKind& kind) { return misfit_.size.empty() || !kind.ofPicture; };
   if (!holds(kinds[cost_])) cost_ = static_cast<size_t>(std::ranges::find_if(kinds, holds) - kinds.begin());
-  fieldLabel("cost", "What the error is weighed against");
+  fieldLabel("cost", "What the error is weighed against: the plot's horizontal axis");
   ImGui::PushID("cost");
   if (ImGui::BeginCombo("##", nameOf(kinds[cost_]).c_str())) {
     for (size_t i = 0; i < kinds.size(); ++i) {
@@ -125,11 +130,12 @@ void AccuracyStudy::drawFront(Session& session, const LoadedStudy& study) {
   if (answer.clicked) take(session, study.settings[*answer.clicked]);
   drawPlace(study, kind, pairs);
   if (!before_) return;
-  if (ImGui::Button("Back to the settings before", {-1, 0})) {
-    const Settings back = *before_;
-    take(session, back);
-    before_.reset();
-  }
+  const bool goBack = ImGui::Button("Back to the settings before", {-1, 0});
+  helpTooltip("As they were before a point of the plot was clicked");
+  if (!goBack) return;
+  const Settings back = *before_;
+  take(session, back);
+  before_.reset();
 }
 
 /// The edited settings, as if they had been typed; those of views, camera and seed stay.

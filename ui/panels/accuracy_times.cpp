@@ -40,7 +40,7 @@ void drawFramesLeft(const Session& session) {
   }
   valueRow("frames to go", text);
   helpTooltip(
-      "Until the solver sleeps: from the slope of its bound over the last calls and solver.sweeps_per_frame; by "
+      "Frames until the solver sleeps: from the slope of its bound over the last calls and solver.sweeps_per_frame; by "
       "brute force from its standard error");
 }
 
@@ -77,11 +77,15 @@ void AccuracyTimes::draw(const Session& session) {
   };
   if (ImGui::BeginTable("times", 2, ImGuiTableFlags_SizingStretchProp)) {
     ImGui::TableSetupColumn("stage", 0, 1.6f);
-    ImGui::TableSetupColumn("ms");
-    group("build", CostOf::Build, "GPU ms of all stages of a rebuild: medians of those since the start");
+    ImGui::TableSetupColumn("ms", 0, 1);
+    group("build", CostOf::Build,
+          "Milliseconds of the GPU for all stages of a rebuild: medians of the rebuilds since the start; click: each "
+          "stage");
     group("relight", CostOf::Relight,
-          "GPU ms that a frame takes while light converges: medians of the last 300 frames in which a stage ran");
-    group("frame", CostOf::Frame, "GPU ms of a picture: medians likewise");
+          "Milliseconds of the GPU that a frame takes while light converges: medians of the last 300 frames in which a "
+          "stage "
+          "ran; click: each stage");
+    group("frame", CostOf::Frame, "Milliseconds of the GPU for a picture: medians likewise; click: each stage");
     ImGui::EndTable();
   }
   drawFramesLeft(session);

@@ -16,6 +16,9 @@ namespace {
 class CamerasPanel : public Panel {
  public:
   const char* title() const override { return "Cameras"; }
+  const char* help() const override {
+    return "Places to look from: the scene's own and your bookmarks; the window's camera in numbers";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -29,6 +32,8 @@ class CamerasPanel : public Panel {
       ImGui::PushID(i);
       const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
       if (ImGui::Selectable("##", i == session.sceneCamera)) session.useSceneCamera(i);
+      helpTooltip(i < ofFile ? "A camera of the scene's file. Click: look from there (C: the next one)"
+                             : "A bookmark of yours. Click: look from there");
       const char* kind = i < ofFile ? "scene" : "bookmark";
       const float kindWidth = ImGui::CalcTextSize(kind).x;
       ImGui::SameLine(start);
@@ -49,7 +54,7 @@ class CamerasPanel : public Panel {
     FlyCamera& camera = session.camera;
     const Scene& scene = session.pipeline->scene();
     const float size = std::max(glm::distance(scene.boundsMin, scene.boundsMax), 1e-6f);
-    fieldLabel("position", "Of the window's camera: world coordinates, scene units");
+    fieldLabel("position", "Where the window's camera is: x, y and z in the world, scene units (glTF's are metres)");
     glm::dvec3 position = camera.camera().position;
     const double low = -kMaxCoordinate, high = kMaxCoordinate;
     if (ImGui::DragScalarN("##position", ImGuiDataType_Double, &position.x, 3, size * 1e-3f, &low, &high, "%.4g",
@@ -57,16 +62,17 @@ class CamerasPanel : public Panel {
       camera.setPosition(position);
       session.viewDirty = true;
     }
-    fieldLabel("yaw", "About the vertical, degrees: 0 looks along -Z, 90 along -X");
+    fieldLabel("yaw", "The way the camera looks, about the vertical, degrees: 0 along -Z, 90 along -X");
     const auto degrees = [](float value) { return std::abs(value) < 0.05f ? 0 : value; };  // no "-0.0"
     float yaw = degrees(camera.yaw()), pitch = degrees(camera.pitch());
     if (ImGui::DragFloat("##yaw", &yaw, 0.2f, -180, 180, "%.1f\u00B0")) turn(session, yaw, pitch);
-    fieldLabel("pitch", "Upwards, degrees");
+    fieldLabel("pitch", "How far up the camera looks, degrees: 0 level, -88 almost straight down");
     if (ImGui::DragFloat("##pitch", &pitch, 0.2f, -88, 88, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp))
       turn(session, yaw, pitch);
     const bool flat = camera.camera().orthographic;
     fieldLabel(flat ? "half height" : "field of view",
-               flat ? "Of the picture, scene units" : "Vertical, degrees; 1 to 170");
+               flat ? "From the picture's middle to its upper edge, scene units"
+                    : "Angle from the picture's lower to its upper edge, degrees; 1 to 170");
     float view = camera.view();
     if (flat ? ImGui::DragFloat("##view", &view, size * 1e-3f, size * 1e-6f, size * 1e3f, "%.4g",
                                 ImGuiSliderFlags_AlwaysClamp)
@@ -87,7 +93,7 @@ class CamerasPanel : public Panel {
       session.sceneCamera = ofFile + static_cast<int>(edits.addBookmark(session.camera.camera(), "bookmark"));
       return;
     }
-    helpTooltip("Keeps where the camera is and looks");
+    helpTooltip("Keeps where the camera is, which way it looks and how wide it sees; saved beside the scene");
     const auto index = static_cast<size_t>(session.sceneCamera - ofFile);
     if (session.sceneCamera < ofFile || index >= edits.bookmarks.size()) return;
     Camera& bookmark = edits.bookmarks[index];
@@ -99,12 +105,14 @@ class CamerasPanel : public Panel {
     }
     helpTooltip("Moves the bookmark to where the camera is");
     ImGui::SameLine();
-    if (ImGui::Button("Remove")) {
+    const bool remove = ImGui::Button("Remove");
+    helpTooltip("Takes the bookmark out of the list (Ctrl + Z brings it back)");
+    if (remove) {
       edits.bookmarks.erase(edits.bookmarks.begin() + static_cast<ptrdiff_t>(index));
       session.sceneCamera = 0;
       return;
     }
-    fieldLabel("name");
+    fieldLabel("name", "Of the bookmark; --camera NAME takes it, too");
     std::string name = bookmark.name;
     if (ImGui::InputText("##name", &name)) edits.rename(index, name);
   }

@@ -18,6 +18,9 @@ namespace {
 class ComparePanel : public Panel {
  public:
   const char* title() const override { return "Compare"; }
+  const char* help() const override {
+    return "Two sets of settings, A and B, of one scene beside each other, and how far their pictures are apart";
+  }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {
@@ -36,7 +39,7 @@ class ComparePanel : public Panel {
     ImGui::SameLine();
     savePresetButton("Save B\u2026", half, nameB_, session, session.sideB().edited);
     if (ImGui::Button("End the comparison", {-1, 0})) session.leave({Leaving::What::EndComparison});
-    helpTooltip("The edited side stays");
+    helpTooltip("The side that is edited stays; the other one's settings are lost unless they were saved");
   }
 
  private:
@@ -44,34 +47,46 @@ class ComparePanel : public Panel {
 
   static void drawSides(Session& session) {
     Comparison& comparison = *session.comparison;
-    const auto choice = [](const char* label, bool chosen) {
+    const auto choice = [](const char* label, bool chosen, const char* help) {
       ImGui::SameLine();
-      return ImGui::RadioButton(label, chosen);
+      const bool pressed = ImGui::RadioButton(label, chosen);
+      helpTooltip(help);
+      return pressed;
     };
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "edit");
-    helpTooltip("A click in the picture takes the side that it is on");
-    if (choice("A###edit A", !comparison.editsB) && comparison.editsB) session.swapSides();
-    if (choice("B###edit B", session.comparison->editsB) && !session.comparison->editsB) session.swapSides();
+    const char* edit = "The side whose settings the panels show and change; a click in the picture takes its side, too";
+    if (choice("A###edit A", !comparison.editsB, edit) && comparison.editsB) session.swapSides();
+    if (choice("B###edit B", session.comparison->editsB, edit) && !session.comparison->editsB) session.swapSides();
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(theme::dim, "show");
     using Show = Comparison::Show;
-    for (const auto& [show, label] : {std::pair{Show::Split, "both###show both"},
-                                      {Show::A, "A###show A"},
-                                      {Show::B, "B###show B"},
-                                      {Show::Difference, "B \u2212 A###show B - A"}})
-      if (choice(label, comparison.show == show)) {
+    struct Entry {
+      Show show;
+      const char *label, *help;
+    };
+    for (const auto& [show, label, help] :
+         {Entry{Show::Split, "both###show both", "A on the left, B on the right of a line that is dragged"},
+          Entry{Show::A, "A###show A", "A alone (X: the other one)"},
+          Entry{Show::B, "B###show B", "B alone (X: the other one)"},
+          Entry{Show::Difference, "B \u2212 A###show B - A",
+                "The view's values of B less those of A, in its unit: blue below 0, red above"}})
+      if (choice(label, comparison.show == show, help)) {
         comparison.show = show;
         session.viewDirty = true;
       }
-    helpTooltip("X: the other one");
     ImGui::Checkbox("same seed", &comparison.sameSeed);
+    helpTooltip(
+        "Both sides trace the same random rays (matrix.seed of the edited one), so that what differs comes from the "
+        "settings. Off: each its own, which shows the noise of the rays.");
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     if (ImGui::Button(fmt::format("Copy A {} B###copy A to B", arrowGlyph()).c_str(), {half, 0}))
       copy(session, /*toB=*/true);
+    helpTooltip("B gets all settings of A");
     ImGui::SameLine();
     if (ImGui::Button(fmt::format("Copy B {} A###copy B to A", arrowGlyph()).c_str(), {half, 0}))
       copy(session, /*toB=*/false);
+    helpTooltip("A gets all settings of B");
   }
 
   static void copy(Session& session, bool toB) {
@@ -85,7 +100,7 @@ class ComparePanel : public Panel {
 
   static void drawResult(Comparison& comparison, View view) {
     if (!comparison.result) {
-      ImGui::TextColored(theme::dim, "numbers: once both sides are asleep");
+      ImGui::TextColored(theme::dim, "Numbers follow once both sides are solved.");
       return;
     }
     const Comparison::Result result = *comparison.result;
@@ -94,8 +109,8 @@ class ComparePanel : public Panel {
       if (info.view == view) unit = info.unit;
     if (!ImGui::BeginTable("result", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("B against A", 0, 1.3f);
-    ImGui::TableSetupColumn("picture");
-    ImGui::TableSetupColumn("H of voxels");
+    ImGui::TableSetupColumn("picture", 0, 1);
+    ImGui::TableSetupColumn("H of voxels", 0, 1);
     ImGui::TableHeadersRow();
     const auto row = [](const char* name, const std::string& picture, const std::string& voxels,
                         const std::string& help) {
@@ -103,6 +118,10 @@ class ComparePanel : public Panel {
       ImGui::TextColored(theme::dim, "%s", name);
       helpTooltip(help);
       ImGui::TableNextColumn();
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      if (Controls::current())
+        ImGui::tellPlace(fmt::format("result/{}", name).c_str(), {at.x, at.y},
+                         {at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetTextLineHeight()});
       rightText(picture);
       ImGui::TableNextColumn();
       rightText(voxels);
@@ -124,7 +143,9 @@ class ComparePanel : public Panel {
       comparison.wantFlip = true;
       comparison.result.reset();
     }
-    helpTooltip("Takes a moment: the picture is filtered as the eye does");
+    helpTooltip(
+        "Measures how different the two pictures look to the eye, 0 (the same) to 1. Takes a moment: they are filtered "
+        "as the eye does.");
   }
 };
 

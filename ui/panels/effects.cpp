@@ -14,6 +14,9 @@ namespace {
 class EffectsPanel : public Panel {
  public:
   const char* title() const override { return "Effects"; }
+  const char* help() const override {
+    return "The parts of the method: which of them run in this scene, which are left out and why, and what that saves";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -25,7 +28,7 @@ class EffectsPanel : public Panel {
     // In the middle of a rebuild what the pipeline holds comes and goes.
     if (!session.work && refresh_.due(session)) plan_ = session.pipeline->plan(session.viewDirty);
     valueRow("not allocated", mebibytes(plan_.bytesNotAllocated()));
-    helpTooltip("What the effects that are off would take, by the formulas (a csr matrix: at most)");
+    helpTooltip("Device memory that the effects that are off would take, by the formulas, MiB (a csr matrix: at most)");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
     for (const EffectRow& row : plan_.rows) drawRow(session.edited, row);
     ImGui::PopStyleVar();
@@ -52,15 +55,17 @@ class EffectsPanel : public Panel {
     ImGui::SameLine(0, gap);
     ImGui::TextColored(theme::dim, "%s", clipped(row.reason, end - gap - ImGui::GetCursorPosX()).c_str());
     ImGui::EndGroup();
-    helpTooltip(fmt::format(
-        "{}: {}\n{}\n{}{}", info.label, row.stateName(), row.reason,
-        row.epsilon > 0 ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
-                        : "Exact: forced on it gives the same bits.",
-        row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : ""));
+    helpTooltip([&] {
+      return fmt::format(
+          "{}: {}\n{}\n{}{}", info.label, row.stateName(), row.reason,
+          row.epsilon > 0 ? fmt::format("Within {:.2g} of {} of what it gives forced on.", row.epsilon, row.of)
+                          : "Exact: forced on it gives the same bits.",
+          row.bytesNotAllocated > 0 ? fmt::format("\n{} not allocated", mebibytes(row.bytesNotAllocated)) : "");
+    });
     if (*info.setting != 0) {
       ImGui::SameLine(end);
       settingArrow(settings, info.setting);
-      helpTooltip(fmt::format("{}: auto, on or off", info.setting));
+      helpTooltip([&] { return fmt::format("{}: as the scene calls for (auto), or always, or never", info.setting); });
     }
     ImGui::PopID();
   }

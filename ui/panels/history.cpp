@@ -13,6 +13,9 @@ namespace {
 class HistoryPanel : public Panel {
  public:
   const char* title() const override { return "History"; }
+  const char* help() const override {
+    return "Every edit since the scene was opened; a click goes back or forward to one";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -24,9 +27,10 @@ class HistoryPanel : public Panel {
       helpTooltip(help);
       ImGui::EndDisabled();
     };
-    button("Undo", Action::Undo, session.history.canUndo(), "Ctrl + Z");
+    button("Undo", Action::Undo, session.history.canUndo(), "Takes the last edit back (Ctrl + Z)");
     ImGui::SameLine();
-    button("Redo", Action::Redo, session.history.canRedo(), "Ctrl + Shift + Z, Ctrl + Y");
+    button("Redo", Action::Redo, session.history.canRedo(),
+           "Makes the edit again that was taken back (Ctrl + Shift + Z, Ctrl + Y)");
     constexpr float most = 8;
     const float rows = std::min(static_cast<float>(session.history.steps().size()), most);
     ImGui::BeginChild("##list", {0, rows * ImGui::GetTextLineHeightWithSpacing()});

@@ -31,6 +31,9 @@ std::string percent(double share) {
 class InspectorPanel : public Panel {
  public:
   const char* title() const override { return "Inspector"; }
+  const char* help() const override {
+    return "One facet: its light, which facets it gathers from, which gather from it, and its rays";
+  }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {
@@ -75,38 +78,43 @@ class InspectorPanel : public Panel {
       if (ImGui::RadioButton(fmt::format("facet {}", in.voxel->facets[f].facet).c_str(), in.chosen == f) &&
           in.chosen != f)
         in.choose = f;
+      helpTooltip("The voxel holds several facets, one for each side of a surface in it: the one shown below");
       ImGui::SameLine();
     }
     ImGui::NewLine();
     ImGui::BeginDisabled(in.trail.empty());
     if (ImGui::Button("Back")) in.goBack = true;
-    helpTooltip("To the facet that a link was followed from");
+    helpTooltip("Back to the facet that a link was followed from");
     ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::Button("Clear")) in.clear = true;
+    helpTooltip("Lets go of the voxel (Esc)");
     const Scene& scene = session.pipeline->scene();
     if (!session.material || *session.material >= scene.materials.size()) return;
     ImGui::SameLine();
     if (ImGui::Button("Material")) session.showPanel("Materials", kLeftColumn);
-    helpTooltip(fmt::format("Edit \"{}\", of the surface that was clicked, in the panel Materials",
-                            scene.materials[*session.material].name));
+    helpTooltip([&] {
+      return fmt::format("Edit \"{}\", of the surface that was clicked, in the panel Materials",
+                         scene.materials[*session.material].name);
+    });
   }
 
   /// A voxel of a slice that holds no facet.
   static void drawEmpty(Inspection& in) {
     if (ImGui::Button("Clear")) in.clear = true;
+    helpTooltip("Lets go of the voxel (Esc)");
     drawVoxel(in);
-    ImGui::TextColored(theme::dim, "empty: it has no row");
+    ImGui::TextColored(theme::dim, "An empty voxel: no facet, and so no light of its own.");
   }
 
   static void drawVoxel(const Inspection& in) {
     valueRow("voxel", three(in.voxel->voxel));
     helpTooltip("Its place in the grid: x y z, from 0");
     const glm::dvec3& world = in.voxel->world;
-    valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g} m", world.x, world.y, world.z));
-    helpTooltip("The voxel's centre");
+    valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g}", world.x, world.y, world.z));
+    helpTooltip("The voxel's centre: x y z in the world, metres");
     valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
-    helpTooltip("To the nearest solid voxel by the distance field in use, in voxels");
+    helpTooltip("From here to the nearest solid voxel by the distance field in use, in voxels and in metres");
     if (in.voxel->seed) {
       valueRow("nearest seed", three(*in.voxel->seed));
       helpTooltip("The solid voxel that jump flooding takes for the nearest: x y z");
@@ -116,16 +124,18 @@ class InspectorPanel : public Panel {
   static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
     drawVoxel(in);
     valueRow("area", shortNumber(facet.area) + " m\u00B2");
-    helpTooltip("Of the facet's plane inside the voxel");
+    helpTooltip("Of the facet: the part of its plane inside the voxel, m\u00B2");
     valueRow("albedo \u03C1", three(facet.albedo));
     helpTooltip("Share of the light that arrives which is reflected diffusely: red, green, blue");
   }
 
   static void drawNormal(const InspectedFacet& facet) {
     valueRow("normal", three(facet.normal));
-    helpTooltip("As decoded");
+    helpTooltip("The way the facet faces, as decoded from its code: x y z of an arrow of length 1");
     valueRow("stored", fmt::format("{:#06x}, offset {:+.3f}", facet.shape & 0xFFFFu, facetOffset(facet.shape)));
-    helpTooltip("The normal's code, and the plane's distance from the voxel's centre, voxels");
+    helpTooltip(
+        "As the facet's record holds it: the code of its normal, and how far its plane is from the voxel's centre, "
+        "voxels");
     if (!facet.mesh) return;
     valueRow("to mesh",
              fmt::format("{:.2f}\u00B0, face {:.2f}\u00B0", facet.mesh->shadingError, facet.mesh->faceError));
@@ -146,7 +156,7 @@ class InspectorPanel : public Panel {
     helpTooltip("All that leaves diffusely: M + \u03C1 (D + H), W/m\u00B2");
     if (hasMatrix) {
       valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
-      helpTooltip("How far one more sweep would move B here");
+      helpTooltip("How far one more sweep would move the radiosity B here, W/m\u00B2");
     } else {
       valueRow("std error", three(facet.standardError));
       helpTooltip("Standard error of H here, from the spread of the frames, W/m\u00B2");
@@ -187,7 +197,7 @@ class InspectorPanel : public Panel {
                                    : fmt::format("H in {} since the pick", counted(in.live.back().sweep, "sweep"));
       ImGui::PlotLines("##history", values.data(), static_cast<int>(values.size()), 0, name.c_str(), 0,
                        largest > 0 ? 1.4f * largest : 1, {ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4});
-      helpTooltip(fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)));
+      helpTooltip([&] { return fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)); });
     }
     ImGui::BeginDisabled(!hasMatrix);
     if (ImGui::Button("Solve from the dark", {-1, 0})) in.wantReplay = true;
@@ -279,9 +289,10 @@ class InspectorPanel : public Panel {
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
     ImGui::InputInt("##ray", &ray_);
     ray_ = std::clamp(ray_, 0, static_cast<int>(std::max(facet.rays.rays, 1u)) - 1);
-    helpTooltip(fmt::format("Ray 0 to {} of this facet", facet.rays.rays - 1));
+    helpTooltip([&] { return fmt::format("Number of one of this facet's rays, 0 to {}", facet.rays.rays - 1); });
     ImGui::SameLine();
     if (ImGui::Button("Trace this ray", {-1, 0})) in.traceRay = static_cast<uint32_t>(ray_);
+    helpTooltip("Walks it cell by cell, with and without the distance field, in a table below and in the picture");
     if (!in.ray) return;
     ImGui::PushTextWrapPos(0);
     ImGui::TextColored(in.ray->dda.met == in.ray->sdf.met ? theme::good : theme::warning, "Ray %u. %s", in.ray->ray,

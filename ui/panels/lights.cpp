@@ -48,6 +48,9 @@ constexpr IntensityUnit kIntensityUnits[] = {
 class LightsPanel : public Panel {
  public:
   const char* title() const override { return "Lights"; }
+  const char* help() const override {
+    return "Suns, points and spots: add, change and remove them. Edits are kept beside the scene's file, never in it.";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -78,10 +81,12 @@ class LightsPanel : public Panel {
       ImGui::SameLine();
       if (ImGui::Button(kind.name))
         session.edits.add(newLight(kind, session.pipeline->scene(), session.camera.camera()));
-      helpTooltip(fmt::format("A {} {}", kind.one,
-                              kind.has(LIGHT_DISTANT)     ? "that shines the way the camera looks"
-                              : kind.has(LIGHT_DIRECTION) ? "half-way to what the camera looks at, shining there"
-                                                          : "half-way to what the camera looks at"));
+      helpTooltip([&] {
+        return fmt::format("A {} {}", kind.one,
+                           kind.has(LIGHT_DISTANT)     ? "that shines the way the camera looks"
+                           : kind.has(LIGHT_DIRECTION) ? "half-way to what is in the picture's middle, shining there"
+                                                       : "half-way to what is in the picture's middle");
+      });
     }
   }
 
@@ -100,7 +105,8 @@ class LightsPanel : public Panel {
         const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
         const bool pressed = ImGui::Selectable("##", i == edits.selected);
         const bool dot = ImGui::GetIO().MousePos.x < at.x + 1.2f * em;  // the lamp before the name
-        if (dot) helpTooltip(light.on ? "On; a click turns it off" : "Off; a click turns it on");
+        helpTooltip(dot ? light.on ? "On; a click turns it off" : "Off; a click turns it on"
+                        : "Click: choose it, to change it below. Its dot, in its colour, turns it off and on.");
         if (pressed && dot)
           light.on = !light.on;
         else if (pressed)
@@ -126,18 +132,20 @@ class LightsPanel : public Panel {
   static void drawListButtons(SceneEdits& edits) {
     if (edits.light() == nullptr) return;
     if (ImGui::Button("Duplicate")) edits.add(Light(*edits.light()));
+    helpTooltip("Another light like the chosen one, in the same place");
     ImGui::SameLine();
     if (ImGui::Button("Remove")) edits.remove();
-    helpTooltip("Ctrl + Z brings it back");
+    helpTooltip("Takes the chosen light out of the scene (Ctrl + Z brings it back)");
   }
 
   void drawFields(Light& light, Session& session) {
     fieldLabel("on",
                "Off it gives no light and costs nothing: no shadow map is drawn, no pixel and no facet asks for it");
     ImGui::Checkbox("##on", &light.on);
-    fieldLabel("name");
+    fieldLabel("name", "Of the light, in lists and files");
     ImGui::InputText("##name", &light.name);
-    fieldLabel("type");
+    fieldLabel("type",
+               "sun: parallel light from far away; point: from a place, every way; spot: from a place, within a cone");
     std::vector<const char*> names;
     for (const LightKind& other : lightKinds()) names.push_back(other.name);
     int type = static_cast<int>(light.type);
@@ -146,20 +154,22 @@ class LightsPanel : public Panel {
     const LightKind& kind = lightKind(light.type);
     const bool distant = kind.has(LIGHT_DISTANT);
 
-    fieldLabel("color", "As shown on a display; the file holds it linear");
+    fieldLabel("color",
+               "Of its light, red, green and blue from 0 to 1, as shown on a display; the file holds it linear");
     glm::vec3 shown = glm::convertLinearToSRGB(light.color);
     if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float))
       light.color = glm::convertSRGBToLinear(shown);
     drawTemperature(light);
     drawIntensity(light, distant);
     if (kind.has(LIGHT_RANGE)) {
-      fieldLabel("range", "Distance at which the light has faded out; 0: unlimited");
+      fieldLabel("range", "Distance at which the light has faded out, scene units; 0: unlimited");
       ImGui::DragFloat("##range", &light.range, std::max(light.range * 0.01f, 0.01f), 0,
                        static_cast<float>(kMaxCoordinate), light.range > 0 ? "%.4g" : "unlimited",
                        ImGuiSliderFlags_AlwaysClamp);
     }
     if (distant) {
-      fieldLabel("angle", "How large it is seen, across: the wider, the softer its shadows. Our sun has .53\u00B0");
+      fieldLabel("angle",
+                 "How large it is seen, across, degrees: the wider, the softer its shadows. Our sun has 0.53\u00B0.");
       ImGui::DragFloat("##angle", &light.angle, 0.02f, 0, static_cast<float>(kMaxLightAngle),
                        light.angle > 0 ? "%.3g\u00B0" : "a point", ImGuiSliderFlags_AlwaysClamp);
     } else {
@@ -171,13 +181,13 @@ class LightsPanel : public Panel {
     if (kind.has(LIGHT_CONE)) drawCone(light);
 
     fieldLabel("position", distant ? "Of its handle in the picture: the light comes from everywhere"
-                                   : "World coordinates, scene units");
+                                   : "Where it is: x, y and z in the world, scene units (glTF's are metres)");
     const double low = -kMaxCoordinate, high = kMaxCoordinate;
     const float size = glm::distance(session.pipeline->scene().boundsMin, session.pipeline->scene().boundsMax);
     ImGui::DragScalarN("##position", ImGuiDataType_Double, &light.position.x, 3, std::max(size * 1e-3f, 1e-9f), &low,
                        &high, "%.4g", ImGuiSliderFlags_AlwaysClamp);
     if (kind.has(LIGHT_DIRECTION)) {
-      fieldLabel("direction", "The way it shines");
+      fieldLabel("direction", "The way it shines: x, y and z of an arrow of length 1");
       glm::vec3 direction = light.direction;
       if (ImGui::DragFloat3("##direction", &direction.x, 0.005f, -1, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp) &&
           glm::length(direction) > 1e-3f)
@@ -188,17 +198,17 @@ class LightsPanel : public Panel {
       light.position = camera.position;
       light.direction = glm::normalize(camera.orientation * glm::vec3(0, 0, -1));
     }
-    helpTooltip("Its position, shining the way the camera looks");
+    helpTooltip("Puts the light where the camera is; it shines the way the camera looks");
   }
 
   /// A temperature is a way to choose a colour: lights keep the colour alone.
   static void drawTemperature(Light& light) {
     fieldLabel(
         "temperature",
-        "Of a black body of this colour, kelvin (1,000 to 15,000): candle 1,900, bulb 2,700, noon 5,500, overcast "
-        "6,500. Setting it sets the colour, its largest component 1; below 1,900 K sRGB's gamut ends, and the colour "
-        "is the nearest without blue. Shown is the nearest point of the Planckian locus (Krystek 1985); a dash where "
-        "the colour is far from all (more than 0.05 in CIE 1960 u, v).");
+        "Of a glowing body of this colour, kelvin (1,000 to 15,000): candle 1,900, bulb 2,700, noon 5,500, overcast "
+        "6,500. Setting it sets the colour, with 1 as its largest component. A dash: no glowing body has a colour "
+        "near this one. (The nearest point of the Planckian locus, Krystek 1985, none beyond 0.05 in CIE 1960 u, "
+        "v; below 1,900 K the display's colours end, and blue is 0.)");
     const std::optional<double> found = colorTemperature(light.color);
     auto kelvin = static_cast<float>(found.value_or(6500));
     if (ImGui::SliderFloat("##temperature", &kelvin, kLeastTemperature, kMostTemperature, found ? "%.0f K" : "\u2014",
@@ -227,7 +237,6 @@ class LightsPanel : public Panel {
                          ImGuiSliderFlags_AlwaysClamp) &&
         per > 0)
       light.intensity = std::min(shown / per, static_cast<float>(kMaxLightOrEmission));
-    helpTooltip(unit.help);
     ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(list);
     const char* names[std::size(kIntensityUnits)];
@@ -240,12 +249,13 @@ class LightsPanel : public Panel {
   /// Half-angles in degrees; the outer one is never within the inner one.
   static void drawCone(Light& light) {
     float inner = std::acos(light.innerCos) / kDegree, outer = std::acos(light.outerCos) / kDegree;
-    fieldLabel("outer angle", "Half of the cone's: no light beyond it");
+    fieldLabel("outer angle", "From the spot's axis to where its light ends, degrees (half of the cone)");
     if (ImGui::SliderFloat("##outer", &outer, 1, 90, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp)) {
       light.outerCos = std::cos(outer * kDegree);
       light.innerCos = std::max(light.innerCos, light.outerCos);
     }
-    fieldLabel("inner angle", "Half of the cone's: full light within it");
+    fieldLabel("inner angle",
+               "From the spot's axis to where its full light ends, degrees; it fades from there to the outer angle");
     if (ImGui::SliderFloat("##inner", &inner, 0, 90, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp)) {
       light.innerCos = std::cos(inner * kDegree);
       light.outerCos = std::min(light.innerCos, light.outerCos);

@@ -33,6 +33,9 @@ bool colorField(const char* id, glm::vec3& linear) {
 class MaterialsPanel : public Panel {
  public:
   const char* title() const override { return "Materials"; }
+  const char* help() const override {
+    return "Colours, reflection and emission of the scene's surfaces. Edits are kept beside the scene's file.";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -70,6 +73,7 @@ class MaterialsPanel : public Panel {
         if (found.empty() || found.back() != draw.material) found.push_back(draw.material);
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##search", "search", &search_);
+    helpTooltip("Materials whose name holds this are listed");
     const float row = ImGui::GetTextLineHeightWithSpacing(), em = ImGui::GetFontSize();
     if (found.empty()) return ImGui::TextColored(theme::dim, "none of that name");
     ImGui::BeginChild("##list", {0, std::min(static_cast<float>(found.size()), 6.0f) * row});
@@ -88,6 +92,7 @@ class MaterialsPanel : public Panel {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
         if (ImGui::Selectable("##", material == session.material)) session.material = shown_ = material;
+        helpTooltip("Click: choose it, to change it below. A click on a surface in the picture chooses its material.");
         const Material& m = scene.materials[material];
         const glm::vec3 shown = glm::convertLinearToSRGB(glm::vec3(m.baseColor));
         ImGui::GetWindowDrawList()->AddCircleFilled(
@@ -114,18 +119,24 @@ class MaterialsPanel : public Panel {
     const Material now = edited(file, edit);  // as edited, which the pipeline may yet have to take
     ImGui::PushID(names_[index].c_str());
 
-    fieldLabel("base color", "As shown on a display; files hold it linear. A texture is multiplied with it.");
+    fieldLabel(
+        "base color",
+        "Share of the light that it reflects, red, green and blue from 0 to 1, as shown on a display; files hold it "
+        "linear. A texture is multiplied with it.");
     if (glm::vec3 color(now.baseColor); colorField("##base", color)) edit.baseColor = color;
     ImGui::BeginDisabled(file.lambertian);
-    drawShare("metalness", "##metalness", "0: all but a mirror's share scatters in the base color; 1: nothing does",
+    drawShare("metalness", "##metalness",
+              "0: scatters light in its base color, as paint does; 1: reflects it in its base color, as metal does; "
+              "between: a "
+              "mixture",
               now.metallic, edit.metallic);
-    drawShare("roughness", "##roughness", "Of reflections: 0 a mirror, 1 as wide as they get", now.roughness,
-              edit.roughness);
+    drawShare("roughness", "##roughness", "How much it blurs what it reflects: 0 a mirror, 1 not at all like one",
+              now.roughness, edit.roughness);
     ImGui::EndDisabled();
     if (file.lambertian) ImGui::TextColored(theme::dim, "Lambertian (scene.lambertian): no reflections");
 
     const Emission own = emissionOf(file);
-    fieldLabel("emission", "Color of the light that it gives; as shown on a display");
+    fieldLabel("emission", "Color of the light that it gives, red, green and blue from 0 to 1, as shown on a display");
     if (glm::vec3 color = edit.emissionColor.value_or(own.color); colorField("##emission", color))
       edit.emissionColor = color;
     fieldLabel("strength", "Emitted radiance where the color is white, W/(m\u00B2 sr); 0: it gives no light");
@@ -154,7 +165,8 @@ class MaterialsPanel : public Panel {
 
     ImGui::BeginDisabled(isEmpty(edit));
     if (ImGui::Button("File's own")) session.edits.setMaterial({.material = names_[index]});
-    helpTooltip(fmt::format("\"{}\" as the scene's file has it", names_[index]));
+    helpTooltip(
+        [&] { return fmt::format("Takes all edits of \"{}\" back: it is as the scene's file has it", names_[index]); });
     ImGui::EndDisabled();
     ImGui::PopID();
   }
@@ -172,9 +184,9 @@ class MaterialsPanel : public Panel {
       const bool moves = cutByAlpha(file) && kMaterialTextures[i].use == &Material::baseColorTexture;
       if (ImGui::Checkbox(fmt::format("texture: {}", kTextureLabels[i]).c_str(), &on)) edit.texturesOff ^= 1u << i;
       helpTooltip(moves
-                      ? "Off: its color alone. The texture's alpha cuts the surface out, so that voxels and matrix are "
-                        "built again."
-                      : "Off: what is above alone");
+                      ? "Off: the surface has the base color above alone. The texture's alpha cuts the surface out, so "
+                        "that voxels and matrix are built again."
+                      : "Off: the surface has the values above alone, everywhere the same");
     }
   }
 
@@ -198,9 +210,14 @@ class MaterialsPanel : public Panel {
                               ? fmt::format("{} ms{}", milliseconds(times.settled), rebuilt ? ", rebuilt" : "")
                           : times.shown > 0 ? fmt::format("{} ms, light goes on", milliseconds(times.shown))
                                             : std::string("waits"));
-    helpTooltip(fmt::format("Until the light was at rest; the first picture after {} ms. {}", milliseconds(times.shown),
-                            rebuilt ? "It moved surfaces or brought the first light: voxels or rays were redone."
-                                    : "Facets were shaded anew and the light solved; no ray was traced."));
+    helpTooltip([&] {
+      return fmt::format(
+          "Time from the last edit of a material until the light was at rest; the first picture with it came after {} "
+          "ms. {}",
+          milliseconds(times.shown),
+          rebuilt ? "It moved surfaces or brought the first light: voxels or rays were redone."
+                  : "Facets were shaded anew and the light solved; no ray was traced.");
+    });
   }
 };
 

@@ -22,6 +22,9 @@ std::string bytesText(const std::optional<uint64_t>& bytes) {
 class MemoryPanel : public Panel {
  public:
   const char* title() const override { return "Memory"; }
+  const char* help() const override {
+    return "The device's memory: what every buffer and image takes, beside what its formula predicts";
+  }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {
@@ -30,9 +33,10 @@ class MemoryPanel : public Panel {
         static_cast<double>(memory.used()) / static_cast<double>(std::max<uint64_t>(memory.budget(), 1));
     ImGui::ProgressBar(static_cast<float>(share), {-1, ImGui::GetFontSize() * 0.5f}, "");
     valueRow("used", fmt::format("{} of {}", mebibytes(memory.used()), mebibytes(memory.budget())));
-    helpTooltip("Of what this process may take of the device's heap");
+    helpTooltip(
+        "Device memory in use, of what this process may take of the device's heap (MiB of 2\u00B2\u2070 bytes)");
     valueRow("peak", mebibytes(memory.peak()));
-    helpTooltip("The most that was used at any time since the program began");
+    helpTooltip("The most device memory that was in use at any time since the program began");
     if (ImGui::Button("Save CSV", {-1, 0})) session.recorder.memory = true;
     helpTooltip("Every row of this table in bytes, into a new folder");
 
@@ -92,6 +96,7 @@ class MemoryPanel : public Panel {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const bool open = ImGui::TreeNodeEx(group.name.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
+    helpTooltip("What its buffers and images take together; click: each of them");
     for (const auto& bytes : {group.measured, group.predicted}) {
       ImGui::TableNextColumn();
       rightText(bytesText(bytes));
@@ -105,8 +110,10 @@ class MemoryPanel : public Panel {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     clippedText(row.name, ImGui::GetContentRegionAvail().x);
-    helpTooltip(fmt::format("{}\n{}\n{} measured{}", row.name, row.format, counted(row.measured.value_or(0), "byte"),
-                            row.predicted ? fmt::format(", {} predicted", withThousands(*row.predicted)) : ""));
+    helpTooltip([&] {
+      return fmt::format("{}\n{}\n{} measured{}", row.name, row.format, counted(row.measured.value_or(0), "byte"),
+                         row.predicted ? fmt::format(", {} predicted", withThousands(*row.predicted)) : "");
+    });
     if (!row.format.empty()) {
       ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
       clippedText(row.format, ImGui::GetContentRegionAvail().x);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "renderer/base/near_match.h"
 #include "renderer/scene/nodes.h"
@@ -18,6 +20,7 @@ namespace {
 class ObjectsPanel : public Panel {
  public:
   const char* title() const override { return "Objects"; }
+  const char* help() const override { return "The nodes of the scene's file: choose them, hide them, show them alone"; }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -27,6 +30,7 @@ class ObjectsPanel : public Panel {
       ImGui::TextColored(theme::dim, "The scene has no named objects.");
       return;
     }
+    if (session.object != at_ && session.object) unfoldTo(scene, *session.object);
     learn(scene, session.edits.hidden);
     const bool chosen = session.object && *session.object < scene.nodes.size();
     if (chosen && named_ != session.object) path_ = nodePath(scene.nodes, *(named_ = session.object));
@@ -52,7 +56,10 @@ class ObjectsPanel : public Panel {
   std::vector<bool> shown_;        ///< per node
   std::optional<uint32_t> only_;   ///< the node that is isolated
   std::vector<uint32_t> level_;    ///< below the roots, per node
+  std::vector<bool> holds_;        ///< rows under its own, per node
+  std::set<uint32_t> folded_;      ///< nodes whose rows are not listed, but where one searches
   std::vector<uint32_t> found_;    ///< rows
+  bool relist_ = false;            ///< they are others, since one was folded or unfolded
   size_t objects_ = 0, away_ = 0;  ///< with meshes; those of them that are hidden
   std::optional<uint32_t> at_;     ///< that the list was scrolled to
   std::optional<uint32_t> named_;  ///< whose path this is:
@@ -64,8 +71,13 @@ class ObjectsPanel : public Panel {
     const bool same = first_ == nodes.data() && count_ == nodes.size() && scene_ == scene.path;
     if (!same) {
       level_.assign(nodes.size(), 0);
+      holds_.assign(nodes.size(), false);
       for (size_t i = 0; i < nodes.size(); ++i)
-        if (nodes[i].parent != SceneNode::kNoParent) level_[i] = level_[nodes[i].parent] + 1;
+        if (const uint32_t parent = nodes[i].parent; parent != SceneNode::kNoParent) {
+          level_[i] = level_[parent] + 1;
+          if (nodes[i].triangles > 0) holds_[parent] = true;
+        }
+      folded_.clear();
     }
     if (!same || hidden_ != hidden) {
       shown_ = shownNodes(nodes, hidden);
@@ -77,10 +89,12 @@ class ObjectsPanel : public Panel {
         away_ += !shown_[i];
       }
     }
-    if (!same || searched_ != search_) {
+    if (!same || searched_ != search_ || std::exchange(relist_, false)) {
       found_.clear();
-      for (uint32_t i = 0; i < nodes.size(); ++i)
+      for (uint32_t i = 0; i < nodes.size();) {
         if (nodes[i].triangles > 0 && containsAnyCase(nodes[i].name, search_)) found_.push_back(i);
+        i = search_.empty() && folded_.contains(i) ? nodes[i].end : i + 1;
+      }
     }
     if (!same) named_.reset();
     first_ = nodes.data();
@@ -90,9 +104,16 @@ class ObjectsPanel : public Panel {
     searched_ = search_;
   }
 
+  /// One that was chosen in the picture is listed.
+  void unfoldTo(const Scene& scene, uint32_t index) {
+    while (index < scene.nodes.size() && (index = scene.nodes[index].parent) != SceneNode::kNoParent)
+      relist_ |= folded_.erase(index) > 0;
+  }
+
   void drawList(Session& session, const Scene& scene) {
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##search", "search", &search_);
+    helpTooltip("Objects whose name holds this are listed");
     if (found_.empty()) return ImGui::TextColored(theme::dim, "none of that name");
     const float row = ImGui::GetTextLineHeightWithSpacing();
     ImGui::BeginChild("##list", {0, std::min(static_cast<float>(found_.size()), 8.0f) * row});
@@ -127,12 +148,21 @@ class ObjectsPanel : public Panel {
     helpTooltip(reason.empty() ? "Shown, with all under it: in the picture, in voxels, shadows and rays" : reason);
     ImGui::EndDisabled();
 
-    const float indent = em * (1.6f + (searched_.empty() ? 0.8f * std::min(level_[index], kMostIndented) : 0));
+    float indent = 1.6f * em;
+    if (searched_.empty()) {
+      indent += 0.8f * em * static_cast<float>(std::min(level_[index], kMostIndented));
+      if (holds_[index]) {
+        ImGui::SameLine(start + indent);
+        drawArrow(index);
+      }
+      indent += 1.4f * em;  // the arrow, and by how much a row reaches over its text
+    }
     ImGui::SameLine(start + indent);
     if (ImGui::Selectable("##", index == session.object, ImGuiSelectableFlags_AllowDoubleClick)) {
       session.object = at_ = index;
       if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) session.act(Action::FrameSelected);
     }
+    helpTooltip("Click: choose it, as a click in the picture does. Double click: it fills the picture.");
     const std::string count =
         node.instances > 1 ? fmt::format("\u00D7{}", withThousands(node.instances)) : std::string();
     const float countWidth = ImGui::CalcTextSize(count.c_str()).x;
@@ -145,6 +175,23 @@ class ObjectsPanel : public Panel {
       ImGui::TextColored(theme::dim, "%s", count.c_str());
     }
     ImGui::PopID();
+  }
+
+  /// Folds what is under a row, and unfolds it.
+  void drawArrow(uint32_t index) {
+    const bool folded = folded_.contains(index);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
+    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
+    if (ImGui::ArrowButton("fold", folded ? ImGuiDir_Right : ImGuiDir_Down)) {
+      relist_ = true;
+      if (folded)
+        folded_.erase(index);
+      else
+        folded_.insert(index);
+    }
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+    helpTooltip(folded ? "List the objects under it" : "Leave the objects under it out of the list");
   }
 
   /// Why its own box can change nothing; empty: it can.
@@ -185,10 +232,16 @@ class ObjectsPanel : public Panel {
 
   void drawFacts(const SceneNode& node) const {
     valueRow("path", path_);
+    helpTooltip("Its name behind those of the nodes that it is under: --hide and --isolate take it");
     valueRow("triangles", withThousands(node.triangles));
-    if (node.instances > 1) valueRow("instances", withThousands(node.instances));
+    helpTooltip("Of its meshes and of those under it, once per node that shows them");
+    if (node.instances > 1) {
+      valueRow("instances", withThousands(node.instances));
+      helpTooltip("Meshes that it and the nodes under it show");
+    }
     const glm::dvec3 size = node.boundsMax - node.boundsMin;
     valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g} m", size.x, size.y, size.z));
+    helpTooltip("Of the box around it, along x, y and z, metres");
   }
 };
 

@@ -15,6 +15,9 @@ namespace {
 class ScenePanel : public Panel {
  public:
   const char* title() const override { return "Scene"; }
+  const char* help() const override {
+    return "The file as it was loaded, the grid of voxels that was made of it, and what loading had to warn of";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -34,20 +37,20 @@ class ScenePanel : public Panel {
   static void drawCounts(const Session& session) {
     const Scene& scene = session.pipeline->scene();
     valueRow("file", scene.path.filename().string());
-    helpTooltip(scene.path.string());
+    helpTooltip("The scene's file: " + scene.path.string());
     valueRow("triangles", withThousands(scene.triangleCount()));
     helpTooltip("Of all meshes, once per node that shows them");
     valueRow("materials", fmt::format("{}, {}", scene.materials.size(), counted(scene.images.size(), "image")));
     helpTooltip("Materials, and the images that their textures are made of");
     valueRow("lights", lights(session.edits.lights));
-    helpTooltip("By kind, with those that are off");
+    helpTooltip("How many there are of each kind, with those that are off");
     const glm::vec3 size = scene.boundsMax - scene.boundsMin;
     valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", size.x, size.y, size.z));
     helpTooltip("Of the box around all surfaces along x, y and z, scene units (glTF's are metres)");
     if (!session.built) return;
     const Built& built = *session.built;
     valueRow("grid", fmt::format("{} \u00D7 {} \u00D7 {}", built.dims.x, built.dims.y, built.dims.z));
-    helpTooltip(fmt::format("Voxels along x, y and z, of edge {:.4g} m", built.edge));
+    helpTooltip([&] { return fmt::format("Voxels along x, y and z, of edge {:.4g} m", built.edge); });
     valueRow("facets", fmt::format("{} in {}", withThousands(built.facets), withThousands(built.solidVoxels)));
     helpTooltip("Pieces of surface that light is kept for, and the solid voxels that hold them");
     if (built.clampedAlbedo > 0) {
@@ -55,10 +58,8 @@ class ScenePanel : public Panel {
       helpTooltip("Facets whose albedo was outside 0 to .98, or no number");
     }
     const glm::vec3 part = built.region.hi - built.region.lo;
-    const std::string region =
-        built.region.whole ? "whole" : fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", part.x, part.y, part.z);
-    valueRow("region", region);
-    ImGui::tellControl(("region=" + region).c_str());
+    valueRow("region",
+             built.region.whole ? "whole" : fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", part.x, part.y, part.z));
     helpTooltip(
         "The part of the scene that has voxels (scene.region), m along x, y and z. What lies outside of it is lit "
         "directly and gives light, but passes none on.");
@@ -79,7 +80,7 @@ class ScenePanel : public Panel {
         session.edits.region =
             RegionBox{glm::vec3(origin + glm::dvec3(region.lo)), glm::vec3(origin + glm::dvec3(region.hi))};
     }
-    helpTooltip(box ? "scene.region=whole"
+    helpTooltip(box ? "Removes the box: all of the scene has voxels (scene.region=whole)"
                     : "A box that scene.region=auto takes, and that the sidecar keeps. It begins as the part that has "
                       "voxels now; its faces are dragged by their handles in the picture, and all voxels lie in it");
     ImGui::EndDisabled();
@@ -100,6 +101,7 @@ class ScenePanel : public Panel {
     ImGui::PushStyleColor(ImGuiCol_Text, theme::warning);
     const bool open = ImGui::TreeNodeEx("##warnings", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", title.c_str());
     ImGui::PopStyleColor();
+    helpTooltip("What is odd about the file, and what was made of it");
     if (!open) return;
     ImGui::PushTextWrapPos(0);
     for (const std::string& warning : scene.warnings) ImGui::TextUnformatted(warning.c_str());
@@ -112,6 +114,10 @@ class ScenePanel : public Panel {
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
         !path_.empty())
       session.open(path_);
+    helpTooltip(
+        "A scene (.glb, .gltf), a picture to compare with or a sky (.exr, .hdr), or edits (.irad.json); Return opens "
+        "it. "
+        "File > Open shows folders.");
   }
 };
 

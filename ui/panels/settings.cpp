@@ -17,6 +17,9 @@ namespace {
 class SettingsPanel : public Panel {
  public:
   const char* title() const override { return "Settings"; }
+  const char* help() const override {
+    return "How light is computed and shown. What is not the default is coloured, with a button that resets it.";
+  }
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
@@ -129,7 +132,10 @@ class SettingsPanel : public Panel {
     else
       line(theme::dim, "up to date");
     drawCost(session, line);
-    if (session.halted && ImGui::Button("Rebuild", {-1, 0})) session.rebuild = true;
+    if (session.halted) {
+      if (ImGui::Button("Rebuild", {-1, 0})) session.rebuild = true;
+      helpTooltip("Tries again what failed or was cancelled");
+    }
     ImGui::Checkbox("apply by hand", &session.preferences.applyByHand);
     helpTooltip(
         "Settings that rebuild wait, marked in the list, until Apply builds once for all of them. What only the "
@@ -139,6 +145,7 @@ class SettingsPanel : public Panel {
     ImGui::BeginDisabled(!session.pending);
     if (ImGui::Button("Apply", {button, 0})) session.applyNow = true;
     ImGui::EndDisabled();
+    helpTooltip("Builds once for all settings that wait");
   }
 
   /// What a rebuild will take, or the last one took beside what was predicted of it: always one line, too.
@@ -160,9 +167,9 @@ class SettingsPanel : public Panel {
     line(much ? theme::error : due ? theme::accent : theme::dim, text);
     ImGui::tellControl("cost", due);
     helpTooltip(text +
-                "\nTime until the new light is seen first, and device memory in use then. Predicted from the times of "
-                "the last build and its memory, by the growth with voxel.resolution and matrix.rays; what other "
-                "settings change is not foreseen.");
+                "\nSeconds until the new light is seen first, and the device memory then in use (MiB of 2\u00B2\u2070 "
+                "bytes). Predicted from the last build's by the growth with voxel.resolution and matrix.rays; what "
+                "other settings change is not foreseen.");
   }
 };
 

@@ -24,6 +24,7 @@ namespace {
 class SolverPanel : public Panel {
  public:
   const char* title() const override { return "Solver"; }
+  const char* help() const override { return "How far the indirect light has been solved, and whether that goes on"; }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {
@@ -78,13 +79,13 @@ class SolverPanel : public Panel {
     const SolveReport& report = session.built->solve;
     valueRow("frames", fmt::format("{} of {}", withThousands(report.frames),
                                    withThousands(session.pipeline->settings().solver.frames)));
-    helpTooltip("In the mean; a change of the scene or its light begins it anew");
+    helpTooltip("Frames of rays that the mean H is made of; a change of the scene or its light begins anew");
     valueRow("standard error", shortNumber(report.standardError) + " W/m\u00B2");
     helpTooltip(
         "Of H, from the spread of the frames: the mean over the facets' areas, of the brightest colour channel. The "
         "view standard-error shows each facet's");
     valueRow("ends below", shortNumber(report.allowed) + " W/m\u00B2");
-    helpTooltip("solver.tolerance of the mean H");
+    helpTooltip("The standard error at which it ends: solver.tolerance times the mean H");
     valueRow("indirect H", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
     helpTooltip(
         "Indirect irradiance H over all facets: its mean by their areas, and its largest; of the brightest colour "
@@ -92,7 +93,7 @@ class SolverPanel : public Panel {
     valueRow("largest row gain", shortNumber(report.largestGain));
     helpTooltip("The largest share of its light that a facet's rays of the last frame pass on");
     const PlotLine lines[] = {{"standard error", ImGui::GetColorU32(theme::accent), bound_}};
-    drawPlot(lines, "frame", "the standard error is drawn from the second frame on", "dashed: target, W/m\u00B2");
+    drawPlot(lines, "frame", "the standard error is drawn from the second frame on", "dashed: target");
   }
 
   std::vector<BoundSample> bounds_;
@@ -128,7 +129,7 @@ class SolverPanel : public Panel {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const ImVec2 third{std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3), 0};
     if (ImGui::Button(session.paused ? "Resume###pause" : "Pause###pause", third)) session.paused = !session.paused;
-    helpTooltip("Space");
+    helpTooltip(session.paused ? "Lets the solver go on (Space)" : "The light stays as it is until you resume (Space)");
     ImGui::SameLine();
     if (ImGui::Button("Step", third)) session.paused = session.step = true;
     helpTooltip("One sweep or frame, then pause");
@@ -185,7 +186,7 @@ class SolverPanel : public Panel {
   void drawCurves() const {
     const PlotLine lines[] = {{"error bound", ImGui::GetColorU32(theme::accent), bound_},
                               {"residual", ImGui::GetColorU32(theme::good), residual_}};
-    drawPlot(lines, "sweep", "residual and bound are drawn from the second frame on", "dashed: target, W/m\u00B2");
+    drawPlot(lines, "sweep", "residual and bound are drawn from the second frame on", "dashed: target");
   }
 
   /// Over `step`s, in the singular; `few`: in place of curves of one call, `mark`: what the dashed line is.
@@ -221,22 +222,27 @@ class SolverPanel : public Panel {
     }
     const EnergyBalance& energy = *built.solve.energy;
     const double area = built.edge * built.edge;
-    const auto watts = [&](const glm::dvec3& v) { return shortNumber(area * (v.x + v.y + v.z)) + " W"; };
+    const auto watts = [&](const glm::dvec3& v) { return fmt::format("{:.4g} W", area * (v.x + v.y + v.z)); };
     valueRow("energy in", watts(energy.entering));
-    helpTooltip("Emitted, and direct light that arrives: the sum over facets of A (M + D)");
+    helpTooltip(
+        "Power that enters the scene, W: emitted, and direct light that arrives. The sum over facets of A (M + D), A "
+        "their "
+        "areas");
     valueRow("absorbed", watts(energy.absorbed));
-    helpTooltip("The sum of A (1 \u2212 \u03C1)(D + H)");
+    helpTooltip("Power that surfaces take up, W: the sum over facets of A (1 \u2212 \u03C1)(D + H)");
     valueRow("escaped", watts(energy.escaped));
-    helpTooltip("The sum of A B (1 \u2212 row sum)");
+    helpTooltip("Power that leaves the scene, W: the sum over facets of A B (1 \u2212 row sum)");
     valueRow("imbalance", percentText(energy.imbalance(), 2, /*plus=*/true));
-    helpTooltip(describe(energy, built.edge));
+    helpTooltip(
+        "What enters less what is absorbed and what escapes, as a share of what enters: 0 but for what sweeps have "
+        "left\n" +
+        describe(energy, built.edge));
   }
 
   /// The numerical watch.
   static void drawWatch(const Built& built) {
     const SolveReport& report = built.solve;
-    valueRow("no number, \u221E, < 0",
-             fmt::format("{}, {}, {}", report.nan, report.nonFinite - report.nan, report.negative));
+    valueRow("NaN, inf, < 0", fmt::format("{}, {}, {}", report.nan, report.nonFinite - report.nan, report.negative));
     helpTooltip("Components of B that are no number, infinite or negative: all should be 0");
     ImGui::PushTextWrapPos(0);
     for (const Finding& finding : built.findings)

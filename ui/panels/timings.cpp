@@ -26,6 +26,9 @@ std::string withUnit(double value) {
 class TimingsPanel : public Panel {
  public:
   const char* title() const override { return "Timings"; }
+  const char* help() const override {
+    return "What each stage takes on the GPU: frame by frame, as a table, by build; recordings compared";
+  }
   Region region() const override { return Region::Bottom; }
 
   void draw(Session& session) override {
@@ -33,19 +36,24 @@ class TimingsPanel : public Panel {
     const ImVec2 begin = ImGui::GetCursorPos();
     if (drawControls(session)) ImGui::SetCursorPos(begin);
     if (!ImGui::BeginTabBar("tabs")) return;
-    if (ImGui::BeginTabItem("Plot")) {
+    const auto tab = [](const char* name, const char* help) {
+      const bool shown = ImGui::BeginTabItem(name);
+      helpTooltip(help);
+      return shown;
+    };
+    if (tab("Plot", "Milliseconds of each stage over the last frames, and of one frame what it is made of")) {
       drawPlot();
       ImGui::EndTabItem();
     }
-    if (ImGui::BeginTabItem("Table")) {
+    if (tab("Table", "Mean, extremes and percentiles of each stage over the last frames")) {
       drawTable(session);
       ImGui::EndTabItem();
     }
-    if (ImGui::BeginTabItem("One-time")) {
+    if (tab("One-time", "What each stage of a build took, by scene and resolution")) {
       drawOneTime();
       ImGui::EndTabItem();
     }
-    if (ImGui::BeginTabItem("Compare")) {
+    if (tab("Compare", "Two recordings, stage by stage")) {
       comparison_.draw(session.recorder);
       ImGui::EndTabItem();
     }
@@ -84,7 +92,7 @@ class TimingsPanel : public Panel {
     const float rest = ImGui::GetContentRegionAvail().x - width;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, rest));
     ImGui::Checkbox("log", &logarithmic_);
-    helpTooltip("The plot's milliseconds on a logarithmic axis");
+    helpTooltip("The plot's milliseconds on a logarithmic axis, so that short stages are seen beside long ones");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(combo);
     if (ImGui::BeginCombo("##window", fmt::format("{} frames", window_).c_str())) {
@@ -92,7 +100,7 @@ class TimingsPanel : public Panel {
         if (ImGui::Selectable(fmt::format("{} frames", frames).c_str(), frames == window_)) window_ = frames;
       ImGui::EndCombo();
     }
-    helpTooltip("How far plot and table look back");
+    helpTooltip("How many of the last frames plot and table are of");
     ImGui::SameLine();
     if (ImGui::Button(paused_ ? "Resume###pause" : "Pause###pause", {button("Resume"), 0})) paused_ = !paused_;
     helpTooltip("Holds plot and tables; the program goes on");

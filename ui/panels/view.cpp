@@ -35,6 +35,9 @@ std::string lightLabel(const Scene& scene, uint32_t index) {
 class ViewPanel : public Panel {
  public:
   const char* title() const override { return "View"; }
+  const char* help() const override {
+    return "What the picture shows, how its values become colours, and how often they occur";
+  }
   Region region() const override { return Region::Right; }
 
   void draw(Session& session) override {
@@ -43,7 +46,7 @@ class ViewPanel : public Panel {
     if (info != nullptr) {
       const std::string unit = shownQuantity(*info, session.edited).unit;
       valueRow("unit", unit.empty() ? "none" : prettyUnit(unit));
-      helpTooltip("Of the view's values, in the legend and in the status line");
+      helpTooltip("In which the view's values are given, in the legend and in the status line");
       drawShape(session, *info);
       if (info->isFrom(FROM_JUMP_FLOOD)) drawPass(session);
       if (info->isFrom(FROM_SHADOW_MAPS)) drawLight(session);
@@ -58,7 +61,9 @@ class ViewPanel : public Panel {
         }
         row(session, "camera.tone_curve");
       }
-      if (ImGui::TreeNodeEx("Histogram", ImGuiTreeNodeFlags_SpanAvailWidth)) {
+      const bool histogram = ImGui::TreeNodeEx("Histogram", ImGuiTreeNodeFlags_SpanAvailWidth);
+      helpTooltip("How often the view's values occur in the picture; the range's ends are dragged on it");
+      if (histogram) {
         drawHistogram(session, *info);
         ImGui::TreePop();
       }
@@ -66,7 +71,7 @@ class ViewPanel : public Panel {
     ImGui::Separator();
     const glm::dvec3 p = session.camera.camera().position;
     valueRow("position", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
-    helpTooltip("The camera's x, y, z in the scene's units, in glTF metres");
+    helpTooltip("The camera's x, y and z in the world, scene units (glTF's are metres)");
     valueRow("speed", fmt::format("{:.3g} units/s", session.camera.unitsPerSecond()));
     helpTooltip("At which keys fly, scene units a second; the wheel over the picture changes it");
     valueRow("picture", fmt::format("{} \u00D7 {}", session.targets.size.x, session.targets.size.y));
@@ -74,8 +79,7 @@ class ViewPanel : public Panel {
     if (ImGui::Button("Save (F12)", {-1, 0})) session.capture = true;
     helpTooltip(
         "This view at this size as PNG (as shown) and EXR (linear, before exposure and tone curve), and the manifest "
-        "that "
-        "`irad render --config` draws it from again. Shift + F12: all views.");
+        "that `irad render --config` draws it from again. Shift + F12: all views.");
   }
 
  private:
@@ -83,7 +87,8 @@ class ViewPanel : public Panel {
 
   static void drawCombo(Session& session, const ViewInfo* shown) {
     ImGui::SetNextItemWidth(-1);
-    if (!ImGui::BeginCombo("##view", shown ? shown->label : "?", ImGuiComboFlags_HeightLarge)) return;
+    if (!ImGui::BeginCombo("##view", shown ? shown->label : "?", ImGuiComboFlags_HeightLarge))
+      return helpTooltip("The quantity that the picture shows; the keys 1 to 9 choose the first ones (docs/views.md)");
     for (const char* group : groups()) {
       ImGui::TextColored(theme::dim, "%s", group);
       for (const ViewInfo& info : views()) {
@@ -126,17 +131,22 @@ class ViewPanel : public Panel {
     ImGui::PushID("pass");
     const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     bool changed = ImGui::ArrowButton("back", ImGuiDir_Left);
+    helpTooltip("The pass before");
     if (changed) --pass;
     ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
     const std::string label = pass == 0 ? "seeds" : fmt::format("pass %d of {}, step {}", last, 1 << (last - pass));
     changed |= ImGui::SliderInt("##slider", &pass, 0, last, label.c_str(), ImGuiSliderFlags_AlwaysClamp);
-    helpTooltip("view.jfa_pass\nJump-flood pass after which its seeds are shown");
+    helpTooltip(
+        "view.jfa_pass\nThe view shows what jump flooding knows after so many of its passes: of every voxel the "
+        "nearest "
+        "solid one. seeds: before the first.");
     ImGui::SameLine(0, gap);
     if (ImGui::ArrowButton("on", ImGuiDir_Right)) {
       ++pass;
       changed = true;
     }
+    helpTooltip("The pass after");
     ImGui::PopID();
     if (changed) setting = static_cast<uint32_t>(std::clamp(pass, 0, last));
   }
@@ -146,7 +156,8 @@ class ViewPanel : public Panel {
     const Scene& scene = session.pipeline->scene();
     uint32_t& light = session.edited.view.light;
     ImGui::SetNextItemWidth(-1);
-    if (!ImGui::BeginCombo("##light", lightLabel(scene, light).c_str())) return;
+    if (!ImGui::BeginCombo("##light", lightLabel(scene, light).c_str()))
+      return helpTooltip("view.light\nThe light whose shadow map the view shows");
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
       if (ImGui::Selectable(lightLabel(scene, i).c_str(), i == light)) light = i;
     ImGui::EndCombo();
@@ -181,11 +192,14 @@ class ViewPanel : public Panel {
     }
     if (session.range && session.rangeView == info.view) {
       valueRow("shown", fmt::format("{:.4g} to {:.4g}", session.range->low, session.range->high));
-      helpTooltip("The values at both ends of the colours, in the view's unit");
-      if (mode != RangeMode::manual && ImGui::Button("Keep this range", {-1, 0})) {
-        session.edited.view.low = std::max(session.range->low, -1e6f);
-        session.edited.view.high = std::min(session.range->high, 1e6f);
-        session.edited.view.range = RangeMode::manual;
+      helpTooltip("The values that the two ends of the colours stand for, in the view's unit");
+      if (mode != RangeMode::manual) {
+        if (ImGui::Button("Keep this range", {-1, 0})) {
+          session.edited.view.low = std::max(session.range->low, -1e6f);
+          session.edited.view.high = std::min(session.range->high, 1e6f);
+          session.edited.view.range = RangeMode::manual;
+        }
+        helpTooltip("The colours stand for these values in pictures to come, too (view.range = manual)");
       }
     }
     if (info.kind == VIEW_KIND_SIGNED) {

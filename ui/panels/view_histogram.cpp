@@ -153,6 +153,7 @@ void drawHistogram(Session& session, const ViewInfo& info) {
     helpTooltip("Red, green and blue, one over the other");
     ImGui::SameLine();
     if (ImGui::RadioButton("luminance", luminance)) luminance = true;
+    helpTooltip("Of red, green and blue together, as bright as they look");
   }
   const float em = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x, height = 6 * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();
