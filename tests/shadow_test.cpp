@@ -29,9 +29,9 @@ bool blocked(glm::vec3 p, glm::vec3 towards, glm::vec3 lo, glm::vec3 hi) {
 
 constexpr glm::vec3 kLo(-0.6f, 0.4f, -0.5f), kHi(0.5f, 1.1f, 0.4f);
 
-SceneBuilder occluderScene() {
+SceneBuilder occluderScene(float half = 3) {
   SceneBuilder b;
-  b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+  b.addQuad({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half});
   b.addBox(kLo, kHi);
   // From the far side of the light, low enough to see the floor around the box.
   b.addCamera({0, 6, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
@@ -78,6 +78,31 @@ TEST_F(Shadow, SunAgainstRays) {
       stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
 }
 
+// Texels are for what throws shadows: with the whole ground one would be a decimetre wide.
+TEST_F(Shadow, FarGroundTakesNoTexelsFromWhatStandsOnIt) {
+  for (const ShadowFilter filter : {ShadowFilter::pcf, ShadowFilter::hard, ShadowFilter::vsm}) {
+    SceneBuilder b = occluderScene(100);
+    const glm::vec3 d = glm::normalize(glm::vec3(0.7f, -1, 0.4f));
+    b.addLight(LightType::Sun, 10).direction = d;
+    Settings settings;
+    settings.light.shadowFilter = filter;
+    Stage stage(context(), b.finish(), settings);
+    EXPECT_LT(stage.device.lightValues[0].shadowTexel, 0.003f);
+    expectTruth(
+        stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
+  }
+}
+
+// A second ground below may lie in the first one's shadow, and a map holds both.
+TEST_F(Shadow, WhatTheGroundHidesStaysOnTheMap) {
+  SceneBuilder b = occluderScene();
+  b.addQuad({-20, -2, 20}, {40, 0, 0}, {0, 0, -40});
+  b.addQuad({-20, -3, 20}, {40, 0, 0}, {0, 0, -40});
+  b.addLight(LightType::Sun, 10).direction = {0, -1, 0};
+  Stage stage(context(), b.finish());
+  EXPECT_GT(stage.device.lightValues[0].shadowTexel, 40.0f / 2048);
+}
+
 TEST_F(Shadow, SpotAndPointAgainstRays) {
   for (const LightType type : {LightType::Spot, LightType::Point}) {
     SceneBuilder b = occluderScene();
@@ -110,12 +135,13 @@ TEST_F(Shadow, WideSpotUsesACube) {
 }
 
 TEST_F(Shadow, NoAcneAtAnyAngle) {
-  // A floor and a far, lower one that stretches the map: the sun from steep to grazing, all of the floor stays lit.
+  // A floor and far, lower ones that stretch the map: the sun from steep to grazing, all of the floor stays lit.
   for (const float degrees : {0.0f, 20.0f, 45.0f, 70.0f, 85.0f})
     for (const uint32_t pcf : {1u, 3u, 5u}) {
       SceneBuilder b;
       b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
       b.addQuad({-20, -2, 20}, {40, 0, 0}, {0, 0, -40});
+      b.addQuad({-20, -2.5f, 20}, {40, 0, 0}, {0, 0, -40});
       b.addCamera({0, 5, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
       const float a = glm::radians(degrees);
       b.addLight(LightType::Sun, kPi).direction = {std::sin(a) * 0.8f, -std::cos(a), std::sin(a) * 0.6f};
