@@ -1,8 +1,11 @@
 // Shadow maps: pictures of shadows against rays cast on the CPU, contacts, acne, layers.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
+#include "shaders/shared/glass.h"
 #include "tests/forward_support.h"
 
 namespace irad::test::shadow_suite {
@@ -118,6 +121,36 @@ TEST_F(Shadow, SpotAndPointAgainstRays) {
     expectTruth(
         stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3 p) { return at - p; }, rim);
   }
+}
+
+/// Of two panes one behind the other the light that passes is the product of what each lets through, and a filter of 4
+/// x 4 texels knows what one pane does.
+TEST(Screens, OfPanesAreIndependentAndEven) {
+  constexpr uint32_t kTexels = 64, kPanes = 24;
+  constexpr float kOne = 0.5f, kOther = 0.6f;
+  double off = 0;
+  int pairs = 0;
+  for (uint32_t a = 0; a < kPanes; ++a)
+    for (uint32_t b = 0; b < a; ++b, ++pairs) {
+      int both = 0;
+      for (uint32_t y = 0; y < kTexels; ++y)
+        for (uint32_t x = 0; x < kTexels; ++x)
+          both += texelThreshold(x, y, 3 * a) < kOne && texelThreshold(x, y, 3 * b) < kOther;
+      off += std::abs(both / double{kTexels * kTexels} - double{kOne * kOther});
+    }
+  EXPECT_LT(off / pairs, 0.01);
+  double square = 0;
+  for (uint32_t a = 0; a < kPanes; ++a)
+    for (uint32_t k = 0; k < 256; ++k) {
+      constexpr std::array<double, 4> kWeights{0.5, 1, 1, 0.5};  // of texels, half-way between two
+      double open = 0;
+      for (uint32_t i = 0; i < 16; ++i)
+        open += kWeights[i % 4] * kWeights[i / 4] * (texelThreshold(5 * k + i % 4, 3 * k + i / 4, 3 * a) < kOne);
+      square += std::pow(open / 9 - double{kOne}, 2);
+    }
+  const double grain = std::sqrt(square / (256 * kPanes));
+  fmt::print("two panes: {:.4f} off in the mean; one: grain {:.3f}\n", off / pairs, grain);
+  EXPECT_LT(grain, 0.05);  // by chance it would be .14
 }
 
 TEST_F(Shadow, WideSpotUsesACube) {
