@@ -86,7 +86,16 @@ uint64_t SurfaceContent::emission(std::span<const Material> materials) const {
 }
 
 uint64_t shadowContent(const GpuLight& light) {
-  return Digest().add(light.type).add(light.position).add(light.direction).add(light.range).add(light.outerCos).value();
+  // The map of a distant light has room for its penumbrae.
+  const float size = lightHas(light.type, LIGHT_DISTANT) ? light.size : 0.0f;
+  return Digest()
+      .add(light.type)
+      .add(light.position)
+      .add(light.direction)
+      .add(light.range)
+      .add(light.outerCos)
+      .add(size)
+      .value();
 }
 
 uint64_t lightContent(std::span<const GpuLight> lights) {

@@ -80,7 +80,72 @@ void fitPlanes(const Scene& scene, GpuLight& light) {
   light.shadowNear = std::min(static_cast<float>(std::max(farthest / 256.0, outside * 0.5)), 0.5f * light.shadowFar);
 }
 
-/// A parallel map encloses the vertices, tightly, in the light's own axes; a rim of 4 texels is left for the filter.
+/// Across a parallel light's way.
+struct Box2 {
+  glm::dvec2 lo{std::numeric_limits<double>::max()}, hi{std::numeric_limits<double>::lowest()};
+  void add(const Box2& other) {
+    lo = glm::min(lo, other.lo);
+    hi = glm::max(hi, other.hi);
+  }
+  double longest() const { return std::max(hi.x - lo.x, hi.y - lo.y); }
+};
+using Outline = std::array<glm::dvec2, 3>;
+
+/// Whether two triangles have more in common than a border, by the axes that could separate them.
+bool overlap(const Outline& a, const Outline& b, double slack) {
+  for (const Outline* of : {&a, &b})
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec2 edge = (*of)[(i + 1) % 3] - (*of)[i];
+      const glm::dvec2 axis(-edge.y, edge.x);
+      const auto along = [&](const Outline& t) {
+        return std::minmax({glm::dot(axis, t[0]), glm::dot(axis, t[1]), glm::dot(axis, t[2])});
+      };
+      const auto [aLo, aHi] = along(a);
+      const auto [bLo, bHi] = along(b);
+      if (std::min(aHi, bHi) - std::max(aLo, bLo) <= slack * glm::length(axis)) return false;
+    }
+  return true;
+}
+
+/// Where one thing may lie behind another, as the light sees them: the box around all triangles but for some of the
+/// largest that do not overlap each other. What these hide, or have hidden from them, is in it. So the ground
+/// around a house, however far it goes, takes no texels from the house.
+Box2 whereShadowsFall(const Scene& scene, const Basis& basis, const Box2& whole) {
+  constexpr size_t kMost = 256;
+  struct Large {
+    double size;
+    Outline outline;
+    Box2 box;
+  };
+  std::vector<Large> large;
+  Box2 rest;
+  for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
+    Outline outline;
+    Box2 box;
+    for (size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 p(scene.positions[scene.indices[i + k]]);
+      outline[k] = {glm::dot(basis[0], p), glm::dot(basis[1], p)};
+      box.add({outline[k], outline[k]});
+    }
+    if (box.longest() > whole.longest() / 16.0)
+      large.push_back({box.longest(), outline, box});
+    else
+      rest.add(box);
+  }
+  std::ranges::stable_sort(large, std::ranges::greater(), &Large::size);
+  size_t left = 0;
+  const auto overlaps = [&](const Large& one) {
+    return std::any_of(large.begin(), large.begin() + static_cast<std::ptrdiff_t>(left),
+                       [&](const Large& other) { return overlap(one.outline, other.outline, 1e-6 * whole.longest()); });
+  };
+  while (left < std::min(large.size(), kMost) && !overlaps(large[left])) ++left;
+  for (size_t i = left; i < large.size(); ++i) rest.add(large[i].box);
+  return rest.lo.x <= rest.hi.x ? rest : whole;
+}
+
+/// A parallel map encloses, in the light's own axes, all that is in the light's way, and of what is across it
+/// what may lie in a shadow or its penumbra, tightly; a rim of 4 texels is left for the filter. Beside the map all is
+/// lit (shaders/forward/shadow.glsl).
 void fitParallel(const Scene& scene, GpuLight& light, uint32_t resolution) {
   const Basis basis = basisAbout(light.direction);
   glm::dvec3 lo(std::numeric_limits<double>::max()), hi(std::numeric_limits<double>::lowest());
@@ -91,12 +156,18 @@ void fitParallel(const Scene& scene, GpuLight& light, uint32_t resolution) {
     hi = glm::max(hi, q);
   }
   if (scene.positions.empty()) lo = hi = glm::dvec3(0.0);
+  const Box2 whole{lo, hi}, fall = whereShadowsFall(scene, basis, whole);
+  const double penumbra = light.size * (hi.z - lo.z);
+  // Depths of a triangle much larger than the map are rounded to more than what the lookup's bias covers.
+  const double least = whole.longest() / 2.0 / 64.0;
+  lo = glm::dvec3(glm::max(glm::dvec2(lo), fall.lo - penumbra), lo.z);
+  hi = glm::dvec3(glm::min(glm::dvec2(hi), fall.hi + penumbra), hi.z);
   const glm::dvec3 centre = 0.5 * (lo + hi);
   glm::dvec3 half = 0.5 * (hi - lo);
   double largest = std::max({half.x, half.y, half.z});
   if (!(largest > 0.0)) largest = 1.0;
   const double rim = static_cast<double>(resolution) / (resolution - 8.0);
-  const double side = std::max({half.x, half.y, largest / 1024.0}) * rim;
+  const double side = std::max({half.x, half.y, least, largest / 1024.0}) * rim;
   const double depth = std::max(half.z, largest / 1024.0) * (1.0 + 1.0 / 256.0);
   light.shadowTexel = static_cast<float>(2.0 * side / resolution);
   light.shadowNear = 0.0f;

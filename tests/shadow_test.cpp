@@ -1,8 +1,11 @@
 // Shadow maps: pictures of shadows against rays cast on the CPU, contacts, acne, layers.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
+#include "shaders/shared/glass.h"
 #include "tests/forward_support.h"
 
 namespace irad::test::shadow_suite {
@@ -29,9 +32,9 @@ bool blocked(glm::vec3 p, glm::vec3 towards, glm::vec3 lo, glm::vec3 hi) {
 
 constexpr glm::vec3 kLo(-0.6f, 0.4f, -0.5f), kHi(0.5f, 1.1f, 0.4f);
 
-SceneBuilder occluderScene() {
+SceneBuilder occluderScene(float half = 3) {
   SceneBuilder b;
-  b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+  b.addQuad({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half});
   b.addBox(kLo, kHi);
   // From the far side of the light, low enough to see the floor around the box.
   b.addCamera({0, 6, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
@@ -78,6 +81,31 @@ TEST_F(Shadow, SunAgainstRays) {
       stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
 }
 
+// Texels are for what throws shadows: with the whole ground one would be a decimetre wide.
+TEST_F(Shadow, FarGroundTakesNoTexelsFromWhatStandsOnIt) {
+  for (const ShadowFilter filter : {ShadowFilter::pcf, ShadowFilter::hard, ShadowFilter::vsm}) {
+    SceneBuilder b = occluderScene(100);
+    const glm::vec3 d = glm::normalize(glm::vec3(0.7f, -1, 0.4f));
+    b.addLight(LightType::Sun, 10).direction = d;
+    Settings settings;
+    settings.light.shadowFilter = filter;
+    Stage stage(context(), b.finish(), settings);
+    EXPECT_LT(stage.device.lightValues[0].shadowTexel, 0.003f);
+    expectTruth(
+        stage.draw(VIEW_DIRECT, {160, 160}), stage.scene.cameras[0], [&](glm::vec3) { return -d * 100.0f; }, 0.02f);
+  }
+}
+
+// A second ground below may lie in the first one's shadow, and a map holds both.
+TEST_F(Shadow, WhatTheGroundHidesStaysOnTheMap) {
+  SceneBuilder b = occluderScene();
+  b.addQuad({-20, -2, 20}, {40, 0, 0}, {0, 0, -40});
+  b.addQuad({-20, -3, 20}, {40, 0, 0}, {0, 0, -40});
+  b.addLight(LightType::Sun, 10).direction = {0, -1, 0};
+  Stage stage(context(), b.finish());
+  EXPECT_GT(stage.device.lightValues[0].shadowTexel, 40.0f / 2048);
+}
+
 TEST_F(Shadow, SpotAndPointAgainstRays) {
   for (const LightType type : {LightType::Spot, LightType::Point}) {
     SceneBuilder b = occluderScene();
@@ -95,6 +123,36 @@ TEST_F(Shadow, SpotAndPointAgainstRays) {
   }
 }
 
+/// Of two panes one behind the other the light that passes is the product of what each lets through, and a filter of 4
+/// x 4 texels knows what one pane does.
+TEST(Screens, OfPanesAreIndependentAndEven) {
+  constexpr uint32_t kTexels = 64, kPanes = 24;
+  constexpr float kOne = 0.5f, kOther = 0.6f;
+  double off = 0;
+  int pairs = 0;
+  for (uint32_t a = 0; a < kPanes; ++a)
+    for (uint32_t b = 0; b < a; ++b, ++pairs) {
+      int both = 0;
+      for (uint32_t y = 0; y < kTexels; ++y)
+        for (uint32_t x = 0; x < kTexels; ++x)
+          both += texelThreshold(x, y, 3 * a) < kOne && texelThreshold(x, y, 3 * b) < kOther;
+      off += std::abs(both / double{kTexels * kTexels} - double{kOne * kOther});
+    }
+  EXPECT_LT(off / pairs, 0.01);
+  double square = 0;
+  for (uint32_t a = 0; a < kPanes; ++a)
+    for (uint32_t k = 0; k < 256; ++k) {
+      constexpr std::array<double, 4> kWeights{0.5, 1, 1, 0.5};  // of texels, half-way between two
+      double open = 0;
+      for (uint32_t i = 0; i < 16; ++i)
+        open += kWeights[i % 4] * kWeights[i / 4] * (texelThreshold(5 * k + i % 4, 3 * k + i / 4, 3 * a) < kOne);
+      square += std::pow(open / 9 - double{kOne}, 2);
+    }
+  const double grain = std::sqrt(square / (256 * kPanes));
+  fmt::print("two panes: {:.4f} off in the mean; one: grain {:.3f}\n", off / pairs, grain);
+  EXPECT_LT(grain, 0.05);  // by chance it would be .14
+}
+
 TEST_F(Shadow, WideSpotUsesACube) {
   SceneBuilder b = occluderScene();
   Light& light = b.addLight(LightType::Spot, 50);
@@ -110,12 +168,13 @@ TEST_F(Shadow, WideSpotUsesACube) {
 }
 
 TEST_F(Shadow, NoAcneAtAnyAngle) {
-  // A floor and a far, lower one that stretches the map: the sun from steep to grazing, all of the floor stays lit.
+  // A floor and far, lower ones that stretch the map: the sun from steep to grazing, all of the floor stays lit.
   for (const float degrees : {0.0f, 20.0f, 45.0f, 70.0f, 85.0f})
     for (const uint32_t pcf : {1u, 3u, 5u}) {
       SceneBuilder b;
       b.addQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
       b.addQuad({-20, -2, 20}, {40, 0, 0}, {0, 0, -40});
+      b.addQuad({-20, -2.5f, 20}, {40, 0, 0}, {0, 0, -40});
       b.addCamera({0, 5, 0}, {0, 0, 0}, 0.9f, {0, 0, -1});
       const float a = glm::radians(degrees);
       b.addLight(LightType::Sun, kPi).direction = {std::sin(a) * 0.8f, -std::cos(a), std::sin(a) * 0.6f};

@@ -28,6 +28,12 @@ bool hasCubeMap(GpuLight light) {
 /// stored` is blocked. Maps are compared here: kernels write them as colour (renderer/raster.h), and with SHADOW_VSM there is
 /// more in them than depth.
 
+/// Whether a flat map covers a point, but for half of its rim, over which filters reach. Beside the map of a distant light
+/// nothing is in its way (renderer/shadow.cpp); cones shine nowhere beside theirs.
+bool onFlatMap(vec3 ndc) {
+  return max(abs(ndc.x), abs(ndc.y)) <= 1.0 - 4.0 / float(textureSize(shadowFlat, 0).x);
+}
+
 /// The flat maps. Every tap compares with the depth that the receiver's own plane has at the tap (the plane's depth is
 /// affine in the map for both projections), so that the normal offset need only cover one bilinear footprint.
 float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset, float texel, uint pcf) {
@@ -35,6 +41,7 @@ float flatVisibility(GpuLight light, vec3 p, vec3 n, float cosine, float offset,
   vec4 clip = project(light.shadowMatrix, lifted);
   if (!(clip.w > 0.0)) return 1.0;
   vec3 ndc = clip.xyz / clip.w;
+  if (!onFlatMap(ndc)) return 1.0;
   // Two directions in the plane, carried through the projection, give d depth / d (x, y).
   vec3 a = abs(n);
   vec3 axis = a.x < a.y ? (a.x < a.z ? vec3(1, 0, 0) : vec3(0, 0, 1)) : (a.y < a.z ? vec3(0, 1, 0) : vec3(0, 0, 1));
@@ -122,6 +129,7 @@ MapGap mapGap(GpuLight light, vec3 p) {
     if (!(axial > 0.0)) return MapGap(0.0, 0.0);
     vec3 ndc = clip.xyz / clip.w;
     stored = textureLod(shadowFlat, vec3(ndc.xy * vec2(0.5, -0.5) + 0.5, float(light.shadowLayer)), 0.0).r;
+    if (!onFlatMap(ndc)) stored = 0.0;
     if (lightHas(light, LIGHT_DISTANT))
       return MapGap((stored - ndc.z) * light.shadowFar, (1.0 - ndc.z) * light.shadowFar);
   }
@@ -199,6 +207,7 @@ float varianceVisibility(GpuLight light, vec3 p) {
     vec4 clip = project(light.shadowMatrix, p);
     if (!(clip.w > 0.0)) return 1.0;
     vec3 ndc = clip.xyz / clip.w;
+    if (!onFlatMap(ndc)) return 1.0;
     distance = lightHas(light, LIGHT_DISTANT) ? 1.0 - ndc.z : clip.w / light.shadowFar;
     float size = float(textureSize(shadowFlat, 0).x);
     vec2 at = (ndc.xy * vec2(0.5, -0.5) + 0.5) * size - 0.5;

@@ -67,7 +67,7 @@ void main() {
     return;
   }
   if (SEEKS) {
-    facet = soughtFacet(surface, push.reverse, grid.dims, p, side, listed);
+    facet = soughtFacet(surface, push.reverse, grid.dims, p, viewer, side, listed);
     if (!listed || soughtLane() != 0u) return;
   } else {
     facet = facetAt(surface, push.reverse, grid.dims, p, side);

@@ -43,7 +43,7 @@ void main() {
   SurfaceArrays surface = p.surface.at[0];
   OuterArrays outer = surface.outer.at[0];
   TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, 0.0f);
-  SurfelPoint from = liftedPoint(surface, outer, outer.points.at[index]);
+  SurfelPoint from = liftedPoint(surface, outer, p.dims, outer.points.at[index]);
   float inner = p.hasFacets != 0u ? p.byFacets.at[0].power : 0.0f, power = p.power;
   vec3 sum = vec3(0.0f);
   for (uint k = 0u; k < OUTER_RAYS; ++k) {

@@ -21,7 +21,7 @@ void main() {
   TraceWorld world = TraceWorld(p.facets, p.chebyshev, p.dims, 0.0f);
   GpuScene scene = p.scene.at[0];
   OuterPoint point = outer.points.at[index];
-  SurfelPoint from = liftedPoint(surface, outer, point);
+  SurfelPoint from = liftedPoint(surface, outer, p.dims, point);
   vec3 position = p.origin + p.edge * from.position;
   vec3 direct = vec3(0.0f);
   for (uint i = 0u; anyLight() && i < scene.lightCount; ++i) {

@@ -4,7 +4,27 @@
 /// A share of a lattice's step by which its points lie off their triangle's edges, on which others may stand.
 const float INSET = 0.1f;
 
-SurfelPoint liftedPoint(SurfaceArrays surface, OuterArrays outer, OuterPoint point) {
+/// A point of a triangle that has a part outside the grid; where it lies inside, the nearest of those at the grid's border on
+/// the ways to the triangle's corners. Inside, what the grid is about may stand on it, and its shade is none of that which
+/// the point stands for.
+vec3 outOfGrid(uvec3 dims, Triangle t, vec3 at) {
+  vec3 end = vec3(dims);
+  if (any(lessThan(at, vec3(0.0f))) || any(greaterThanEqual(at, end))) return at;
+  vec3 corners[3] = vec3[3](t.a, t.b, t.c), found = at;
+  float least = 1e30f;
+  for (uint k = 0u; k < 3u; ++k) {
+    vec3 way = corners[k] - at;
+    float share = 1e30f;
+    for (int axis = 0; axis < 3; ++axis)
+      if (way[axis] != 0.0f) share = min(share, ((way[axis] > 0.0f ? end[axis] : 0.0f) - at[axis]) / way[axis]);
+    if (share > 1.0f || share * length(way) >= least) continue;
+    least = share * length(way);
+    found = at + share * way;
+  }
+  return found;
+}
+
+SurfelPoint liftedPoint(SurfaceArrays surface, OuterArrays outer, uvec3 dims, OuterPoint point) {
   uint triangle = point.side & ~SURFEL_BACK, edges = outer.lattice.at[triangle].edges;
   Triangle t = triangleAt(surface.corners, triangle);
   vec2 at = vec2(1.0f / 3.0f);
@@ -13,7 +33,7 @@ SurfelPoint liftedPoint(SurfaceArrays surface, OuterArrays outer, OuterPoint poi
     at += (vec2(1.0f / 3.0f) - at) * (INSET / float(edges));
   }
   vec3 facing = facingOf(t, (point.side & SURFEL_BACK) != 0u);
-  vec3 position = t.a + at.x * (t.b - t.a) + at.y * (t.c - t.a);
+  vec3 position = outOfGrid(dims, t, t.a + at.x * (t.b - t.a) + at.y * (t.c - t.a));
   return SurfelPoint(liftedOff(surface, triangle, position, facing), facing, triangle);
 }
 

@@ -57,9 +57,13 @@ Candidate bestOf(Candidate mine) {
   return best;
 }
 
+/// How far on the way to the viewer pixels are asked for, voxels: enough for what stands beside them to be in no doubt.
+const float NEARER = 8.0 * CUT_WIDTH;
+
 /// A lane's candidate where rounding has put a point of a triangle's side into another voxel: the first of the next ones
-/// in which the triangle has a piece there.
-Candidate foundByRounding(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side) {
+/// in which the triangle has a piece there. What stands on it is asked `nearer` to the viewer, to whom the way is clear: of a
+/// floor at the foot of a wall a pixel may be drawn that lies a rounding behind the wall, in the dark.
+Candidate foundByRounding(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, vec3 nearer, uint side) {
   const float ROUNDING = 1e-2;
   ivec3 cell = ivec3(floor(p));
   vec3 inside = p - vec3(cell);
@@ -68,7 +72,7 @@ Candidate foundByRounding(SurfaceArrays surface, UintArray reverse, uvec3 dims, 
     ivec3 corner = ivec3(i & 1u, (i >> 1) & 1u, i >> 2);
     if (corner * abs(beside) != corner) continue;
     uint entry = entryOf(reverse, dims, cell + corner * beside);
-    uint facet = entry == NO_FACET ? NO_FACET : facetInVoxel(surface, entry, p, side);
+    uint facet = entry == NO_FACET ? NO_FACET : facetInVoxel(surface, entry, nearer, side);
     if (facet != NO_FACET) return Candidate(facet, float(i));
   }
   return NO_CANDIDATE;
@@ -137,18 +141,18 @@ Candidate foundIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 lo
   return found;
 }
 
-/// The facet of a point of a triangle's side: where rounding has put it into another voxel, in the next one; where no
-/// surfel of the side is seen from p, that of the nearest surfel that is, in its voxel or else in the 27 around; where
-/// none is seen in a crowd, a likely one. All invocations of a workgroup call it, those of pixels past the list's end with
-/// `listed` false.
-uint soughtFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, uint side, bool listed) {
+/// The facet of a point of a triangle's side, seen from the direction `viewer`: where rounding has put it into another
+/// voxel, in the next one; where no surfel of the side is seen from p, that of the nearest surfel that is, in its voxel or
+/// else in the 27 around; where none is seen in a crowd, a likely one. All invocations of a workgroup call it, those of
+/// pixels past the list's end with `listed` false.
+uint soughtFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, vec3 viewer, uint side, bool listed) {
   SurfelPoint point = SurfelPoint(p, vec3(0.0), 0u);
   Candidate mine = NO_CANDIDATE;
   if (listed) {
     point.triangle = firstInPlace(surface.corners, side & ~SURFEL_BACK);
     side = point.triangle | (side & SURFEL_BACK);
     point.facing = triangleFacing(surface, side);
-    mine = foundByRounding(surface, reverse, dims, p, side);
+    mine = foundByRounding(surface, reverse, dims, p, p + NEARER * viewer, side);
   }
   uint found = bestOf(mine).facet;
   bool seeks = listed && found == NO_FACET;

@@ -35,10 +35,28 @@ IRAD_FN float screenThreshold(uint bit, uint seed) {
   return unitFloat((rank << 26) + hashUint(seed));
 }
 
-/// The same of a texel of a shadow map: any few neighbours have thresholds that are spread evenly (a Kronecker sequence
-/// in two dimensions, by the powers of the root of x^3 = x + 1).
+/// Steps of the thresholds from a texel of a shadow map to the next, across and down: Kronecker sequences in two dimensions, in
+/// which any few neighbours are spread evenly. The first is by the powers of the root of x^3 = x + 1; the others were
+/// sought among random ones, as even under a filter of 4 x 4 texels, and each independent of all before it.
+IRAD_FN uvec2 screenSteps(uint k) {
+  if (k == 0u) return uvec2(3242174889u, 2447445414u);
+  if (k == 1u) return uvec2(1565279396u, 507484357u);
+  if (k == 2u) return uvec2(1086790762u, 2510552392u);
+  if (k == 3u) return uvec2(2982751720u, 918818908u);
+  if (k == 4u) return uvec2(1720594287u, 1086420356u);
+  if (k == 5u) return uvec2(572279714u, 1615624954u);
+  if (k == 6u) return uvec2(3426901417u, 2805802779u);
+  return uvec2(2925646701u, 3250989466u);
+}
+
+/// The same of a texel of a shadow map. One sequence, however shifted, says of each texel whether it passes a second pane by
+/// whether it has passed the first; so `seed` chooses among 32: the eight, mirrored and with their axes swapped.
 IRAD_FN float texelThreshold(uint x, uint y, uint seed) {
-  return unitFloat(x * 3242174889u + y * 2447445414u + hashUint(seed));
+  uint hash = hashUint(seed);
+  uvec2 steps = screenSteps(hash & 7u);
+  uint across = (hash & 8u) != 0u ? ~steps.x + 1u : steps.x;
+  bool swapped = (hash & 16u) != 0u;
+  return unitFloat((swapped ? y : x) * across + (swapped ? x : y) * steps.y + hash);
 }
 
 IRAD_END
