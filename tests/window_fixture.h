@@ -62,7 +62,7 @@ class WindowTest : public ::testing::Test {
     return std::any_of(all.begin(), all.end(), [&](const Control& c) { return c.name == name; });
   }
   /// Waits until there is such a control, or none.
-  bool appears(const std::string& name, bool wanted = true, double seconds = 20) {
+  bool appears(const std::string& name, bool wanted = true, double seconds = 60) {
     for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); Clock::now() < end; pause(0.02))
       if (has(name) == wanted) return true;
     return false;
