@@ -60,7 +60,7 @@ class Program {
   /// At once, as a crash would.
   void killNow() {
     kill(process_.pid(), SIGKILL);
-    wait(5);
+    wait(60);  // until then it holds its files' locks
   }
   bool running() { return !process_.poll(); }
   /// Exit status, or -1 when it still runs after `seconds`.
