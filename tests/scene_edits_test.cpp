@@ -1,5 +1,5 @@
-// What the window's user makes of a scene: lights, materials, objects, bookmarks and region, their names, what is unsaved,
-// where it is kept.
+// What the window's user makes of a scene: lights, materials, objects, bookmarks and region, their names, what is
+// unsaved, where it is kept.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
