@@ -411,6 +411,9 @@ TEST_F(Views, ShadowsOfALight) {
   SceneBuilder b;
   b.addQuad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
   b.addBox({-0.5f, 1, -0.5f}, {0.5f, 1.01f, 0.5f});
+  // Two pebbles, between which the map reaches.
+  b.addBox({-1.6f, 0, -1.6f}, {-1.5f, 0.02f, -1.5f});
+  b.addBox({1.5f, 0, 1.5f}, {1.6f, 0.02f, 1.6f});
   b.addLight(LightType::Sun, kPi).direction = {0, -1, 0};
   b.addCamera({0, 0.5, 6}, {0, 0, 0}, 0.6f);
   Lit lit(context(), b.finish(), smallSettings());
