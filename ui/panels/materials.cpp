@@ -127,8 +127,7 @@ class MaterialsPanel : public Panel {
     ImGui::BeginDisabled(file.lambertian);
     drawShare("metalness", "##metalness",
               "0: scatters light in its base color, as paint does; 1: reflects it in its base color, as metal does; "
-              "between: a "
-              "mixture",
+              "between: a mixture",
               now.metallic, edit.metallic);
     drawShare("roughness", "##roughness", "How much it blurs what it reflects: 0 a mirror, 1 not at all like one",
               now.roughness, edit.roughness);
