@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "renderer/base/error.h"
 #include "renderer/depth_pass.h"
@@ -109,8 +110,8 @@ bool overlap(const Outline& a, const Outline& b, double slack) {
 
 /// Where one thing may lie behind another, as the light sees them: the box around all triangles but for some of the
 /// largest that do not overlap each other. What these hide, or have hidden from them, is in it. So the ground
-/// around a house, however far it goes, takes no texels from the house.
-Box2 whereShadowsFall(const Scene& scene, const Basis& basis, const Box2& whole) {
+/// around a house, however far it goes, takes no texels from the house. `across`: the vertices.
+Box2 whereShadowsFall(const Scene& scene, const std::vector<glm::dvec2>& across, const Box2& whole) {
   constexpr size_t kMost = 256;
   struct Large {
     double size;
@@ -123,8 +124,7 @@ Box2 whereShadowsFall(const Scene& scene, const Basis& basis, const Box2& whole)
     Outline outline;
     Box2 box;
     for (size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 p(scene.positions[scene.indices[i + k]]);
-      outline[k] = {glm::dot(basis[0], p), glm::dot(basis[1], p)};
+      outline[k] = across[scene.indices[i + k]];
       box.add({outline[k], outline[k]});
     }
     if (box.longest() > whole.longest() / 16.0)
@@ -149,14 +149,17 @@ Box2 whereShadowsFall(const Scene& scene, const Basis& basis, const Box2& whole)
 void fitParallel(const Scene& scene, GpuLight& light, uint32_t resolution) {
   const Basis basis = basisAbout(light.direction);
   glm::dvec3 lo(std::numeric_limits<double>::max()), hi(std::numeric_limits<double>::lowest());
+  std::vector<glm::dvec2> across;
+  across.reserve(scene.positions.size());
   for (const glm::vec3& p : scene.positions) {
     const glm::dvec3 q(glm::dot(basis[0], glm::dvec3(p)), glm::dot(basis[1], glm::dvec3(p)),
                        glm::dot(basis[2], glm::dvec3(p)));
+    across.emplace_back(q);
     lo = glm::min(lo, q);
     hi = glm::max(hi, q);
   }
   if (scene.positions.empty()) lo = hi = glm::dvec3(0.0);
-  const Box2 whole{lo, hi}, fall = whereShadowsFall(scene, basis, whole);
+  const Box2 whole{lo, hi}, fall = whereShadowsFall(scene, across, whole);
   const double penumbra = light.size * (hi.z - lo.z);
   // Depths of a triangle much larger than the map are rounded to more than what the lookup's bias covers.
   const double least = whole.longest() / 2.0 / 64.0;
