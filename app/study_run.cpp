@@ -501,7 +501,9 @@ void StudyRun::measureTimes(const std::vector<size_t>& asked, uint32_t repeats) 
       const bool warms = round == 0;
       if (warms ? folder_->results.hasFailed(point) : !due(point, round - 1)) continue;
       attempt(point, [&] {
-        pipeline.set(grid_.settings(point));
+        Settings settings = grid_.settings(point);
+        if (warms) settings.solver.frames = 1;  // brute force: by then all is compiled and allocated
+        pipeline.set(settings);
         bench_->rebuild();
         bench_->relight();
         bench_->cameraFrame();

@@ -6,6 +6,7 @@
 
 #include "gi/group_by_material.h"
 #include "gi/scan.h"
+#include "gi/scene_shape.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/voxel_pass.h"
@@ -95,21 +96,24 @@ FacetArrays FacetList::arrays(const std::function<uint64_t(const Buffer&)>& addr
   return arrays;
 }
 
-FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
                      const std::function<void()>& watch) {
   requireMatching(settings);
-  if (settings.matrix.gpu.hitRule == HitRule::triangles) return listFacets(context, scene, settings, watch);
+  if (settings.matrix.gpu.hitRule == HitRule::triangles) return listFacets(context, scene, shape, settings, watch);
   Voxels voxels = voxelize(context, scene, settings);
   if (watch) watch();
   return compactFacets(context, voxels, settings);
 }
 
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings) {
+  return makeFacets(context, scene, shapeOf(scene.scene, settings), settings);
+}
+
 void shadeAnew(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Settings& settings,
-               FacetList& list, FacetParts& parts) {
+               FacetList& list, const FacetParts& parts) {
   const bool emission = keepsEmission(scene, settings);
   constexpr const char* kStage = "GI Materials";
   shadeOuter(context, scene, list.outer);
-  if (list.surface && list.count > 0 && !parts) parts = listParts(context, scene, settings);
   if (emission != list.hasEmission) {
     list.emission = emissionBuffer(context.device, list.count, emission);
     list.hasEmission = emission;

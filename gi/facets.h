@@ -19,6 +19,7 @@ class Context;
 class Device;
 class HostTrace;
 class SceneOnDevice;
+struct SceneShape;
 struct Settings;
 struct Voxels;
 
@@ -42,13 +43,14 @@ struct FacetList {
 };
 /// The list that the hit rule goes by: by classes of surfels (listFacets), or a plane facet for each solid voxel.
 /// `watch`, which may be empty, is called between submissions: what it throws ends the work.
-FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
                      const std::function<void()>& watch = {});
+/// With the shape that this scene has by these settings.
+FacetList makeFacets(Context& context, const SceneOnDevice& scene, const Settings& settings);
 /// Albedo, exitance and normals of a list anew, by the scene's materials as they are: the same bits as in a list that
-/// is made with them. `parts`: made where they are called for and not there yet; they serve until the list is another
-/// one.
+/// is made with them. `parts`: listParts(), of a list that has a surface.
 void shadeAnew(Context& context, const SceneOnDevice& scene, const Buffer& gridRecord, const Settings& settings,
-               FacetList& list, FacetParts& parts);
+               FacetList& list, const FacetParts& parts);
 /// A plane facet for each solid voxel, for the thesis's hit rule: Morton-ordered compaction by prefix sum, then the
 /// attributes of every facet. Frees the keys of `voxels`.
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings);

@@ -30,9 +30,7 @@ void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& fa
   push.origin = facets.grid.origin;
   push.edge = facets.grid.edge;
   push.dims = facets.grid.dims;
-  pass.shader("gi/gather_surfels.comp")
-      .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
-      .constant(CONSTANT_TINTED, facets.surface.tinted);
+  mayMeet(pass.shader("gi/gather_surfels.comp"), facets).constant(CONSTANT_TRACE_METHOD, exactTraversal(field));
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.push(push).dispatch(uint64_t{facets.count} * FACET_SURFELS);
 }

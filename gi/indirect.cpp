@@ -77,9 +77,8 @@ void checkDirect(Frame& frame, const SceneOnDevice& scene, const IndirectInputs&
   push.edge = from.facets->grid.edge;
   push.dims = from.facets->grid.dims;
   push.doubted = pass.in(targets.doubted);
-  pass.shader("gi/direct_seen.comp")
+  mayMeet(pass.shader("gi/direct_seen.comp"), *from.facets)
       .constant(CONSTANT_TRACE_METHOD, exactTraversal(*from.field))
-      .constant(CONSTANT_TINTED, from.facets->surface.tinted)
       .constant(CONSTANT_TARGETS, targets.present());
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.read(targets.indirect)

@@ -246,9 +246,8 @@ void lightFromEmitters(Frame& frame, const FacetList& facets, const Emitters& in
   push.count = outer.count;
   push.hasFacets = inGrid.count > 0;
   push.power = inGrid.power + outer.emitters.power;
-  pass.shader("gi/outer_emitters.comp")
+  mayMeet(pass.shader("gi/outer_emitters.comp"), facets)
       .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
-      .constant(CONSTANT_TINTED, facets.surface.tinted)
       .push(push)
       .dispatch(outer.count);
 }
@@ -281,9 +280,7 @@ void lightOuter(Frame& frame, const SceneOnDevice& scene, const FacetList& facet
   push.dims = facets.grid.dims;
   push.count = outer.count;
   push.emitterPower = power;
-  pass.shader("gi/outer_light.comp")
-      .constant(CONSTANT_TRACE_METHOD, exactTraversal(field))
-      .constant(CONSTANT_TINTED, facets.surface.tinted);
+  mayMeet(pass.shader("gi/outer_light.comp"), facets).constant(CONSTANT_TRACE_METHOD, exactTraversal(field));
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.push(push).dispatch(outer.count);
 }

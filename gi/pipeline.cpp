@@ -23,6 +23,7 @@
 #include "gi/plan.h"
 #include "gi/products.h"
 #include "gi/scatter.h"
+#include "gi/scene_shape.h"
 #include "gi/shadow_needs.h"
 #include "gi/sky.h"
 #include "gi/solve.h"
@@ -82,7 +83,8 @@ struct Pipeline::Impl {
   // like one.
   SurfaceContent surfaces;
   SceneContent content;
-  SceneRegion region;  ///< that has voxels, by the settings
+  SceneRegion region;                          ///< that has voxels, by the settings
+  std::optional<std::vector<SamePlace>> same;  ///< once something has been built
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
 
@@ -160,6 +162,12 @@ struct Pipeline::Impl {
     const bool same =
         wanted.scene.region == settings.scene.region && wanted.matrix.gpu.hitRule == settings.matrix.gpu.hitRule;
     return same ? region : regionOrWhole(scene, wanted);
+  }
+  /// UsageError where the box that settings or scene ask for holds nothing of it, of which `region` says nothing.
+  SceneShape shape() {
+    if (!same) same = samePlaces(scene);
+    const bool boxed = settings.scene.region.mode == RegionMode::box || scene.region;
+    return {boxed ? regionOf(scene, settings) : region, *same};
   }
   static uint64_t regionKey(const SceneRegion& of) { return Digest().add(of.lo).add(of.hi).value(); }
   void lookAtRegion(const SceneRegion& now) {
@@ -287,7 +295,7 @@ struct Pipeline::Impl {
     const Settings& obeyed = planned.settings();
     if (p.facets->surface && p.facets->count > 0 && !p.parts) {
       const auto start = std::chrono::steady_clock::now();
-      p.parts = listParts(context, onDevice, obeyed);
+      p.parts = listParts(context, onDevice, shape(), obeyed);
       context.timings.endFrame(frameIndex, /*setup=*/true, since(start));
     }
     const auto start = std::chrono::steady_clock::now();
@@ -315,7 +323,7 @@ struct Pipeline::Impl {
     // for, with what albedo, normal and emission; in Morton order, with the map back from voxels.
     if (first <= Redo::Voxels) {
       report("GI Voxelization", 0);
-      p.facets = makeFacets(context, onDevice, obeyed, [&] { report("GI Voxelization", 0); });
+      p.facets = makeFacets(context, onDevice, shape(), obeyed, [&] { report("GI Voxelization", 0); });
       p.gridRecord = makeBuffer<Grid>(context, "Grid", Subsystem::Voxels, std::span<const Grid>(&p.facets->grid, 1));
       p.emitters = listEmitters(context, *p.facets);
       p.emissiveTriangles = listEmissiveTriangles(context, onDevice, planned.traits.materials, *p.facets, p.gridRecord);

@@ -25,13 +25,16 @@ uint32_t exactTraversal(const Field& field) {
   return field.chebyshev ? TRACE_SKIP : TRACE_DDA_REVERSE;
 }
 
+Pass& mayMeet(Pass& pass, const FacetList& facets) {
+  return pass.constant(CONSTANT_TINTED, facets.surface.tinted).effect(CONSTANT_OUTER, static_cast<bool>(facets.outer));
+}
+
 Pass& RayKernel::configure(Pass& pass, const Device& device, const std::string& name) const {
   const bool jfa = method == TRACE_JFA;
-  pass.shader(name + (jfa ? "_jfa.comp" : ".comp"))
+  mayMeet(pass.shader(name + (jfa ? "_jfa.comp" : ".comp")), facets)
       .constant(CONSTANT_TRACE_METHOD, method)
       .constant(CONSTANT_TRACE_HIT_RULE, hitRule)
-      .constant(CONSTANT_NORMALS, encoding)
-      .constant(CONSTANT_TINTED, facets.surface.tinted);
+      .constant(CONSTANT_NORMALS, encoding);
   if (jfa)
     pass.sample(field.jumpFlood.distance, sampler(device, {.u = Wrap::Clamp,
                                                            .v = Wrap::Clamp,

@@ -29,6 +29,8 @@ struct RayKernel {
   uint64_t chebyshev(Pass& pass) const { return pass.inIfAny(field.chebyshev); }
 };
 RayKernel rayKernel(const FacetList& facets, const Field& field, const MatrixParams& params);
+/// What rays may meet there beside opaque triangles within the grid: constants of every kernel that traces some.
+Pass& mayMeet(Pass& pass, const FacetList& facets);
 /// TRACE_* of rays that meet what is there whatever the settings say (shadow rays): by the field's bytes, if there are
 /// any.
 uint32_t exactTraversal(const Field& field);

@@ -11,6 +11,7 @@
 #include "gi/field.h"
 #include "gi/lighting.h"
 #include "gi/picked.h"
+#include "gi/ray_kernel.h"
 #include "gi/settings.h"
 #include "gi/specular_pass.h"
 #include "gi/subsystems.h"
@@ -86,10 +87,10 @@ Pass& addRays(const SpecularPicture& picture, Pass& pass, const Emitters* emitte
   push.glossy = pass.inIfAny(targets.glossy);
   if (emitters != nullptr) push.emitters = pass.in(emitters->record);
   if (picture.inputs.sky != nullptr) push.sky = pass.in(*picture.inputs.sky);
-  return pass.constant(CONSTANT_TRACE_METHOD, picture.method)
+  return mayMeet(pass, facets)
+      .constant(CONSTANT_TRACE_METHOD, picture.method)
       .constant(CONSTANT_TRACE_HIT_RULE, picture.settings.matrix.gpu.hitRule)
       .constant(CONSTANT_NORMALS, facets.encoding)
-      .constant(CONSTANT_TINTED, facets.surface.tinted)
       .constant(CONSTANT_TRACE_EMITTERS, emitters != nullptr)
       .constant(CONSTANT_SKY, picture.inputs.sky != nullptr)
       .sample(targets.depth, pointSampler(picture.frame.context().device))

@@ -9,9 +9,8 @@
 #include "gi/facets.h"
 #include "gi/grid.h"
 #include "gi/group_by_material.h"
-#include "gi/region.h"
-#include "gi/repeated.h"
 #include "gi/scan.h"
+#include "gi/scene_shape.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
 #include "gi/voxel_pass.h"
@@ -415,7 +414,7 @@ struct Listed {
   FacetParts parts;
 };
 
-Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings& settings,
+Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
                    const std::function<void()>& watch = {}) {
   const auto look = [&] {
     if (watch) watch();
@@ -424,17 +423,17 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const Settings&
   const uint32_t triangles = scene.scene.triangleCount();
   Listed listed;
   FacetList& list = listed.list;
-  const SceneRegion& region = list.region = regionOf(scene.scene, settings);
+  const SceneRegion& region = list.region = shape.region;
   list.grid = makeGrid(region.lo, region.hi, settings.voxel.resolution);
   list.encoding = settings.voxel.normals;
   list.hasEmission = keepsEmission(scene, settings);
   listed.grid = makeBuffer<Grid>(context, "grid", Subsystem::Voxels, std::span(&list.grid, 1));
   const Buffer& grid = listed.grid;
   Surface& surface = list.surface;
-  surface.tinted =
-      std::ranges::any_of(flagsOfTriangles(scene), [](uint32_t flags) { return (flags & MATERIAL_TRANSMISSIVE) != 0; });
+  const std::vector<uint32_t> flags = flagsOfTriangles(scene);
+  surface.tinted = std::ranges::any_of(flags, [](uint32_t f) { return (f & MATERIAL_TRANSMISSIVE) != 0; });
   surface.corners = words(device, "triangles' corners", 12ull * triangles);
-  const std::vector<uint32_t> repeated = repeatedTriangles(scene);
+  const std::vector<uint32_t> repeated = repeatedTriangles(shape.samePlaces, flags);
   list.outer = makeOuter(context, scene, region, list.grid, repeated);
   if (surface.tinted && list.outer.count > (1u << TINT_SHIFT_SKY) - SKY_BINS)
     throw UsageError(fmt::format(
@@ -553,9 +552,9 @@ uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& sc
   return downloadAs<uint32_t>(context, clamped).at(0);
 }
 
-FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
                      const std::function<void()>& watch) {
-  Listed listed = listSurface(context, scene, settings, watch);
+  Listed listed = listSurface(context, scene, shape, settings, watch);
   if (watch) watch();
   FacetList& facets = listed.list;
   if (facets.count > 0)
@@ -564,8 +563,8 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const Setting
   return std::move(facets);
 }
 
-FacetParts listParts(Context& context, const SceneOnDevice& scene, const Settings& settings) {
-  return std::move(listSurface(context, scene, settings).parts);
+FacetParts listParts(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings) {
+  return std::move(listSurface(context, scene, shape, settings).parts);
 }
 
 }  // namespace irad

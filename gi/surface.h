@@ -10,6 +10,7 @@ namespace irad {
 class Context;
 class SceneOnDevice;
 struct FacetList;
+struct SceneShape;
 struct Settings;
 
 /// What rays meet: the triangles that have a piece in a voxel, which facet each side of a piece belongs to, and points
@@ -33,11 +34,11 @@ struct FacetParts {
 
 /// The list of facets by classes of surfels: as many in a voxel as its surface has sides. `watch`: as makeFacets has
 /// it.
-FacetList listFacets(Context& context, const SceneOnDevice& scene, const Settings& settings,
+FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
                      const std::function<void()>& watch = {});
 /// The parts of the list that listFacets() makes: it does not keep them, since they are larger than itself and only
 /// edits of materials ask for them again.
-FacetParts listParts(Context& context, const SceneOnDevice& scene, const Settings& settings);
+FacetParts listParts(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings);
 /// Albedo, exitance and normals of such a list. `stage`: whose time it is. Returns how many albedos had to be clamped.
 uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& scene, const Buffer& gridRecord,
                     const FacetParts& parts, const FacetList& list);

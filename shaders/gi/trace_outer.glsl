@@ -3,8 +3,6 @@
 #include "shared/outer.h"
 #include "shared/sky.h"
 
-bool hasOuter(SurfaceArrays surface) { return uint64_t(surface.outer) != 0ul; }
-
 /// The nearest triangle along a ray but `own`, before `reach` and not within `grid`, which has its own (throughGrid). Only
 /// triangle, front and t are filled in. Masks are not looked up here.
 TriangleHit outerTriangle(SurfaceArrays surface, vec3 origin, vec3 direction, uint own, vec2 grid, float reach) {

@@ -11,9 +11,13 @@ struct FacetRay {
   vec3 direction;
 };
 
+/// false: nothing lies outside the grid, and rays have no code for it.
+layout(constant_id = CONSTANT_OUTER) const bool OUTER = true;
+bool hasOuter(SurfaceArrays surface) { return OUTER && uint64_t(surface.outer) != 0ul; }
+
 /// A point lifted off its triangle.
 vec3 liftedOff(SurfaceArrays surface, uint triangle, vec3 position, vec3 facing) {
-  if (uint64_t(surface.outer) == 0ul) return liftedStart(position, facing);
+  if (!hasOuter(surface)) return liftedStart(position, facing);
   return liftedFar(position, facing, triangleAt(surface.corners, triangle));
 }
 
@@ -191,15 +195,13 @@ bool stepTriangles(TraceWorld world, SurfaceArrays surface, inout TriangleWalk w
 /// that tints, as few have, it goes the same way once more: which channels are left is known only when the hit is.
 TriangleHit firstTriangle(TraceWorld world, SurfaceArrays surface, vec3 origin, vec3 direction, uint own, float reach) {
   TriangleWalk w = startTriangles(world.dims, origin, direction, own, reach);
-  TriangleHit hit;
-  for (;;) {
-    while (stepTriangles(world, surface, w)) {}
-    if (TINTED && w.collects) return hit;
-    hit = w.hit;
-    if (!TINTED || !w.tinted) return hit;
-    w = startTriangles(world.dims, origin, direction, own, hit.t);
-    w.collects = true;
-  }
+  while (stepTriangles(world, surface, w)) {}
+  TriangleHit hit = w.hit;
+  if (!TINTED || !w.tinted) return hit;
+  w = startTriangles(world.dims, origin, direction, own, hit.t);
+  w.collects = true;
+  while (stepTriangles(world, surface, w)) {}
+  return hit;
 }
 
 /// The facet that a ray has met; TRACE_ESCAPED, TRACE_BLOCKED at the back of a single-sided face and where panes have left

@@ -19,6 +19,7 @@ IRAD_CONST uint CONSTANT_JITTER = 17u;          ///< each facet has a ray set of
 IRAD_CONST uint CONSTANT_FEW_RAYS = 26u;        ///< these two: gi/trace_triangle_rays.comp
 IRAD_CONST uint CONSTANT_RESUMES = 27u;
 IRAD_CONST uint CONSTANT_TINTED = 25u;          ///< rows tell what panes on the way have let through (openChannels)
+IRAD_CONST uint CONSTANT_OUTER = 56u;          ///< there are triangles outside the grid
 IRAD_CONST uint CONSTANT_SKY = 24u;             ///< there is a sky: of whatever knows one
 
 // The matrix and what is made of it.
