@@ -60,7 +60,7 @@ void main() {
       asked += weight * t.exitance;
       askedSum += weight;
       if (dot(from.facing, direction) <= 0.0 || !reaches(world, surface, from, direction, reach)) continue;
-      seen += weight * t.exitance * openChannels(closedChannels);
+      seen += weight * t.exitance * letThrough();
       seenSum += weight;
     }
   }

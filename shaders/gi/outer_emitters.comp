@@ -61,7 +61,7 @@ void main() {
     float cosine = -dot(to.facing, direction);
     float cosines = max(dot(from.facing, direction), 0.0f) * (to.sides == 2.0f ? abs(cosine) : max(cosine, 0.0f));
     if (cosines == 0.0f || !reaches(world, surface, from, direction, reach)) continue;
-    sum += to.exitance * openChannels(closedChannels) * (cosines / (IRAD_PI * reach * reach * density));
+    sum += to.exitance * letThrough() * (cosines / (IRAD_PI * reach * reach * density));
   }
   p.irradiance.at[index] = vec4(sum / float(OUTER_RAYS), 0.0f);
 }

@@ -34,7 +34,7 @@ void main() {
   for (uint k = 0u; k < OUTER_RAYS; ++k) {
     vec3 direction = toWorld(cosineDirection(hammersley(k, OUTER_RAYS, uvec2(0u))), from.facing);
     TraceHit hit = traceScene(world, surface, from.position, direction, from.triangle);
-    vec3 open = openChannels(closedChannels), exitance = vec3(0.0f);
+    vec3 open = letThrough(), exitance = vec3(0.0f);
     float sides = 1.0f;
     if (hit.facet == TRACE_ESCAPED) {
       sky += open * IRAD_PI * p.bins.at[skyBin(direction, SKY_EDGE)].xyz;

@@ -61,7 +61,7 @@ Estimate sampled(EmitterTable table, FacetArrays f, TraceWorld world, SurfaceArr
     if (cosines == 0.0f) continue;
     if (!reaches(world, surface, from, direction, reach)) continue;
     vec3 exitance = f.emission.at[emitter];
-    vec3 brought = exitance * openChannels(closedChannels) * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
+    vec3 brought = exitance * letThrough() * (cosines * table.power / (luminance(exitance) * IRAD_PI * reach * reach));
     sum += brought;
     squares += dot(brought, brought);
   }

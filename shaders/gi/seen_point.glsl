@@ -40,11 +40,11 @@ bool lightPointReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from
 vec3 lightShare(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge,
                  uint first, uint step, uint n, uvec2 shift) {
   if (!hasSize(light))
-    return lightReaches(world, surface, from, light, position, edge) ? openChannels(closedChannels) : vec3(0.0);
+    return lightReaches(world, surface, from, light, position, edge) ? letThrough() : vec3(0.0);
   vec3 seen = vec3(0.0);
   uint all = 0u;
   for (uint k = first; k < n; k += step, ++all)
-    if (lightPointReaches(world, surface, from, light, position, edge, k, n, shift)) seen += openChannels(closedChannels);
+    if (lightPointReaches(world, surface, from, light, position, edge, k, n, shift)) seen += letThrough();
   return seen / float(all);
 }
 

@@ -62,6 +62,7 @@ struct TriangleWalk {
 
 /// Of the last ray: the channels that panes on its way have kept off, as bits (openChannels).
 uint closedChannels = 0u;
+vec3 letThrough() { return TINTED ? openChannels(closedChannels) : vec3(1.0f); }
 
 /// From inside the grid. Half a voxel before the grid's faces a ray has left all there is: the outermost cells are empty.
 TriangleWalk startTriangles(uvec3 dims, vec3 origin, vec3 direction, uint own, float reach) {

@@ -134,12 +134,12 @@ vec4 traceLobe(TraceWorld world, SurfaceArrays surface, Surface s, uvec4 shift, 
     } else {
       hit = traceFrom(world, surface, s, direction);
       if (hit.facet > TRACE_LAST_FACET) {
-        sum += weight * openChannels(closedChannels) * beyond(surface, hit, direction);
+        sum += weight * letThrough() * beyond(surface, hit, direction);
         continue;
       }
     }
     if (reach == 0.0) nearness += weight / max(hit.t, LEAST_DISTANCE);
-    vec3 open = openChannels(closedChannels);
+    vec3 open = letThrough();
     vec3 at = rayStart(s) + direction * hit.t;
     vec3 n = decodeNormal(world.facets.shape.at[hit.facet] & 0xFFFFu, TRACE_NORMALS);
     float exitance = EMITTERS ? luminance(world.facets.emission.at[hit.facet]) : 0.0;

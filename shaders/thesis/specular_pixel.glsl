@@ -18,7 +18,7 @@ vec3 traceJittered(TraceWorld world, Surface s, uint seed, uint k) {
   float out_ = dot(direction, s.face);
   if (out_ < 0.05) direction = normalize(direction + s.face * (0.05 - out_));
   TraceHit hit = traceFrom(world, tracedSurface(), s, direction);
-  vec3 open = openChannels(closedChannels);
+  vec3 open = letThrough();
   return open * (hit.facet <= TRACE_LAST_FACET ? push.radiosity.at[hit.facet].xyz : beyond(tracedSurface(), hit, direction));
 }
 
