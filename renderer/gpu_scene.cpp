@@ -114,7 +114,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   triangleMaterials = uploadArray(context, "triangle materials", owners);
 
   // Materials and their textures; a material without one gets a constant (white, or the flat normal).
-  materialValues = gpuMaterials(scene);
+  materialValues = gpuMaterials(scene.materials);
   materials = uploadArray(context, "materials", materialValues);
   textures.reserve(scene.images.size() + 2);
   for (const SceneImage& image : scene.images) textures.push_back(uploadTexture(context, image));
@@ -196,9 +196,9 @@ bool hasIntensity(const GpuLight& light) {
   return std::max({light.intensity.x, light.intensity.y, light.intensity.z}) > 0.0f;
 }
 
-std::vector<GpuMaterial> gpuMaterials(const Scene& scene) {
+std::vector<GpuMaterial> gpuMaterials(const std::vector<Material>& materials) {
   std::vector<GpuMaterial> values;
-  for (const Material& m : scene.materials) values.push_back(toGpu(m));
+  for (const Material& m : materials) values.push_back(toGpu(m));
   return values;
 }
 
