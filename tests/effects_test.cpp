@@ -39,6 +39,12 @@ Scene stained(Scene scene) {
 }
 const Scene kStained = stained(room(/*emits=*/true, {spot()}));
 
+Scene litRoom(std::vector<Light> lights = {lamp(0)}) {
+  Scene scene = furnishedRoom();
+  scene.lights = std::move(lights);
+  return scene;
+}
+
 /// How one effect is called for, and what it brings along. Among them are lights of each kind alone, a spot with one
 /// map and with six, and of any two kinds.
 struct Row {
@@ -81,16 +87,8 @@ const Row kRows[] = {
     {E::blur, kEven, lights({}), lights({spot(0.17f)}), "has blurred H"},
 };
 
-class Effects : public EffectsTest {
- protected:
-  static Scene litRoom(std::vector<Light> lights = {lamp(0)}) {
-    Scene scene = furnishedRoom();
-    scene.lights = std::move(lights);
-    return scene;
-  }
-};
-
-class EffectRows : public Effects, public ::testing::WithParamInterface<size_t> {};
+class Effects : public EffectsTest {};
+class EffectRows : public EffectsTest, public ::testing::WithParamInterface<size_t> {};
 
 TEST_P(EffectRows, ComeWithinOneFrameAndGoWithTheirMemory) {
   const Row& row = kRows[GetParam()];
