@@ -16,8 +16,8 @@ IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;
 IRAD_CONST uint CONSTANT_TRACE_HIT_RULE = 21u;
 IRAD_CONST uint CONSTANT_TRACE_EMITTERS = 23u;  ///< specular/trace.glsl
 IRAD_CONST uint CONSTANT_JITTER = 17u;          ///< each facet has a ray set of its own (matrix.jitter)
-IRAD_CONST uint CONSTANT_FEW_RAYS = 26u;        ///< these two: gi/trace_triangle_rays.comp
-IRAD_CONST uint CONSTANT_RESUMES = 27u;
+IRAD_CONST uint CONSTANT_FEW_RAYS = 26u;        ///< gi/waiting_rays.glsl
+IRAD_CONST uint CONSTANT_RESUMES = 27u;         ///< gi/trace_triangle_rays.comp
 IRAD_CONST uint CONSTANT_TINTED = 25u;          ///< rows tell what panes on the way have let through (openChannels)
 IRAD_CONST uint CONSTANT_SKY = 24u;             ///< there is a sky: of whatever knows one
 
