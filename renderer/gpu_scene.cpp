@@ -14,8 +14,6 @@
 namespace irad {
 namespace {
 
-constexpr size_t kTextures = kMaterialTextures.size();
-
 Image uploadTexture(Context& context, const SceneImage& source) {
   IRAD_CHECK_OP(source.rgba.size(), ==, 4ull * source.width * source.height);
   ImageDesc desc;
@@ -59,7 +57,7 @@ GpuMaterial toGpu(const Material& m) {
   if (m.doubleSided) gpu.flags |= MATERIAL_DOUBLE_SIDED;
   if (m.lambertian) gpu.flags |= MATERIAL_LAMBERTIAN;
   const auto uses = texturesOf(m);
-  for (uint32_t i = 0; i < kTextures; ++i) {
+  for (uint32_t i = 0; i < MATERIAL_TEXTURES; ++i) {
     const TextureUse& use = *uses[i];
     if (use.image >= 0) gpu.flags |= MATERIAL_BASE_COLOR_TEXTURE << i;
     if (use.uvSet == 1) gpu.uvSets |= 1u << i;
@@ -126,7 +124,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   for (const Material& m : fileMaterials(scene)) {
     MaterialTextures& set = bound.emplace_back();
     const auto uses = texturesOf(m);
-    for (uint32_t i = 0; i < kTextures; ++i) {
+    for (uint32_t i = 0; i < MATERIAL_TEXTURES; ++i) {
       const size_t image = uses[i]->image >= 0   ? static_cast<size_t>(uses[i]->image)
                            : i == TEXTURE_NORMAL ? flat
                                                  : white;
