@@ -36,20 +36,19 @@ class Planner {
     lit(sky());
     if (shines_) plan_.noLight.clear();
     nothingDiffuse();
-    decide(specular());
-    decide(matrix());
-    decide(bruteForce());
-    decide(writeback());
-    decide(emitterSampling());
+    for (const auto row : {&Planner::specular, &Planner::matrix, &Planner::bruteForce, &Planner::writeback,
+                           &Planner::emitterSampling, &Planner::field, &Planner::relight, &Planner::glass,
+                           &Planner::alphaTest, &Planner::normalMap, &Planner::blur})
+      decide((this->*row)());
+    const bool builds = t_.light.due <= Redo::Matrix;
+    decide(sleeps(Effect::rebuild, builds,
+                  builds ? fmt::format("due from {} on", nameOf(t_.light.due))
+                         : "geometry and build settings are as they were built"));
+    decide(sleeps(Effect::redraw, t_.redraw.value_or(true),
+                  !t_.redraw   ? "each picture that is asked for"
+                  : *t_.redraw ? "camera, scene, settings or light have changed"
+                               : "camera, scene, settings and light are as drawn"));
     pixelEmitters();
-    decide(field());
-    decide(relight());
-    decide(rebuild());
-    decide(glass());
-    decide(alphaTest());
-    decide(materials(Effect::normalMap, &MaterialTraits::normalMap, "with a normal map"));
-    decide(blur());
-    decide(redraw());
     return plan_;
   }
 
@@ -72,8 +71,10 @@ class Planner {
     return lights;
   }
 
-  static EffectState when(bool calledFor, EffectState otherwise = EffectState::off) {
-    return calledFor ? EffectState::on : otherwise;
+  static EffectState when(bool calledFor) { return calledFor ? EffectState::on : EffectState::off; }
+  /// What is not due sleeps.
+  static EffectRow sleeps(Effect effect, bool due, std::string reason) {
+    return {.effect = effect, .state = due ? EffectState::on : EffectState::asleep, .reason = std::move(reason)};
   }
   /// Off because of another setting or effect, whatever forces it on.
   static EffectRow never(EffectRow r, std::string reason) {
@@ -298,40 +299,18 @@ class Planner {
   }
 
   EffectRow relight() const {
-    EffectRow r{.effect = Effect::relight};
-    if (plan_.noIndirectLight()) return never(r, "no indirect light");
+    if (plan_.noIndirectLight()) return never({.effect = Effect::relight}, "no indirect light");
     const SolveReport& solve = t_.light.report;
-    const auto reached = [&](float error) {
-      return fmt::format("{:.2g} {} {:.2g} W/m^2", error, error <= solve.allowed ? "<=" : ">", solve.allowed);
-    };
-    const bool due = t_.light.due <= Redo::Scatter;
-    r.state = when(due || !solve.settled(), EffectState::asleep);
+    const bool due = t_.light.due <= Redo::Scatter, frames = plan_.on(Effect::bruteForce);
+    const float error = frames ? solve.standardError : solve.bound;
+    std::string reason =
+        frames ? fmt::format("{} of {} frames, standard error", solve.frames, s_.solver.frames) : "error bound";
+    reason += fmt::format(" {:.2g} {} {:.2g} W/m^2", error, error <= solve.allowed ? "<=" : ">", solve.allowed);
+    if (due) reason = fmt::format("{} is due", nameOf(std::max(t_.light.due, Redo::Materials)));
+    EffectRow r = sleeps(Effect::relight, due || !solve.settled(), std::move(reason));
     r.epsilon = s_.solver.tolerance;
     r.of = "the mean H";
-    if (due)
-      r.reason = fmt::format("{} is due", nameOf(std::max(t_.light.due, Redo::Materials)));
-    else if (plan_.on(Effect::bruteForce))
-      r.reason = fmt::format("{} of {} frames, standard error {}", solve.frames, s_.solver.frames,
-                             reached(solve.standardError));
-    else
-      r.reason = "error bound " + reached(solve.bound);
     return r;
-  }
-
-  EffectRow rebuild() const {
-    const Redo due = t_.light.due;
-    return {.effect = Effect::rebuild,
-            .state = when(due <= Redo::Matrix, EffectState::asleep),
-            .reason = due <= Redo::Matrix ? fmt::format("due from {} on", nameOf(due))
-                                          : "geometry and build settings are as they were built"};
-  }
-
-  EffectRow redraw() const {
-    return {.effect = Effect::redraw,
-            .state = when(t_.redraw.value_or(true), EffectState::asleep),
-            .reason = !t_.redraw   ? "each picture that is asked for"
-                      : *t_.redraw ? "camera, scene, settings or light have changed"
-                                   : "camera, scene, settings and light are as drawn"};
   }
 
   EffectRow glass() const {
@@ -346,6 +325,7 @@ class Planner {
     const auto cut = [&](const MaterialTraits& m) { return m.alphaTest || (m.cutIfOpaque && !(glass && m.glass)); };
     return materials(Effect::alphaTest, cut, "cut out by alpha");
   }
+  EffectRow normalMap() const { return materials(Effect::normalMap, &MaterialTraits::normalMap, "with a normal map"); }
 
   EffectRow blur() const {
     EffectRow r{.effect = Effect::blur};
