@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -46,14 +47,10 @@ float allowedRadiance(const Pipeline& pipeline, const EffectRow& row) {
   return row.epsilon * share / std::numbers::pi_v<float>;
 }
 
-Progress progressOf(DeviceSession& session) {
-  return [&session](const char* stage, float fraction) { return session.progress(stage, fraction); };
-}
-
 std::unique_ptr<Bench> open(const Subject& subject, const Settings& settings) {
   Context& context = *subject.session.context;
   auto bench = std::make_unique<Bench>(context, subject.scene, settings, subject.size, VIEW_LIT, subject.camera);
-  bench->warmUp(progressOf(subject.session));
+  bench->warmUp(std::ref(subject.session.progress));
   return bench;
 }
 
@@ -61,7 +58,7 @@ std::unique_ptr<Bench> open(const Subject& subject, const Settings& settings) {
 void workInTurn(const Subject& subject, Bench& a, Bench& b) {
   const std::array both{&a, &b};
   for (Bench* bench : both) bench->forget();
-  measureInTurn(both, /*rebuilds=*/3, subject.frames, progressOf(subject.session));
+  measureInTurn(both, /*rebuilds=*/3, subject.frames, std::ref(subject.session.progress));
 }
 
 Figures timesOf(const Bench& bench) {
@@ -123,15 +120,14 @@ void require(const Proof& proof) {
 
 Proof rowsOf(const Subject& subject, Bench& planned, bool measure) {
   const EffectPlan plan = planned.pipeline().plan();
-  if (measure) planned.warmUp(progressOf(subject.session));
+  if (measure) planned.warmUp(std::ref(subject.session.progress));
   Proof rows;
   for (const EffectRow& row : plan.rows) {
     ProofRow& out = rows.emplace_back(ProofRow{.scene = subject.name, .name = row.info().name, .effect = row});
-    if (!measure || row.state != EffectState::off || !row.info().mode) continue;
+    if (!measure || row.state != EffectState::off || !row.possible || !row.info().mode) continue;
     Settings forced = subject.session.settings;
     forced.effects.*row.info().mode = EffectMode::on;
     const auto with = open(subject, forced);
-    if (!with->pipeline().plan().on(row.effect)) continue;  // another setting has it off
     workInTurn(subject, planned, *with);
     out.figures = timesOf(*with);
     for (const auto& [name, ms] : timesOf(planned)) out.figures[name] -= ms;
@@ -174,34 +170,29 @@ Proof proveEach(const std::string& scene, Bench& bench, std::span<const View> vi
   for (const EffectRow& row : plan.rows) {
     if (row.state == EffectState::on) continue;
     ProofRow& proven = proof.emplace_back(ProofRow{.scene = scene, .name = row.info().name, .effect = row});
-    if (row.effect == Effect::bruteForce) {  // whose light is another method's
+    const std::string setting = row.info().setting;
+    if (!setting.empty() && findSetting(setting).text(settings) == "off")
+      proven.reason = setting + " = off";
+    else if (!row.possible || row.effect == Effect::bruteForce)  // whose light is another method's
       proven.reason = row.reason;
-      continue;
-    }
+    if (!proven.reason.empty()) continue;
     // These start from the light as it is; everything else is compared after a solve from the dark.
     bench.settle();
     const bool asLit = row.effect == Effect::redraw || row.effect == Effect::relight;
     const Pixels before = asLit ? bench.picturesAsLit(views) : planned;
-    if (const std::string setting = row.info().setting; !setting.empty()) {
-      if (findSetting(setting).text(settings) == "off") {
-        proven.reason = setting + " = off";
-        continue;
-      }
+    if (!setting.empty()) {
       Settings forced = settings;
       applySetting(forced, setting + "=on");
       pipeline.set(forced);
       pipeline.prepare();
-      const EffectRow now = pipeline.plan().row(row.effect);
-      if (now.state != EffectState::on) proven.reason = now.reason;
+      IRAD_CHECK(pipeline.plan().on(row.effect), "{}", row.info().name);
     }
     if (row.effect == Effect::rebuild) bench.rebuild();
-    if (proven.reason.empty()) {
-      const bool ofMean = row.effect == Effect::emitterSampling && row.epsilon > 0;
-      const auto compared = row.epsilon > 0 ? views.first(1) : views;
-      proven.difference = compare(before, asLit ? bench.picturesAsLit(compared) : bench.pictures(compared),
-                                  ofMean ? row.epsilon : allowedRadiance(pipeline, row));
-      proven.difference->ofMean = ofMean;
-    }
+    const bool ofMean = row.effect == Effect::emitterSampling && row.epsilon > 0;
+    const auto compared = row.epsilon > 0 ? views.first(1) : views;
+    proven.difference = compare(before, asLit ? bench.picturesAsLit(compared) : bench.pictures(compared),
+                                ofMean ? row.epsilon : allowedRadiance(pipeline, row));
+    proven.difference->ofMean = ofMean;
     pipeline.set(settings);
     pipeline.prepare();
   }

@@ -10,16 +10,12 @@
 #include "app/interrupts.h"
 #include "app/reference.h"
 #include "app/study_ahead.h"
-#include "app/table.h"
 #include "app/version.h"
-#include "gi/check/path_state.h"
 #include "gi/facets.h"
 #include "gi/host_facets.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
-#include "gi/sky.h"
 #include "gi/watch.h"
-#include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
@@ -34,30 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kPathTracer = "path-tracer";
-/// A truth that is killed while it is traced loses no more than this.
-constexpr std::chrono::seconds kBetweenStates(60);
-
-/// A third of the picture's width and height, 16 to 128 pixels, where the truth has most contrast.
-void chooseCrop(const Truth& truth, ReportNotes& notes) {
-  notes.pictureSize = truth.size;
-  notes.cropSize = glm::min(glm::max(truth.size / 3u, glm::uvec2(16)), glm::uvec2(128));
-  notes.cropSize = glm::min(notes.cropSize, truth.size);
-  const LinearPixels mean = truth.mean();
-  double most = -1;
-  const glm::uvec2 step = glm::max(notes.cropSize / 4u, glm::uvec2(1));
-  for (uint32_t y0 = 0; y0 + notes.cropSize.y <= truth.size.y; y0 += step.y)
-    for (uint32_t x0 = 0; x0 + notes.cropSize.x <= truth.size.x; x0 += step.x) {
-      double sum = 0, squares = 0, n = 0;
-      for (uint32_t y = y0; y < y0 + notes.cropSize.y; ++y)
-        for (uint32_t x = x0; x < x0 + notes.cropSize.x; ++x) {
-          const glm::vec4& p = mean[size_t{y} * truth.size.x + x];
-          const double value = std::log(1e-4 + std::max(0.0, double{p.x} + p.y + p.z));
-          sum += value, squares += value * value, ++n;
-        }
-      const double variance = squares / n - (sum / n) * (sum / n);
-      if (variance > most) most = variance, notes.cropAt = {x0, y0};
-    }
-}
 
 }  // namespace
 
@@ -72,22 +44,6 @@ void writeAsShown(const fs::path& stem, glm::uvec2 size, const LinearPixels& lin
     bytes.push_back(out);
   }
   writeDisplay(stem, size, bytes);
-}
-
-LinearPixels Truth::mean() const {
-  LinearPixels out = first;
-  for (size_t i = 0; i < second.size(); ++i) out[i] = 0.5f * (first[i] + second[i]);
-  return out;
-}
-
-void requirePathTracer(const ViewInfo& view, const Settings& settings) {
-  if (!hasPathTracer()) throw UsageError("--peer, --reference-samples: this build has no path tracer (IRAD_EMBREE)");
-  const std::string_view name = view.name;
-  if (name != "indirect" && !(name == "lit" && settings.scene.lambertian))
-    throw UsageError(
-        fmt::format("--view {}: the path tracer is diffuse: compare --view indirect, or --view lit with "
-                    "--set scene.lambertian=true",
-                    view.name));
 }
 
 StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyTask task, const PicturesOfItsOwn& own)
@@ -153,105 +109,6 @@ void StudyRun::measureTimesOnly() {
 void StudyRun::extend(const std::vector<std::string>& sweeps) {
   grid_.add(sweeps);
   folder_->setGrids(grid_.texts());
-}
-
-// ---- The truth ----
-
-std::string TruthSource::name() const {
-  if (samples) return fmt::format("path tracer, {} samples per pixel", *samples);
-  if (settings) return fmt::format("own pictures of two seeds by {}", settingsToJson(*settings));
-  return secondFile ? fmt::format("{} and {}", file->sha256, secondFile->sha256) : file->sha256;
-}
-
-namespace {
-
-/// Of the path tracer for a truth, whatever the seeds of points are.
-TraceOptions truthOptions(uint32_t samples) {
-  return {.samples = samples, .seed = 1, .centred = true};
-}
-
-}  // namespace
-
-std::optional<TruthRecipe> truthRecipe(const DeviceSession& session, const StudyTask& task, const Scene& scene,
-                                       const std::string& sceneContent, const SkySettings& sky) {
-  if (task.truth.file) return std::nullopt;
-  const TruthSubject subject{.program = programIdentity(),
-                             .scene = sceneContent,
-                             .sceneName = scene.path.stem().string(),
-                             .camera = task.camera,
-                             .size = task.size,
-                             .view = task.view.name};
-  if (task.truth.samples)
-    return tracedTruth(subject, makeSky(sky, skyInputs(scene, scene.lights)), truthOptions(*task.truth.samples));
-  return drawnTruth(subject, *task.truth.settings, session.device->info.name);
-}
-
-bool StudyRun::needsTruth() const {
-  for (size_t point = 0; point < grid_.size(); ++point)
-    if (task_.shard.has(point)) return true;
-  return task_.shard.part == 1 && !task_.peerSamples.empty();
-}
-
-/// What is computed is two pictures of independent noise, kept in a folder.
-void StudyRun::makeTruth() {
-  if (task_.truth.file) {
-    truth_.first = task_.truth.file->picture.pixels;
-    if (task_.truth.secondFile) truth_.second = task_.truth.secondFile->picture.pixels;
-    return;
-  }
-  const TruthRecipe recipe = *truthRecipe(session_, task_, scene_, sceneContent_, grid_.settings(0).sky);
-  const TruthStore store(task_.sharedTruths ? task_.sharedTruths->folder : task_.out / "truths");
-  std::string spoilt;
-  std::optional<LinearPicture> halves[] = {store.find(recipe, 0, &spoilt), store.find(recipe, 1, &spoilt)};
-  if (!spoilt.empty()) session_.progress.note(fmt::format("warning: {}; it is made anew", spoilt));
-  const bool there = halves[0] && halves[1];
-  std::string from = there ? "there already" : "is made";
-  if (SharedTruths* shared = task_.sharedTruths) {
-    const std::string& first = shared->users.try_emplace(recipe.name(), shared->user).first->second;
-    if (there && first != shared->user) from = "shared with " + first;
-  }
-  session_.progress.note(fmt::format("  truth {}: {}", recipe.name(), from));
-  if (!there) {
-    makeHalves(store, recipe);
-    for (int half : {0, 1}) halves[half] = store.find(recipe, half);
-  }
-  for (const std::optional<LinearPicture>& half : halves)
-    IRAD_CHECK(half && half->size == task_.size, "the truth {} is gone from its folder", recipe.name());
-  truth_.first = std::move(halves[0]->pixels), truth_.second = std::move(halves[1]->pixels);
-}
-
-/// Those that the store lacks.
-void StudyRun::makeHalves(const TruthStore& store, const TruthRecipe& recipe) {
-  const PictureSubject subject{cameraToJson(task_.camera), task_.view.name};
-  if (!task_.truth.samples) {
-    for (int half : {0, 1}) {
-      if (store.find(recipe, half)) continue;
-      progress("reference", 0, 1);
-      Settings settings = *task_.truth.settings;
-      settings.matrix.gpu.seed += kHalfSeeds[half];
-      store.keep(recipe, half, task_.size, picture(settings), subject);
-    }
-    return;
-  }
-  const fs::path state = store.stateFile(recipe);
-  std::error_code ignored;
-  TracedSums sums;
-  if (fs::exists(state, ignored))
-    if (SavedSums saved = readSums(state); saved.made == recipe.made) sums = std::move(saved.sums);
-  const auto save = [&](const TracedSums& so) {
-    makeFolder(state.parent_path());
-    writeSums(state, {recipe.made, so});
-  };
-  auto saved = std::chrono::steady_clock::now();
-  const TracedPicture picture =
-      trace("reference", *task_.truth.samples, truthOptions(0).seed, std::move(sums), [&](const TracedSums& so) {
-        const auto now = std::chrono::steady_clock::now();
-        if (now - saved < kBetweenStates && !isStopped()) return;
-        save(so);
-        saved = now;
-      });
-  for (int half : {0, 1}) store.keep(recipe, half, task_.size, pixelsOf(lightOf(picture).half[half]), subject);
-  removeFile(state);
 }
 
 // ---- What is ahead ----
@@ -324,32 +181,6 @@ LinearPixels StudyRun::picture(const Settings& settings, const std::function<voi
   for (const Finding& finding : pipeline.findings())
     if (finding.severity == Finding::Severity::Error) throw DeviceError(finding.text);  // a row that says so
   return out;
-}
-
-/// In passes of about a second, between which a signal ends it; the bits are those of one go.
-TracedPicture StudyRun::trace(const char* what, uint32_t samples, uint64_t seed, TracedSums sums,
-                              const std::function<void(const TracedSums&)>& afterPass) {
-  constexpr double kPass = 1;  // s
-  if (!tracer_) tracer_ = makePathTracer(scene_, makeSky(grid_.settings(0).sky, skyInputs(scene_, scene_.lights)));
-  const uint32_t before = sums.samples;
-  TraceOptions options = truthOptions(0);
-  options.seed = seed;
-  uint32_t next = 1;
-  while (sums.samples < samples) {
-    progress(what, sums.samples - before, samples - before);
-    options.samples = std::min(next, samples - sums.samples);
-    const auto began = std::chrono::steady_clock::now();
-    tracer_->add(task_.camera, task_.size, options, sums);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    const double fitting = options.samples * kPass / std::max(spent.count(), 1e-6);
-    next = static_cast<uint32_t>(std::clamp(fitting, 1.0, 2.0 * options.samples));
-    if (afterPass) afterPass(sums);
-  }
-  return pictureOf(sums);
-}
-
-const TracedLight& StudyRun::lightOf(const TracedPicture& picture) const {
-  return std::string_view(task_.view.name) == "indirect" ? picture.indirect : picture.lit;
 }
 
 StudyIdentity StudyRun::identity() const {
@@ -537,66 +368,6 @@ void StudyRun::measurePeers() {
     writeAsShown(task_.out / "pictures" / pictureName(kPathTracer, samples), task_.size, pixels, exposure_);
     folder_->save();
   }
-}
-
-// ---- What is said of it ----
-
-ReportNotes StudyRun::notes() const {
-  ReportNotes notes;
-  const TruthSource& truth = task_.truth;
-  notes.facts = {
-      fmt::format("Scene {}, camera {}, view {}, {} × {} pixels", scene_.path.filename().string(),
-                  task_.camera.name.empty() ? "of its own" : task_.camera.name, task_.view.name, task_.size.x,
-                  task_.size.y),
-      fmt::format("Reference: {}", truth.file ? truth.file->path.filename().string() : truth_.what),
-      fmt::format("Device: {}; times are GPU time stamps, medians of {} repeats with all points in turn, after a round "
-                  "that warms up{}",
-                  session_.device->info.name, task_.repeats,
-                  task_.repeats < 30 ? fmt::format("; {} repeats are few: 30 and more are meant", task_.repeats) : ""),
-      fmt::format("Errors: {} seeds from {} on; relMSE of means over {} × {} pixels, ε = (0.1 × mean)²; ± is half of "
-                  "a 95 % interval over seeds (Student's t)",
-                  task_.seeds, grid_.base().matrix.gpu.seed, kBlockSide, kBlockSide)};
-  if (task_.facetRays)
-    notes.facts.push_back(
-        fmt::format("H of facets: against brute force of {} rays per facet on the same facets, twice, whose noise "
-                    "cancels; means over facets and channels, ε = (0.1 × mean)²",
-                    withThousands(*task_.facetRays)));
-  if (!task_.peerSamples.empty())
-    notes.facts.push_back(
-        "Path tracer: Embree on this machine's CPU, diffuse, one sample through each pixel's middle; "
-        "every picture takes all of its time");
-  if (!truth_.first.empty()) chooseCrop(truth_, notes);
-  return notes;
-}
-
-void finishStudy(const fs::path& out, const SettingGrid& grid, const StudyResults& results, const ReportNotes& notes) {
-  writeReport(out, grid, results, notes);
-  const std::vector<PointSummary> points = summarize(results, grid.labels());
-  const bool ofFacets = std::ranges::any_of(points, [](const PointSummary& p) { return !std::isnan(p.hRelMse.mean); });
-  std::vector<std::vector<std::string>> rows{
-      {"point", "settings", "relMSE", "±", "FLIP", "build ms", "relight ms", "frame ms", "MiB", ""}};
-  std::vector<bool> right{true, false, true, true, true, true, true, true, true, false};
-  const auto insertFacets = [&](std::vector<std::string>& row, const std::string& mean, const std::string& half) {
-    if (ofFacets) row.insert(row.begin() + 4, {mean, half});
-  };
-  if (ofFacets) right.insert(right.begin() + 4, {true, true});
-  insertFacets(rows[0], "of H", "±");
-  for (const PointSummary& p : points) {
-    const auto ms = [&](const char* kind) {
-      return std::isfinite(p.gpuMs(kind)) ? milliseconds(p.gpuMs(kind)) : std::string("-");
-    };
-    const bool done = p.seeds > 0;
-    rows.push_back({std::to_string(p.point), p.label, done ? shortNumber(p.relMse.mean) : "-",
-                    done && std::isfinite(p.relMse.half) ? shortNumber(p.relMse.half) : "-",
-                    done ? shortNumber(p.flip.mean) : "-", ms("setup"), ms("relight"), ms("camera"),
-                    done ? fmt::format("{:.1f}", p.deviceMib) : "-", p.failure});
-    const MeanInterval& h = p.hRelMse;
-    insertFacets(rows.back(), done && !std::isnan(h.mean) ? shortNumber(h.mean) : "-",
-                 done && std::isfinite(h.half) ? shortNumber(h.half) : "-");
-  }
-  print("{}", formatTable(rows, right));
-  for (const std::string& finding : findings(points, results.peers, grid.find(grid.base()))) print("{}\n", finding);
-  print("wrote       {}\n", (out / "report.html").string());
 }
 
 }  // namespace irad::app

@@ -57,9 +57,8 @@ struct Pipeline::Impl {
         planned(scene, wanted),
         onDevice(c, scene),
         surfaces(scene) {
-    materials = onDevice.materialValues;
     content = {.lights = lightContent(onDevice.lightValues)};
-    lookAtRegion(regionOrWhole(scene, settings));
+    lookAtRegion(planned.traits.region);
     lookAtSurfaces(scene.materials, content);
     lookAtSky(scene.lights);
     useSun();
@@ -72,7 +71,6 @@ struct Pipeline::Impl {
   Settings settings;  ///< the user's; stages get planned.settings()
   Planned planned;
   SceneOnDevice onDevice;
-  std::vector<GpuMaterial> materials;  ///< as the scene has them
   Buffer camera;
   uint64_t frameIndex = 0;
   Revision revision;
@@ -83,8 +81,7 @@ struct Pipeline::Impl {
   // like one.
   SurfaceContent surfaces;
   SceneContent content;
-  SceneRegion region;                          ///< that has voxels, by the settings
-  std::optional<std::vector<SamePlace>> same;  ///< once something has been built
+  std::optional<std::vector<SamePlace>> repeats;  ///< once something has been built
   StageKeys made;
   uint64_t shadowsMade = 0, shadowsWanted = 0;
 
@@ -132,7 +129,7 @@ struct Pipeline::Impl {
   }
 
   void useMaterials() {
-    std::vector<GpuMaterial> wanted = planned.materials(materials);
+    std::vector<GpuMaterial> wanted = gpuMaterials(planned.materials(scene.materials));
     const auto bytes = [](const auto& v) { return std::as_bytes(std::span(v)); };
     if (!std::ranges::equal(bytes(wanted), bytes(onDevice.materialValues)))
       onDevice.setMaterials(context, std::move(wanted));
@@ -161,18 +158,17 @@ struct Pipeline::Impl {
   SceneRegion regionWith(const Settings& wanted) const {
     const bool same =
         wanted.scene.region == settings.scene.region && wanted.matrix.gpu.hitRule == settings.matrix.gpu.hitRule;
-    return same ? region : regionOrWhole(scene, wanted);
+    return same ? planned.traits.region : regionOrWhole(scene, wanted);
   }
-  /// UsageError where the box that settings or scene ask for holds nothing of it, of which `region` says nothing.
+  /// UsageError where the box that settings or scene ask for holds nothing of it, of which the traits say nothing.
   SceneShape shape() {
-    if (!same) same = samePlaces(scene);
+    if (!repeats) repeats = samePlaces(scene);
     const bool boxed = settings.scene.region.mode == RegionMode::box || scene.region;
-    return {boxed ? regionOf(scene, settings) : region, *same};
+    return {boxed ? regionOf(scene, settings) : planned.traits.region, *repeats};
   }
   static uint64_t regionKey(const SceneRegion& of) { return Digest().add(of.lo).add(of.hi).value(); }
   void lookAtRegion(const SceneRegion& now) {
-    region = now;
-    planned.traits.outer = !now.whole;
+    planned.traits.region = now;
     content.region = regionKey(now);
   }
   /// Settings or sky have changed.
@@ -227,13 +223,7 @@ struct Pipeline::Impl {
     LightState state = planned.traits.light;
     state.due =
         std::min({due(), shadowsDue() ? Redo::Gather : Redo::Nothing, reflectionsDue() ? Redo::Solve : Redo::Nothing});
-    if (!now.light) return state;
-    const SolveReport& r = now.light->report;
-    state.settled = r.settled();
-    state.bound = r.bound;
-    state.tolerance = r.allowed;
-    state.frames = r.frames;
-    state.standardError = r.standardError;
+    if (now.light) state.report = now.light->report;
     return state;
   }
 
@@ -566,10 +556,9 @@ Redo Pipeline::due(const Settings& settings) const {
   const Impl& p = *impl_;
   SceneTraits traits = p.planned.traits;
   traits.sky = makeSky(settings.sky, skyInputs(p.scene, p.scene.lights), &p.sky).largest();
-  const SceneRegion region = p.regionWith(settings);
-  traits.outer = !region.whole;
+  traits.region = p.regionWith(settings);
   SceneContent content = p.content;
-  content.region = Impl::regionKey(region);
+  content.region = Impl::regionKey(traits.region);
   const EffectPlan plan = irad::plan(traits, settings, &p.planned.plan());
   return firstDifference(p.made, stageKeys(content, irad::obeyed(settings, plan)));
 }
@@ -621,18 +610,15 @@ void Pipeline::setMaterials(std::vector<MaterialEdit> edits) {
       throw UsageError(problem);
   const Planned planned = p.planned;
   const SceneContent content = p.content;
-  const std::vector<GpuMaterial> values = p.materials;
   if (p.scene.fileMaterials.empty()) p.scene.fileMaterials = p.scene.materials;
   std::swap(p.scene.materials, materials);
   try {
     p.lookAtSurfaces(p.scene.materials, p.content);
     measureMaterials(p.scene, p.scene.materials, p.planned.traits);
-    p.materials = gpuMaterials(p.scene);
     p.lookAgain();
   } catch (...) {
     p.planned = planned;
     p.content = content;
-    p.materials = values;
     std::swap(p.scene.materials, materials);
     throw;
   }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/emitter_rule.h"
+#include "gi/region.h"
 #include "gi/stage_keys.h"
 #include "renderer/forward.h"
 #include "renderer/shadow.h"
@@ -20,101 +21,108 @@ std::string counted(size_t n, const char* one, const char* many) {
   return n == 0 ? fmt::format("no {}", one) : fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-/// Fills in the rows; those that others depend on come first.
+/// Fills in the rows; those that others depend on come first. Each row's function says what scene and settings call
+/// for, and what being off saves; decide() what becomes of that.
 class Planner {
  public:
   Planner(const SceneTraits& traits, const Settings& settings, const EffectPlan* before)
       : t_(traits), b_(traits.build.value_or(BuildTraits{})), s_(settings), before_(before) {
-    for (size_t i = 0; i < kEffects; ++i) plan_.rows[i].effect = static_cast<Effect>(i);
-    for (const MaterialTraits& m : traits.materials)
-      if (m.triangles > 0) used_.push_back(m);
+    std::ranges::copy_if(traits.materials, std::back_inserter(used_), [](const auto& m) { return m.triangles > 0; });
   }
 
   EffectPlan run() {
-    for (const LightKind& kind : lightKinds()) light(kind);
-    emission();
-    sky();
+    for (const LightKind& kind : lightKinds()) lit(light(kind));
+    emits_ = lit(emission());
+    lit(sky());
     if (shines_) plan_.noLight.clear();
     nothingDiffuse();
-    specular();
-    matrix();
-    writeback();
-    emitterSampling();
+    for (const auto row : {&Planner::specular, &Planner::matrix, &Planner::bruteForce, &Planner::writeback,
+                           &Planner::emitterSampling, &Planner::field, &Planner::relight, &Planner::glass,
+                           &Planner::alphaTest, &Planner::normalMap, &Planner::blur})
+      decide((this->*row)());
+    const bool builds = t_.light.due <= Redo::Matrix;
+    decide(sleeps(Effect::rebuild, builds,
+                  builds ? fmt::format("due from {} on", nameOf(t_.light.due))
+                         : "geometry and build settings are as they were built"));
+    decide(sleeps(Effect::redraw, t_.redraw.value_or(true),
+                  !t_.redraw   ? "each picture that is asked for"
+                  : *t_.redraw ? "camera, scene, settings or light have changed"
+                               : "camera, scene, settings and light are as drawn"));
     pixelEmitters();
-    field();
-    relight();
-    rebuild();
-    glass();
-    alphaTest();
-    materialFeature(Effect::normalMap, &MaterialTraits::normalMap, "with a normal map");
-    blur();
-    redraw();
     return plan_;
   }
 
  private:
-  EffectRow& row(Effect effect) { return plan_.rows[static_cast<size_t>(effect)]; }
-
-  /// Sets the state by need and by what forces it; `bytes`: what being off saves.
-  void decide(Effect effect, bool calledFor, std::string reason, uint64_t bytes = 0) {
-    const EffectMode mode = forcedMode(s_, effect);
-    const bool on = mode == EffectMode::automatic ? calledFor : mode == EffectMode::on;
-    if (on != calledFor) reason = fmt::format("forced {}: {}", nameOf(mode), reason);
-    without(effect, std::move(reason), on ? 0 : bytes);
-    if (on) row(effect).state = EffectState::on;
+  /// Whether the effect is called for, and on.
+  bool decide(EffectRow r) {
+    const EffectMode mode = r.possible ? forcedMode(s_, r.effect) : EffectMode::automatic;
+    const EffectState called = r.state;
+    if (mode != EffectMode::automatic) r.state = when(mode == EffectMode::on);
+    if (r.state != called) r.reason = fmt::format("forced {}: {}", nameOf(mode), r.reason);
+    if (r.state != EffectState::off) r.bytesNotAllocated = 0;
+    plan_.rows[static_cast<size_t>(r.effect)] = r;
+    return called == EffectState::on && r.state == EffectState::on;
   }
-  /// The same, but what is not due sleeps.
-  void sleeps(Effect effect, bool due, std::string reason) {
-    decide(effect, due, std::move(reason));
-    if (plan_.off(effect) && !due) row(effect).state = EffectState::asleep;
-  }
-  /// Off because of another setting or effect, whatever forces it on.
-  void without(Effect effect, std::string reason, uint64_t bytes = 0) {
-    EffectRow& r = row(effect);
-    r.state = EffectState::off;
-    r.reason = std::move(reason);
-    r.bytesNotAllocated = bytes;
-  }
-  /// Whether there is light of a kind, once its effect is decided.
-  bool lit(Effect effect, bool calledFor) {
-    const bool lights = calledFor && plan_.on(effect);
-    if (!lights) plan_.noLight.push_back(row(effect).reason);
+  /// The same of a kind of light. What lies outside the region is no light by itself.
+  bool lit(const EffectRow& r) {
+    const bool lights = decide(r) && (r.effect != Effect::sky || t_.sky > 0);
+    if (!lights) plan_.noLight.push_back(plan_.row(r.effect).reason);
     shines_ |= lights;
     return lights;
   }
+
+  static EffectState when(bool calledFor) { return calledFor ? EffectState::on : EffectState::off; }
+  /// What is not due sleeps.
+  static EffectRow sleeps(Effect effect, bool due, std::string reason) {
+    return {.effect = effect, .state = due ? EffectState::on : EffectState::asleep, .reason = std::move(reason)};
+  }
+  /// Off because of another setting or effect, whatever forces it on.
+  static EffectRow never(EffectRow r, std::string reason) {
+    r.state = EffectState::off;
+    r.reason = std::move(reason);
+    r.possible = false;
+    return r;
+  }
   /// Hysteresis of triggers that an edit may cross back and forth. `share`: of what the effect comes on at; half of it
   /// keeps it on, and is added to the reason.
-  bool held(Effect effect, double share, std::string& reason) const {
-    const bool stays = share > 0.5 && share <= 1 && before_ != nullptr && before_->on(effect);
-    if (stays) reason += "; near enough to stay on";
-    return share > 1 || stays;
+  void comesOn(EffectRow& r, double share) const {
+    const bool stays = share > 0.5 && share <= 1 && before_ != nullptr && before_->on(r.effect);
+    if (stays) r.reason += "; near enough to stay on";
+    r.state = when(share > 1 || stays);
+  }
+  /// What is there of an effect that is not called for is kept, for when it is again.
+  void keep(EffectRow& r, const char* why) const {
+    if (r.state == EffectState::on || forcedMode(s_, r.effect) != EffectMode::automatic) return;
+    r.state = EffectState::asleep;
+    r.reason += why;
   }
 
   /// "none of 25 materials with a normal map", "2 of 3 materials with a normal map".
   template <class Has>
-  std::pair<size_t, std::string> materials(Has has, const char* what) const {
-    const auto n = static_cast<size_t>(std::ranges::count_if(used_, has));
-    const std::string all = counted(used_.size(), "material", "materials");
-    return {n, used_.empty() ? all : fmt::format("{} of {} {}", n == 0 ? "none" : std::to_string(n), all, what)};
+  EffectRow materials(Effect effect, Has has, const char* what, uint64_t bytes = 0) const {
+    const auto n = std::ranges::count_if(used_, has);
+    std::string reason = counted(used_.size(), "material", "materials");
+    if (!used_.empty()) reason = fmt::format("{} of {} {}", n == 0 ? "none" : std::to_string(n), reason, what);
+    return {.effect = effect, .state = when(n > 0), .reason = std::move(reason), .bytesNotAllocated = bytes};
   }
   float most(float MaterialTraits::*value) const {
     return used_.empty() ? 0 : std::ranges::max(used_, {}, value).*value;
   }
+  bool byTriangles() const { return s_.matrix.gpu.hitRule == HitRule::triangles; }
 
-  void emission() {
-    const float emission = most(&MaterialTraits::emission);
-    std::string reason = materials([](const MaterialTraits& m) { return m.emission > 0; }, "with emission").second;
-    if (emission > 0) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", emission);
-    // M in the list, F M, and that as shading samples it.
-    decide(Effect::emission, emission > 0, std::move(reason), b_.facets * (12 + 16 + 16));
-    emits_ = lit(Effect::emission, emission > 0);
+  EffectRow emission() const {
+    const uint64_t bytes = b_.facets * (12 + 16 + 16);  // M in the list, F M, and that as shading samples it
+    const auto emits = [](const MaterialTraits& m) { return m.emission > 0; };
+    EffectRow r = materials(Effect::emission, emits, "with emission", bytes);
+    if (r.state == EffectState::on)
+      r.reason += fmt::format(", {:.3g} W/(m^2 sr) at most", most(&MaterialTraits::emission));
+    return r;
   }
 
-  void light(const LightKind& kind) {
-    const Effect effect = effectOf(kind.type);
+  EffectRow light(const LightKind& kind) const {
+    EffectRow r{.effect = effectOf(kind.type)};
     size_t all = 0, shining = 0, lighting = 0, sized = 0;
     double share = 0;
-    uint64_t maps = 0;
     const uint64_t flat =
         shadowTexelBytes(s_.light.shadowFilter) * s_.light.shadowResolution * s_.light.shadowResolution;
     for (const LightTraits& l : t_.lights) {
@@ -124,39 +132,31 @@ class Planner {
       lighting += l.share() > 1;
       sized += l.share() > 1 && l.size;
       share = std::max(share, l.share());
-      maps += l.cube ? flat / 4 * 6 : flat;
+      r.bytesNotAllocated += l.cube ? flat / 4 * 6 : flat;
     }
-    std::string reason = counted(all, kind.one, kind.many);
+    r.reason = counted(all, kind.one, kind.many);
     if (all > 0)
-      reason += fmt::format(": {} on and with an intensity, of these {} in reach of the scene", shining, lighting);
-    if (sized > 0) reason += fmt::format("; penumbrae of {}, by {} points", sized, s_.light.points);
-    const bool calledFor = held(effect, share, reason);
-    decide(effect, calledFor, std::move(reason), maps);
-    lit(effect, calledFor);
+      r.reason += fmt::format(": {} on and with an intensity, of these {} in reach of the scene", shining, lighting);
+    if (sized > 0) r.reason += fmt::format("; penumbrae of {}, by {} points", sized, s_.light.points);
+    comesOn(r, share);
+    return r;
   }
 
-  void sky() {
+  EffectRow sky() const {
     // A start for every row's bins, an entry for each of them in which a ray escapes, and what that brings.
-    const uint64_t bytes =
-        b_.facets * (4 + 16) + static_cast<uint64_t>(4 * b_.escaped * double(b_.facets * s_.matrix.gpu.rays));
-    const SkySource source = s_.sky.source;
-    std::string reason = fmt::format("sky.source = {}", nameOf(source));
-    if (source != SkySource::none) reason += fmt::format(", {:.3g} W/(m^2 sr) at most", t_.sky);
-    if (!byTriangles() && source != SkySource::none) reason += "; not with matrix.hit_rule = thesis, which has no sky";
+    const double escaping = b_.escaped * double(b_.facets * s_.matrix.gpu.rays);
+    EffectRow r{.effect = Effect::sky,
+                .reason = fmt::format("sky.source = {}", nameOf(s_.sky.source)),
+                .bytesNotAllocated = b_.facets * (4 + 16) + static_cast<uint64_t>(4 * escaping)};
+    const bool source = s_.sky.source != SkySource::none;
+    if (source) r.reason += fmt::format(", {:.3g} W/(m^2 sr) at most", t_.sky);
+    if (!byTriangles())
+      return never(r, r.reason + (source ? "; not with matrix.hit_rule = thesis, which has no sky" : ""));
     // What lies outside the region is met by the rays that escape, as a sky is.
-    if (byTriangles() && t_.outer) reason += "; rays that leave scene.region meet what lies outside of it";
-    if (byTriangles())
-      decide(Effect::sky, t_.sky > 0 || t_.outer, std::move(reason), bytes);
-    else
-      without(Effect::sky, std::move(reason), bytes);
-    lit(Effect::sky, t_.sky > 0);
-    // A sky that is there may be turned up again: what was built for it is kept.
-    EffectRow& r = row(Effect::sky);
-    const bool kept = byTriangles() && source != SkySource::none && b_.sky;
-    if (r.state == EffectState::on || s_.effects.sky != EffectMode::automatic || !kept) return;
-    r.state = EffectState::asleep;
-    r.reason += "; what was built for it is kept";
-    r.bytesNotAllocated = 0;
+    if (!t_.region.whole) r.reason += "; rays that leave scene.region meet what lies outside of it";
+    r.state = when(t_.sky > 0 || !t_.region.whole);
+    if (source && b_.sky) keep(r, "; what was built for it is kept");  // it may be turned up again
+    return r;
   }
 
   /// Metals show what is around them, which is black without a sky, but for highlights of the lights.
@@ -170,96 +170,91 @@ class Planner {
                             "dropped into the window)."};
   }
 
-  void specular() {
-    const SpecularParams& rays = s_.specular.gpu;
+  EffectRow specular() const {
     const uint64_t bytes = t_.pixels * (16 + 4);  // reflected radiance, the list of pixels that trace
-    if (s_.specular.mode == SpecularMode::off) return without(Effect::specular, "specular.mode = off", bytes);
-    auto [lobes, reason] = materials([](const MaterialTraits& m) { return m.f0 > 0; }, "with a specular lobe");
-    if (lobes > 0) {
-      const float least = std::ranges::min(used_, {}, &MaterialTraits::leastRoughness).leastRoughness;
-      smoothness_ = -INFINITY;
-      for (const MaterialTraits& m : used_)
-        if (m.f0 > 0)
-          smoothness_ = std::max(smoothness_, 1 + 10 * (double{roughnessLimit(rays, m.f0)} - m.leastRoughness));
-      reason += fmt::format(
-          "{}; roughness {:.3g} at least, rays up to {:.3g} (metals {:.3g}) where F0 H is above {:.3g} of the largest "
-          "H",
-          shines_ ? "" : ", no light to reflect", least, rays.maxRoughness, rays.metalRoughness, rays.threshold);
-    }
-    decide(Effect::specular, lobes > 0 && shines_, std::move(reason), bytes);
-    if (s_.effects.specular == EffectMode::on) smoothness_ = INFINITY;
+    const auto reflects = [](const MaterialTraits& m) { return m.f0 > 0; };
+    EffectRow r = materials(Effect::specular, reflects, "with a specular lobe", bytes);
+    if (s_.specular.mode == SpecularMode::off) return never(r, "specular.mode = off");
+    if (r.state == EffectState::off) return r;
+    const SpecularParams& rays = s_.specular.gpu;
+    r.state = when(shines_);
+    if (!shines_) r.reason += ", no light to reflect";
+    r.reason += fmt::format(
+        "; roughness {:.3g} at least, rays up to {:.3g} (metals {:.3g}) where F0 H is above {:.3g} of the largest H",
+        std::ranges::min(used_, {}, &MaterialTraits::leastRoughness).leastRoughness, rays.maxRoughness,
+        rays.metalRoughness, rays.threshold);
+    return r;
   }
 
-  void matrix() {
+  /// H, by either method: in `row` bytes for each facet and D, F M, H, B twice, as shading samples them.
+  EffectRow indirectLight(Effect effect, uint64_t row) const {
     const float albedo = most(&MaterialTraits::albedo);
-    const bool reads = albedo > 0 || plan_.on(Effect::specular);
-    std::string reason =
-        shines_ ? fmt::format("light, and albedos of up to {:.3g}", albedo) : "no light at all: H is 0 everywhere";
-    if (b_.matrix) reason += fmt::format("; {:.3g} % of the rays escape", 100 * b_.escaped);
+    return {.effect = effect,
+            .state = when(shines_ && (albedo > 0 || plan_.on(Effect::specular))),
+            .reason = shines_ ? fmt::format("light, and albedos of up to {:.3g}", albedo)
+                              : "no light at all: H is 0 everywhere",
+            .bytesNotAllocated = b_.facets * (row + 6 * 16)};
+  }
+  EffectRow matrix() const {
     // csr keeps 4 B per distinct column, of which there are at most as many as rays.
     const uint64_t rays = s_.matrix.gpu.rays,
-                   rowBytes = s_.matrix.format == MatrixFormat::csr ? 4 * rays + 12 : 8 * rays + 8;
-    constexpr uint64_t kLight = 6 * 16,  // D, F M, H, B twice, as shading samples them
-        kSolve = 16 + 4, kFrames = 2 * 16;
-    if (s_.solver.method == SolverMethod::bruteForce) {
-      without(Effect::matrix, "solver.method = brute_force: rays of each frame in its place", b_.facets * rowBytes);
-      decide(Effect::bruteForce, shines_ && reads, fmt::format("{}; {} rays per facet and frame", reason, rays),
-             b_.facets * (kLight + kFrames));
-      return;
-    }
-    without(Effect::bruteForce, "solver.method = matrix", b_.facets * kFrames);
-    decide(Effect::matrix, shines_ && reads, std::move(reason), b_.facets * (rowBytes + kLight + kSolve));
-    // Lights that are there, and what has emitted, may be turned up again: what was built for them is kept.
-    EffectRow& r = row(Effect::matrix);
-    const bool mayShine = !t_.lights.empty() || t_.emitted || !plan_.off(Effect::sky);
-    if (r.state == EffectState::on || s_.effects.matrix != EffectMode::automatic || !mayShine || !b_.matrix) return;
-    r.state = EffectState::asleep;
-    r.reason += "; kept for the lights that there are";
-    r.bytesNotAllocated = 0;
+                   row = s_.matrix.format == MatrixFormat::csr ? 4 * rays + 12 : 8 * rays + 8, solver = 16 + 4;
+    if (s_.solver.method == SolverMethod::bruteForce)
+      return never({.effect = Effect::matrix, .bytesNotAllocated = b_.facets * row},
+                   "solver.method = brute_force: rays of each frame in its place");
+    EffectRow r = indirectLight(Effect::matrix, row + solver);
+    if (!b_.matrix) return r;
+    r.reason += fmt::format("; {:.3g} % of the rays escape", 100 * b_.escaped);
+    // Lights that are there, and what has emitted, may be turned up again.
+    if (!t_.lights.empty() || t_.emitted || !plan_.off(Effect::sky)) keep(r, "; kept for the lights that there are");
+    return r;
+  }
+  EffectRow bruteForce() const {
+    const uint64_t frames = 2 * 16;
+    if (s_.solver.method == SolverMethod::matrix)
+      return never({.effect = Effect::bruteForce, .bytesNotAllocated = b_.facets * frames}, "solver.method = matrix");
+    EffectRow r = indirectLight(Effect::bruteForce, frames);
+    r.reason += fmt::format("; {} rays per facet and frame", s_.matrix.gpu.rays);
+    return r;
   }
 
-  void writeback() {
+  EffectRow writeback() const {
     const WritebackMode mode = s_.writeback.mode;
     // W as it is used and as it was drawn; the counts; the sums, or the image that the mask's fragments store to.
-    const uint64_t bytes = b_.facets * (mode == WritebackMode::compute ? 60 : 56) + (byTriangles() ? 4 * t_.pixels : 0);
-    if (mode == WritebackMode::off) return without(Effect::writeback, "writeback.mode = off", bytes);
-    if (!plan_.on(Effect::specular) || !plan_.on(Effect::matrix))
-      return without(Effect::writeback,
-                     fmt::format("writeback.mode = {}, but no {}", nameOf(mode),
-                                 plan_.on(Effect::specular) ? "matrix and solve" : "reflections"),
-                     bytes);
+    const uint64_t perFacet = mode == WritebackMode::compute ? 60 : 56, perPixel = byTriangles() ? 4 : 0;
+    EffectRow r{.effect = Effect::writeback,
+                .reason = fmt::format("writeback.mode = {}", nameOf(mode)),
+                .bytesNotAllocated = b_.facets * perFacet + perPixel * t_.pixels};
+    if (mode == WritebackMode::off) return never(r, r.reason);
+    if (!plan_.on(Effect::specular)) return never(r, r.reason + ", but no reflections");
+    if (!plan_.on(Effect::matrix)) return never(r, r.reason + ", but no matrix and solve");
     const float f0 = most(&MaterialTraits::f0);
-    std::string reason = fmt::format("writeback.mode = {}; specular reflectance up to {:.3g}{}", nameOf(mode), f0,
-                                     shines_ ? ", lit" : ", no light to reflect");
-    decide(Effect::writeback, f0 > 0 && shines_, std::move(reason), bytes);
+    r.reason += fmt::format("; specular reflectance up to {:.3g}{}", f0, shines_ ? ", lit" : ", no light to reflect");
+    r.state = when(f0 > 0 && shines_);
+    return r;
   }
 
-  void emitterSampling() {
-    const uint64_t bytes = b_.facets * 16;
-    if (plan_.on(Effect::bruteForce) && emits_)
-      return without(Effect::emitterSampling, "solver.method = brute_force: its rays meet the emitters", bytes);
-    if (!emits_ || !plan_.on(Effect::matrix) || !byTriangles())
-      return without(Effect::emitterSampling,
-                     !emits_                     ? "nothing emits"
-                     : !plan_.on(Effect::matrix) ? "no matrix, no first gather"
-                                                 : "matrix.hit_rule = thesis",
-                     bytes);
-    EffectRow& r = row(Effect::emitterSampling);
+  EffectRow emitterSampling() const {
+    EffectRow r{.effect = Effect::emitterSampling, .bytesNotAllocated = b_.facets * 16};
+    if (!emits_) return never(r, "nothing emits");
+    if (plan_.on(Effect::bruteForce)) return never(r, "solver.method = brute_force: its rays meet the emitters");
+    if (!plan_.on(Effect::matrix)) return never(r, "no matrix, no first gather");
+    if (!byTriangles()) return never(r, "matrix.hit_rule = thesis");
+    const bool few = emittersAreFew(b_.emitters, b_.facets) || !t_.build,
+               automatic = s_.matrix.emitterSampling == EffectMode::automatic;
     r.epsilon = kEmitterAgreement;
     r.of = "the sum of F M";
-    if (!t_.build) return decide(Effect::emitterSampling, true, "known once the emissive facets are counted", bytes);
-    const bool few = emittersAreFew(b_.emitters, b_.facets),
-               automatic = s_.matrix.emitterSampling == EffectMode::automatic;
-    std::string reason =
-        fmt::format("{} of {} facets emit, {} a tenth", b_.emitters, b_.facets, few ? "less than" : "not less than");
-    // F M does not depend on the lights: once the samples were tried, the outcome holds until the matrix is another
-    // one.
-    const bool tried = few && (b_.sampled || b_.sampledShare > 0 || (automatic && t_.light.due > Redo::Solve));
-    if (tried) {
+    r.state = when(few);
+    r.reason = t_.build ? fmt::format("{} of {} facets emit, {} a tenth", b_.emitters, b_.facets,
+                                      few ? "less than" : "not less than")
+                        : "known once the emissive facets are counted";
+    // F M does not depend on the lights: once the samples were tried, the outcome holds until there is another matrix.
+    if (t_.build && few && (b_.sampled || b_.sampledShare > 0 || (automatic && t_.light.due > Redo::Solve))) {
+      r.state = when(b_.sampled);
       r.epsilon = std::max(r.epsilon, std::abs(1 - b_.sampledShare));
-      reason += fmt::format("; their samples bring {:.4g} of what the rays do", b_.sampledShare);
+      r.reason += fmt::format("; their samples bring {:.4g} of what the rays do", b_.sampledShare);
     }
-    decide(Effect::emitterSampling, tried ? b_.sampled : few, std::move(reason), bytes);
+    return r;
   }
 
   void pixelEmitters() {
@@ -267,96 +262,85 @@ class Planner {
     const bool automatic = s_.sample.emitters == EmitterLookup::automatic;
     uint64_t triangles = 0;
     bool even = true;
-    for (const MaterialTraits& m : t_.materials) {
+    for (const MaterialTraits& m : used_) {
       if (m.emission <= 0) continue;
       triangles += m.triangles;
       even = even && m.evenEmission;
     }
     if (triangles == 0 || plan_.noIndirectLight()) return;
     // What emits outside the region is not in F M, whose place pixels' rays take.
-    plan_.pixelEmitters = triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles() && (even || !automatic) && !t_.outer;
-    row(Effect::emission).reason +=
+    plan_.pixelEmitters =
+        triangles <= MAX_EMISSIVE_TRIANGLES && byTriangles() && (even || !automatic) && t_.region.whole;
+    plan_.rows[static_cast<size_t>(Effect::emission)].reason +=
         fmt::format("; {} look for {} triangles{}: {} at most{}, with matrix.hit_rule=triangles alone",
                     plan_.pixelEmitters ? "pixels" : "pixels do not", triangles,
                     automatic && plan_.pixelEmitters ? " where facets differ" : "", MAX_EMISSIVE_TRIANGLES,
                     automatic ? " and no textures" : "");
   }
 
-  void field() {
+  EffectRow field() const {
     const bool byMatrix = !plan_.noIndirectLight() && s_.matrix.gpu.traversal == Traversal::sdf;
-    const bool skips = plan_.on(Effect::specular) && s_.specular.gpu.traversal == Traversal::sdf;
-    std::string reason = fmt::format("rays of {} {} by it, specular rays {}",
-                                     plan_.on(Effect::bruteForce) ? "brute force" : "the matrix",
-                                     byMatrix ? "skip" : "do not skip", skips && smoothness_ > 1 ? "do" : "do not");
-    const bool calledFor = byMatrix || (skips && held(Effect::field, smoothness_, reason));
-    decide(Effect::field, calledFor, std::move(reason),
-           s_.field.method == FieldMethod::chebyshev ? b_.voxels : 5 * b_.voxels);
+    // Above 1 specular rays of some pixels skip by it; 0.5: materials are rougher by 0.05.
+    double smoothness = 0;
+    if (plan_.on(Effect::specular) && s_.specular.gpu.traversal == Traversal::sdf) {
+      if (s_.effects.specular == EffectMode::on) smoothness = INFINITY;
+      for (const MaterialTraits& m : used_)
+        if (m.f0 > 0)
+          smoothness =
+              std::max(smoothness, 1 + 10 * (double{roughnessLimit(s_.specular.gpu, m.f0)} - m.leastRoughness));
+    }
+    EffectRow r{.effect = Effect::field,
+                .reason = fmt::format("rays of {} {} by it, specular rays {}",
+                                      plan_.on(Effect::bruteForce) ? "brute force" : "the matrix",
+                                      byMatrix ? "skip" : "do not skip", smoothness > 1 ? "do" : "do not"),
+                .bytesNotAllocated = s_.field.method == FieldMethod::chebyshev ? b_.voxels : 5 * b_.voxels};
+    comesOn(r, byMatrix ? INFINITY : smoothness);
+    return r;
   }
 
-  void relight() {
-    if (plan_.noIndirectLight()) return without(Effect::relight, "no indirect light");
-    row(Effect::relight).epsilon = s_.solver.tolerance;
-    row(Effect::relight).of = "the mean H";
-    const LightState& l = t_.light;
-    const bool due = l.due <= Redo::Scatter;
-    // Light at rest is kept, unless relighting is switched off.
-    sleeps(Effect::relight, due || !l.settled || s_.effects.relight == EffectMode::off,
-           due ? fmt::format("{} is due", nameOf(std::max(l.due, Redo::Materials)))
-           : plan_.on(Effect::bruteForce)
-               ? fmt::format("{} of {} frames, standard error {:.2g} {} {:.2g} W/m^2", l.frames, s_.solver.frames,
-                             l.standardError, l.standardError <= l.tolerance ? "<=" : ">", l.tolerance)
-               : fmt::format("error bound {:.2g} {} {:.2g} W/m^2", l.bound, l.bound <= l.tolerance ? "<=" : ">",
-                             l.tolerance));
+  EffectRow relight() const {
+    if (plan_.noIndirectLight()) return never({.effect = Effect::relight}, "no indirect light");
+    const SolveReport& solve = t_.light.report;
+    const bool due = t_.light.due <= Redo::Scatter, frames = plan_.on(Effect::bruteForce);
+    const float error = frames ? solve.standardError : solve.bound;
+    std::string reason =
+        frames ? fmt::format("{} of {} frames, standard error", solve.frames, s_.solver.frames) : "error bound";
+    reason += fmt::format(" {:.2g} {} {:.2g} W/m^2", error, error <= solve.allowed ? "<=" : ">", solve.allowed);
+    if (due) reason = fmt::format("{} is due", nameOf(std::max(t_.light.due, Redo::Materials)));
+    EffectRow r = sleeps(Effect::relight, due || !solve.settled(), std::move(reason));
+    r.epsilon = s_.solver.tolerance;
+    r.of = "the mean H";
+    return r;
   }
 
-  void rebuild() {
-    const bool due = t_.light.due <= Redo::Matrix;
-    sleeps(Effect::rebuild, due,
-           due ? fmt::format("due from {} on", nameOf(t_.light.due))
-               : "geometry and build settings are as they were built");
+  EffectRow glass() const {
+    EffectRow r = materials(Effect::glass, &MaterialTraits::glass, "blended with alpha below 1, or transmissive");
+    if (byTriangles() || r.state == EffectState::off) return r;
+    return never(r, r.reason + ", opaque with matrix.hit_rule = thesis; textured ones cut at one half");
   }
 
-  void redraw() {
-    sleeps(Effect::redraw, t_.redraw.value_or(true),
-           !t_.redraw   ? "each picture that is asked for"
-           : *t_.redraw ? "camera, scene, settings or light have changed"
-                        : "camera, scene, settings and light are as drawn");
-  }
-
-  void glass() {
-    auto [n, reason] =
-        materials([](const MaterialTraits& m) { return m.glass; }, "blended with alpha below 1, or transmissive");
-    if (!byTriangles() && n > 0)
-      return without(Effect::glass, reason + ", opaque with matrix.hit_rule = thesis; textured ones cut at one half");
-    decide(Effect::glass, n > 0, std::move(reason));
-  }
   /// Where there is no glass, textured materials that blend are cut out.
-  void alphaTest() {
+  EffectRow alphaTest() const {
     const bool glass = plan_.on(Effect::glass);
     const auto cut = [&](const MaterialTraits& m) { return m.alphaTest || (m.cutIfOpaque && !(glass && m.glass)); };
-    auto [n, reason] = materials(cut, "cut out by alpha");
-    decide(Effect::alphaTest, n > 0, std::move(reason));
+    return materials(Effect::alphaTest, cut, "cut out by alpha");
   }
-  void materialFeature(Effect effect, bool MaterialTraits::*has, const char* what) {
-    auto [n, reason] = materials(has, what);
-    decide(effect, n > 0, std::move(reason));
-  }
+  EffectRow normalMap() const { return materials(Effect::normalMap, &MaterialTraits::normalMap, "with a normal map"); }
 
-  void blur() {
-    if (plan_.noIndirectLight()) return without(Effect::blur, "no indirect light");
+  EffectRow blur() const {
+    EffectRow r{.effect = Effect::blur};
+    if (plan_.noIndirectLight()) return never(r, "no indirect light");
     if (const SampleFilter filter = s_.sample.gpu.filter_; filter != SampleFilter::blur)
-      return without(Effect::blur, fmt::format("sample.filter = {}", nameOf(filter)));
-    const float epsilon = row(Effect::blur).epsilon = s_.effects.blurNoise;
-    const uint64_t copies = b_.facets * (plan_.on(Effect::emission) ? 32 : 16);
-    if (!t_.light.noise) return decide(Effect::blur, true, "what it changes is known after a relight", copies);
-    const float noise = *t_.light.noise;
-    std::string reason = fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}", noise,
-                                     noise <= epsilon ? "<=" : ">", epsilon);
-    const bool noisy = held(Effect::blur, double{noise} / epsilon, reason);
-    decide(Effect::blur, noisy, std::move(reason), copies);
+      return never(r, fmt::format("sample.filter = {}", nameOf(filter)));
+    r.epsilon = s_.effects.blurNoise;
+    r.bytesNotAllocated = b_.facets * (plan_.on(Effect::emission) ? 32 : 16);
+    const std::optional<float> noise = t_.light.noise;
+    r.reason = noise ? fmt::format("it changes H by {:.2g} of the largest at most, {} {:.2g}", *noise,
+                                   *noise <= r.epsilon ? "<=" : ">", r.epsilon)
+                     : "what it changes is known after a relight";
+    comesOn(r, noise ? double{*noise} / r.epsilon : INFINITY);
+    return r;
   }
-
-  bool byTriangles() const { return s_.matrix.gpu.hitRule == HitRule::triangles; }
 
   const SceneTraits& t_;
   const BuildTraits b_;  ///< zeros before a build
@@ -365,7 +349,6 @@ class Planner {
   EffectPlan plan_;
   std::vector<MaterialTraits> used_;     ///< by any triangle
   bool emits_ = false, shines_ = false;  ///< surfaces; any light enters the scene
-  double smoothness_ = 0;                ///< above 1 some pixels may trace; 0.5: materials are rougher by 0.05
 };
 
 }  // namespace
@@ -440,7 +423,7 @@ std::string planJson(const EffectPlan& plan, int indent) {
 }
 
 Planned::Planned(const Scene& scene, const Settings& settings) : traits(measure(scene, settings.voxel.resolution)) {
-  traits.outer = liesOutside(scene, settings);
+  traits.region = regionOrWhole(scene, settings);
   plan_ = irad::plan(traits, settings);
   settings_ = obeyed(settings, plan_);
 }
@@ -468,31 +451,21 @@ bool Planned::shines(const GpuLight& light, const Scene& scene, const Settings& 
          measureLight(light, scene, wanted.voxel.resolution).share() > 0.5;
 }
 
-std::vector<GpuMaterial> Planned::materials(const std::vector<GpuMaterial>& all) const {
-  std::vector<GpuMaterial> out = all;
-  for (size_t i = 0; i < out.size(); ++i) {
-    GpuMaterial& m = out[i];
+std::vector<Material> Planned::materials(std::vector<Material> all) const {
+  for (size_t i = 0; i < all.size(); ++i) {
+    Material& m = all[i];
     const MaterialTraits& t = traits.materials.at(i);
     const bool glass = on(Effect::glass) && t.glass;
-    if ((m.flags & MATERIAL_TRANSMISSIVE) != 0 && !(glass && t.tinted)) {
-      // As without the extension.
-      m.flags &= ~MATERIAL_TRANSMISSIVE;
-      if (m.alphaCutoff >= 0) m.flags &= ~MATERIAL_BLEND;
-      if (m.alphaCutoff == 0) m.flags &= ~MATERIAL_ALPHA_MASK;
-      if (m.alphaCutoff < 0) m.alphaCutoff = 0.5f;
+    if (!glass || !t.tinted) m.transmission = 0;
+    if (!glass && m.alpha == AlphaMode::Blend) {
+      m.alpha = t.cutIfOpaque ? AlphaMode::Mask : AlphaMode::Opaque;
+      m.alphaCutoff = 0.5f;
     }
-    if (!glass && (m.flags & MATERIAL_BLEND) != 0) {
-      m.flags &= ~MATERIAL_BLEND;
-      if (!t.cutIfOpaque) m.flags &= ~MATERIAL_ALPHA_MASK;
-    }
-    if (!on(Effect::emission)) {
-      m.emission = glm::vec3(0);
-      m.flags &= ~MATERIAL_EMISSIVE_TEXTURE;
-    }
-    if (!on(Effect::alphaTest) && !glass) m.flags &= ~MATERIAL_ALPHA_MASK;
-    if (!on(Effect::normalMap)) m.flags &= ~MATERIAL_NORMAL_TEXTURE;
+    if (!glass && !on(Effect::alphaTest)) m.alpha = AlphaMode::Opaque;
+    if (!on(Effect::emission)) m.emission = glm::vec3(0), m.emissiveTexture = {};
+    if (!on(Effect::normalMap)) m.normalTexture = {};
   }
-  return out;
+  return all;
 }
 
 ForwardEffects Planned::forwardEffects() const {

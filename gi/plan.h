@@ -58,7 +58,7 @@ IRAD_ENUM(EffectState, IRAD_EFFECT_STATES)
 
 struct EffectRow {
   Effect effect{};
-  EffectState state = EffectState::on;
+  EffectState state = EffectState::off;
   std::string reason;  ///< with the figures: "2 of 14 materials with emission, 12 W/(m^2 sr) at most"
   /// How the picture may differ from that with the effect forced on. Exact: not in one bit, what is left out is
   /// provably 0 (`epsilon` 0); threshold: by no more than `epsilon`, a share of `of`.
@@ -67,6 +67,7 @@ struct EffectRow {
   /// differ by their noise.
   const char* of = "the largest H";
   uint64_t bytesNotAllocated = 0;  ///< while it is off, by the formulas of docs/method.md 10; 0: unknown before a build
+  bool possible = true;            ///< false: another setting or effect has it off, whatever forces it on
 
   const EffectInfo& info() const { return effectInfo(effect); }
   const char* stateName() const { return nameOf(state); }
@@ -128,7 +129,7 @@ class Planned {
   /// nearly do; where the kind is forced on, all of them do.
   bool shines(const GpuLight& light, const Scene& scene, const Settings& wanted) const;
   /// The scene's materials, less what the plan has off.
-  std::vector<GpuMaterial> materials(const std::vector<GpuMaterial>& all) const;
+  std::vector<Material> materials(std::vector<Material> all) const;
   /// Which parts of forward shading are on. The rasterizer is not the plan's choice.
   ForwardEffects forwardEffects() const;
 

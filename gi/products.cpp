@@ -6,7 +6,6 @@ BuildTraits buildTraits(const Products& p) {
   const MatrixStats stats = p.matrix ? p.matrix->stats : MatrixStats{};
   return {.voxels = p.facets->grid.voxels,
           .facets = p.facets->count,
-          .solidVoxels = p.facets->solidVoxels,
           .emitters = p.emitters->count,
           .sampledShare = p.light ? p.light->sampledShare : 0,
           .sampled = p.light && p.light->correction,

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <span>
 
-#include "gi/region.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/scene/material_edits.h"
 #include "shaders/shared/emitters.h"
@@ -31,25 +30,21 @@ MaterialTraits measureMaterial(const Material& m, const Texels& texels) {
     if (largest(radiance) > 0) t.emission = std::max(luminance(radiance), std::numeric_limits<float>::min());
   }
   const glm::vec3 base = glm::min(glm::vec3(m.baseColor) * glm::vec3(texels(m.baseColorTexture).most), 1.0f);
-  if (m.lambertian) {
-    t.albedo = largest(base);
-  } else {
+  float dielectric = 1;
+  if (!m.lambertian) {
     const TexelRange rough = texels(m.metallicRoughnessTexture);
-    t.albedo = largest(base) * (1 - std::min(m.metallic * rough.least.b, 1.0f));
+    dielectric -= std::min(m.metallic * rough.least.b, 1.0f);
     // A black metal reflects as well, at grazing angles.
-    const float least = std::numeric_limits<float>::min();
-    t.f0 = std::max({least, 0.04f * (1 - std::min(m.metallic * rough.least.b, 1.0f)),
+    t.f0 = std::max({std::numeric_limits<float>::min(), 0.04f * dielectric,
                      largest(base) * std::min(m.metallic * rough.most.b, 1.0f)});
     t.leastRoughness = std::min(m.roughness * rough.least.g, 1.0f);
   }
+  t.albedo = largest(base) * dielectric;
   t.normalMap = m.normalTexture.image >= 0;
   t.evenEmission = m.emissiveTexture.image < 0 && m.alpha != AlphaMode::Mask;
   t.alphaTest = m.alpha == AlphaMode::Mask;
-  t.glass = m.alpha == AlphaMode::Blend && m.baseColor.a * texels(m.baseColorTexture).least.a < 1;
-  const float passed = m.transmission * texels(m.transmissionTexture).most.r;
-  t.tinted =
-      passed * (m.lambertian ? 1 : 1 - std::min(m.metallic * texels(m.metallicRoughnessTexture).least.b, 1.0f)) > 0;
-  t.glass |= t.tinted;
+  t.tinted = m.transmission * texels(m.transmissionTexture).most.r * dielectric > 0;
+  t.glass = t.tinted || (m.alpha == AlphaMode::Blend && m.baseColor.a * texels(m.baseColorTexture).least.a < 1);
   t.cutIfOpaque = m.alpha == AlphaMode::Blend && cutByAlpha(m);
   return t;
 }
@@ -98,10 +93,6 @@ void measureMaterials(const Scene& scene, const std::vector<Material>& materials
                                     [&](uint32_t vertex) { return scene.colors[vertex].a < 1; });
     traits.emitted |= t.emission > 0;
   }
-}
-
-bool liesOutside(const Scene& scene, const Settings& settings) {
-  return !regionOrWhole(scene, settings).whole;
 }
 
 SceneTraits measure(const Scene& scene, uint32_t resolution) {

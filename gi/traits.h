@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "gi/region.h"
 #include "gi/settings.h"
+#include "gi/solve_report.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/texel_range.h"
 #include "shaders/shared/scene_gpu.h"
@@ -43,7 +45,7 @@ struct LightTraits {
 /// What the voxels and their matrix have shown, once they are built.
 struct BuildTraits {
   uint64_t voxels = 0;
-  uint32_t facets = 0, solidVoxels = 0;
+  uint32_t facets = 0;
   uint32_t emitters = 0;   ///< facets that emit
   float sampledShare = 0;  ///< Lighting::sampledShare
   bool sampled = false;    ///< the emitters' light is by samples
@@ -55,11 +57,7 @@ struct BuildTraits {
 /// The light as it is.
 struct LightState {
   Redo due = Redo::Voxels;  ///< first stage that has to run again
-  bool settled = false;     ///< the solver has nothing left to do
-  float bound = 0;          ///< error bound on B, W/m^2
-  float tolerance = 0;      ///< bound (brute force: standard error) at which the solver sleeps, W/m^2
-  uint32_t frames = 0;      ///< brute force: in the mean so far
-  float standardError = 0;  ///< brute force: mean of H's, W/m^2
+  SolveReport report;       ///< the last one
   /// Largest change that the blur makes to H, as a share of the largest H; none before there was light.
   std::optional<float> noise;
 };
@@ -72,7 +70,7 @@ struct SceneTraits {
   std::optional<BuildTraits> build;
   LightState light;
   float sky = 0;                 ///< largest radiance of the sky that the settings ask for
-  bool outer = false;            ///< something lies outside the region that has voxels
+  SceneRegion region;            ///< that has voxels, by the settings
   uint64_t pixels = 0;           ///< of the picture that was drawn last
   std::optional<bool> redraw{};  ///< the window has to draw its picture again; none: pictures are drawn on request
 };
@@ -81,9 +79,6 @@ struct SceneTraits {
 SceneTraits measure(const Scene& scene, uint32_t resolution);
 /// `materials` anew, were these the scene's, and `emitted`.
 void measureMaterials(const Scene& scene, const std::vector<Material>& materials, SceneTraits& traits);
-
-/// Whether settings leave something outside the region that has voxels; not where they are wrong.
-bool liesOutside(const Scene& scene, const Settings& settings);
 
 /// `light` is in the scene's local space.
 LightTraits measureLight(const GpuLight& light, const Scene& scene, uint32_t resolution);

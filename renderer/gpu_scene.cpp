@@ -14,8 +14,6 @@
 namespace irad {
 namespace {
 
-constexpr size_t kTextures = kMaterialTextures.size();
-
 Image uploadTexture(Context& context, const SceneImage& source) {
   IRAD_CHECK_OP(source.rgba.size(), ==, 4ull * source.width * source.height);
   ImageDesc desc;
@@ -59,7 +57,7 @@ GpuMaterial toGpu(const Material& m) {
   if (m.doubleSided) gpu.flags |= MATERIAL_DOUBLE_SIDED;
   if (m.lambertian) gpu.flags |= MATERIAL_LAMBERTIAN;
   const auto uses = texturesOf(m);
-  for (uint32_t i = 0; i < kTextures; ++i) {
+  for (uint32_t i = 0; i < MATERIAL_TEXTURES; ++i) {
     const TextureUse& use = *uses[i];
     if (use.image >= 0) gpu.flags |= MATERIAL_BASE_COLOR_TEXTURE << i;
     if (use.uvSet == 1) gpu.uvSets |= 1u << i;
@@ -114,7 +112,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   triangleMaterials = uploadArray(context, "triangle materials", owners);
 
   // Materials and their textures; a material without one gets a constant (white, or the flat normal).
-  materialValues = gpuMaterials(scene);
+  materialValues = gpuMaterials(scene.materials);
   materials = uploadArray(context, "materials", materialValues);
   textures.reserve(scene.images.size() + 2);
   for (const SceneImage& image : scene.images) textures.push_back(uploadTexture(context, image));
@@ -126,7 +124,7 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   for (const Material& m : fileMaterials(scene)) {
     MaterialTextures& set = bound.emplace_back();
     const auto uses = texturesOf(m);
-    for (uint32_t i = 0; i < kTextures; ++i) {
+    for (uint32_t i = 0; i < MATERIAL_TEXTURES; ++i) {
       const size_t image = uses[i]->image >= 0   ? static_cast<size_t>(uses[i]->image)
                            : i == TEXTURE_NORMAL ? flat
                                                  : white;
@@ -196,9 +194,9 @@ bool hasIntensity(const GpuLight& light) {
   return std::max({light.intensity.x, light.intensity.y, light.intensity.z}) > 0.0f;
 }
 
-std::vector<GpuMaterial> gpuMaterials(const Scene& scene) {
+std::vector<GpuMaterial> gpuMaterials(const std::vector<Material>& materials) {
   std::vector<GpuMaterial> values;
-  for (const Material& m : scene.materials) values.push_back(toGpu(m));
+  for (const Material& m : materials) values.push_back(toGpu(m));
   return values;
 }
 

@@ -44,8 +44,8 @@ class SceneOnDevice {
   std::map<int, glm::vec3> brightest_;  ///< texel of each image that was asked for, by index
 };
 
-/// The scene's materials as passes read them.
-std::vector<GpuMaterial> gpuMaterials(const Scene& scene);
+/// Materials as passes read them.
+std::vector<GpuMaterial> gpuMaterials(const std::vector<Material>& materials);
 
 /// Lights as passes read them; drawShadows adds their shadow maps.
 std::vector<GpuLight> gpuLights(const std::vector<Light>& lights, const glm::dvec3& origin);

@@ -31,7 +31,7 @@ std::vector<ShaderBinding> mergedBindings(const std::vector<ShaderModule>& modul
   for (const ShaderModule& module : modules)
     for (const ShaderBinding& b : module.bindings) {
       if (b.set == 1) {
-        IRAD_CHECK(b.binding < kMaterialBindings && !b.storageImage && !b.uniformBlock,
+        IRAD_CHECK(b.binding < MATERIAL_TEXTURES && !b.storageImage && !b.uniformBlock,
                    "{}: set 1 binding {} ({}) is not a material's", module.name, b.binding, b.name);
         material = true;
         continue;

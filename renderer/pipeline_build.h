@@ -10,6 +10,7 @@
 
 #include "renderer/device.h"
 #include "renderer/shaders.h"
+#include "shaders/shared/scene_gpu.h"
 
 namespace irad {
 
@@ -17,7 +18,6 @@ enum class Blend { None, Additive, Alpha };
 
 constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_ALL_GRAPHICS | VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr uint32_t kPushBytes = 128;  ///< what every device has
-constexpr uint32_t kMaterialBindings = 6;
 
 VkDescriptorType descriptorType(const ShaderBinding& binding);
 

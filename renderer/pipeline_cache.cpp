@@ -12,8 +12,8 @@ PipelineCache::PipelineCache(const Device& device, const ShaderLibrary& shaders)
     : device_(device), shaders_(shaders), generation_(shaders.generation()) {
   const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   vkCheck(vkCreatePipelineCache(device.handle, &info, nullptr, &cache_), "creating the pipeline cache");
-  std::vector<ShaderBinding> textures(kMaterialBindings);
-  for (uint32_t i = 0; i < kMaterialBindings; ++i) textures[i].binding = i;
+  std::vector<ShaderBinding> textures(MATERIAL_TEXTURES);
+  for (uint32_t i = 0; i < MATERIAL_TEXTURES; ++i) textures[i].binding = i;
   material_ = setLayout(textures);
   device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(material_), "material");
 }

@@ -24,9 +24,8 @@ using S = Settings;
 T lit() {
   T t;
   t.materials = {{.triangles = 10, .albedo = 0.5f}, {.triangles = 2, .emission = 3, .albedo = 0.5f}};
-  t.build =
-      BuildTraits{.voxels = 1000, .facets = 500, .solidVoxels = 400, .emitters = 5, .sampled = true, .matrix = true};
-  t.light = {.due = Redo::Nothing, .settled = true, .bound = 1e-4f, .tolerance = 2e-4f, .noise = 0.1f};
+  t.build = BuildTraits{.voxels = 1000, .facets = 500, .emitters = 5, .sampled = true, .matrix = true};
+  t.light = {.due = Redo::Nothing, .report = {.bound = 1e-4f, .allowed = 2e-4f, .converged = true}, .noise = 0.1f};
   return t;
 }
 S usual() {
@@ -43,154 +42,166 @@ std::string text(const EffectRow& row) {
                      row.bytesNotAllocated > 0 ? fmt::format(", {} B", row.bytesNotAllocated) : "", row.reason);
 }
 
-// Edits of the lit room `t` and the usual settings `s`.
-#define EDIT(...) [](T& t, S& s) { (void)t, (void)s, __VA_ARGS__; }
-constexpr auto none = [](T&, S&) {};
-constexpr auto unlit = EDIT(t.materials[1].emission = 0);
-constexpr auto dark = EDIT(unlit(t, s), t.build.reset());
-constexpr auto turnedDown = EDIT(unlit(t, s), t.lights = {light(LightType::Point, /*shines=*/false)});
-constexpr auto black = EDIT(t.materials[0].albedo = t.materials[1].albedo = 0);
-constexpr auto glossy = EDIT(t.materials[0].f0 = 0.04f, t.materials[0].leastRoughness = 0.3f);
-constexpr auto rough = EDIT(glossy(t, s), t.materials[0].leastRoughness = 0.9f);
-constexpr auto dda = EDIT(s.matrix.gpu.traversal = Traversal::dda);
-constexpr auto noMode = EDIT(glossy(t, s), s.specular.mode = SpecularMode::off);
-constexpr auto few = EDIT(t.build->emitters = 49, t.build->sampled = false);  // emitters, not tried yet or in vain
-constexpr auto thesis = EDIT(applyPreset(s, "thesis"), dark(t, s));           // forces on what its stages always do
-constexpr auto sky = EDIT(s.sky.source = SkySource::constant, t.sky = 2);
-constexpr auto framewise = EDIT(s.solver.method = SolverMethod::bruteForce, t.build->matrix = t.build->sampled = false,
-                                t.light.frames = 9, t.light.standardError = 1e-4f);
-constexpr auto writes = EDIT(s.writeback.mode = WritebackMode::compute);
-constexpr auto byPixels = EDIT(s.sample.emitters = EmitterLookup::pixels);
+/// Of the lit room and the usual settings.
+using Edit = std::function<void(T& t, S& s)>;
+Edit operator+(const Edit& first, const Edit& then) {
+  return [=](T& t, S& s) { first(t, s), then(t, s); };
+}
+#define EDIT(...) Edit([]([[maybe_unused]] T& t, [[maybe_unused]] S& s) { __VA_ARGS__; })
+Edit set(const std::string& assignment) {
+  return [=](T&, S& s) { applySetting(s, assignment); };
+}
+const Edit none = EDIT();
+const Edit unlit = EDIT(t.materials[1].emission = 0);
+const Edit dark = unlit + EDIT(t.build.reset());
+const Edit turnedDown = unlit + EDIT(t.lights = {light(LightType::Point, /*shines=*/false)});
+const Edit dimSun = EDIT(t.lights = {light(LightType::Sun, /*shines=*/false)});
+const Edit black = EDIT(t.materials[0].albedo = t.materials[1].albedo = 0);
+const Edit glossy = EDIT(t.materials[0].f0 = 0.04f, t.materials[0].leastRoughness = 0.3f);
+const Edit rough = glossy + EDIT(t.materials[0].leastRoughness = 0.9f);
+const Edit dda = set("matrix.traversal=dda"), noMode = glossy + set("specular.mode=off");
+const Edit few = EDIT(t.build->emitters = 49, t.build->sampled = false);  // emitters, not tried yet or in vain
+const Edit thesis = EDIT(applyPreset(s, "thesis")) + dark;                // forces on what its stages always do
+const Edit thesisRays = set("matrix.hit_rule=thesis"), byPixels = set("sample.emitters=pixels");
+const Edit skyLit = set("sky.source=constant") + EDIT(t.sky = 2), writes = set("writeback.mode=compute");
+const Edit framewise =
+    set("solver.method=brute_force") +
+    EDIT(t.build->matrix = t.build->sampled = false, t.light.report.frames = 9, t.light.report.standardError = 1e-4f);
+
+/// The lit room with the usual settings, edited, and what its plan says.
+struct Edited {
+  T t = lit();
+  S s = usual();
+  EffectPlan plan;
+  explicit Edited(const Edit& edit, const EffectPlan* before = nullptr) {
+    edit(t, s);
+    plan = irad::plan(t, s, before);
+  }
+};
 
 /// What an edit makes of an effect: its row in words, * for any.
 struct Case {
   Effect effect;
-  void (*edit)(T& t, S& s);
+  Edit edit;
   const char* row;
 };
-using E = Effect;
+using enum Effect;
 constexpr uint32_t kMost = MAX_EMISSIVE_TRIANGLES;
 const Case kCases[]{
-    {E::emission, none, "on: 1 of 2 materials with emission, 3 W/(m^2 sr) at most"},
-    {E::emission, EDIT(t.materials[1].triangles = 0), "off, 22000 B: none of 1 material with emission"},
-    {E::emission, dark, "off: none of 2 materials with emission"},
-    {E::emission, byPixels, "on: *; pixels look for 2 triangles: 256 at most, with matrix.hit_rule=triangles alone"},
-    {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost), "on: *; pixels look for 256 *"},
-    {E::emission, EDIT(byPixels(t, s), t.materials[1].triangles = kMost + 1), "on: *; pixels do not look for 257 *"},
-    {E::emission, EDIT(byPixels(t, s), s.matrix.gpu.hitRule = HitRule::thesis),
-     "on: *; pixels do not look for 2 triangles: *"},
-    {E::emission, EDIT(byPixels(t, s), s.effects.matrix = EffectMode::off), "on: * at most"},
-    {E::emission, EDIT(byPixels(t, s), s.effects.emission = EffectMode::off), "off, 22000 B: forced off: 1 of 2 *"},
-    {E::emission, EDIT(byPixels(t, s), unlit(t, s), s.effects.emission = EffectMode::on), "on: forced on: none of 2 *"},
-    {E::emission, thesis, "on: *"},
-    {E::emitterSampling, none, "on, within 1 of the sum of F M: 5 of 500 *; their samples bring 0 of what the rays do"},
-    {E::emitterSampling, EDIT(few(t, s), t.build->emitters = 50), "off, within 0.05 *, not less than a tenth"},
-    {E::emitterSampling, EDIT(few(t, s), t.light.due = Redo::Gather), "on, within 0.05 *, less than a tenth"},
-    {E::emitterSampling, few, "off, within 1 of the sum of F M, 8000 B: 49 of 500 facets emit*; their samples bring *"},
-    {E::emitterSampling, EDIT(few(t, s), t.build->sampledShare = 0.8f), "off, within 0.2 *their samples bring 0.8 *"},
+    {emission, none, "on: 1 of 2 materials with emission, 3 W/(m^2 sr) at most"},
+    {emission, EDIT(t.materials[1].triangles = 0), "off, 22000 B: none of 1 material with emission"},
+    {emission, dark, "off: none of 2 materials with emission"},
+    {emission, byPixels, "on: *; pixels look for 2 triangles: 256 at most, with matrix.hit_rule=triangles alone"},
+    {emission, byPixels + EDIT(t.materials[1].triangles = kMost), "on: *; pixels look for 256 *"},
+    {emission, byPixels + EDIT(t.materials[1].triangles = kMost + 1), "on: *; pixels do not look for 257 *"},
+    {emission, byPixels + thesisRays, "on: *; pixels do not look for 2 triangles: *"},
+    {emission, byPixels + set("effects.matrix=off"), "on: * at most"},
+    {emission, byPixels + set("effects.emission=off"), "off, 22000 B: forced off: 1 of 2 *"},
+    {emission, byPixels + unlit + set("effects.emission=on"), "on: forced on: none of 2 *"},
+    {emission, thesis, "on: *"},
+    {sun, dimSun + set("light.shadow_filter=hard"), "off, 16777216 B: *"},
+    {sun, dimSun + set("light.shadow_filter=vsm"), "off, 67108864 B: *"},  // moments, four times a depth
+    {emitterSampling, none, "on, within 1 of the sum of F M: 5 of 500 *; their samples bring 0 of what the rays do"},
+    {emitterSampling, few + EDIT(t.build->emitters = 50), "off, within 0.05 *, not less than a tenth"},
+    {emitterSampling, few + EDIT(t.light.due = Redo::Gather), "on, within 0.05 *, less than a tenth"},
+    {emitterSampling, few, "off, within 1 of the sum of F M, 8000 B: 49 of 500 facets emit*; their samples bring *"},
+    {emitterSampling, few + EDIT(t.build->sampledShare = 0.8f), "off, within 0.2 *their samples bring 0.8 *"},
     // A light has moved: F M is what it was.
-    {E::emitterSampling, EDIT(few(t, s), t.build->sampledShare = 0.8f, t.light.due = Redo::Gather),
-     "off, within 0.2 *"},
-    {E::emitterSampling, EDIT(few(t, s), s.matrix.gpu.hitRule = HitRule::thesis),
-     "off, 8000 B: matrix.hit_rule = thesis"},
-    {E::emitterSampling, EDIT(unlit(t, s), t.lights = {light(LightType::Sun)}), "off, 8000 B: nothing emits"},
-    {E::matrix, EDIT(t.build->escaped = 0.125), "on: light, and albedos of up to 0.5; 12.5 % of the rays escape"},
-    {E::matrix, black, "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
-    {E::matrix, EDIT(black(t, s), glossy(t, s)), "on: light, and albedos of up to 0; 0 % of the rays escape"},
-    {E::matrix, EDIT(black(t, s), noMode(t, s)),
-     "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
-    {E::matrix, dark, "off: no light at all: H is 0 everywhere"},
-    {E::matrix, EDIT(dark(t, s), t.lights = {light(LightType::Point)}), "on: light, and albedos of up to 0.5"},
-    {E::matrix, turnedDown, "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
-    {E::matrix, EDIT(unlit(t, s), t.emitted = true),
+    {emitterSampling, few + EDIT(t.build->sampledShare = 0.8f, t.light.due = Redo::Gather), "off, within 0.2 *"},
+    {emitterSampling, few + thesisRays, "off, 8000 B: matrix.hit_rule = thesis"},
+    {emitterSampling, unlit + EDIT(t.lights = {light(LightType::Sun)}), "off, 8000 B: nothing emits"},
+    {matrix, EDIT(t.build->escaped = 0.125), "on: light, and albedos of up to 0.5; 12.5 % of the rays escape"},
+    {matrix, black, "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
+    {matrix, black + glossy, "on: light, and albedos of up to 0; 0 % of the rays escape"},
+    {matrix, black + noMode, "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
+    {matrix, dark, "off: no light at all: H is 0 everywhere"},
+    {matrix, dark + EDIT(t.lights = {light(LightType::Point)}), "on: light, and albedos of up to 0.5"},
+    {matrix, turnedDown, "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
+    {matrix, unlit + EDIT(t.emitted = true),
      "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
-    {E::matrix, EDIT(turnedDown(t, s), t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
-    {E::matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
-    {E::matrix, thesis, "on: *"},
-    {E::matrix, framewise, "off, 262000 B: solver.method = brute_force: rays of each frame in its place"},
-    {E::bruteForce, none, "off, 16000 B: solver.method = matrix"},
-    {E::bruteForce, framewise, "on: light, and albedos of up to 0.5; 128 rays per facet and frame"},
-    {E::bruteForce, EDIT(framewise(t, s), unlit(t, s)), "off, 64000 B: no light at all: *"},
-    {E::bruteForce, EDIT(framewise(t, s), s.effects.matrix = EffectMode::off), "off, 64000 B: forced off: light, *"},
-    {E::emitterSampling, framewise, "off, 8000 B: solver.method = brute_force: its rays meet the emitters"},
-    {E::field, framewise, "on: rays of brute force skip by it, specular rays do not"},
-    {E::relight, framewise, "asleep, *: 9 of 256 frames, standard error 0.0001 <= 0.0002 W/m^2"},
-    {E::relight, EDIT(framewise(t, s), unlit(t, s)), "off: no indirect light"},
-    {E::sky, none, "off, 10000 B: sky.source = none"},
-    {E::sky, sky, "on: sky.source = constant, 2 W/(m^2 sr) at most"},
-    {E::sky, EDIT(sky(t, s), s.matrix.gpu.hitRule = HitRule::thesis), "off, 10000 B: *; not with matrix.hit_rule *"},
-    {E::sky, EDIT(sky(t, s), s.effects.sky = EffectMode::off), "off, 10000 B: forced off: sky.source = constant, 2 *"},
-    {E::sky, EDIT(s.effects.sky = EffectMode::on), "on: forced on: sky.source = none"},
-    {E::sky, EDIT(sky(t, s), t.sky = 0), "off, 10000 B: sky.source = constant, 0 W/(m^2 sr) at most"},
-    {E::sky, EDIT(sky(t, s), t.sky = 0, t.build->sky = true), "asleep: *; what was built for it is kept"},
-    {E::sky, thesis, "off: sky.source = none"},
-    {E::matrix, EDIT(unlit(t, s), sky(t, s)), "on: light, and albedos of up to 0.5; 0 % of the rays escape"},
-    {E::specular, thesis, "on: *"},
-    {E::specular, none, "off: none of 2 materials with a specular lobe"},
-    {E::specular, glossy,
+    {matrix, turnedDown + EDIT(t.build->matrix = false), "off, 320000 B: no light at all: H is 0 everywhere"},
+    {matrix, unlit, "off, 320000 B: no light at all: H is 0 everywhere; 0 % of the rays escape"},
+    {matrix, thesis, "on: *"},
+    {matrix, framewise, "off, 262000 B: solver.method = brute_force: rays of each frame in its place"},
+    {bruteForce, none, "off, 16000 B: solver.method = matrix"},
+    {bruteForce, framewise, "on: light, and albedos of up to 0.5; 128 rays per facet and frame"},
+    {bruteForce, framewise + unlit, "off, 64000 B: no light at all: *"},
+    {bruteForce, framewise + set("effects.matrix=off"), "off, 64000 B: forced off: light, *"},
+    {emitterSampling, framewise, "off, 8000 B: solver.method = brute_force: its rays meet the emitters"},
+    {field, framewise, "on: rays of brute force skip by it, specular rays do not"},
+    {relight, framewise, "asleep, *: 9 of 256 frames, standard error 0.0001 <= 0.0002 W/m^2"},
+    {relight, framewise + unlit, "off: no indirect light"},
+    {sky, none, "off, 10000 B: sky.source = none"},
+    {sky, skyLit, "on: sky.source = constant, 2 W/(m^2 sr) at most"},
+    {sky, skyLit + thesisRays, "off, 10000 B: *; not with matrix.hit_rule *"},
+    {sky, skyLit + set("effects.sky=off"), "off, 10000 B: forced off: sky.source = constant, 2 *"},
+    {sky, set("effects.sky=on"), "on: forced on: sky.source = none"},
+    {sky, skyLit + EDIT(t.sky = 0), "off, 10000 B: sky.source = constant, 0 W/(m^2 sr) at most"},
+    {sky, skyLit + EDIT(t.sky = 0, t.build->sky = true), "asleep: *; what was built for it is kept"},
+    {sky, thesis, "off: sky.source = none"},
+    {matrix, unlit + skyLit, "on: light, and albedos of up to 0.5; 0 % of the rays escape"},
+    {specular, thesis, "on: *"},
+    {specular, none, "off: none of 2 materials with a specular lobe"},
+    {specular, glossy,
      "on: 1 of 2 materials with a specular lobe; roughness 0.3 at least, rays up to 0.6 (metals 1) where F0 H is above "
      "0.0001 *"},
-    {E::specular, EDIT(glossy(t, s), unlit(t, s)), "off: 1 of 2 materials * lobe, no light to reflect; *"},
-    {E::specular, noMode, "off: specular.mode = off"},
-    {E::specular, EDIT(noMode(t, s), s.effects.specular = EffectMode::on), "off: specular.mode = off"},
-    {E::specular, rough, "on: 1 of 2 materials * roughness 0.9 at least, rays up to 0.6 *"},
-    {E::writeback, thesis, "off: writeback.mode = off"},
-    {E::writeback, glossy, "off, 28000 B: writeback.mode = off"},
-    {E::writeback, EDIT(glossy(t, s), s.effects.writeback = EffectMode::on), "off, 28000 B: writeback.mode = off"},
-    {E::writeback, EDIT(glossy(t, s), writes(t, s)),
-     "on: writeback.mode = compute; specular reflectance up to 0.04, lit"},
-    {E::writeback, EDIT(glossy(t, s), writes(t, s), s.effects.writeback = EffectMode::off),
+    {specular, glossy + unlit, "off: 1 of 2 materials * lobe, no light to reflect; *"},
+    {specular, noMode, "off: specular.mode = off"},
+    {specular, noMode + set("effects.specular=on"), "off: specular.mode = off"},
+    {specular, rough, "on: 1 of 2 materials * roughness 0.9 at least, rays up to 0.6 *"},
+    {writeback, thesis, "off: writeback.mode = off"},
+    {writeback, glossy, "off, 28000 B: writeback.mode = off"},
+    {writeback, glossy + set("effects.writeback=on"), "off, 28000 B: writeback.mode = off"},
+    {writeback, glossy + writes, "on: writeback.mode = compute; specular reflectance up to 0.04, lit"},
+    {writeback, glossy + writes + set("effects.writeback=off"),
      "off, 30000 B: forced off: writeback.mode = compute; *"},
-    {E::writeback, EDIT(glossy(t, s), s.writeback.mode = WritebackMode::mask, t.pixels = 100),
-     "on: writeback.mode = mask; *"},
-    {E::writeback, writes, "off, 30000 B: writeback.mode = compute, but no reflections"},
-    {E::writeback, EDIT(writes(t, s), s.effects.specular = s.effects.writeback = EffectMode::on),
+    {writeback, glossy + EDIT(s.writeback.mode = WritebackMode::mask, t.pixels = 100), "on: writeback.mode = mask; *"},
+    {writeback, writes, "off, 30000 B: writeback.mode = compute, but no reflections"},
+    {writeback, writes + EDIT(s.effects.specular = s.effects.writeback = EffectMode::on),
      "on: forced on: writeback.mode = compute; specular reflectance up to 0, lit"},
-    {E::writeback, EDIT(noMode(t, s), writes(t, s)), "off, 30000 B: writeback.mode = compute, but no reflections"},
-    {E::writeback, EDIT(glossy(t, s), writes(t, s), unlit(t, s)), "off, 30000 B: *, but no reflections"},
-    {E::writeback, EDIT(glossy(t, s), writes(t, s), s.effects.matrix = EffectMode::off),
+    {writeback, noMode + writes, "off, 30000 B: writeback.mode = compute, but no reflections"},
+    {writeback, glossy + writes + unlit, "off, 30000 B: *, but no reflections"},
+    {writeback, glossy + writes + set("effects.matrix=off"),
      "off, 30000 B: writeback.mode = compute, but no matrix and solve"},
-    {E::field, thesis, "on: *"},
-    {E::field, none, "on: rays of the matrix skip by it, specular rays do not"},
-    {E::field, dda, "off, 1000 B: rays of the matrix do not skip by it, specular rays do not"},
-    {E::field, glossy, "on: rays of the matrix skip by it, specular rays do"},
-    {E::field, EDIT(glossy(t, s), dda(t, s)), "on: rays of the matrix do not skip by it, specular rays do"},
-    {E::field, EDIT(glossy(t, s), dda(t, s), s.specular.gpu.traversal = Traversal::dda), "off, 1000 B: *"},
-    {E::field, EDIT(rough(t, s), dda(t, s)), "off, 1000 B: *"},
-    {E::field, turnedDown, "on: rays of the matrix skip by it, *"},
-    {E::field, dark, "off: rays of the matrix do not *"},
-    {E::relight, none, "asleep, within 0.002 of the mean H: error bound 0.0001 <= 0.0002 W/m^2"},
-    {E::relight, EDIT(t.light.settled = false, t.light.bound = 1), "on, *: error bound 1 > 0.0002 W/m^2"},
-    {E::relight, EDIT(t.light.due = Redo::Gather), "on, within 0.002 of the mean H: gather is due"},
-    {E::relight, EDIT(t.light.due = Redo::Shade), "asleep, *: error bound 0.0001 <= *"},
-    {E::relight, EDIT(s.effects.relight = EffectMode::on), "on, *: forced on: error bound *"},
-    {E::relight, dark, "off: no indirect light"},
-    {E::rebuild, EDIT(t.light.due = Redo::Gather), "asleep: geometry and build settings are as they were built"},
-    {E::rebuild, EDIT(t.light.due = Redo::Matrix), "on: due from matrix on"},
-    {E::alphaTest, EDIT(t.materials[0].alphaTest = true), "on: 1 of 2 materials cut out by alpha"},
-    {E::alphaTest, EDIT(t.materials[0].normalMap = true), "off: none of 2 materials cut out by alpha"},
-    {E::alphaTest, EDIT(t.materials[0].cutIfOpaque = true), "on: 1 of 2 materials cut out by alpha"},
-    {E::alphaTest, EDIT(t.materials[0].cutIfOpaque = t.materials[0].glass = true),
+    {field, thesis, "on: *"},
+    {field, none, "on: rays of the matrix skip by it, specular rays do not"},
+    {field, dda, "off, 1000 B: rays of the matrix do not skip by it, specular rays do not"},
+    {field, glossy, "on: rays of the matrix skip by it, specular rays do"},
+    {field, glossy + dda, "on: rays of the matrix do not skip by it, specular rays do"},
+    {field, glossy + dda + EDIT(s.specular.gpu.traversal = Traversal::dda), "off, 1000 B: *"},
+    {field, rough + dda, "off, 1000 B: *"},
+    {field, turnedDown, "on: rays of the matrix skip by it, *"},
+    {field, dark, "off: rays of the matrix do not *"},
+    {relight, none, "asleep, within 0.002 of the mean H: error bound 0.0001 <= 0.0002 W/m^2"},
+    {relight, EDIT(t.light.report.converged = false, t.light.report.bound = 1), "on, *: error bound 1 > 0.0002 W/m^2"},
+    {relight, EDIT(t.light.due = Redo::Gather), "on, within 0.002 of the mean H: gather is due"},
+    {relight, EDIT(t.light.due = Redo::Shade), "asleep, *: error bound 0.0001 <= *"},
+    {relight, set("effects.relight=on"), "on, *: forced on: error bound *"},
+    {relight, dark, "off: no indirect light"},
+    {rebuild, EDIT(t.light.due = Redo::Gather), "asleep: geometry and build settings are as they were built"},
+    {rebuild, EDIT(t.light.due = Redo::Matrix), "on: due from matrix on"},
+    {alphaTest, EDIT(t.materials[0].alphaTest = true), "on: 1 of 2 materials cut out by alpha"},
+    {alphaTest, EDIT(t.materials[0].normalMap = true), "off: none of 2 materials cut out by alpha"},
+    {alphaTest, EDIT(t.materials[0].cutIfOpaque = true), "on: 1 of 2 materials cut out by alpha"},
+    {alphaTest, EDIT(t.materials[0].cutIfOpaque = t.materials[0].glass = true),
      "off: none of 2 materials cut out by alpha"},
-    {E::alphaTest, EDIT(thesis(t, s), t.materials[0].cutIfOpaque = t.materials[0].glass = true), "on: *"},
-    {E::glass, none, "off: none of 2 materials blended with alpha below 1, or transmissive"},
-    {E::glass, EDIT(t.materials[1].glass = true), "on: 1 of 2 materials blended with alpha below 1, or transmissive"},
-    {E::glass, EDIT(thesis(t, s), t.materials[1].glass = true),
+    {alphaTest, thesis + EDIT(t.materials[0].cutIfOpaque = t.materials[0].glass = true), "on: *"},
+    {glass, none, "off: none of 2 materials blended with alpha below 1, or transmissive"},
+    {glass, EDIT(t.materials[1].glass = true), "on: 1 of 2 materials blended with alpha below 1, or transmissive"},
+    {glass, thesis + EDIT(t.materials[1].glass = true),
      "off: 1 of 2 materials blended with alpha below 1, or transmissive, opaque with matrix.hit_rule = thesis; "
-     "textured ones cut at one "
-     "half"},
-    {E::normalMap, EDIT(t.materials[0].normalMap = t.materials[1].normalMap = true), "on: 2 of 2 materials with *"},
-    {E::normalMap, EDIT(t.materials[0].alphaTest = true), "off: none of 2 materials with a normal map"},
-    {E::blur, thesis, "on, *"},
-    {E::blur, EDIT(s.effects.blurNoise = 0.01f),
-     "on, within 0.01 *: it changes H by 0.1 of the largest at most, > 0.01"},
-    {E::blur, EDIT(t.light.noise = 0.001f), "off, within 0.002 *, 16000 B: it changes H by 0.001 *<= 0.002"},
-    {E::blur, EDIT(t.light.noise.reset()), "on, *: what it changes is known after a relight"},
-    {E::blur, EDIT(s.sample.gpu.filter_ = SampleFilter::linear), "off: sample.filter = linear"},
-    {E::blur, dark, "off: no indirect light"},
-    {E::redraw, none, "on: each picture that is asked for"},
-    {E::redraw, EDIT(t.redraw = false), "asleep: camera, scene, settings and light are as drawn"},
-    {E::redraw, EDIT(t.redraw = true), "on: camera, scene, settings or light have changed"},
+     "textured ones cut at one half"},
+    {normalMap, EDIT(t.materials[0].normalMap = t.materials[1].normalMap = true), "on: 2 of 2 materials with *"},
+    {normalMap, EDIT(t.materials[0].alphaTest = true), "off: none of 2 materials with a normal map"},
+    {blur, thesis, "on, *"},
+    {blur, EDIT(s.effects.blurNoise = 0.01f), "on, within 0.01 *: it changes H by 0.1 of the largest at most, > 0.01"},
+    {blur, EDIT(t.light.noise = 0.001f), "off, within 0.002 *, 16000 B: it changes H by 0.001 *<= 0.002"},
+    {blur, EDIT(t.light.noise.reset()), "on, *: what it changes is known after a relight"},
+    {blur, EDIT(s.sample.gpu.filter_ = SampleFilter::linear), "off: sample.filter = linear"},
+    {blur, dark, "off: no indirect light"},
+    {redraw, none, "on: each picture that is asked for"},
+    {redraw, EDIT(t.redraw = false), "asleep: camera, scene, settings and light are as drawn"},
+    {redraw, EDIT(t.redraw = true), "on: camera, scene, settings or light have changed"},
 };
 
 void expectRow(const EffectRow& row, const char* pattern) {
@@ -198,43 +209,33 @@ void expectRow(const EffectRow& row, const char* pattern) {
 }
 
 TEST(Plan, SaysThatAllMetalIsBlackWithoutASky) {
-  const auto said = [](void (*edit)(T&, S&)) {
-    T t = lit();
-    S s = usual();
-    t.materials = {{.triangles = 10, .f0 = 0.9f}, {.triangles = 0, .albedo = 0.5f}};
-    t.lights = {light(LightType::Sun)};
-    edit(t, s);
-    return fmt::format("{}", fmt::join(plan(t, s).nothingDiffuse, " "));
+  const Edit metal = EDIT(t.materials = {{.triangles = 10, .f0 = 0.9f}, {.triangles = 0, .albedo = 0.5f}},
+                          t.lights = {light(LightType::Sun)});
+  const auto said = [&](const Edit& edit) {
+    return fmt::format("{}", fmt::join(Edited(metal + edit).plan.nothingDiffuse, " "));
   };
-  const std::string one = said([](T&, S&) {});
   EXPECT_EQ(
-      one,
+      said(none),
       "The one material is not diffuse: metal shows what is around it, and nothing there gives light. A sky would: "
       "sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window).");
-  EXPECT_TRUE(said([](T& t, S&) {
-                t.materials[1].triangles = 1, t.materials[1].albedo = 0;
-              }).starts_with("None of 2 materials"));
-  for (const auto edit : {+[](T&t, S&) { t.materials[1].triangles = 1; },  // something diffuse
-                          +[](T&t, S&) { t.lights.clear(); },              // no light at all, which noLight says
-                          +[](T&t, S&) { t.materials[0].emission = 1; },
-                          +[](T&t, S&s) { s.sky.source = SkySource::constant, t.sky = 1; }})
+  const Edit second = EDIT(t.materials[1].triangles = 1);  // which is diffuse
+  EXPECT_TRUE(said(second + EDIT(t.materials[1].albedo = 0)).starts_with("None of 2 materials"));
+  for (const Edit& edit : {second, EDIT(t.lights.clear()) /* no light at all, which noLight says */,
+                           EDIT(t.materials[0].emission = 1), skyLit})
     EXPECT_EQ(said(edit), "");
 }
 
 TEST(Plan, EachRowFollowsWhatCallsForIt) {
   for (const Case& c : kCases) {
-    T t = lit();
-    S s = usual();
-    c.edit(t, s);
-    const EffectPlan p = plan(t, s);
+    const auto [t, s, p] = Edited(c.edit);
     expectRow(p.row(c.effect), c.row);
     std::vector<std::string> noLight;  // the reasons of all kinds
-    if ((p.row(E::matrix).reason + p.row(E::bruteForce).reason).find("no light at all") != std::string::npos)
-      for (const E e : {E::sun, E::point, E::spot, E::emission, E::sky}) noLight.push_back(p.row(e).reason);
+    if ((p.row(matrix).reason + p.row(bruteForce).reason).find("no light at all") != std::string::npos)
+      for (const Effect e : {sun, point, spot, emission, sky}) noLight.push_back(p.row(e).reason);
     EXPECT_EQ(p.noLight, noLight) << c.row;
     // The settings that stages get are decided, and what no effect decides stays as it is.
     const S o = obeyed(s, p);
-    const bool pixels = p.row(E::emission).reason.find("; pixels look for") != std::string::npos;
+    const bool pixels = p.row(emission).reason.find("; pixels look for") != std::string::npos;
     EXPECT_TRUE(p.pixelEmitters == pixels && (o.sample.emitters != EmitterLookup::facets) == pixels) << c.row;
     for (const EffectRow& row : p.rows)
       EXPECT_TRUE(!row.info().mode || forcedMode(o, row.effect) != EffectMode::automatic) << row.info().name;
@@ -246,9 +247,7 @@ TEST(Plan, EachRowFollowsWhatCallsForIt) {
 TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
   for (const LightKind& kind : lightKinds()) {
     const auto says = [&](std::vector<LightTraits> lights, const char* pattern) {
-      T t = lit();
-      t.lights = std::move(lights);
-      const EffectPlan p = plan(t, usual());
+      const EffectPlan p = Edited([&](T& t, S&) { t.lights = std::move(lights); }).plan;
       expectRow(p.row(effectOf(kind.type)), pattern);
       for (const LightKind& other : lightKinds())
         EXPECT_TRUE(other.type == kind.type || p.off(effectOf(other.type))) << kind.name << other.name;
@@ -266,40 +265,24 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
   }
 }
 
-TEST(Plan, MomentsTakeFourTimesTheMemoryOfDepths) {
-  T t = lit();
-  t.lights = {light(LightType::Sun, /*shines=*/false)};
-  S s = usual();
-  s.light.shadowFilter = ShadowFilter::hard;
-  expectRow(plan(t, s).row(E::sun), "off, 16777216 B: *");
-  s.light.shadowFilter = ShadowFilter::vsm;
-  expectRow(plan(t, s).row(E::sun), "off, 67108864 B: *");
-}
-
 TEST(Plan, RowsAreNamedAndCanBeForcedWhichTheySay) {
-  T t = lit();
-  S unforced = usual();
-  glossy(t, unforced), writes(t, unforced);  // which nothing forces on
+  const Edit writing = glossy + writes;  // which nothing forces on
   std::set<std::string> names;
-  for (const EffectRow& row : plan(t, unforced).rows) {
+  for (const EffectRow& row : Edited(writing).plan.rows) {
     const EffectInfo& info = row.info();
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
     EXPECT_TRUE(*info.setting == 0 || findSetting(info.setting).name == info.setting);
     EXPECT_EQ(info.mode != nullptr, std::string(info.setting).starts_with("effects."));
     for (const EffectState state : {EffectState::on, EffectState::off}) {
       if (!info.mode) continue;
-      S s = usual();
-      writes(t, s);
-      applySetting(s, fmt::format("{}={}", info.setting, nameOf(state)));
-      const EffectRow forced = plan(t, s).row(row.effect);
+      const std::string assignment = fmt::format("{}={}", info.setting, nameOf(state));
+      const EffectRow forced = Edited(writing + set(assignment)).plan.row(row.effect);
       EXPECT_EQ(forced.state, state) << info.setting;
       EXPECT_EQ(state != row.state, forced.reason.starts_with(fmt::format("forced {}: ", nameOf(state))));
     }
   }
   EXPECT_EQ(names.size(), kEffects);
-  forceEffects(unforced, EffectMode::on);
-  dark(t, unforced);
-  for (const EffectRow& row : plan(t, unforced).rows)
+  for (const EffectRow& row : Edited(writing + EDIT(forceEffects(s, EffectMode::on)) + dark).plan.rows)
     EXPECT_TRUE(!row.info().mode || row.state == EffectState::on) << row.reason;
 }
 
@@ -307,33 +290,30 @@ TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
   /// Edits the lit room; `share`: what the effect is to stay on for, as a share of what it comes on at.
   using At = std::function<void(T&, S&, float share)>;
   std::vector<std::pair<Effect, At>> triggers{
-      {E::blur, [](T& t, S& s, float share) { t.light.noise = s.effects.blurNoise * share; }},
-      {E::blur,
+      {blur, [](T& t, S& s, float share) { t.light.noise = s.effects.blurNoise * share; }},
+      {blur,
        [](T& t, S& s, float share) {
          s.sample.gpu.filter_ = share < 0.5f ? SampleFilter::linear : SampleFilter::blur;
          t.light.noise = share > 1 ? std::nullopt : std::optional(0.7f * s.effects.blurNoise);
        }},
       // The field that specular rays alone read, while their roughness limit is dragged.
-      {E::field, [](T& t, S& s, float share) {
-         glossy(t, s), dda(t, s);
+      {field, [](T& t, S& s, float share) {
+         (glossy + dda)(t, s);
          s.specular.gpu.maxRoughness = t.materials[0].leastRoughness + (share - 1) / 10;
        }}};
   for (const LightKind& kind : lightKinds())
-    for (const E effect : {effectOf(kind.type), E::matrix})  // which exists for such a light alone
+    for (const Effect effect : {effectOf(kind.type), matrix})  // which exists for such a light alone
       triggers.emplace_back(effect, [type = kind.type](T& t, S& s, float share) {
         unlit(t, s), t.lights = {light(type, true, 2 / share)};
       });
   for (const auto& [effect, at] : triggers) {
     std::optional<EffectPlan> before;
-    const auto expect = [&](std::initializer_list<float> shares, bool on) {
+    const auto expect = [&, effect = effect, &at = at](std::initializer_list<float> shares, bool on) {
       for (const float share : shares) {
-        T t = lit();
-        S s = usual();
-        at(t, s, share);
-        before = plan(t, s, before ? &*before : nullptr);
+        before = Edited([&](T& t, S& s) { at(t, s, share); }, before ? &*before : nullptr).plan;
         const std::string reason = before->row(effect).reason;
         EXPECT_EQ(before->on(effect), on) << effectInfo(effect).name << share << reason;
-        EXPECT_EQ(reason.ends_with("; near enough to stay on"), on && share < 1 && effect != E::matrix) << reason;
+        EXPECT_EQ(reason.ends_with("; near enough to stay on"), on && share < 1 && effect != matrix) << reason;
       }
     };
     expect({0.7f, 0.4f, 0.99f}, false);
@@ -343,12 +323,9 @@ TEST(Plan, BetweenItsTriggersAnEffectStaysAsItIs) {
 }
 
 TEST(Plan, AnEffectThatIsOffIsWhatItsOwnSettingSays) {
-  const auto with = [](const std::string& assignment) {
-    T t = lit();
-    S s = usual();
-    glossy(t, s);
-    applySetting(s, assignment);
-    return obeyed(s, plan(t, s));
+  const auto with = [](const char* assignment) {
+    const Edited room(glossy + set(assignment));
+    return obeyed(room.s, room.plan);
   };
   for (const auto& [off, own] :
        {std::pair{"effects.specular=off", "specular.mode=off"}, {"effects.blur=off", "sample.filter=linear"}}) {
@@ -358,15 +335,12 @@ TEST(Plan, AnEffectThatIsOffIsWhatItsOwnSettingSays) {
 }
 
 TEST(Plan, Json) {
-  T t = lit();
-  S s = usual();
-  dda(t, s);
-  const auto json = nlohmann::json::parse(planJson(plan(t, s)));
+  const auto json = nlohmann::json::parse(planJson(Edited(dda).plan));
   ASSERT_EQ(json.size(), kEffects);
-  EXPECT_EQ(json[static_cast<size_t>(E::field)], nlohmann::json::parse(R"({"effect": "field", "state": "off",
+  EXPECT_EQ(json[static_cast<size_t>(field)], nlohmann::json::parse(R"({"effect": "field", "state": "off",
     "reason": "rays of the matrix do not skip by it, specular rays do not", "skip": "exact",
     "bytes_not_allocated": 1000})"));
-  EXPECT_EQ(json[static_cast<size_t>(E::relight)], nlohmann::json::parse(R"({"effect": "relight", "state": "asleep",
+  EXPECT_EQ(json[static_cast<size_t>(relight)], nlohmann::json::parse(R"({"effect": "relight", "state": "asleep",
     "reason": "error bound 0.0001 <= 0.0002 W/m^2", "skip": "threshold", "epsilon": 0.002,
     "epsilon_of": "the mean H", "bytes_not_allocated": 0})"));
 }

@@ -7,11 +7,9 @@ namespace irad {
 
 MaterialSets::MaterialSets(const Context& context, std::span<const MaterialTextures> materials) {
   if (materials.empty()) return;
-  constexpr uint32_t kTextures = std::tuple_size_v<decltype(MaterialTextures::views)>;
-  static_assert(kTextures == kMaterialBindings);
   const VkDevice device = context.device.handle;
   const auto count = static_cast<uint32_t>(materials.size());
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * kTextures};
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * MATERIAL_TEXTURES};
   const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                         .maxSets = count,
                                         .poolSizeCount = 1,
@@ -27,9 +25,9 @@ MaterialSets::MaterialSets(const Context& context, std::span<const MaterialTextu
   sets_.resize(count);
   vkCheck(vkAllocateDescriptorSets(device, &allocate, sets_.data()), "allocating the materials' descriptor sets");
   for (uint32_t m = 0; m < count; ++m) {
-    VkDescriptorImageInfo images[kTextures];
-    VkWriteDescriptorSet writes[kTextures];
-    for (uint32_t i = 0; i < kTextures; ++i) {
+    VkDescriptorImageInfo images[MATERIAL_TEXTURES];
+    VkWriteDescriptorSet writes[MATERIAL_TEXTURES];
+    for (uint32_t i = 0; i < MATERIAL_TEXTURES; ++i) {
       images[i] = {materials[m].samplers[i], materials[m].views[i], VK_IMAGE_LAYOUT_GENERAL};
       writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                    .dstSet = sets_[m],
@@ -38,7 +36,7 @@ MaterialSets::MaterialSets(const Context& context, std::span<const MaterialTextu
                    .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                    .pImageInfo = &images[i]};
     }
-    vkUpdateDescriptorSets(device, kTextures, writes, 0, nullptr);
+    vkUpdateDescriptorSets(device, MATERIAL_TEXTURES, writes, 0, nullptr);
   }
 }
 

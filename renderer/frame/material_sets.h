@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "renderer/frame/context.h"
+#include "shaders/shared/scene_gpu.h"
 
 namespace irad {
 
 /// What a material's set 1 holds, in the order of Context::materialLayout.
 struct MaterialTextures {
-  std::array<VkImageView, 6> views{};
-  std::array<VkSampler, 6> samplers{};
+  std::array<VkImageView, MATERIAL_TEXTURES> views{};
+  std::array<VkSampler, MATERIAL_TEXTURES> samplers{};
 };
 
 /// The descriptor sets of a scene's materials and the pool they come from.

@@ -81,8 +81,8 @@ MaterialEdit editFromJson(const OrderedJson& parsed, const std::string& label) {
 
 }  // namespace
 
-std::array<const TextureUse*, kMaterialTextures.size()> texturesOf(const Material& material) {
-  std::array<const TextureUse*, kMaterialTextures.size()> uses{};
+std::array<const TextureUse*, MATERIAL_TEXTURES> texturesOf(const Material& material) {
+  std::array<const TextureUse*, MATERIAL_TEXTURES> uses{};
   for (size_t i = 0; i < uses.size(); ++i) uses[i] = &(material.*kMaterialTextures[i].use);
   return uses;
 }

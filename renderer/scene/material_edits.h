@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/scene/scene.h"
+#include "shaders/shared/scene_gpu.h"
 
 namespace irad {
 
@@ -17,14 +18,14 @@ struct MaterialTexture {
   const char* name;
 };
 /// In the order of shaders' TEXTURE_*.
-inline constexpr std::array<MaterialTexture, 6> kMaterialTextures{
+inline constexpr std::array<MaterialTexture, MATERIAL_TEXTURES> kMaterialTextures{
     {{&Material::baseColorTexture, "baseColor"},
      {&Material::metallicRoughnessTexture, "metallicRoughness"},
      {&Material::normalTexture, "normal"},
      {&Material::occlusionTexture, "occlusion"},
      {&Material::emissiveTexture, "emissive"},
      {&Material::transmissionTexture, "transmission"}}};
-std::array<const TextureUse*, kMaterialTextures.size()> texturesOf(const Material& material);
+std::array<const TextureUse*, MATERIAL_TEXTURES> texturesOf(const Material& material);
 
 /// The materials of the scene's file.
 const std::vector<Material>& fileMaterials(const Scene& scene);

@@ -22,13 +22,14 @@ IRAD_CONST uint MATERIAL_LAMBERTIAN = 512u;  ///< no specular lobe at all (LoadO
 /// an opaque one, below 0 where it blends.
 IRAD_CONST uint MATERIAL_TRANSMISSIVE = 1024u;
 
-/// Order of the six textures in set 1.
+/// Order of the textures in set 1, and how many there are.
 IRAD_CONST uint TEXTURE_BASE_COLOR = 0u;
 IRAD_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
 IRAD_CONST uint TEXTURE_NORMAL = 2u;
 IRAD_CONST uint TEXTURE_OCCLUSION = 3u;
 IRAD_CONST uint TEXTURE_EMISSIVE = 4u;
 IRAD_CONST uint TEXTURE_TRANSMISSION = 5u;
+IRAD_CONST uint MATERIAL_TEXTURES = 6u;
 
 struct GpuMaterial {
   vec4 baseColor;  ///< linear
@@ -40,8 +41,9 @@ struct GpuMaterial {
   float alphaCutoff;
   float transmission;
   uint flags;
-  uint uvSets;          ///< bit i: texture i uses TEXCOORD_1
-  vec3 uvRow[12];       ///< two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
+  uint uvSets;  ///< bit i: texture i uses TEXCOORD_1
+  /// Two rows of the 2x3 uv transform per texture: uv'.x = dot(uvRow[2i], vec3(uv, 1)), ...
+  vec3 uvRow[2 * MATERIAL_TEXTURES];
 };
 
 // How the shadow map of a light without a size is read (docs/method.md 6). hard: one comparison. vsm: variance shadow

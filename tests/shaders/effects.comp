@@ -5,7 +5,6 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool FIRST = true;
 layout(constant_id = 1) const bool SECOND = true;
-layout(constant_id = 2) const uint STEP = 1;
 layout(push_constant, scalar) uniform Push {
   UintArray to;
   uint count;
@@ -14,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   const uint i = irad_index();
   if (i >= count) return;
-  uint value = STEP * i;
+  uint value = i;
   if (FIRST) value += nothing;
   if (SECOND) value += nothing * nothing * i;
   to.at[i] = value;
