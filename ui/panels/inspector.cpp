@@ -113,8 +113,10 @@ class InspectorPanel : public Panel {
     const glm::dvec3& world = in.voxel->world;
     valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g}", world.x, world.y, world.z));
     helpTooltip("The voxel's centre: x y z in the world, metres");
-    valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
-    helpTooltip("From here to the nearest solid voxel by the distance field in use, in voxels and in metres");
+    const std::string voxels = fmt::format("{:.3g}", in.voxel->distance);
+    valueRow("distance", fmt::format("{:.3g} m, {} {}", in.voxel->distance * in.edge(), voxels,
+                                     voxels == "1" ? "voxel" : "voxels"));
+    helpTooltip("From here to the nearest solid voxel by the distance field in use, in metres and in voxels");
     if (in.voxel->seed) {
       valueRow("nearest seed", three(*in.voxel->seed));
       helpTooltip("The solid voxel that jump flooding takes for the nearest: x y z");
