@@ -69,7 +69,7 @@ Manifest manifestOf(const Session& session, const Pipeline& pipeline, std::strin
           .cpuDevice = session.context.device.isCpu,
           .size = session.targets.size,
           .cameras = {session.camera.camera()},
-          .reference = session.reference && !session.reference->path.empty() ? &*session.reference : nullptr,
+          .reference = session.reference && !session.reference->path.empty() ? session.reference.get() : nullptr,
           .shaders = session.context.shaders.modified()};
 }
 
