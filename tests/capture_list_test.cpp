@@ -126,6 +126,7 @@ TEST_F(CaptureListTest, WhatIsWrongIsNamedAndTheRestIsListed) {
     EXPECT_TRUE(found.problems[i].starts_with((folder.path / fmt::format("wrong.{}/manifest.json: ", i)).string()))
         << found.problems[i];
     EXPECT_NE(found.problems[i].find(wrong[i].second), std::string::npos) << found.problems[i];
+    EXPECT_EQ(found.problems[i].find("json.exception"), std::string::npos) << found.problems[i];
   }
 }
 
