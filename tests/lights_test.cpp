@@ -2,14 +2,17 @@
 // failure leaves the old ones. The sidecar that keeps them: there and back, refusals, what the subcommands make of it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "gi/check/check.h"
 #include "gi/check/scenes.h"
 #include "gi/pipeline.h"
 #include "gi/plan.h"
+#include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sidecar.h"

@@ -162,13 +162,13 @@ void drawProgress(Session& session, const Rect& viewport) {
   ImGui::End();
 }
 
-void drawHelp(Session& session) {
+void drawHelp(Session& session, const Rect& window) {
   if (!session.showHelp) return;
   const float em = ImGui::GetFontSize();
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  floatAt({{0, 0}, {window.x, window.y}}, {0.5f, 0.5f}, em);
+  floatAt(window, {0.5f, 0.5f}, em);
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {window.size.x, std::max(window.size.y - em, 8 * em)});
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(0.3f * em, 0));  // all rows in a low window, too
-  ImGui::Begin("##help", nullptr, kFloating);
+  ImGui::Begin("##help", nullptr, kFloating & ~ImGuiWindowFlags_NoScrollbar);
   pushHeadingFont();
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::PopFont();
@@ -184,6 +184,9 @@ void drawHelp(Session& session) {
     ImGui::EndTable();
   }
   ImGui::TextColored(theme::dim, "Keys are ignored while a text field has the keyboard.");
+  ImGui::PushID("help");
+  ImGui::tellControl("end");
+  ImGui::PopID();
   ImGui::End();
   ImGui::PopStyleVar();
 }

@@ -571,13 +571,14 @@ void Window::drawFrame() {
   if (!session_.hideUi) above.size.y = std::max(above.size.y - statusHeight(above.size.x), 1.0f);
   drawMessages(session_, above);
   drawProgress(session_, where.viewport);
-  drawHelp(session_);
+  const Rect below{{0, where.bar.size.y}, glm::vec2(size) - glm::vec2(0, where.bar.size.y)};
+  drawHelp(session_, below);
   openDialog_.draw(session_);
   capturesDialog_.draw(session_, layer_);
   unsavedDialog_.draw(session_);
   drawAutosaveDialog(session_);
   drawMissingInput(session_, where.viewport);
-  drawGlossary(session_, {{0, 0}, glm::vec2(size)});
+  drawGlossary(session_, below);
   builder_.announced();
   session_.seeEdits(/*held=*/ImGui::IsAnyItemActive() || input_.flying());
   writer_.take();
