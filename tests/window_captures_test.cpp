@@ -96,6 +96,8 @@ TEST_F(WindowCapturesTest, SayWhatTheyAreAndAreListedReplayedAndCompared) {
   EXPECT_EQ(manifest["settings"], json("box.002/manifest.json")["settings"]);
   EXPECT_EQ(manifest["cameras"], json("box.002/manifest.json")["cameras"]);
   EXPECT_EQ(manifest["scene"], json("box.002/manifest.json")["scene"]);
+  EXPECT_EQ(manifest["cameras"][0]["name"], "") << "it stands at no camera of the scene";
+  EXPECT_EQ(json("box.001/manifest.json")["cameras"][0]["name"], "main");
   EXPECT_EQ(manifest["views"], nlohmann::json{"lit"});
   EXPECT_GE(manifest["recording"]["frames"], 3);
   EXPECT_FALSE(manifest["recording"].contains("changed_meanwhile")) << manifest["recording"];
