@@ -57,8 +57,10 @@ void add(CaptureList& list, const fs::path& folder, const std::string& name, con
   const bool recording = fs::exists(folder / "frames.csv", ignored);
   if (!fs::exists(manifest, ignored)) {
     if (recording)
-      list.problems.push_back(
-          fmt::format("{}: no such file: the recording does not say what it is of", manifest.string()));
+      list.entries.push_back({.folder = fs::absolute(folder).lexically_normal(),
+                              .name = name,
+                              .time = changed(folder / "frames.csv"),
+                              .recording = true});
     return;
   }
   try {

@@ -124,7 +124,8 @@ struct Pipeline::Impl {
     const ShadowNeeds needs = shadowNeeds();
     digest.add(needs.filter).add(needs.bleedReduction).add(needs.points);
     if (needs.filter == ShadowFilter::vsm) digest.add(needs.taps);
-    for (const GpuLight& light : lights) digest.add(planned.shines(light, scene, settings)).add(shadowContent(light));
+    const std::vector<int> layers = shadowLayers(context.device, lights, needs);
+    for (size_t i = 0; i < lights.size(); ++i) digest.add(layers[i]).add(shadowContent(lights[i]));
     return digest.value();
   }
 
@@ -766,7 +767,20 @@ std::vector<Finding> Pipeline::findings() const {
   const Products& p = impl_->now;
   if (!p.light) return {};
   const Grid& grid = p.facets->grid;
-  return irad::findings(p.light->report, grid, impl_->scene.origin + glm::dvec3(grid.origin), impl_->solvedFrame);
+  std::vector<Finding> all =
+      irad::findings(p.light->report, grid, impl_->scene.origin + glm::dvec3(grid.origin), impl_->solvedFrame);
+  if (const std::vector<uint32_t> lights = lightsWithoutShadow(); !lights.empty())
+    all.push_back({Finding::Severity::Warning, describeWithoutShadow(impl_->scene.lights, lights)});
+  return all;
+}
+
+std::vector<uint32_t> Pipeline::lightsWithoutShadow() const {
+  const std::vector<GpuLight>& lights = impl_->onDevice.lightValues;
+  const LightFilter shines = impl_->shadowNeeds().shines;
+  std::vector<uint32_t> without;
+  for (uint32_t i = 0; impl_->shadows && i < impl_->scene.lights.size(); ++i)
+    if (lights[i].shadowLayer < 0 && shines(lights[i])) without.push_back(i);
+  return without;
 }
 
 void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range) {
@@ -829,6 +843,8 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
 
 void Pipeline::setReference(glm::uvec2 size, std::span<const glm::vec4> pixels, View of) {
   IRAD_CHECK_OP(pixels.size(), ==, size_t{size.x} * size.y);
+  impl_->picture = {};
+  if (pixels.empty()) return;
   ImageDesc desc;
   desc.name = "reference picture";
   desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;

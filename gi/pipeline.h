@@ -78,8 +78,8 @@ class Pipeline {
   /// What set() would return, without taking them.
   Redo due(const Settings& settings) const;
   /// Takes other lights, of any number, and draws their shadow maps; gather, solve and scatter follow at the next
-  /// prepare(). UsageError names what is wrong with a light, DeviceError what the device lacks for its shadow map: then
-  /// the old lights stay.
+  /// prepare(). UsageError names what is wrong with a light, DeviceError that there is no memory for its shadow map:
+  /// then the old lights stay.
   void setLights(std::vector<Light> lights);
   /// Takes other edits of materials, in place of those that the scene has: the facets' rho and M, what light these
   /// need, and solve follow at the next prepare(), or all of it where an edit moves what an alpha mask cuts out.
@@ -128,8 +128,10 @@ class Pipeline {
   /// Goes on with the frames of brute force of an earlier run of the same scene and settings, in place of those that
   /// have been prepared (restoreFrames); the next prepare() finds out whether there are enough. Must be current().
   void goOn(const SavedFrames& frames);
-  /// What the numerical watch has to say about the light as it is.
+  /// What the numerical watch has to say about the light as it is, and which lights cast no shadow.
   std::vector<Finding> findings() const;
+  /// Those of scene().lights that shine but cast no shadow: the device has not the layers for their maps.
+  std::vector<uint32_t> lightsWithoutShadow() const;
 
   /// One picture of `view` into targets.linear and targets.display; `range`: ViewInputs::range.
   void render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range = nullptr);
@@ -139,7 +141,7 @@ class Pipeline {
   WritebackRounds settleReflections(const Camera& camera, Targets& targets, const Progress& progress = {});
 
   /// The picture that the views of group "Reference" show and compare with: radiance, top row first. `of`: what the
-  /// view `error` compares with it.
+  /// view `error` compares with it. No pixels: none.
   void setReference(glm::uvec2 size, std::span<const glm::vec4> pixels, View of = VIEW_LIT);
   bool hasReference() const;
   /// Whether it was given what the irradiance should be, for VIEW_REFERENCE.

@@ -185,7 +185,7 @@ void settingsFromJson(Settings& settings, std::string_view json) {
   try {
     parsed = nlohmann::json::parse(json);
   } catch (const nlohmann::json::exception& error) {
-    throw UsageError(fmt::format("settings: not JSON: {}", error.what()));
+    throw UsageError(fmt::format("settings: not JSON: {}", jsonProblem(error)));
   }
   if (!parsed.is_object()) throw UsageError("settings: expected a JSON object of name: value");
   Settings changed = settings;  // all or nothing

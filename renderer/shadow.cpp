@@ -15,7 +15,11 @@ namespace {
 
 constexpr const char* kStage = "RE Shadow";
 
-/// Maps of one scene at most; a scene with very many lights gets smaller maps, never fewer.
+uint32_t channelsOf(const ShadowNeeds& needs) {
+  return needs.tinted ? 3 : 1;
+}
+
+/// Maps of one scene at most; where lights are very many they are smaller.
 constexpr uint64_t kMostBytes = uint64_t{1} << 30;
 
 /// One picture of the scene from a light: its layer and its projection.
@@ -292,20 +296,41 @@ uint64_t shadowTexelBytes(ShadowFilter filter) {
   return filter == ShadowFilter::vsm ? 16 : 4;
 }
 
+std::vector<int> shadowLayers(const Device& device, std::span<const GpuLight> lights, const ShadowNeeds& needs) {
+  const uint32_t channels = channelsOf(needs);
+  std::vector<int> layers(lights.size(), -1);
+  for (const bool cube : {false, true}) {
+    std::vector<size_t> chosen;
+    for (size_t i = 0; i < lights.size(); ++i)
+      if (needs.shines(lights[i]) && lightUsesCube(lights[i].type, lights[i].outerCos) == cube) chosen.push_back(i);
+    const size_t most = device.limits.maxImageArrayLayers / (channels * (cube ? 6 : 1));
+    if (chosen.size() > most) {
+      // Distant lights reach everything.
+      const auto strength = [&](size_t i) {
+        const glm::vec3& intensity = lights[i].intensity;
+        return std::pair(lightHas(lights[i].type, LIGHT_DISTANT), std::max({intensity.x, intensity.y, intensity.z}));
+      };
+      std::ranges::stable_sort(chosen, std::ranges::greater(), strength);
+      chosen.resize(most);
+      std::ranges::sort(chosen);
+    }
+    for (size_t k = 0; k < chosen.size(); ++k) layers[chosen[k]] = static_cast<int>(channels * k);
+  }
+  return layers;
+}
+
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs) {
-  // Give layers to each light that shines.
-  const uint32_t channels = needs.tinted ? 3 : 1;
+  const uint32_t channels = channelsOf(needs);
+  const std::vector<int> layers = shadowLayers(context.device, lights, needs);
   uint32_t flats = 0, cubes = 0;
-  for (GpuLight& light : lights) {
-    light.shadowLayer = -1;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    GpuLight& light = lights[i];
+    light.shadowLayer = layers[i];
     light.shadowFilter = needs.filter;
     light.bleedReduction = needs.bleedReduction;
     light.points = std::max(needs.points, 1u);
-    if (!needs.shines(light)) continue;
-    uint32_t& layers = lightUsesCube(light.type, light.outerCos) ? cubes : flats;
-    light.shadowLayer = static_cast<int>(layers);
-    layers += channels;
+    if (light.shadowLayer >= 0) (lightUsesCube(light.type, light.outerCos) ? cubes : flats) += channels;
   }
 
   // Choose the largest size that the device and a bounded share of memory allow.

@@ -33,9 +33,11 @@ struct ShadowNeeds {
 };
 /// Bytes that a texel of a map takes.
 uint64_t shadowTexelBytes(ShadowFilter filter);
-/// Draws the map of every light that shines ("RE Shadow") and fills in its layer and matrix; the others' layer is -1.
-/// `resolution`: texels per side of a flat map, twice those of a cube's; less where there are too many. DeviceError
-/// when the device has not the layers or the memory.
+/// Which layer is each light's; -1: it has no map, and casts no shadow. Of lights that shine these are the weakest,
+/// where the device has not the layers for all.
+std::vector<int> shadowLayers(const Device& device, std::span<const GpuLight> lights, const ShadowNeeds& needs);
+/// Draws the maps ("RE Shadow") and fills in every light's layer and matrix. `resolution`: texels per side of a flat
+/// map, twice those of a cube's; less where there are too many. DeviceError when the device has not the memory.
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs = {});
 /// The same for the scene's own lights, which are uploaded again. When it throws, they and their maps stay as they

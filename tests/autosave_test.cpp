@@ -23,6 +23,8 @@ Autosave example() {
   a.edits.hidden = {{"hall/table", "lamp"}, "hall"};
   a.edits.bookmarks = {{.name = "door", .position = {1, 2, 3.3}}};
   a.edits.sceneSha256 = "abc";
+  a.sky = "/skies/evening.hdr";
+  a.reference = "/truth.exr";
   a.settings.matrix.gpu.rays = 77;
   a.settings.solver.tolerance = 0.1f;
   a.other = a.settings;
@@ -85,10 +87,12 @@ TEST(Autosave, SaysWhatItHolds) {
   EXPECT_EQ(contentInWords(a, Settings()),
             (std::vector<std::string>{"1 light: lamp", "1 material: wall", "isolated: hall",
                                       "2 hidden objects: hall/table, lamp", "1 bookmark: door",
+                                      "picture of the sky: evening.hdr", "reference: truth.exr",
                                       "settings: matrix.rays 77, solver.tolerance 0.1"}));
   a.edits.bookmarks.clear();
   a.edits.materials.clear();
   a.edits.hidden = {};
+  a.sky = a.reference = {};
   a.edits.lights->resize(7, {.name = "sun"});
   EXPECT_EQ(contentInWords(a, a.settings), (std::vector<std::string>{"7 lights: lamp, sun, sun, sun, sun and 2 more"}));
   EXPECT_EQ(contentInWords({}, Settings()).size(), 1u);

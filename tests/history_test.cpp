@@ -3,7 +3,9 @@
 
 #if IRAD_UI
 
+#include "gi/picture.h"
 #include "gi/stage_keys.h"
+#include "renderer/scene/sky_image.h"
 #include "ui/history.h"
 
 namespace irad::test::history_suite {
@@ -97,6 +99,25 @@ TEST_F(HistoryTest, UndoRedoesNoMoreStagesThanTheSettingDid) {
     ++counted;
   }
   EXPECT_EQ(counted, settingTable().size() - 1);
+}
+
+TEST_F(HistoryTest, PicturesOfTheSkyAndReferencesAreSteps) {
+  SkyImage sky;
+  sky.path = "/skies/evening.hdr";
+  ReferencePicture reference;
+  reference.path = "/truth.exr";
+  now.sky = std::make_shared<const SkyImage>(sky);
+  see();
+  now.reference = std::make_shared<const ReferencePicture>(reference);
+  see();
+  now.sky.reset();
+  see();
+  EXPECT_EQ(names(), (Names{"the beginning", "picture of the sky evening.hdr", "reference truth.exr",
+                            "without picture of the sky evening.hdr"}));
+  undo();
+  EXPECT_EQ(now.sky->path, sky.path);
+  undo();
+  EXPECT_EQ(now.reference, nullptr);
 }
 
 TEST_F(HistoryTest, FlightsAreOneStepAndDoNotDrownTheRest) {

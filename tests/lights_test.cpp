@@ -2,14 +2,17 @@
 // failure leaves the old ones. The sidecar that keeps them: there and back, refusals, what the subcommands make of it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "gi/check/check.h"
 #include "gi/check/scenes.h"
 #include "gi/pipeline.h"
 #include "gi/plan.h"
+#include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sidecar.h"
@@ -181,20 +184,45 @@ TEST_F(Lights, OnesOutOfRangeAreRefusedByNameAndTheOldStay) {
   EXPECT_TRUE(draw(context(), pipeline, VIEW_LIT) == before);
 }
 
-TEST_F(Lights, MoreThanTheDeviceHasLayersForAreRefusedAndTheOldStay) {
-  Pipeline pipeline(context(), room({lamp()}), small());
-  pipeline.prepare();
-  const Pixels before = draw(context(), pipeline, VIEW_LIT);
-  const size_t most = context().device.limits.maxImageArrayLayers / 6;
-  try {
-    pipeline.setLights(std::vector<Light>(most + 1, lamp()));
-    ADD_FAILURE() << most + 1 << " point lights were accepted";
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("shadow cubes"), std::string::npos) << error.what();
+/// Of more lights than a device with few layers can draw maps of, the weakest cast no shadow, and are named.
+TEST_F(Lights, WithoutLayersForAllTheStrongestCastShadows) {
+  struct FewLayers {
+    uint32_t& layers = gpu().device->limits.maxImageArrayLayers;
+    uint32_t before = std::exchange(layers, 13);
+    ~FewLayers() { layers = before; }
+  } few;
+  std::vector<Light> lights(4, lamp());
+  for (size_t i = 0; i < lights.size(); ++i) {
+    lights[i].name = fmt::format("lamp {}", i);
+    lights[i].position.x += 0.05 * static_cast<double>(i);
   }
-  EXPECT_TRUE(pipeline.asleep());
-  EXPECT_EQ(pipeline.scene().lights.size(), 1u);
-  EXPECT_TRUE(draw(context(), pipeline, VIEW_LIT) == before);
+  lights[1].intensity *= 0.5f;
+  lights[2].intensity *= 0.25f;
+  Pipeline pipeline(context(), room(lights), small());
+  pipeline.prepare();
+  EXPECT_EQ(pipeline.lightsWithoutShadow(), (std::vector<uint32_t>{1, 2}));
+  const auto says = [&](const std::string& text) {
+    const std::vector<Finding> findings = pipeline.findings();
+    return std::ranges::any_of(findings, [&](const Finding& f) { return f.text.starts_with(text); });
+  };
+  EXPECT_TRUE(says("2 of 4 lights cast no shadow, and shine through walls: lamp 1, lamp 2. "));
+  const Pixels two = draw(context(), pipeline, VIEW_DIRECT);
+
+  // Another one is weaker now: its light comes through, the other's no more.
+  std::swap(lights[0].intensity, lights[1].intensity);
+  pipeline.setLights(lights);
+  pipeline.prepare();
+  EXPECT_EQ(pipeline.lightsWithoutShadow(), (std::vector<uint32_t>{0, 2}));
+  EXPECT_FALSE(draw(context(), pipeline, VIEW_DIRECT) == two);
+
+  // As many as there is room for: as on any device.
+  lights.resize(2);
+  pipeline.setLights(lights);
+  pipeline.prepare();
+  EXPECT_TRUE(pipeline.lightsWithoutShadow().empty());
+  const Pixels drawn = draw(context(), pipeline, VIEW_DIRECT);
+  few.layers = few.before;
+  EXPECT_TRUE(drawn == of(lights, VIEW_DIRECT));
 }
 
 TEST_F(Lights, WithoutMemoryForAnyOfTheirResourcesTheOldStay) {

@@ -96,18 +96,22 @@ TEST_F(WindowCapturesTest, SayWhatTheyAreAndAreListedReplayedAndCompared) {
   EXPECT_EQ(manifest["settings"], json("box.002/manifest.json")["settings"]);
   EXPECT_EQ(manifest["cameras"], json("box.002/manifest.json")["cameras"]);
   EXPECT_EQ(manifest["scene"], json("box.002/manifest.json")["scene"]);
+  EXPECT_EQ(manifest["cameras"][0]["name"], "") << "it stands at no camera of the scene";
+  EXPECT_EQ(json("box.001/manifest.json")["cameras"][0]["name"], "main");
   EXPECT_EQ(manifest["views"], nlohmann::json{"lit"});
   EXPECT_GE(manifest["recording"]["frames"], 3);
   EXPECT_FALSE(manifest["recording"].contains("changed_meanwhile")) << manifest["recording"];
   EXPECT_TRUE(contains(manifest["command"], "--set sample.filter=nearest")) << manifest["command"];
 
-  // What is no manifest is named, the rest is listed, with its pictures.
+  // What is no manifest is named, the rest is listed, with its pictures; a recording of an older version has none.
+  std::filesystem::create_directories(out_ / "recording.000");
+  std::filesystem::copy(out_ / "recording.001/frames.csv", out_ / "recording.000/frames.csv");
   std::filesystem::create_directories(out_ / "foreign");
   std::ofstream(out_ / "foreign/manifest.json") << "{}";
   while (has("messages/0/dismiss")) click("messages/0/dismiss");
   openCaptures();
   ASSERT_TRUE(appears("Captures/problems"));
-  for (const char* name : {"box.001", "box.002", "recording.001", "recording.002"})
+  for (const char* name : {"box.001", "box.002", "recording.000", "recording.001", "recording.002"})
     EXPECT_TRUE(has(fmt::format("Captures/{}/choose", name))) << name;
   EXPECT_TRUE(appears("Captures/box.001/thumbnail"));
   // With the dialog open nothing is drawn but the dialog: pictures are read once.
@@ -125,6 +129,12 @@ TEST_F(WindowCapturesTest, SayWhatTheyAreAndAreListedReplayedAndCompared) {
   click("Captures/Compare the two");
   EXPECT_TRUE(appears("Captures/times")) << "no times are compared";
   click("Captures/Back");
+  click("Captures/recording.000/compare");
+  click("Captures/Compare the two");
+  EXPECT_TRUE(appears("Captures/times")) << "nor those of an older version";
+  click("Captures/Back");
+  click("Captures/recording.000/choose");
+  EXPECT_TRUE(control("Captures/Replay").disabled) << "of what?";
   click("Captures/box.001/compare");
   click("Captures/box.002/compare");
   click("Captures/Compare the two");
@@ -145,6 +155,44 @@ TEST_F(WindowCapturesTest, SayWhatTheyAreAndAreListedReplayedAndCompared) {
   key("ctrl+y");
   away();
   EXPECT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }, 30));
+
+  // So do a sky and a reference, and go where the step is undone.
+  const auto dismiss = [this] {
+    while (has("messages/0/dismiss")) click("messages/0/dismiss");
+    away();
+  };
+  ASSERT_TRUE(drop({assets() / "evening.pfm"}));
+  ASSERT_TRUE(says("evening.pfm is the sky"));
+  openCaptures();
+  click("Captures/box.001/choose");
+  click("Captures/As reference");
+  ASSERT_TRUE(appears("Accuracy/of")) << "no reference";
+  dismiss();
+  // Of light that began from other light, less than a grey level is left.
+  const auto shows = [&](const ScreenPart& wanted) {
+    return settles([this] { return part(); }, [&](const ScreenPart& p) { return p.levels(wanted) < 1; }, 30);
+  };
+  ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.levels(first) > 2; }, 30));
+  const ScreenPart third = part();
+  key("F12");
+  ASSERT_TRUE(says("Saved Lit to " + (out_ / "box.003").string()));
+  const auto isFirst = [&] {
+    dismiss();
+    return shows(first) && !has("Accuracy/of");
+  };
+  key("ctrl+z");
+  EXPECT_TRUE(appears("Accuracy/of", false)) << "the reference stays";
+  key("ctrl+z");
+  EXPECT_TRUE(isFirst()) << "the sky stays";
+  openCaptures();
+  click("Captures/box.003/choose");
+  click("Captures/Replay");
+  ASSERT_TRUE(says("The window is as it was for box.003")) << window_->log();
+  dismiss();
+  EXPECT_TRUE(shows(third));
+  EXPECT_TRUE(has("Accuracy/of"));
+  key("ctrl+z");
+  EXPECT_TRUE(isFirst()) << "sky or reference stay";
   quit();  // settings that a manifest holds are saved
 }
 

@@ -129,6 +129,13 @@ class WindowPanelsTest : public WindowTest {
 TEST_F(WindowPanelsTest, EveryControlAndReadOutSaysWhatItIs) {
   begin("1280x720", "1");
   lookThrough("1280x720");
+  // A list that is at its top passes the wheel on to its column, which is at its end.
+  const Control row = shown("Objects/1");
+  const int before = control("Cameras").area.y;
+  xdotool(fmt::format("mousemove {} {} click --repeat 20 --delay 5 4", row.region.x + row.region.width / 2,
+                      row.region.y + row.region.height / 2));
+  rests();
+  EXPECT_GT(control("Cameras").area.y, before) << "the list keeps the wheel";
   click("Compare/Compare with these settings");
   shown("Compare/End the comparison");
   look("compare");

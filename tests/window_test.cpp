@@ -150,6 +150,11 @@ TEST_F(WindowTest, TextIsScaledWhileItRuns) {
   key("ctrl+plus");
   rests();
   EXPECT_NEAR(control("View").area.height, 1.5 * before, 2);
+  // What is higher than the window now is in it, and scrolls.
+  key("F1");
+  EXPECT_LE(control("help/end").region.bottom(), 720);
+  EXPECT_GT(control("help/end").area.bottom(), 720) << "nothing has to scroll";
+  shown("help/end");
   quit();
   start();
   away();

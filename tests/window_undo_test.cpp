@@ -1,5 +1,9 @@
 // The window keeps what is done in it: undo and redo by keys, menu and list, and what a crash leaves for the next
 // start.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include "renderer/scene/sidecar.h"
 #include "tests/window_fixture.h"
 #include "ui/autosave.h"
@@ -7,6 +11,15 @@
 
 namespace irad::test::window_undo_suite {
 namespace {
+
+/// Held as another process would.
+struct FileLock {
+  int file;
+  explicit FileLock(const std::filesystem::path& path) : file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
+    EXPECT_EQ(flock(file, LOCK_EX), 0);
+  }
+  ~FileLock() { close(file); }
+};
 
 class WindowUndoTest : public WindowTest {
  protected:
@@ -260,6 +273,18 @@ TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
   EXPECT_EQ(readAutosave(kept().at(0)).edits, kill.edits);
   EXPECT_EQ(readAutosave(kept().at(0)).settings, kill.settings);
   EXPECT_EQ(steps(), 2);
+  {
+    // A disk that takes its time holds nothing up: as long as another has the temporary file, nothing is written.
+    const std::filesystem::path file = kept().at(0).filename();
+    const auto process = file.stem().stem().string();
+    const FileLock disk(autosaves() / fmt::format(".{}.{}.irad-tmp", file.string(), process));
+    mouse().tap(placeOf("Cameras/Add bookmark"));
+    EXPECT_TRUE(appears("Cameras/3", true, 10)) << "the window waits for the disk";
+    EXPECT_EQ(readAutosave(kept().at(0)).edits.bookmarks.size(), 1u);
+  }
+  rests();
+  EXPECT_EQ(readAutosave(kept().at(0)).edits.bookmarks.size(), 2u) << "what waited is not kept";
+  undo();
   undo();
   EXPECT_FALSE(has("Lights/1"));
   redo();

@@ -98,9 +98,9 @@ bool Accuracy::serveReference(Session& session) {
     changed = true;
   }
   if (const std::optional<View> of = std::exchange(referenceOf, std::nullopt); of && session.reference) {
-    session.reference->of = *of;
-    for (Side* side : session.sides())
-      side->pipeline->setReference(session.reference->picture.size, session.reference->picture.pixels, *of);
+    auto other = std::make_shared<ReferencePicture>(*session.reference);
+    other->of = *of;
+    session.reference = std::move(other);
     ++references_;
     session.viewDirty = changed = true;
   }
@@ -122,12 +122,11 @@ bool Accuracy::serveReference(Session& session) {
   if (std::shared_ptr<const TracedReference> better = tracer_.take()) {
     traced_ = std::move(better);
     tracedFrom_ = subject_->camera;
-    session.reference = ReferencePicture{.path = {},
-                                         .sha256 = {},
-                                         .picture = {.size = traced_->size, .pixels = traced_->mean},
-                                         .of = indirect_ ? View{VIEW_INDIRECT} : View{VIEW_LIT}};
-    for (Side* side : session.sides())
-      if (side->pipeline) side->pipeline->setReference(traced_->size, traced_->mean, session.reference->of);
+    session.reference = std::make_shared<const ReferencePicture>(
+        ReferencePicture{.path = {},
+                         .sha256 = {},
+                         .picture = {.size = traced_->size, .pixels = traced_->mean},
+                         .of = indirect_ ? View{VIEW_INDIRECT} : View{VIEW_LIT}});
     ++references_;
     const ViewInfo* info = viewInfo(session.view);
     if (session.split || (info != nullptr && info->isFrom(FROM_PICTURE))) session.viewDirty = true;
@@ -192,15 +191,15 @@ bool Accuracy::serveStudy() {
 // ---- The measurement ----
 
 std::string Accuracy::whyUnmeasured(const Session& session) const {
-  if (!session.reference) return "no reference";
-  if (!session.built || session.halted) return "nothing is built";
-  if (traced_ && !outdated.empty()) return "the reference is outdated: " + outdated;
+  if (!session.reference) return "No reference";
+  if (!session.built || session.halted) return "Nothing is built";
+  if (traced_ && !outdated.empty()) return "The reference is outdated: " + outdated;
   if (const std::string other = otherCamera(session.reference->camera, session.camera.camera()); !other.empty())
-    return "the reference is from another camera: " + other;
+    return "The reference is from another camera: " + other;
   if (session.edited.writeback.mode != WritebackMode::off && session.view != session.reference->of)
-    return "with writeback.mode another picture would change the light: show the reference's view";
+    return "With writeback.mode another picture would change the light: show the reference's view";
   const glm::uvec2 size = session.reference->picture.size;
-  if (std::min(size.x, size.y) < kBlockSide) return "the reference holds no block of 8 \u00D7 8 pixels";
+  if (std::min(size.x, size.y) < kBlockSide) return "The reference holds no block of 8 \u00D7 8 pixels";
   return "";
 }
 

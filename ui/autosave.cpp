@@ -26,8 +26,9 @@ Autosave autosaveFromJson(const OrderedJson& parsed, const std::string& label) {
   if (!parsed.is_object() || parsed.value("format", OrderedJson()) != kAutosaveFormat)
     throw UsageError(fmt::format("{}: format: expected {}, not {}", label, kAutosaveFormat,
                                  parsed.is_object() ? parsed.value("format", OrderedJson()).dump() : "no object"));
-  const JsonObject json(parsed, label,
-                        {"format", "scene", "time", "view", "camera", "edits", "settings", "other_settings"});
+  const JsonObject json(
+      parsed, label,
+      {"format", "scene", "time", "view", "camera", "edits", "sky", "reference", "settings", "other_settings"});
   Autosave autosave;
   autosave.scene = json.text("scene");
   if (!json.at("time").is_number_integer()) json.refuse("time", "expected whole seconds", json.at("time"));
@@ -37,6 +38,8 @@ Autosave autosaveFromJson(const OrderedJson& parsed, const std::string& label) {
   autosave.view = *view;
   autosave.camera = cameraFromJson(json.at("camera").dump(), label + ": camera");
   autosave.edits = sidecarFromJson(json.at("edits").dump(), label + ": edits");
+  if (json.has("sky")) autosave.sky = json.text("sky");
+  if (json.has("reference")) autosave.reference = json.text("reference");
   settingsFromJson(autosave.settings, json.at("settings").dump());
   if (json.has("other_settings")) settingsFromJson(autosave.other.emplace(), json.at("other_settings").dump());
   return autosave;
@@ -71,6 +74,8 @@ void writeAutosave(const fs::path& file, const Autosave& autosave) {
   json["view"] = viewInfo(autosave.view)->name;
   json["camera"] = OrderedJson::parse(cameraToJson(autosave.camera));
   json["edits"] = OrderedJson::parse(sidecarToJson(autosave.edits));
+  if (autosave.sky) json["sky"] = autosave.sky->string();
+  if (autosave.reference) json["reference"] = autosave.reference->string();
   json["settings"] = OrderedJson::parse(settingsToJson(autosave.settings));
   if (autosave.other) json["other_settings"] = OrderedJson::parse(settingsToJson(*autosave.other));
   makeFolder(file.parent_path());
@@ -107,6 +112,8 @@ std::vector<std::string> contentInWords(const Autosave& autosave, const Settings
     lines.push_back(listInWords("hidden object", "hidden objects", autosave.edits.hidden.paths));
   if (!autosave.edits.bookmarks.empty())
     lines.push_back(listInWords("bookmark", "bookmarks", autosave.edits.bookmarks, &Camera::name));
+  if (autosave.sky) lines.push_back("picture of the sky: " + autosave.sky->filename().string());
+  if (autosave.reference) lines.push_back("reference: " + autosave.reference->filename().string());
   if (autosave.edits.region) lines.emplace_back("scene.region: a box");
   const auto add = [&](const char* what, const Settings& settings) {
     std::vector<std::string> changed;

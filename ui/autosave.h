@@ -16,11 +16,12 @@
 namespace irad {
 
 struct Autosave {
-  std::filesystem::path scene;    ///< as it can be opened from anywhere: absolute, or check:NAME
-  int64_t time = 0;               ///< seconds since 1970, UTC
-  Sidecar edits;                  ///< all that was made of the scene
-  Settings settings;              ///< of the one side, or A of a comparison
-  std::optional<Settings> other;  ///< B
+  std::filesystem::path scene;                          ///< as it can be opened from anywhere: absolute, or check:NAME
+  int64_t time = 0;                                     ///< seconds since 1970, UTC
+  Sidecar edits;                                        ///< all that was made of the scene
+  std::optional<std::filesystem::path> sky, reference;  ///< pictures, absolute
+  Settings settings;                                    ///< of the one side, or A of a comparison
+  std::optional<Settings> other;                        ///< B
   View view = 0;
   Camera camera;
   bool operator==(const Autosave&) const = default;

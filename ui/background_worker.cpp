@@ -44,6 +44,11 @@ bool BackgroundWorker::take() {
   return !results.empty();
 }
 
+void BackgroundWorker::wait() {
+  std::unique_lock lock(mutex_);
+  done_.wait(lock, [&] { return jobs_.empty() && !inHand_; });
+}
+
 void BackgroundWorker::run() {
   std::unique_lock lock(mutex_);
   while (true) {
@@ -57,6 +62,7 @@ void BackgroundWorker::run() {
     lock.lock();
     inHand_ = false;
     if (!std::exchange(givenUp_, false)) results_.push_back(std::move(result));
+    done_.notify_all();
   }
 }
 

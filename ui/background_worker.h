@@ -27,11 +27,13 @@ class BackgroundWorker {
   bool busy() const;
   /// Calls what has come; false: nothing has.
   bool take();
+  /// Until all that was added has been done; what it returned is still to be taken.
+  void wait();
 
  private:
   void run();
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable changed_, done_;
   std::deque<Job> jobs_;
   std::vector<Result> results_;
   bool inHand_ = false, ending_ = false;

@@ -10,6 +10,7 @@
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/plan.h"
+#include "gi/shadow_needs.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "renderer/image_io.h"
@@ -113,6 +114,7 @@ bool Builder::stale() const {
   if (stale_ || !session_.pipeline) return stale_;
   const Scene& scene = session_.pipeline->scene();
   // Materials and hidden objects that wait for the mouse to be let go wait like settings: session_.next says so.
+  if (session_.load.sky != scene.sky || session_.reference != given_) return true;
   const bool others = session_.edits.materials != scene.materialEdits || session_.edits.hidden != scene.hidden ||
                       session_.edits.region != scene.region;
   return session_.edits.lights != scene.lights || (others && session_.next == Redo::Nothing);
@@ -243,6 +245,19 @@ void Builder::timeMaterials() {
 void Builder::giveReference(Pipeline& pipeline) {
   if (const auto& reference = session_.reference)
     pipeline.setReference(reference->picture.size, reference->picture.pixels, reference->of);
+  else
+    pipeline.setReference({}, {});
+}
+
+/// Every side has the same sky and the same reference.
+void Builder::applyPictures() {
+  const bool reference = given_ != session_.reference;
+  for (Side* side : session_.sides()) {
+    if (side->pipeline->scene().sky != session_.load.sky) side->pipeline->setSky(session_.load.sky);
+    if (reference) giveReference(*side->pipeline);
+  }
+  if (reference) session_.viewDirty = true;
+  given_ = session_.reference;
 }
 
 void Builder::openPicture(const std::filesystem::path& path) {
@@ -250,14 +265,9 @@ void Builder::openPicture(const std::filesystem::path& path) {
     if (const LinearPicture picture = readLinear(path); maySkyBe(picture) || picture.integers) {
       session_.load.sky = std::make_shared<SkyImage>(skyOf(path, picture));
       session_.edited.sky.source = SkySource::image;
-      for (Side* side : session_.sides())
-        if (side->pipeline) side->pipeline->setSky(session_.load.sky);
       return session_.note(fmt::format("{} is the sky", path.string()));
     }
-    session_.reference = readReference(path);
-    for (Side* side : session_.sides())
-      if (side->pipeline) giveReference(*side->pipeline);
-    session_.viewDirty = true;
+    session_.reference = std::make_shared<const ReferencePicture>(readReference(path));
     session_.note(fmt::format("{} is what the views reference-picture and error compare with", path.string()));
   } catch (const Error& error) {
     session_.openFailed(error.what());
@@ -266,6 +276,7 @@ void Builder::openPicture(const std::filesystem::path& path) {
 
 void Builder::apply(bool held) {
   if (!session_.pipeline) return;
+  applyPictures();
   applyLights();
   const Redo waits = std::min({applyMaterials(held), applyHidden(held), applyRegion(held)});
   Pipeline& pipeline = *session_.pipeline;
@@ -420,6 +431,9 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
   const SolveReport& report = pipeline.lighting().report;
   if (!facets.region.whole && !(side.built && side.built->region == facets.region))
     session_.note(describe(pipeline.scene(), facets.region));
+  std::vector<uint32_t> withoutShadow = pipeline.lightsWithoutShadow();
+  if (!withoutShadow.empty() && !(side.built && side.built->withoutShadow == withoutShadow))
+    session_.note(describeWithoutShadow(pipeline.scene().lights, withoutShadow));
   side.built = Built{.dims = facets.grid.dims,
                      .facets = facets.count,
                      .solidVoxels = facets.solidVoxels,
@@ -430,6 +444,7 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
                      .findings = pipeline.findings(),
                      .noLight = pipeline.plan().noLight,
                      .nothingDiffuse = pipeline.plan().nothingDiffuse,
+                     .withoutShadow = std::move(withoutShadow),
                      .settings = pipeline.settings()};
   const float error = report.frames > 0 ? report.standardError : report.bound;
   side.solves.push_back({report.sweeps, report.residual, error});

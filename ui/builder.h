@@ -21,8 +21,8 @@ class Builder {
   /// Loads and prepares beside the scene that is shown, and replaces it only when both have succeeded; throws what went
   /// wrong. Of the scene that is shown, read again, it takes lights and cameras alone where the surfaces are the same.
   void load(const std::filesystem::path& path);
-  /// Takes another sky, of a picture that is twice as wide as high, or reference picture, for every side; where the
-  /// file is wrong that is reported, and the old one stays.
+  /// Reads another sky, of a picture that is twice as wide as high, or reference picture; where the file is wrong that
+  /// is reported, and the old one stays.
   void openPicture(const std::filesystem::path& path);
   /// Hands edits to the pipeline, redoes what they call for, and lets the solver go on until it sleeps. What will be
   /// redone is shown for a frame before it starts, and waits as long as the mouse `holds` the widget.
@@ -41,6 +41,7 @@ class Builder {
 
  private:
   bool adopt(const Scene& scene);
+  void applyPictures();
   void applyLights();
   Redo applyMaterials(bool held);
   Redo applyHidden(bool held);
@@ -63,10 +64,11 @@ class Builder {
   Context& context_;
   Session& session_;
   std::function<void()> breathe_;
-  SceneSettings loaded_;              ///< as the scene that is shown was read
-  BuildTimes times_;                  ///< of the scene that is shown
-  std::optional<Settings> foreseen_;  ///< what session_.forecast is of
-  bool timing_ = false;               ///< the next prepare() is a rebuild's first: its stages are timed
+  SceneSettings loaded_;                           ///< as the scene that is shown was read
+  std::shared_ptr<const ReferencePicture> given_;  ///< to every pipeline
+  BuildTimes times_;                               ///< of the scene that is shown
+  std::optional<Settings> foreseen_;               ///< what session_.forecast is of
+  bool timing_ = false;                            ///< the next prepare() is a rebuild's first: its stages are timed
   using Clock = std::chrono::steady_clock;
   struct Running {
     Clock::time_point since;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <utility>
 
@@ -42,6 +43,24 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
   writeFile(folder / "manifest.json", manifest.toJson());
 }
 
+/// The window's, under the name of the scene's camera or the bookmark that it stands at; elsewhere it has none.
+Camera cameraOf(const Session& session) {
+  Camera camera = session.camera.camera();
+  const std::vector<Camera> all = session.cameras();
+  const auto here = [&](Camera other) {
+    other.name = camera.name;
+    return other == camera;
+  };
+  const auto chosen = static_cast<size_t>(session.sceneCamera);  // of several in one place
+  auto at = all.end();
+  if (chosen < all.size() && here(all[chosen]))
+    at = all.begin() + session.sceneCamera;
+  else
+    at = std::ranges::find_if(all, here);
+  camera.name = at != all.end() ? at->name : "";
+  return camera;
+}
+
 /// Returns the folder; throws on failure. In a comparison each side has a folder of its own in it.
 std::filesystem::path save(Session& session, const std::vector<ViewInfo>& chosen, const std::filesystem::path& parent,
                            const Program& program, const Progress& progress) {
@@ -68,8 +87,8 @@ Manifest manifestOf(const Session& session, const Pipeline& pipeline, std::strin
           .settings = &pipeline.settings(),
           .cpuDevice = session.context.device.isCpu,
           .size = session.targets.size,
-          .cameras = {session.camera.camera()},
-          .reference = session.reference && !session.reference->path.empty() ? &*session.reference : nullptr,
+          .cameras = {cameraOf(session)},
+          .reference = session.reference && !session.reference->path.empty() ? session.reference.get() : nullptr,
           .shaders = session.context.shaders.modified()};
 }
 

@@ -25,8 +25,12 @@ std::string captureView(const CaptureEntry& entry) {
   return entry.view ? viewInfo(*entry.view)->label : "no view";
 }
 
-std::string captureScene(const CaptureEntry& entry) {
-  return entry.config.scene->filename().string();
+constexpr const char* kUndescribed = "A recording of an older version, which does not say what it is of";
+
+/// "box.glb, Lit"
+std::string captureOf(const CaptureEntry& entry) {
+  if (!entry.described()) return "unknown scene";
+  return fmt::format("{}, {}", entry.config.scene->filename().string(), captureView(entry));
 }
 
 /// "as now", or the settings that are not.
@@ -69,6 +73,12 @@ const Captures::Picture* thumbnailOf(const Session& session, const CaptureEntry&
   return at != session.captures.pictures.end() ? &at->second : nullptr;
 }
 
+void wrappedDim(const char* text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextColored(theme::dim, "%s", text);
+  ImGui::PopTextWrapPos();
+}
+
 void captureRow(const char* label, const std::string& value, const std::string& help) {
   valueRow(label, value);
   helpTooltip(help);
@@ -102,11 +112,15 @@ void CapturesDialog::drawRow(Session& session, ImGuiLayer& layer, const CaptureE
   const ImVec2 at = ImGui::GetCursorPos();
   const float width = ImGui::GetContentRegionAvail().x, box = ImGui::GetFrameHeight();
   ImGui::PushID(entry.name.c_str());
-  const std::string differs = differenceInWords(entry.settings, session.edited);
+  const std::string differs =
+      entry.described() ? differenceInWords(entry.settings, session.edited) : "settings unknown";
   if (ImGui::Selectable("##choose", chosen_ == entry.name,
                         ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowItemOverlap, {0, high}))
     chosen_ = entry.name;
-  helpTooltip([&] { return fmt::format("{}\n{}\n{}", entry.folder.string(), entry.config.scene->string(), differs); });
+  helpTooltip([&] {
+    return fmt::format("{}\n{}", entry.folder.string(),
+                       entry.described() ? fmt::format("{}\n{}", entry.config.scene->string(), differs) : kUndescribed);
+  });
   const ImVec2 under = ImGui::GetCursorPos();
   ImGui::SetCursorPos(at);
   capturePicture(layer, thumbnailOf(session, entry), {16 * high / 9, high}, entry.recording ? "timings" : "no picture");
@@ -122,8 +136,7 @@ void CapturesDialog::drawRow(Session& session, ImGuiLayer& layer, const CaptureE
     ImGui::PopStyleColor();
   };
   text(0, theme::text, fmt::format("{}   {}", entry.name, timeInWords(entry.time)));
-  text(1, theme::dim,
-       fmt::format("{}{}, {}", entry.recording ? "recording of " : "", captureScene(entry), captureView(entry)));
+  text(1, theme::dim, fmt::format("{}{}", entry.recording ? "recording of " : "", captureOf(entry)));
   text(2, theme::dim, differs);
   ImGui::SetCursorPos({at.x + width - box, at.y + 0.5f * (high - box)});
   const auto ticked = std::ranges::find(ticked_, entry.name);
@@ -178,8 +191,9 @@ void CapturesDialog::drawChosen(Session& session, ImGuiLayer& layer, float heigh
     capturePicture(layer, thumbnailOf(session, *entry), {width, std::min(0.4f * height, 9 * width / 16)}, "no picture");
   const Config& config = entry->config;
   captureRow("made", timeInWords(entry->time), "Local time, as the manifest says or, where it does not, the file's");
-  captureRow("scene", captureScene(*entry), config.scene->string());
-  captureRow("view", captureView(*entry), "The first view of the manifest");
+  captureRow("scene", entry->described() ? config.scene->filename().string() : "\u2014",
+             entry->described() ? config.scene->string() : kUndescribed);
+  captureRow("view", entry->described() ? captureView(*entry) : "\u2014", "The first view of the manifest");
   if (config.size) captureRow("size", fmt::format("{} x {}", config.size->x, config.size->y), "Of the picture, pixels");
   captureRow("device", config.device.empty() ? "\u2014" : config.device,
              "The Vulkan device that made it, and its driver: " + config.driver);
@@ -188,15 +202,19 @@ void CapturesDialog::drawChosen(Session& session, ImGuiLayer& layer, float heigh
   const float buttons = 3 * ImGui::GetFrameHeightWithSpacing();
   if (ImGui::BeginChild("##settings", {0, std::max(ImGui::GetContentRegionAvail().y - buttons, 3 * em)})) {
     const Settings& now = entry->other ? session.sideA().edited : session.edited;
-    if (!differenceTable("##differing", entry->settings, now, "then", "now"))
+    if (!entry->described())
+      wrappedDim(kUndescribed);
+    else if (!differenceTable("##differing", entry->settings, now, "then", "now"))
       ImGui::TextColored(theme::dim, "settings as now");
     if (entry->other && session.comparison)
       differenceTable("##differing of B", *entry->other, session.sideB().edited, "B then", "now");
   }
   ImGui::EndChild();
   const float half = (width - ImGui::GetStyle().ItemSpacing.x) / 2;
+  ImGui::BeginDisabled(!entry->described());
   if (ImGui::Button("Replay", {half, 0}))
     session.leave({Leaving::What::Replay, *config.scene, entry->folder / "manifest.json"});
+  ImGui::EndDisabled();
   helpTooltip(
       "Takes its settings, lights, materials, hidden objects, view and camera into the window, as one step that can be "
       "undone; another scene is opened for it, after what is unsaved has been asked for");
@@ -219,14 +237,13 @@ void CapturesDialog::drawPair(Session& session, ImGuiLayer& layer, float height)
   const std::array<CaptureEntry, 2>& of = recordings_ ? *recordings_ : session.captures.pair->of;
   const float width = ImGui::GetContentRegionAvail().x, half = (width - ImGui::GetStyle().ItemSpacing.x) / 2;
   const char* const names[] = {"first", "second"};
-  const float top = ImGui::GetCursorPosY();
+  const float top = ImGui::GetCursorPosY(), left = ImGui::GetCursorPosX();
   for (const size_t i : {0u, 1u}) {
-    if (i > 0) ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x);
+    if (i > 0) ImGui::SameLine(left + half + ImGui::GetStyle().ItemSpacing.x);
     ImGui::BeginGroup();
-    ImGui::TextUnformatted(clipped(fmt::format("{}: {}   {}   {}, {}", names[i], of[i].name, timeInWords(of[i].time),
-                                               captureScene(of[i]), captureView(of[i])),
-                                   half)
-                               .c_str());
+    ImGui::TextUnformatted(
+        clipped(fmt::format("{}: {}   {}   {}", names[i], of[i].name, timeInWords(of[i].time), captureOf(of[i])), half)
+            .c_str());
     helpTooltip(of[i].folder.string());
     if (!recordings_) {
       capturePicture(layer, &session.captures.pair->pictures[i], {half, std::min(0.55f * height, 9 * half / 16)}, "");
@@ -249,16 +266,17 @@ void CapturesDialog::drawPair(Session& session, ImGuiLayer& layer, float height)
       ImGui::tellControl("numbers");
     } else {
       const std::string& why = session.captures.pair->noMetrics;
-      ImGui::PushTextWrapPos(0);
-      ImGui::TextColored(theme::dim, "%s", why.empty() ? "being measured\u2026" : why.c_str());
-      ImGui::PopTextWrapPos();
+      wrappedDim(why.empty() ? "being measured\u2026" : why.c_str());
     }
   }
   ImGui::EndChild();
   ImGui::SameLine();
-  if (ImGui::BeginChild("##differences", {0, rest}))
-    if (!differenceTable("##between", of[0].settings, of[1].settings, "first", "second"))
+  if (ImGui::BeginChild("##differences", {0, rest})) {
+    if (!of[0].described() || !of[1].described())
+      wrappedDim(fmt::format("{}: its settings are unknown", of[of[0].described() ? 1 : 0].name).c_str());
+    else if (!differenceTable("##between", of[0].settings, of[1].settings, "first", "second"))
       ImGui::TextColored(theme::dim, "the same settings");
+  }
   ImGui::EndChild();
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/scene/sky_image.h"
 #include "ui/session.h"
 
 namespace irad {
@@ -126,6 +127,10 @@ Sidecar editsOf(const Session& session) {
   return edits;
 }
 
+std::shared_ptr<const ReferencePicture> referenceOf(const Session& session) {
+  return session.reference && !session.reference->path.empty() ? session.reference : nullptr;
+}
+
 }  // namespace
 
 bool EditState::onlyFlown(const EditState& other) const {
@@ -148,6 +153,8 @@ EditState editStateOf(const Session& session) {
     if (session.comparison->editsB) std::swap(state.a, *state.b);
   }
   state.edits = editsOf(session);
+  state.sky = session.load.sky;
+  state.reference = referenceOf(session);
   state.view = session.view;
   state.camera = session.camera.camera();
   state.sceneCamera = session.sceneCamera;
@@ -164,6 +171,8 @@ void restore(Session& session, const EditState& state) {
   give(session.sideA(), state.a);
   if (session.comparison && state.b) give(session.sideB(), *state.b);
   if (editsOf(session) != state.edits) session.edits.restore(state.edits);
+  session.load.sky = state.sky;
+  if (referenceOf(session) != state.reference) session.reference = state.reference;
   if (session.view != state.view) session.viewDirty = true;
   session.view = state.view;
   if (session.camera.camera() != state.camera) session.startAt(state.camera);
@@ -175,6 +184,13 @@ std::string whatChanged(const EditState& from, const EditState& to) {
   addSettings(words, to.b ? "A: " : "", from.a.settings, to.a.settings);
   if (from.b && to.b) addSettings(words, "B: ", from.b->settings, to.b->settings);
   addEdits(words, from.edits, to.edits);
+  const auto addPicture = [&](const char* what, const auto& before, const auto& after) {
+    if (before == after) return;
+    const std::string name = (after ? after : before)->path.filename().string();
+    words.push_back(fmt::format("{}{} {}", after ? "" : "without ", what, name));
+  };
+  addPicture("picture of the sky", from.sky, to.sky);
+  addPicture("reference", from.reference, to.reference);
   if (from.view != to.view) words.push_back(fmt::format("view {}", viewInfo(to.view) ? viewInfo(to.view)->label : "?"));
   // A new bookmark is also the camera that is chosen.
   if (words.empty() && from.camera != to.camera)

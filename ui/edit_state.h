@@ -3,6 +3,7 @@
 // and takes back, and a name for its steps in whatChanged(); anything else as a member.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 
 namespace irad {
 
+struct ReferencePicture;
 struct Session;
 
 /// The settings of a side. Which facet is picked is no edit: it is 0 here.
@@ -23,16 +25,20 @@ struct SideEdits {
 };
 
 struct EditState {
-  SideEdits a;                 ///< of the one side there is, or A of a comparison
-  std::optional<SideEdits> b;  ///< of a comparison
-  Sidecar edits;               ///< of the scene: always with lights, and without its SHA-256
+  SideEdits a;                                        ///< of the one side there is, or A of a comparison
+  std::optional<SideEdits> b;                         ///< of a comparison
+  Sidecar edits;                                      ///< of the scene: always with lights, and without its SHA-256
+  std::shared_ptr<const SkyImage> sky;                ///< for sky.source = image
+  std::shared_ptr<const ReferencePicture> reference;  ///< of a file: what is traced meanwhile is no edit
   View view = 0;
   Camera camera;
   int sceneCamera = 0;  ///< Session::sceneCamera
 
   bool operator==(const EditState&) const = default;
   /// They differ at most in where one looks from, and at which view.
-  bool sameWork(const EditState& other) const { return a == other.a && b == other.b && edits == other.edits; }
+  bool sameWork(const EditState& other) const {
+    return a == other.a && b == other.b && edits == other.edits && sky == other.sky && reference == other.reference;
+  }
   /// Only the camera differs, and it was flown there.
   bool onlyFlown(const EditState& other) const;
 };

@@ -27,6 +27,15 @@ std::optional<MissingInput> ofShadowMaps(const Session& session) {
   if (lights.empty())
     return MissingInput{"No light", "This view shows one light's shadows, and the scene has no lights.", "", {}};
   if (chosen >= lights.size() || chosen >= session.edits.lights.size()) return std::nullopt;
+  if (session.built->lacksShadow(chosen))
+    return MissingInput{
+        "No shadow map",
+        fmt::format(
+            "The light \"{}\", which this view is of, casts no shadow: the device has not the layers for so many "
+            "lights, and the strongest have them.",
+            lights[chosen].name),
+        "",
+        {}};
   if (lights[chosen].on) return std::nullopt;
   return MissingInput{"No shadow map",
                       fmt::format("The light \"{}\", which this view is of, is off.", lights[chosen].name),

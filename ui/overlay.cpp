@@ -59,8 +59,11 @@ void drawBanner(const Session& session, const Rect& viewport) {
 
 void drawMessages(Session& session, const Rect& viewport) {
   const auto now = std::chrono::steady_clock::now();
-  std::erase_if(session.messages,
-                [&](const Message& m) { return m.kind == Message::Kind::Note && now >= m.said + Message::kNoteStays; });
+  std::erase_if(session.messages, [&](const Message& m) {
+    return m.kind == Message::Kind::Note && m.shown && now >= *m.shown + Message::kNoteStays;
+  });
+  for (Message& message : session.messages)
+    if (!message.shown) message.shown = now;
   if (session.messages.empty()) return;
   const float em = ImGui::GetFontSize(), left = viewport.position.x + em;
   float width = std::max(std::min(36 * em, viewport.size.x - 2 * em), 8 * em);
@@ -76,7 +79,7 @@ void drawMessages(Session& session, const Rect& viewport) {
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(0.6f * (bottom - viewport.position.y), 4 * em)});
   ImGui::Begin("##messages", nullptr, kFloating & ~ImGuiWindowFlags_NoScrollbar);
   if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows))
-    for (Message& message : session.messages) message.said = now;
+    for (Message& message : session.messages) message.shown = now;
   ImGui::PushID("messages");
   std::optional<size_t> dismissed;
   for (size_t i = 0; i < session.messages.size(); ++i) {
@@ -128,8 +131,9 @@ void drawFrameTime(const Session& session, const Rect& viewport) {
   floatAt(viewport, {1, 0}, 0.5f * em);
   ImGui::SetNextWindowBgAlpha(0.7f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.5f * em, 0.2f * em));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   ImGui::Begin("##frame-time", nullptr, kFloating | ImGuiWindowFlags_NoInputs);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   ImGui::TextUnformatted(text.c_str());
   ImGui::tellControl("frame time");
   ImGui::End();
@@ -158,13 +162,13 @@ void drawProgress(Session& session, const Rect& viewport) {
   ImGui::End();
 }
 
-void drawHelp(Session& session) {
+void drawHelp(Session& session, const Rect& window) {
   if (!session.showHelp) return;
   const float em = ImGui::GetFontSize();
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  floatAt({{0, 0}, {window.x, window.y}}, {0.5f, 0.5f}, em);
+  floatAt(window, {0.5f, 0.5f}, em);
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {window.size.x, std::max(window.size.y - em, 8 * em)});
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(0.3f * em, 0));  // all rows in a low window, too
-  ImGui::Begin("##help", nullptr, kFloating);
+  ImGui::Begin("##help", nullptr, kFloating & ~ImGuiWindowFlags_NoScrollbar);
   pushHeadingFont();
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::PopFont();
@@ -180,6 +184,9 @@ void drawHelp(Session& session) {
     ImGui::EndTable();
   }
   ImGui::TextColored(theme::dim, "Keys are ignored while a text field has the keyboard.");
+  ImGui::PushID("help");
+  ImGui::tellControl("end");
+  ImGui::PopID();
   ImGui::End();
   ImGui::PopStyleVar();
 }

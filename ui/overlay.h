@@ -15,7 +15,7 @@ std::string frameTime(const Session& session);
 /// The same in the upper right corner, where the panels that tell it are hidden.
 void drawFrameTime(const Session& session, const Rect& viewport);
 void drawProgress(Session& session, const Rect& viewport);
-void drawHelp(Session& session);
+void drawHelp(Session& session, const Rect& window);
 
 /// Begins one of the fixed windows that tile the main window. It has the cleared window's colour already; `filled`
 /// draws its own, `scrolls` lets its contents be longer than it is, `menus` begins it with a menu bar.

@@ -35,8 +35,8 @@ void Session::say(Message::Kind kind, std::string text, std::filesystem::path fo
 std::optional<std::chrono::steady_clock::time_point> Session::nextMessageEnds() const {
   std::optional<std::chrono::steady_clock::time_point> first;
   for (const Message& m : messages)
-    if (m.kind == Message::Kind::Note && (!first || m.said + Message::kNoteStays < *first))
-      first = m.said + Message::kNoteStays;
+    if (m.kind == Message::Kind::Note && m.shown && (!first || *m.shown + Message::kNoteStays < *first))
+      first = *m.shown + Message::kNoteStays;
   return first;
 }
 

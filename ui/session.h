@@ -2,6 +2,7 @@
 // loop (ui/window.cpp) serves between frames.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <filesystem>
@@ -42,7 +43,7 @@ struct Message {
   enum class Kind { Note, Error } kind;
   std::string text;
   std::filesystem::path folder = {};  ///< that it tells of, absolute: to be copied and opened; empty: none
-  std::chrono::steady_clock::time_point said = std::chrono::steady_clock::now();
+  std::optional<std::chrono::steady_clock::time_point> shown = {};  ///< since then; work may come before the next frame
   /// Errors stay until they are dismissed. (Of a note that the mouse is on the time begins anew.)
   static constexpr std::chrono::seconds kNoteStays{10};
 };
@@ -68,8 +69,10 @@ struct Built {
   std::vector<Finding> findings;            ///< of the numerical watch, errors first
   std::vector<std::string> noLight;         ///< EffectPlan::noLight
   std::vector<std::string> nothingDiffuse;  ///< EffectPlan::nothingDiffuse
+  std::vector<uint32_t> withoutShadow;      ///< Pipeline::lightsWithoutShadow()
   Settings settings;                        ///< that it was made with
   bool faulty() const { return !findings.empty() && findings[0].severity == Finding::Severity::Error; }
+  bool lacksShadow(uint32_t light) const { return std::ranges::binary_search(withoutShadow, light); }
 };
 
 /// One call of the solver, for the plots.
@@ -152,8 +155,8 @@ struct Session : Side {
   std::optional<MaterialTimes> materialEdit;  ///< of the last one
 
   View view = 0;
-  std::optional<ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it
-  std::optional<ReferenceSplit> split;        ///< while there is no comparison
+  std::shared_ptr<const ReferencePicture> reference;  ///< for the views that compare with one; every pipeline gets it
+  std::optional<ReferenceSplit> split;                ///< while there is no comparison
   Accuracy accuracy;
   FlyCamera camera;
   int sceneCamera = 0;             ///< index into cameras(): which `camera` began as
@@ -189,7 +192,7 @@ struct Session : Side {
   Recorder recorder;
   Captures captures;
 
-  LoadOptions load;                            ///< of scenes; `lights` are the first one's
+  LoadOptions load;                            ///< of scenes; `lights` are the first one's, `sky` is what is shown
   std::vector<std::filesystem::path> builtIn;  ///< folders whose scenes have no sidecar
   bool exposes = false;                        ///< WindowOptions::exposes
   Inspection inspection;

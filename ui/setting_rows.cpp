@@ -157,7 +157,9 @@ void row(const Setting& setting, Settings& settings, const Settings& defaults, c
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::AlignTextToFramePadding();
   if (edited || waits) ImGui::PushStyleColor(ImGuiCol_Text, waits ? theme::warning : theme::accent);
-  clippedText((waits ? "\u00B7 " : "") + label(setting.name), width * kLabelShare - gap);
+  const std::string name = (waits ? "\u00B7 " : "") + label(setting.name);
+  const float words = std::clamp(ImGui::CalcTextSize(name.c_str()).x + gap, width * kLabelShare, width * 0.6f);
+  clippedText(name, words - gap);
   if (edited || waits) ImGui::PopStyleColor();
   const auto help = [&] {
     std::string text = fmt::format("{}\n{}\nAllowed: {}. Default: {}", setting.name, setting.help, setting.allowed(),
@@ -167,8 +169,8 @@ void row(const Setting& setting, Settings& settings, const Settings& defaults, c
     return text;
   };
   helpTooltip(help);
-  ImGui::SameLine(start + width * kLabelShare);
-  ImGui::SetNextItemWidth(width * (1 - kLabelShare) - button - gap);
+  ImGui::SameLine(start + words);
+  ImGui::SetNextItemWidth(width - words - button - gap);
   edit(setting, settings);
   helpTooltip(help);
   if (edited &&

@@ -63,6 +63,7 @@ class Overlay {
 
 // In the order in which they are drawn and offered the mouse. X(Name) stands for makeNameOverlay() in ui/overlays/.
 #define IRAD_OVERLAYS(X) \
+  X(PixelValues)         \
   X(Lights)              \
   X(Region)              \
   X(Row)                 \

@@ -15,6 +15,7 @@
 #include "renderer/renderdoc.h"
 #include "renderer/scene/material_edits.h"
 #include "renderer/scene/nodes.h"
+#include "renderer/scene/sky_image.h"
 #include "ui/autosave_dialog.h"
 #include "ui/bindings.h"
 #include "ui/builder.h"
@@ -44,6 +45,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames while a load or a rebuild runs
 constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
 constexpr double kWatchInterval = 0.2;   ///< seconds between frames while all that goes on is a reference
+constexpr double kWriteInterval = 0.02;  ///< seconds between looks whether a file of the window's own is written
 constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
 
 /// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
@@ -74,6 +76,9 @@ class Window {
   bool take(const Autosave& found);
   bool bringBack(const std::filesystem::path& scene, const Settings& settings, const std::optional<Settings>& other,
                  const std::string& step, const std::function<void(EditState&)>& give);
+  template <class Picture>
+  void bring(std::shared_ptr<const Picture>& into, const std::optional<std::filesystem::path>& file,
+             const std::optional<std::string>& sha256, Picture (*read)(const std::filesystem::path&));
   void replay(const std::filesystem::path& manifest);
   void fly();
   void drawFrame();
@@ -107,6 +112,7 @@ class Window {
   Preferences saved_;         ///< as the file has them
   bool compiling_ = false;    ///< the context has variants to compile
   bool toldUnsaved_ = false;  ///< the user was told that it cannot be written
+  BackgroundWorker writer_;   ///< of the preferences and of what is kept against a crash
   WorkKeeper keeper_;
   std::filesystem::path historyOf_;  ///< the scene whose edits session_.history holds
 };
@@ -120,13 +126,13 @@ Window::Window(Context& context, const WindowOptions& options)
       layer_(context, presenter_.window()),
       builder_(context, session_, [this] { breathe(); }),
       unsavedDialog_(options.captures),
-      keeper_(options.preferences) {
+      keeper_(options.preferences, writer_) {
   presenter_.attach(context);
   context.bridgeVariants(true);
   session_.edited = session_.saved = options.settings;
   session_.defaults = options.defaults;
   session_.view = options.view;
-  session_.reference = options.reference;
+  if (options.reference) session_.reference = std::make_shared<const ReferencePicture>(*options.reference);
   session_.load = options.load;
   session_.builtIn = options.builtIn;
   session_.exposes = options.exposes;
@@ -150,12 +156,16 @@ void Window::readPreferences() {
 void Window::savePreferences() {
   if (options_.preferences.empty() || session_.preferences == saved_ || ImGui::IsAnyItemActive()) return;
   saved_ = session_.preferences;
-  try {
-    writePreferences(options_.preferences, saved_);
-  } catch (const Error& error) {
-    if (!std::exchange(toldUnsaved_, true))
-      session_.error(fmt::format("The layout is not remembered. {}", error.what()));
-  }
+  writer_.add([this, preferences = saved_]() -> BackgroundWorker::Result {
+    try {
+      writePreferences(options_.preferences, preferences);
+      return [] {};
+    } catch (const Error& error) {
+      return [this, text = std::string(error.what())] {
+        if (!std::exchange(toldUnsaved_, true)) session_.error(fmt::format("The layout is not remembered. {}", text));
+      };
+    }
+  });
 }
 
 void Window::offerFound() {
@@ -171,7 +181,7 @@ void Window::answerOffer(Session::Offer answer) {
     return offerFound();
   }
   // It is in a file at every moment.
-  if (answer == Session::Offer::Take && take(found) && keeper_.keep(session_)) keeper_.removeFound();
+  if (answer == Session::Offer::Take && take(found) && keeper_.keepNow(session_)) keeper_.removeFound();
   keeper_.leaveFound();
 }
 
@@ -200,9 +210,23 @@ bool Window::bringBack(const std::filesystem::path& scene, const Settings& setti
   return true;
 }
 
+/// The picture of a file, unless it is there; where it cannot be read that is said, and the one that is there stays.
+template <class Picture>
+void Window::bring(std::shared_ptr<const Picture>& into, const std::optional<std::filesystem::path>& file,
+                   const std::optional<std::string>& sha256, Picture (*read)(const std::filesystem::path&)) {
+  if (!file || (into && sha256 && into->sha256 == *sha256)) return;
+  try {
+    into = std::make_shared<const Picture>(read(*file));
+  } catch (const Error& error) {
+    session_.error(error.what());
+  }
+}
+
 bool Window::take(const Autosave& found) {
   const auto give = [&](EditState& state) {
     state.edits = found.edits;
+    bring(state.sky, found.sky, {}, readSky);
+    bring(state.reference, found.reference, {}, readReference);
     state.view = found.view;
     state.camera = found.camera;
   };
@@ -225,6 +249,8 @@ void Window::replay(const std::filesystem::path& manifest) {
       state.edits.lights = config.lights;
       state.edits.materials = config.materials;
       state.edits.hidden = hiddenPaths(nodes, config.hidden);
+      bring(state.sky, config.sky, config.skySha256, readSky);
+      bring(state.reference, config.reference, config.referenceSha256, readReference);
       if (entry.view) state.view = *entry.view;
       if (!config.cameras.empty()) state.camera = config.cameras.front();
       for (SideEdits* side : {&state.a, state.b ? &*state.b : nullptr})
@@ -235,13 +261,8 @@ void Window::replay(const std::filesystem::path& manifest) {
         for (const std::string& words : unknown) session_.note(fmt::format("{}: {}", entry.name, words));
     };
     if (!bringBack(scene, entry.settings, entry.other, "replay " + entry.name, give)) return;
-    // Pictures are no edits: they stay where the step is undone.
-    const Scene& shown = session_.pipeline->scene();
-    if (config.sky && !(shown.sky && shown.sky->sha256 == config.skySha256)) builder_.openPicture(*config.sky);
-    if (config.reference && !(session_.reference && session_.reference->sha256 == config.referenceSha256))
-      builder_.openPicture(*config.reference);
     session_.note(fmt::format("The window is as it was for {}, {}", entry.name, timeInWords(entry.time)));
-    if (config.sceneSha256 && *config.sceneSha256 != shown.sha256)
+    if (config.sceneSha256 && *config.sceneSha256 != session_.pipeline->scene().sha256)
       session_.note(fmt::format("{} has changed since then", scene.filename().string()));
   } catch (const Error& error) {
     session_.error(error.what());
@@ -335,6 +356,8 @@ void Window::wait() {
     glfwPollEvents();
   else if (watches)
     glfwWaitEventsTimeout(kWatchInterval);
+  else if (writer_.busy())
+    glfwWaitEventsTimeout(kWriteInterval);
   else if (blinks)
     glfwWaitEventsTimeout(0.4);
   else if (message)
@@ -375,6 +398,7 @@ void Window::takeKeys() {
 }
 
 void Window::takeRequests() {
+  if (writer_.take()) framesLeft_ = std::max(framesLeft_, 2);  // it may have said that it failed
   savePreferences();
   if (const auto answer = std::exchange(session_.answer, std::nullopt)) answerOffer(*answer);
   if (std::exchange(session_.reloadShaders, false)) builder_.reloadShaders(options_.shaders);
@@ -547,15 +571,17 @@ void Window::drawFrame() {
   if (!session_.hideUi) above.size.y = std::max(above.size.y - statusHeight(above.size.x), 1.0f);
   drawMessages(session_, above);
   drawProgress(session_, where.viewport);
-  drawHelp(session_);
+  const Rect below{{0, where.bar.size.y}, glm::vec2(size) - glm::vec2(0, where.bar.size.y)};
+  drawHelp(session_, below);
   openDialog_.draw(session_);
   capturesDialog_.draw(session_, layer_);
   unsavedDialog_.draw(session_);
   drawAutosaveDialog(session_);
   drawMissingInput(session_, where.viewport);
-  drawGlossary(session_, {{0, 0}, glm::vec2(size)});
+  drawGlossary(session_, below);
   builder_.announced();
   session_.seeEdits(/*held=*/ImGui::IsAnyItemActive() || input_.flying());
+  writer_.take();
   keeper_.keep(session_);
   double uiMs = threadMilliseconds() - uiBegan;
 

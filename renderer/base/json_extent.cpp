@@ -22,4 +22,10 @@ JsonExtent jsonExtent(std::string_view text) {
   return extent;
 }
 
+std::string jsonProblem(const std::exception& error) {
+  const std::string text = error.what();  // "[json.exception.parse_error.101] parse error ..."
+  const size_t end = text.find("] ");
+  return text.starts_with("[json.") && end != text.npos ? text.substr(end + 2) : text;
+}
+
 }  // namespace irad

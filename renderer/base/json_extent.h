@@ -1,8 +1,10 @@
 // How deep and large a JSON text is, found without parsing it: parsers and writers of JSON recurse, and deep nesting
-// overflows their stacks.
+// overflows their stacks. And what is wrong with one, in words.
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <string>
 #include <string_view>
 
 namespace irad {
@@ -15,5 +17,8 @@ struct JsonExtent {
 };
 /// Takes any text; brackets inside strings do not count.
 JsonExtent jsonExtent(std::string_view text);
+
+/// What a parser of JSON says, without the library's own name of it: "parse error at line 1, column 1: ...".
+std::string jsonProblem(const std::exception& error);
 
 }  // namespace irad

@@ -45,7 +45,7 @@ OrderedJson parseJson(std::string_view text, const std::string& label) {
   try {
     return OrderedJson::parse(text);
   } catch (const nlohmann::json::exception& error) {
-    throw UsageError(fmt::format("{}: not JSON: {}", label, error.what()));
+    throw UsageError(fmt::format("{}: not JSON: {}", label, jsonProblem(error)));
   }
 }
 

@@ -163,7 +163,7 @@ void readContainer(Document& doc) {
     if (watch.duplicate) doc.fail("JSON", fmt::format("duplicate key \"{}\"", *watch.duplicate));
     doc.root = std::make_unique<nlohmann::json>(nlohmann::json::parse(doc.json.begin(), doc.json.end()));
   } catch (const nlohmann::json::exception& error) {
-    doc.fail("JSON", error.what());
+    doc.fail("JSON", jsonProblem(error));
   }
   if (!doc.root->is_object()) doc.fail("JSON", "the root is not an object");
 }

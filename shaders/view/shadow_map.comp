@@ -21,7 +21,7 @@ void main() {
   float face = min(size.x / faces.x, size.y / faces.y);  // side in pixels
   vec2 at = (vec2(pixel) + 0.5 - 0.5 * size) / face + 0.5 * faces;
   float depth = 0.0;
-  if (all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, faces))) {
+  if (light.shadowLayer >= 0 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, faces))) {
     vec2 cell = floor(at);
     if (cube)
       depth = textureLod(cubeMaps, vec4(cubeDirection(uint(cell.x + 3.0 * cell.y), 2.0 * (at - cell) - 1.0),

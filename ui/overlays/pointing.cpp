@@ -1,5 +1,4 @@
-// What is under the mouse, in a line at the picture's lower edge (at the upper one, where the mouse is on that line);
-// and of pixels that are shown large enough their values, in them.
+// What is under the mouse, in a line at the picture's lower edge (at the upper one, where the mouse is on that line).
 #include "ui/pointing.h"
 
 #include <fmt/format.h>
@@ -21,7 +20,6 @@ struct Part {
 class PointingOverlay : public Overlay {
  public:
   bool draw(Session& session, const Picture& picture, const PictureMouse&) override {
-    drawValues(session, picture);
     if (!session.hideUi) drawLine(session, picture);
     return false;
   }
@@ -65,36 +63,6 @@ class PointingOverlay : public Overlay {
       at.x += width + 1.2f * em;
     }
     ImGui::leaveControls();
-  }
-
-  /// Asks for the values of the pixels in view where there is room for numbers in them, and writes those that are
-  /// there.
-  static void drawValues(Session& session, const Picture& picture) {
-    Pointing& p = session.pointing;
-    const ViewInfo* info = viewInfo(session.view);
-    const float em = ImGui::GetFontSize();
-    p.large = {};
-    if (info == nullptr || p.zoom.scale < 3.6f * em) return;
-    const Rect& window = picture.window();
-    const glm::uvec2 first = picture.pixel(window.position), last = picture.pixel(window.position + window.size - 1.0f);
-    p.large = {first, last - first + 1u};
-    if (p.valuesOf != p.large || p.values.size() != size_t{p.large.size.x} * p.large.size.y) return;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    for (uint32_t y = 0; y < p.large.size.y; ++y)
-      for (uint32_t x = 0; x < p.large.size.x; ++x) {
-        const glm::vec4& value = p.values[size_t{y} * p.large.size.x + x];
-        if (!(value.w > 0)) continue;
-        const std::vector<std::string> numbers = pixelNumbers(info->kind, value);
-        const auto [low, high] = picture.area(first + glm::uvec2(x, y));
-        const ImVec4 clip{low.x, low.y, high.x, high.y};
-        float top = 0.5f * (low.y + high.y - static_cast<float>(numbers.size()) * em);
-        for (const std::string& number : numbers) {
-          const float left = 0.5f * (low.x + high.x - ImGui::CalcTextSize(number.c_str()).x);
-          list.AddText(nullptr, 0, {left + 1, top + 1}, IM_COL32(0, 0, 0, 255), number.c_str(), nullptr, 0, &clip);
-          list.AddText(nullptr, 0, {left, top}, IM_COL32(255, 255, 255, 255), number.c_str(), nullptr, 0, &clip);
-          top += em;
-        }
-      }
   }
 };
 

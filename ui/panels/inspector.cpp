@@ -74,14 +74,15 @@ class InspectorPanel : public Panel {
   /// Which of the voxel's facets, back along the trail, and done.
   static void drawTop(Session& session) {
     Inspection& in = session.inspection;
+    const ImGuiStyle& style = ImGui::GetStyle();
     for (size_t f = 0; f < in.voxel->facets.size(); ++f) {
-      if (ImGui::RadioButton(fmt::format("facet {}", in.voxel->facets[f].facet).c_str(), in.chosen == f) &&
-          in.chosen != f)
-        in.choose = f;
+      const std::string name = fmt::format("facet {}", in.voxel->facets[f].facet);
+      const float width = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(name.c_str()).x;
+      if (f > 0) ImGui::SameLine();
+      if (f > 0 && ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+      if (ImGui::RadioButton(name.c_str(), in.chosen == f) && in.chosen != f) in.choose = f;
       helpTooltip("The voxel holds several facets, one for each side of a surface in it: the one shown below");
-      ImGui::SameLine();
     }
-    ImGui::NewLine();
     ImGui::BeginDisabled(in.trail.empty());
     if (ImGui::Button("Back")) in.goBack = true;
     helpTooltip("Back to the facet that a link was followed from");
@@ -113,8 +114,10 @@ class InspectorPanel : public Panel {
     const glm::dvec3& world = in.voxel->world;
     valueRow("world", fmt::format("{:.4g} {:.4g} {:.4g}", world.x, world.y, world.z));
     helpTooltip("The voxel's centre: x y z in the world, metres");
-    valueRow("distance", fmt::format("{:.3g} = {:.3g} m", in.voxel->distance, in.voxel->distance * in.edge()));
-    helpTooltip("From here to the nearest solid voxel by the distance field in use, in voxels and in metres");
+    const std::string voxels = fmt::format("{:.3g}", in.voxel->distance);
+    valueRow("distance", fmt::format("{:.3g} m, {} {}", in.voxel->distance * in.edge(), voxels,
+                                     voxels == "1" ? "voxel" : "voxels"));
+    helpTooltip("From here to the nearest solid voxel by the distance field in use, in metres and in voxels");
     if (in.voxel->seed) {
       valueRow("nearest seed", three(*in.voxel->seed));
       helpTooltip("The solid voxel that jump flooding takes for the nearest: x y z");

@@ -57,7 +57,7 @@ class LightsPanel : public Panel {
     if (!session.pipeline) return ImGui::TextColored(theme::dim, "no scene");
     SceneEdits& edits = session.edits;
     drawAdd(session);
-    drawList(edits);
+    drawList(session);
     drawListButtons(edits);
     if (Light* light = edits.light()) {
       ImGui::PushID(edits.selected);
@@ -90,7 +90,8 @@ class LightsPanel : public Panel {
     }
   }
 
-  static void drawList(SceneEdits& edits) {
+  static void drawList(Session& session) {
+    SceneEdits& edits = session.edits;
     if (edits.lights.empty()) return ImGui::TextColored(theme::dim, "no lights");
     const float row = ImGui::GetTextLineHeightWithSpacing(), em = ImGui::GetFontSize();
     const float rows = std::min(static_cast<float>(edits.lights.size()), 6.0f);
@@ -105,8 +106,15 @@ class LightsPanel : public Panel {
         const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
         const bool pressed = ImGui::Selectable("##", i == edits.selected);
         const bool dot = ImGui::GetIO().MousePos.x < at.x + 1.2f * em;  // the lamp before the name
-        helpTooltip(dot ? light.on ? "On; a click turns it off" : "Off; a click turns it on"
-                        : "Click: choose it, to change it below. Its dot, in its colour, turns it off and on.");
+        const bool noShadow = session.built && session.built->lacksShadow(static_cast<uint32_t>(i));
+        helpTooltip([&] {
+          if (dot) return std::string(light.on ? "On; a click turns it off" : "Off; a click turns it on");
+          return std::string("Click: choose it, to change it below. Its dot, in its colour, turns it off and on.") +
+                 (noShadow
+                      ? "\nIt casts no shadow: the device has not the layers for so many maps, and stronger lights "
+                        "have them."
+                      : "");
+        });
         if (pressed && dot)
           light.on = !light.on;
         else if (pressed)
@@ -118,12 +126,13 @@ class LightsPanel : public Panel {
         else
           drawing.AddCircle(middle, em * 0.3f, ImGui::GetColorU32(theme::dim));
         ImGui::SameLine(start + em * 1.3f);
-        const float type = ImGui::CalcTextSize(typeName(light)).x;
+        const std::string kind = std::string(typeName(light)) + (noShadow ? ", no shadow" : "");
+        const float type = ImGui::CalcTextSize(kind.c_str()).x;
         if (!light.on) ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
         clippedText(light.name.empty() ? "(no name)" : light.name, width - em * 1.8f - type);
         if (!light.on) ImGui::PopStyleColor();
         ImGui::SameLine(start + width - type);
-        ImGui::TextColored(theme::dim, "%s", typeName(light));
+        ImGui::TextColored(theme::dim, "%s", kind.c_str());
         ImGui::PopID();
       }
     ImGui::EndChild();

@@ -51,7 +51,8 @@ class ScenePanel : public Panel {
     const Built& built = *session.built;
     valueRow("grid", fmt::format("{} \u00D7 {} \u00D7 {}", built.dims.x, built.dims.y, built.dims.z));
     helpTooltip([&] { return fmt::format("Voxels along x, y and z, of edge {:.4g} m", built.edge); });
-    valueRow("facets", fmt::format("{} in {}", withThousands(built.facets), withThousands(built.solidVoxels)));
+    valueRow("facets in voxels",
+             fmt::format("{} in {}", withThousands(built.facets), withThousands(built.solidVoxels)));
     helpTooltip("Pieces of surface that light is kept for, and the solid voxels that hold them");
     if (built.clampedAlbedo > 0) {
       valueRow("clamped", fmt::format("albedo of {}", withThousands(built.clampedAlbedo)));

@@ -120,7 +120,8 @@ class TimingsPanel : public Panel {
       return;
     }
     const ImVec2 space = ImGui::GetContentRegionAvail();
-    const float list = std::floor(std::min(0.3f * space.x, 13 * ImGui::GetFontSize()));
+    const float em = ImGui::GetFontSize();
+    const float list = std::floor(std::min(std::clamp(0.3f * space.x, 11 * em, 13 * em), 0.5f * space.x));
     const size_t first = history_.size() - std::min(window_, history_.size());
     // The list is drawn beside the plot but shows the frame under the mouse in the plot.
     const ImVec2 begin = ImGui::GetCursorPos();
@@ -219,10 +220,12 @@ class TimingsPanel : public Panel {
       if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         for (TimingHistory::Stage& other : history_.stages()) other.shown = &other == &stage;
     }
-    helpTooltip(std::isnan(stage.ms[frame])
-                    ? "It did not run in this frame: the time is that of the last one in which it did.\nClick: in the "
-                      "plot or not\nDouble click: this one alone"
-                    : "Click: in the plot or not\nDouble click: this one alone");
+    const bool ran = !std::isnan(stage.ms[frame]);
+    helpTooltip([&] {
+      return fmt::format(
+          "{}\n{}Click: in the plot or not\nDouble click: this one alone", stage.name,
+          ran ? "" : "It did not run in this frame: the time is that of the last one in which it did.\n");
+    });
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 low{at.x + 0.2f * box, at.y + 0.2f * box}, high{at.x + 0.8f * box, at.y + 0.8f * box};
     if (stage.shown)
@@ -230,10 +233,8 @@ class TimingsPanel : public Panel {
     else
       list.AddRect(low, high, seriesColor(s));
     const ImU32 color = ImGui::GetColorU32(stage.shown ? theme::text : theme::dim);
-    const ImVec4 clip{at.x, at.y, at.x + width - number, at.y + 2 * box};
-    list.AddText(nullptr, 0, {at.x + 1.1f * box, at.y}, color, stage.name.c_str(), nullptr, 0, &clip);
+    list.AddText({at.x + 1.1f * box, at.y}, color, clipped(stage.name, width - number - 1.1f * box).c_str());
     // Where it did not run, what it took the last time, in grey.
-    const bool ran = !std::isnan(stage.ms[frame]);
     const std::string ms = milliseconds(ran ? stage.ms[frame] : stage.last);
     list.AddText({at.x + width - ImGui::CalcTextSize(ms.c_str()).x, at.y}, ran ? color : ImGui::GetColorU32(theme::dim),
                  ms.c_str());
