@@ -93,7 +93,7 @@ std::vector<std::pair<std::string, uint64_t>> predictMemory(const FacetList& fac
   buffer(written.drawn, 16 * s);
   buffer(written.pixels, 4 * s);
   buffer(written.writers, 4 * s);
-  buffer(written.sums, 24 * s);
+  buffer(written.sums, 12 * WRITEBACK_PARTS * s);
   buffer(written.counts, sizeof(WritebackCounts));
   buffer(lighting.rowSum, 4 * s);
   buffer(lighting.residual, sizeof(SolveResidual) * SOLVE_RESIDUALS);

@@ -221,7 +221,7 @@ class Planner {
   EffectRow writeback() const {
     const WritebackMode mode = s_.writeback.mode;
     // W as it is used and as it was drawn; the counts; the sums, or the image that the mask's fragments store to.
-    const uint64_t perFacet = mode == WritebackMode::compute ? 60 : 56, perPixel = byTriangles() ? 4 : 0;
+    const uint64_t perFacet = mode == WritebackMode::compute ? 72 : 56, perPixel = byTriangles() ? 4 : 0;
     EffectRow r{.effect = Effect::writeback,
                 .reason = fmt::format("writeback.mode = {}", nameOf(mode)),
                 .bytesNotAllocated = b_.facets * perFacet + perPixel * t_.pixels};

@@ -44,7 +44,7 @@ void fitWriteback(Context& context, uint32_t facets, const Settings& settings, W
   fit(w.drawn, "reflections written back W (b)", 16ull * facets, true);
   fit(w.pixels, "pixels of facets", 4ull * facets, true);
   fit(w.writers, "writers of facets", 4ull * facets, mask);
-  fit(w.sums, "sums of pixels' reflections", 24ull * facets, !mask);
+  fit(w.sums, "sums of pixels' reflections", 12ull * WRITEBACK_PARTS * facets, !mask);
   if (mask != static_cast<bool>(w.stored)) {
     const uint32_t height = (facets + WRITEBACK_IMAGE_WIDTH - 1) / WRITEBACK_IMAGE_WIDTH;
     if (mask && height > device.limits.maxImageDimension2D)

@@ -35,7 +35,7 @@ struct Writeback {
   Buffer used;             ///< vec4 per facet: W that B is solved with, W/m^2
   Buffer drawn;            ///< likewise of the picture that was drawn last; w: writers
   Buffer pixels, writers;  ///< uint per facet: that see it in that picture; of those, that write (mode mask)
-  Buffer sums;             ///< mode compute: six uints per facet
+  Buffer sums;             ///< mode compute: 3 WRITEBACK_PARTS uints per facet
   Image stored;            ///< mode mask: a texel per facet
   Buffer counts;           ///< one WritebackCounts
   /// Of `drawn`; null before a picture. Shared with the frame that brings it.

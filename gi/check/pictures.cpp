@@ -57,21 +57,23 @@ CheckPicture flipped(CheckPicture picture) {
   return picture;
 }
 
+double meanOf(const CheckPicture& picture) {
+  double sum = 0;
+  for (const glm::vec4& p : picture.pixels) sum += double{p.r} + double{p.g} + double{p.b};
+  return sum / (3.0 * static_cast<double>(picture.pixels.size()));
+}
+
 PictureError compare(const CheckPicture& picture, const CheckPicture& reference, double factor) {
   IRAD_CHECK_OP(picture.pixels.size(), ==, reference.pixels.size());
   PictureError error;
-  double sum = 0, total = 0;
   for (size_t i = 0; i < picture.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c) {
-      const double value = picture.pixels[i][c] / factor, expected = reference.pixels[i][c];
-      const double difference = std::abs(value - expected);
-      sum += value;
-      total += expected;
+      const double difference = std::abs(picture.pixels[i][c] / factor - reference.pixels[i][c]);
       error.mean += difference;
       error.largest = difference > error.largest || std::isnan(difference) ? difference : error.largest;
     }
-  const double n = 3.0 * static_cast<double>(picture.pixels.size()), mean = total / n;
-  return {error.mean / n / mean, error.largest / mean, std::abs(sum / total - 1)};
+  const double n = 3.0 * static_cast<double>(picture.pixels.size()), mean = meanOf(reference);
+  return {error.mean / n / mean, error.largest / mean, std::abs(meanOf(picture) / factor / mean - 1)};
 }
 
 namespace {

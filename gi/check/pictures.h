@@ -14,6 +14,9 @@ Scene scaled(Scene scene, float s);
 Scene permuted(Scene scene, const glm::mat3& axes);
 CheckPicture flipped(CheckPicture picture);
 
+/// Over all pixels and colour channels.
+double meanOf(const CheckPicture& picture);
+
 /// How far a picture is from another, over the other's mean (colour channels).
 struct PictureError {
   double mean = 0;        ///< of |difference|

@@ -43,9 +43,11 @@ struct WritebackCounts {
 };
 IRAD_ARRAY(WritebackCountsArray, WritebackCounts, 4)
 
-/// The sums of a facet's pixels are 64-bit integers, three of them as six words, low ones first: integers add up to the
-/// same bits in any order. A pixel's value is WRITEBACK_STEPS at most; 2^24 pixels fit.
-IRAD_CONST float WRITEBACK_STEPS = 549755813888.0f;  ///< 2^39
+/// The sums of a facet's pixels are integers, which add up to the same bits in any order: a pixel's value in steps of the
+/// largest one, whose three bytes have a word each, low ones first, so that 2^24 pixels fit. (As 64-bit integers, made of
+/// floats, they had no more than 7 bits on an H200: there uint(uint64_t(x)) seems to be uint(x), which saturates.)
+IRAD_CONST uint WRITEBACK_PARTS = 3u;
+IRAD_CONST float WRITEBACK_STEPS = 16777215.0f;  ///< 2^24 - 1
 
 /// Passes over pixels (specular/writeback_pixel.glsl).
 struct WritebackPush {

@@ -13,7 +13,8 @@ void main() {
   if (facet < p.facets) {
     p.pixels.at[facet] = 0u;
     if (uint64_t(p.writers) != 0ul) p.writers.at[facet] = 0u;
-    for (uint i = 0u; uint64_t(p.sums) != 0ul && i < 6u; ++i) p.sums.at[6u * facet + i] = 0u;
+    const uint words = uint64_t(p.sums) != 0ul ? 3u * WRITEBACK_PARTS : 0u;
+    for (uint i = 0u; i < words; ++i) p.sums.at[words * facet + i] = 0u;
     vec3 b = p.radiosity.at[facet].xyz;
     brightest = max(b.x, max(b.y, b.z));
     if (!(brightest > 0.0f)) brightest = 0.0f;

@@ -13,9 +13,11 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D stored;
 // A workgroup's share of the counts.
 shared uint writersShared[WRITEBACK_BINS], stores, change, largest;
 
-float sumAt(uint word) {
-  uint64_t sum = uint64_t(p.sums.at[word]) | (uint64_t(p.sums.at[word + 1u]) << 32);
-  return float(sum) / WRITEBACK_STEPS;
+float sumOf(uint facet, uint channel) {
+  uint word = WRITEBACK_PARTS * (3u * facet + channel);
+  float sum = 0.0f;
+  for (uint part = WRITEBACK_PARTS; part-- > 0u;) sum = 256.0f * sum + float(p.sums.at[word + part]);
+  return sum / WRITEBACK_STEPS;
 }
 
 void main() {
@@ -35,7 +37,7 @@ void main() {
     atomicAdd(stores, pixels);
     if (pixels > 0u) {
       float most = uintBitsToFloat(p.counts.at[0].most);
-      w = vec3(sumAt(6u * facet), sumAt(6u * facet + 2u), sumAt(6u * facet + 4u)) / float(pixels) * most;
+      w = vec3(sumOf(facet, 0u), sumOf(facet, 1u), sumOf(facet, 2u)) / float(pixels) * most;
     }
 #endif
     w = mix(w, vec3(0.0f), lessThan(w, vec3(p.flush)));

@@ -6,12 +6,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-/// Adds to a 64-bit sum in two words.
-void add(uint word, uint64_t value) {
-  if (value == 0ul) return;
-  uint low = uint(value), before = atomicAdd(push.sums.at[word], low);
-  uint high = uint(value >> 32) + (before + low < before ? 1u : 0u);
-  if (high != 0u) atomicAdd(push.sums.at[word + 1u], high);
+void add(uint word, uint value) {
+  for (uint part = 0u; part < WRITEBACK_PARTS; ++part) {
+    uint share = (value >> (8u * part)) & 0xFFu;
+    if (share != 0u) atomicAdd(push.sums.at[word + part], share);
+  }
 }
 
 void main() {
@@ -22,5 +21,5 @@ void main() {
   WrittenPixel w = writtenPixel(camera, ivec2(gl_GlobalInvocationID.xy));
   if (w.facet == NO_FACET) return;
   for (uint c = 0u; c < 3u; ++c)
-    add(6u * w.facet + 2u * c, uint64_t(min(w.value[c] / most, 1.0) * WRITEBACK_STEPS));
+    add(WRITEBACK_PARTS * (3u * w.facet + c), uint(round(min(w.value[c] / most, 1.0) * WRITEBACK_STEPS)));
 }
