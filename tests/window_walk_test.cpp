@@ -75,6 +75,7 @@ class WindowWalk : public WindowTest {
   /// a thousand. Legends are left out, and what is said in the picture of a view that lacks its input.
   bool shows(const std::filesystem::path& folder, const ViewInfo& view) {
     const ScreenPart wanted = readPng(folder / (view.name + std::string(".png")));
+    rest();  // what the mouse is on may have a tooltip that lies over the picture
     Apart d;
     for (const auto end = Clock::now() + std::chrono::seconds(20); Clock::now() < end; pause(0.05)) {
       d = apart(shown(), wanted, overPicture());
@@ -92,6 +93,7 @@ class WindowWalk : public WindowTest {
   }
   /// In time the viewport is as wanted.
   bool becomes(const std::function<bool(const ScreenPart&)>& wanted) {
+    rest();
     for (const auto end = Clock::now() + std::chrono::seconds(20); Clock::now() < end; pause(0.05))
       if (wanted(shown())) return true;
     return false;
@@ -207,7 +209,7 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   // Cameras: a bookmark of where one has flown to, beside the scene's two.
   click("Cameras");
   xdotool("keydown w sleep 0.3 keyup w");
-  rests();
+  rest();
   const ScreenPart flown = shown();
   EXPECT_GT(flown.difference(direct), 0.1);
   click("Cameras/Add bookmark");
