@@ -220,7 +220,15 @@ TEST_F(WindowObjectsTest, AreIsolatedAndFramed) {
   const ScreenPart alone = viewport();
   hold("f");
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(alone) > 0.1; })) << "not framed";
+  // Around it; what moves the camera one after the other is one step.
+  const ScreenPart framed = viewport();
+  xdotool("keydown alt");
+  mouse().dragThrough({"600 360", "640 370", "680 380"});
+  xdotool("keyup alt");
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(framed) > 0.03; })) << "no orbit";
   key("ctrl+z");
+  away();
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(alone) < 0.01; })) << "not undone";
   click("Objects/Hide");
   away();
   // Below the notice that says why it is dark.
