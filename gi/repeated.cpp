@@ -64,8 +64,7 @@ std::vector<SamePlace> samePlaces(const Geometry& geometry) {
 
 std::vector<uint32_t> repeatedTriangles(std::span<const SamePlace> same, std::span<const uint32_t> flags) {
   std::vector<uint32_t> repeated;
-  std::unordered_map<uint32_t, uint32_t>
-      standing;  // the one in each place that may stand for others, by the first there
+  std::unordered_map<uint32_t, uint32_t> standing;  // in each place, by the first there: what may stand for others
   for (const auto& [first, t] : same) {
     uint32_t& one = standing.try_emplace(first, first).first->second;
     const bool stands = (flags[one] & MATERIAL_ALPHA_MASK) == 0 &&
