@@ -581,7 +581,6 @@ void Window::drawFrame() {
   drawGlossary(session_, below);
   builder_.announced();
   session_.seeEdits(/*held=*/ImGui::IsAnyItemActive() || input_.flying());
-  writer_.take();
   keeper_.keep(session_);
   double uiMs = threadMilliseconds() - uiBegan;
 
