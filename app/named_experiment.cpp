@@ -245,8 +245,7 @@ ExperimentsAhead ExperimentRunner::ahead(std::vector<std::pair<Experiment, fs::p
     const StudyResults there = begun ? readResults(folder) : StudyResults{};
     PicturesMissing pictures;
     for (const size_t point : points) {
-      const PicturesMissing missing = picturesMissing(there, point, grid.base().matrix.gpu.seed, task);
-      pictures.errors += missing.errors, pictures.timed += missing.timed;
+      pictures += picturesMissing(there, point, grid.settings(point), grid.base().matrix.gpu.seed, task);
     }
     out.pictures += pictures.all();
     bool trace = false;
@@ -261,12 +260,15 @@ ExperimentsAhead ExperimentRunner::ahead(std::vector<std::pair<Experiment, fs::p
     }
     if (trace) out.seconds += secondsOfTracing(scene, grid.settings(0).sky, task, *task.truth.samples);
     if (pictures.all() == 0) continue;
-    const auto [one, first] = tried.try_emplace(e.scene);
+    const bool frames = pictures.frames > 0;
+    const auto [one, first] = tried.try_emplace(e.scene + (frames ? " by frames" : ""));
     if (first) {
       session_.progress("trial", 0);
-      one->second = tryPicture(session_, scene, grid.settings(points.front()), task);
+      const auto hasFrames = [&](size_t p) { return grid.settings(p).solver.method == SolverMethod::bruteForce; };
+      const size_t point = frames ? *std::ranges::find_if(points, hasFrames) : points.front();
+      one->second = tryPicture(session_, scene, grid.settings(point), task);
     }
-    out.seconds += one->second.of(pictures);
+    out.seconds += one->second.of(pictures) + pictures.frames * one->second.frame;
   }
   out.truths = truths.size();
   return out;

@@ -17,19 +17,45 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Of brute force, beyond the first.
+double furtherFrames(const Settings& settings) {
+  return settings.solver.method == SolverMethod::bruteForce ? settings.solver.frames - 1.0 : 0;
+}
+
 }  // namespace
 
-PicturesMissing picturesMissing(const StudyResults& results, size_t point, uint32_t firstSeed, const StudyTask& task) {
+uint32_t timedRepeats(const Settings& settings, uint32_t repeats) {
+  constexpr uint32_t kLeast = 3;
+  if (furtherFrames(settings) == 0) return repeats;
+  const uint32_t frames = settings.solver.frames;
+  return std::min(repeats, std::max(kLeast, (repeats + frames - 1) / frames));
+}
+
+Settings withOneFrame(Settings settings) {
+  if (settings.solver.method == SolverMethod::bruteForce) settings.solver.frames = 1;
+  return settings;
+}
+
+PicturesMissing& PicturesMissing::operator+=(const PicturesMissing& other) {
+  errors += other.errors, timed += other.timed, frames += other.frames;
+  return *this;
+}
+
+PicturesMissing picturesMissing(const StudyResults& results, size_t point, const Settings& settings, uint32_t firstSeed,
+                                const StudyTask& task) {
   PicturesMissing out;
   if (results.hasFailed(point)) return out;
+  const uint32_t repeats = timedRepeats(settings, task.repeats);
   for (uint32_t i = 0; i < task.seeds; ++i) out.errors += results.hasError(point, firstSeed + i) ? 0 : 1;
-  for (uint32_t i = 0; i < task.repeats; ++i) out.timed += results.hasTimes(point, i) ? 0 : 1;
+  for (uint32_t i = 0; i < repeats; ++i) out.timed += results.hasTimes(point, i) ? 0 : 1;
+  out.frames = furtherFrames(settings) * out.all();
   if (out.timed > 0) ++out.timed;
   return out;
 }
 
-PictureTrial tryPicture(DeviceSession& session, const Scene& scene, const Settings& settings, const StudyTask& task) {
+PictureTrial tryPicture(DeviceSession& session, const Scene& scene, const Settings& wanted, const StudyTask& task) {
   PictureTrial out;
+  const Settings settings = withOneFrame(wanted);
   try {
     Bench bench(*session.context, scene, settings, task.size, task.view.view, task.camera);
     const Progress watch = [](const char*, float) { return throwIfStopped(), true; };
@@ -53,6 +79,13 @@ PictureTrial tryPicture(DeviceSession& session, const Scene& scene, const Settin
     const LinearPixels pixels = bench.pictures({&view, 1});
     measurePicture(task.size, pixels, pixels, {}, std::exp2(settings.camera.exposureEv));
     out.error = secondsSince(began);
+    if (furtherFrames(wanted) > 0) {
+      ++other.solver.frames;
+      began = Clock::now();
+      bench.pipeline().set(other);
+      bench.prepare();
+      out.frame = secondsSince(began);
+    }
   } catch (const DeviceError&) {
     out = {};  // the point itself will be a row that says so
   } catch (const UsageError&) {

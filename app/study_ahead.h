@@ -19,19 +19,31 @@ namespace irad::app {
 struct DeviceSession;
 struct StudyTask;
 
+/// How often a point is timed that others are `repeats` times. The frames of brute force are repeats of each other:
+/// three relights of many say as much.
+uint32_t timedRepeats(const Settings& settings, uint32_t repeats);
+/// The same with one frame of brute force.
+Settings withOneFrame(Settings settings);
+
 /// Pictures that a point lacks.
 struct PicturesMissing {
   double errors = 0;  ///< by seeds
   double timed = 0;   ///< repeats, with the round that warms up
+  double frames = 0;  ///< of brute force, beyond one for each of these
   double all() const { return errors + timed; }
+  PicturesMissing& operator+=(const PicturesMissing& other);
 };
-PicturesMissing picturesMissing(const StudyResults& results, size_t point, uint32_t firstSeed, const StudyTask& task);
+PicturesMissing picturesMissing(const StudyResults& results, size_t point, const Settings& settings, uint32_t firstSeed,
+                                const StudyTask& task);
 
-/// What a trial of one point took; zeros: there is no memory for it, or its settings do not go together.
+/// What a trial of one point took, of brute force with one frame; zeros: there is no memory for it, or its settings do
+/// not go together.
 struct PictureTrial {
   double error = 0;     ///< seconds of a seed's picture, with its metrics
   double timed = 0;     ///< seconds of a repeat
   PartSeconds parts{};  ///< of `timed`: its build
+  double frame = 0;     ///< seconds of a further frame of brute force
+  /// But for further frames, which other points than the one that was tried may have.
   double of(const PicturesMissing& missing) const { return missing.errors * error + missing.timed * timed; }
 };
 PictureTrial tryPicture(DeviceSession& session, const Scene& scene, const Settings& settings, const StudyTask& task);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/study_ahead.h"
 #include "app/study_run.h"
 #include "app/table.h"
 #include "renderer/base/console.h"
@@ -39,14 +40,18 @@ void chooseCrop(const Truth& truth, ReportNotes& notes) {
 ReportNotes StudyRun::notes() const {
   ReportNotes notes;
   const TruthSource& truth = task_.truth;
+  bool fewer = false;
+  for (size_t point = 0; point < grid_.size(); ++point)
+    fewer = fewer || timedRepeats(grid_.settings(point), task_.repeats) < task_.repeats;
   notes.facts = {
       fmt::format("Scene {}, camera {}, view {}, {} × {} pixels", scene_.path.filename().string(),
                   task_.camera.name.empty() ? "of its own" : task_.camera.name, task_.view.name, task_.size.x,
                   task_.size.y),
       fmt::format("Reference: {}", truth.file ? truth.file->path.filename().string() : truth_.what),
       fmt::format("Device: {}; times are GPU time stamps, medians of {} repeats with all points in turn, after a round "
-                  "that warms up{}",
+                  "that warms up{}{}",
                   session_.device->info.name, task_.repeats,
+                  fewer ? " (of brute force by the number of its frames fewer, three at least)" : "",
                   task_.repeats < 30 ? fmt::format("; {} repeats are few: 30 and more are meant", task_.repeats) : ""),
       fmt::format("Errors: {} seeds from {} on; relMSE of means over {} × {} pixels, ε = (0.1 × mean)²; ± is half of "
                   "a 95 % interval over seeds (Student's t)",

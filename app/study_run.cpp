@@ -81,7 +81,7 @@ StudyRun::StudyRun(DeviceSession& session, Scene scene, SettingGrid grid, StudyT
 
 void StudyRun::measure() {
   measureErrors(ownPoints(), task_.seeds);
-  measureTimes(ownPoints(), task_.repeats);
+  measureOwnTimes();
   measurePeers();
   folder_->save();
   session_.progress.finish();
@@ -96,13 +96,13 @@ void StudyRun::measure() {
 
 void StudyRun::measureMore(size_t point, uint32_t seeds, uint32_t repeats) {
   measureErrors({point}, task_.seeds + seeds);
-  measureTimes({point}, task_.repeats + repeats);
+  measureTimes({point}, [&](size_t) { return task_.repeats + repeats; });
   folder_->save();
   session_.progress.finish();
 }
 
 void StudyRun::measureTimesOnly() {
-  measureTimes(ownPoints(), task_.repeats);
+  measureOwnTimes();
   folder_->save();
 }
 
@@ -151,9 +151,11 @@ WorkAhead StudyRun::picturesAhead(const std::vector<size_t>& points) {
   if (points.empty()) return out;
   const uint32_t firstSeed = grid_.base().matrix.gpu.seed;
   std::vector<PicturesMissing> missing;
+  double frames = 0;
   for (const size_t point : points) {
-    missing.push_back(picturesMissing(folder_->results, point, firstSeed, task_));
+    missing.push_back(picturesMissing(folder_->results, point, grid_.settings(point), firstSeed, task_));
     out.pictures += missing.back().all();
+    frames += missing.back().frames;
   }
   if (out.pictures == 0) return out;
   session_.progress("trial", 0);
@@ -162,6 +164,7 @@ WorkAhead StudyRun::picturesAhead(const std::vector<size_t>& points) {
                          points.size() > 1 ? tryPicture(session_, scene_, grid_.settings(points.back()), task_) : first;
   const std::vector<double> factors = pointFactors(grid_, points, first, last);
   const PictureTrial& tried = first.timed > 0 ? first : last;
+  out.seconds = frames * std::max(first.frame, last.frame);
   std::vector<Settings> toBeHeld;
   for (size_t i = 0; i < points.size(); ++i) {
     out.seconds += factors[i] * tried.of(missing[i]);
@@ -304,38 +307,36 @@ void StudyRun::measureFacets(const Settings& settings, const std::vector<glm::ve
 
 /// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
 /// caches, clocks and pages and counts for nothing.
-void StudyRun::measureTimes(const std::vector<size_t>& asked, uint32_t repeats) {
+void StudyRun::measureTimes(const std::vector<size_t>& asked, const std::function<uint32_t(size_t)>& repeatsOf) {
   const auto due = [&](size_t point, uint32_t repeat) {
-    return !folder_->results.hasFailed(point) && !folder_->results.hasTimes(point, repeat);
+    return repeat < repeatsOf(point) && !folder_->results.hasFailed(point) && !folder_->results.hasTimes(point, repeat);
   };
   std::vector<size_t> points;
-  for (const size_t point : asked)
-    for (uint32_t repeat = 0; repeat < repeats; ++repeat)
-      if (due(point, repeat)) {
-        points.push_back(point);
-        break;
-      }
+  uint32_t rounds = 0;  // after the one that warms up
+  size_t all = 0, done = 0;
+  for (const size_t point : asked) {
+    size_t lacks = 0;
+    for (uint32_t repeat = 0; repeat < repeatsOf(point); ++repeat) lacks += due(point, repeat) ? 1 : 0;
+    if (lacks == 0) continue;
+    points.push_back(point);
+    rounds = std::max(rounds, repeatsOf(point));
+    all += lacks;
+  }
   if (points.empty()) return;
   Pipeline& pipeline = bench_->pipeline();
   using Clock = std::chrono::steady_clock;
-  Clock::time_point saved = Clock::now(), began = saved;
-  for (uint32_t round = 0; round <= repeats; ++round) {
-    if (round == 1) {
-      const std::chrono::duration<double> once = Clock::now() - began;
-      session_.progress.note(
-          fmt::format("{} repeats of {} points: about {:.0f} s", repeats, points.size(), once.count() * repeats));
-    }
+  Clock::time_point saved = Clock::now();
+  for (uint32_t round = 0; round <= rounds; ++round) {
     for (size_t i = 0; i < points.size(); ++i) {
-      progress(round == 0 ? "warming up" : "times", round == 0 ? i : (round - 1) * points.size() + i,
-               round == 0 ? points.size() : repeats * points.size());
       const size_t point = points[i];
       const bool warms = round == 0;
       if (warms ? folder_->results.hasFailed(point) : !due(point, round - 1)) continue;
+      progress(warms ? "warming up" : "times", warms ? i : done++, warms ? points.size() : all);
       attempt(point, [&] {
-        Settings settings = grid_.settings(point);
-        if (warms) settings.solver.frames = 1;  // brute force: by then all is compiled and allocated
-        pipeline.set(settings);
+        // The light that ends a build is not part of what is compared.
+        pipeline.set(withOneFrame(grid_.settings(point)));
         bench_->rebuild();
+        if (!warms) pipeline.set(grid_.settings(point));
         bench_->relight();
         bench_->cameraFrame();
         if (warms) return;
@@ -353,6 +354,10 @@ void StudyRun::measureTimes(const std::vector<size_t>& asked, uint32_t repeats) 
   pipeline.setLights(pipeline.scene().lights);  // relights have nudged them
   bench_->forget();
   folder_->save();
+}
+
+void StudyRun::measureOwnTimes() {
+  measureTimes(ownPoints(), [&](size_t point) { return timedRepeats(grid_.settings(point), task_.repeats); });
 }
 
 void StudyRun::measurePeers() {

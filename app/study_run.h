@@ -123,7 +123,8 @@ class StudyRun {
   void measureErrors(const std::vector<size_t>& points, uint32_t seeds);
   void measureError(size_t point, const Settings& settings, bool keepPicture);
   void measureFacets(const Settings& settings, const std::vector<glm::vec4>& h, ErrorRow& row);
-  void measureTimes(const std::vector<size_t>& points, uint32_t repeats);
+  void measureOwnTimes();
+  void measureTimes(const std::vector<size_t>& points, const std::function<uint32_t(size_t)>& repeatsOf);
   void measurePeers();
 
   DeviceSession& session_;

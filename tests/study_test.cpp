@@ -12,6 +12,7 @@
 #include <random>
 
 #include "app/study_ahead.h"
+#include "app/study_run.h"
 #include "gi/study/front.h"
 #include "gi/study/html.h"
 #include "gi/study/loaded.h"
@@ -514,6 +515,34 @@ TEST(Ahead, PointsBetweenTwoThatWereTriedGrowAsIsKnown) {
   EXPECT_EQ(pointFactors(other, {0}, first, first), std::vector<double>{1});
   EXPECT_EQ(pointFactors(grid, {0, 5}, first, {})[1], 1);
   EXPECT_EQ(pointFactors(grid, {0, 5}, {}, last)[1], 1);
+}
+
+TEST(Ahead, FramesOfBruteForceAreRepeatsOfEachOther) {
+  Settings settings;
+  EXPECT_EQ(app::timedRepeats(settings, 30), 30u);
+  app::StudyTask task;
+  task.seeds = 4, task.repeats = 30;
+  const auto missing = [&](const StudyResults& there) { return app::picturesMissing(there, 0, settings, 7, task); };
+  EXPECT_EQ(missing({}).timed, 31);  // with the round that warms up
+  EXPECT_EQ(missing({}).frames, 0);
+
+  settings.solver.method = SolverMethod::bruteForce;
+  const auto repeats = [&](uint32_t frames, uint32_t others) {
+    settings.solver.frames = frames;
+    return app::timedRepeats(settings, others);
+  };
+  EXPECT_EQ(repeats(1, 30), 30u);
+  EXPECT_EQ(repeats(4, 30), 8u);
+  EXPECT_EQ(repeats(64, 30), 3u);
+  EXPECT_EQ(repeats(64, 2), 2u);
+  settings.solver.frames = 64;
+  EXPECT_EQ(missing({}).errors, 4);
+  EXPECT_EQ(missing({}).timed, 4);
+  EXPECT_EQ(missing({}).frames, 7 * 63);  // of four seeds and three repeats; what warms up has one
+  EXPECT_EQ(app::withOneFrame(settings).solver.frames, 1u);
+  StudyResults some;
+  for (uint32_t i = 0; i < 3; ++i) some.times.push_back({0, i, "relight", "GI Solve", 1});
+  EXPECT_EQ(missing(some).timed, 0);
 }
 
 TEST(Results, AsTablesNameFailuresAndDominators) {

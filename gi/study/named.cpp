@@ -220,7 +220,7 @@ const std::vector<StudyScale>& studyScales() {
                                                .repeats = 30,
                                                .tableRepeats = 100,
                                                .stillFrames = 60,
-                                               .frames = {1, 4, 16, 64, 256},
+                                               .frames = {1, 4, 16, 64},
                                                .sponzaByDefaults = true,
                                                .settings = {}},
                                               {.name = "small",
