@@ -137,8 +137,10 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   // A preset is one step, whatever it sets; undone it is not unsaved.
   choose("Settings/preset", "mine");
   ASSERT_TRUE(differs(first));
+  EXPECT_TRUE(helpOf("Settings/preset").starts_with("Preset: mine")) << helpOf("Settings/preset");
   EXPECT_EQ(steps(), 2) << "the redo that is no more";
   undo();
+  EXPECT_TRUE(helpOf("Settings/preset").starts_with("Preset: none")) << helpOf("Settings/preset");
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; }));
   EXPECT_TRUE(kept().empty()) << "nothing is unsaved";
 
@@ -168,6 +170,20 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   enter("Lights/0/name", "a long name");
   EXPECT_EQ(steps(), 2);
   undo();
+
+  // The camera in numbers: where it is, the way it looks, its field of view.
+  away();
+  const ScreenPart standing = viewport();
+  enterNumber("Cameras/position", "1", /*across=*/1.0 / 6);
+  EXPECT_TRUE(differs(standing)) << "no other place";
+  undo();
+  enterNumber("Cameras/yaw", "20");
+  EXPECT_TRUE(differs(standing)) << "no other way";
+  undo();
+  enterNumber("Cameras/view", "70");
+  EXPECT_TRUE(differs(standing)) << "no other field of view";
+  undo();
+  EXPECT_TRUE(shows(standing));
 
   // The panel's buttons and list.
   click("History/Redo");
@@ -380,6 +396,11 @@ TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
   chooseLight();
   closes("Lights/0/name", "");
   closes("Cameras/name", "");
+  closes("Materials/search", "");
+  closes("Objects/search", "");
+  closes("Accuracy/study", "");
+  closes("Accuracy/samples", "Accuracy/samples/64");
+  closes("Timings/window", "Timings/window/600 frames");
   closes("Settings/preset", "Settings/preset/fast");
   closes("Effects/emission", "Effects/emission/off");
   closes("View/view", "View/view/lit");
