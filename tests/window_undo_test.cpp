@@ -171,20 +171,6 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   EXPECT_EQ(steps(), 2);
   undo();
 
-  // The camera in numbers: where it is, the way it looks, its field of view.
-  away();
-  const ScreenPart standing = viewport();
-  enterNumber("Cameras/position", "1", /*across=*/1.0 / 6);
-  EXPECT_TRUE(differs(standing)) << "no other place";
-  undo();
-  enterNumber("Cameras/yaw", "20");
-  EXPECT_TRUE(differs(standing)) << "no other way";
-  undo();
-  enterNumber("Cameras/view", "70");
-  EXPECT_TRUE(differs(standing)) << "no other field of view";
-  undo();
-  EXPECT_TRUE(shows(standing));
-
   // The panel's buttons and list.
   click("History/Redo");
   ASSERT_TRUE(appearsUnder("History/Redo", "History/0"));
