@@ -5,7 +5,6 @@
 #include "renderer/base/sha256.h"
 #include "renderer/scene/material_edits.h"
 #include "renderer/scene/sidecar.h"
-#include "tests/scene_files.h"
 #include "tests/window_fixture.h"
 
 namespace irad::test::window_materials_suite {
@@ -76,52 +75,20 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) {
     return std::abs(p.meanLuminance() - shining) < 0.01 * shining;
   })) << "the sidecar's edit is not shown";
-  // Its other fields: a color by numbers and in the picker, how it reflects, a texture on and off.
+  // Its color in the picker, which Esc closes.
   click("Materials/green wall");
-  const auto changes = [&](const std::function<void()>& edit) {
-    const ScreenPart before = viewport();
-    edit();
-    away();
-    EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.levels(before) > 0.5; }));
-    key("ctrl+z");
-    away();
-    EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.levels(before) < 0.5; })) << "not undone";
-  };
-  changes([&] { enterNumber("Materials/green wall/base", "1", /*across=*/0.1); });
-  changes([&] { enterNumber("Materials/green wall/metalness", "1"); });
-  EXPECT_FALSE(control("Materials/green wall/roughness").disabled);
   away();
-  const ScreenPart without = viewport();
+  const auto column = [this] { return screen_->grab(0, 40, picture().x, 640); };
+  const ScreenPart closed = column();
   press(placeOf("Materials/green wall/base", /*across=*/0.96));
   away();
-  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(without) > 0.02; })) << "no color picker";
+  EXPECT_GT(column().difference(closed), 0.03) << "no color picker";
   hold("Escape");
-  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == without; })) << "Esc does not close it";
-  click("Materials/floor tiles");
-  changes([&] { click("Materials/floor tiles/texture: base color"); });
+  EXPECT_EQ(column(), closed) << "Esc does not close it";
+  away();
   const ScreenPart near = viewport();
   key("Home");  // farther away than the file's camera
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(near) > 0.05; })) << "Home does nothing";
-
-  // A cutoff above the material's alpha: there is no surface.
-  GltfFile file = triangleFile();
-  file.json["materials"] = {{{"name", "leaf"},
-                             {"alphaMode", "MASK"},
-                             {"alphaCutoff", 0.25},
-                             {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}}};
-  file.primitive()["material"] = 0;
-  ASSERT_TRUE(drop({file.write(folder_.path, "leaf.gltf")}));
-  ASSERT_TRUE(appears("Materials/leaf"));
-  click("Materials/leaf");
-  away();
-  key("6");
-  ASSERT_TRUE(viewportSettles([](const ScreenPart& p) { return p.meanLuminance() > 0.01; }));
-  enterNumber("Materials/leaf/cutoff", "0.75");
-  away();
-  EXPECT_TRUE(viewportSettles([](const ScreenPart& p) { return p.meanLuminance() < 0.001; })) << "it is not cut out";
-  key("ctrl+z");
-  away();
-  EXPECT_TRUE(viewportSettles([](const ScreenPart& p) { return p.meanLuminance() > 0.01; })) << "not undone";
   quit();
 }
 
