@@ -382,11 +382,6 @@ TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
   chooseLight();
   closes("Lights/0/name", "");
   closes("Cameras/name", "");
-  closes("Materials/search", "");
-  closes("Objects/search", "");
-  closes("Accuracy/study", "");
-  closes("Accuracy/samples", "Accuracy/samples/64");
-  closes("Timings/window", "Timings/window/600 frames");
   closes("Settings/preset", "Settings/preset/fast");
   closes("Effects/emission", "Effects/emission/off");
   closes("View/view", "View/view/lit");
