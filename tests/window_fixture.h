@@ -68,6 +68,14 @@ class WindowTest : public ::testing::Test {
     return false;
   }
   bool isOn(const std::string& name) { return control(name).on; }
+  /// What is said while the mouse rests on it.
+  std::string helpOf(const std::string& name) {
+    control(name);
+    std::istringstream lines(slurp(controlsFile().string() + ".help"));
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with(name + '\t')) return line.substr(name.size() + 1);
+    return {};
+  }
   /// The control, once it is drawn; throws with near names where it is not drawn in time.
   Control control(const std::string& name) {
     appears(name);

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <functional>
 #include <set>
+#include <vector>
 
 #include "tests/mouse.h"
 #include "ui/window.h"
@@ -22,6 +24,13 @@ PFN_vkAcquireNextImageKHR driversAcquire;
 PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR driversCapabilities;
 std::atomic<int64_t> presented = 0;  ///< frames of the window, while they are counted
 PFN_vkQueuePresentKHR driversPresent;
+std::function<void()> eachFrame;  ///< before it is presented
+/// Where the chosen light's handle is in a frame, and whether that draws a picture.
+struct HandleSeen {
+  int x, y;
+  bool pictured;
+};
+std::vector<HandleSeen> handles;
 
 double processSeconds() {
   rusage usage{};
@@ -185,19 +194,45 @@ TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path / "autosave"));
 }
 
-TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLight) {
+/// Nothing of the light is redone, and what is drawn over the picture moves with it: only in frames that draw one.
+TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
+  std::ofstream(options_.preferences) << R"({"format": 1, "folded": ["Accuracy", "Scene", "Settings", "Effects",
+                                             "Materials", "Objects", "History"]})";
   double from = 0, to = 0;
   Counters before, after;
   run([&] {
+    click("Lights/0");
+    EXPECT_TRUE(until([&] { return rests(); }));
+    eachFrame = [this, dispatches = context_->counters().dispatches]() mutable {
+      Control::Area handle;  // none where it is not seen
+      for (const Control& c : readControls(options_.controls))
+        if (c.name == "picture/light") handle = c.area;
+      handles.push_back({handle.x, handle.y, context_->counters().dispatches != dispatches});
+      dispatches = context_->counters().dispatches;
+    };
+    driversPresent = std::exchange(vkQueuePresentKHR, [](VkQueue queue, const VkPresentInfoKHR* info) {
+      eachFrame();
+      return driversPresent(queue, info);
+    });
     before = context_->counters();
     from = timings_.now();
+    // By a key, by the mouse, and by a panel, which is drawn after the handles.
     screen_->xdotool("keydown w sleep 0.5 keyup w");
     mouse().dragThrough({at(168, 270), at(208, 280)}, /*button=*/3);
+    click("Cameras/0");
     screen_->xdotool("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     to = timings_.now();
     after = context_->counters();
+    vkQueuePresentKHR = driversPresent;
   });
+  int moves = 0;
+  for (size_t i = 1; i < handles.size(); ++i) {
+    if (handles[i].x == handles[i - 1].x && handles[i].y == handles[i - 1].y) continue;
+    ++moves;
+    EXPECT_TRUE(handles[i].pictured) << "frame " << i << ": to " << handles[i].x << ' ' << handles[i].y;
+  }
+  EXPECT_GE(moves, 3);
   const std::set<std::string> stages = stagesBetween(from, to);
   EXPECT_TRUE(stages.contains("RE Forward")) << "the camera has not moved";
   for (const std::string& stage : stages)

@@ -39,6 +39,9 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.meanLuminance() > 1.2 * first; }))
       << "it does not shine";
   EXPECT_FALSE(std::filesystem::exists(sidecar)) << "saved without being asked";
+  const std::vector<Control> all = controls();
+  EXPECT_TRUE(std::ranges::any_of(all, [](const Control& c) { return c.name.starts_with("Materials/last edit="); }))
+      << "its time is not shown";
   const double shining = viewport().meanLuminance();
   key("ctrl+z");
   away();
@@ -72,6 +75,17 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) {
     return std::abs(p.meanLuminance() - shining) < 0.01 * shining;
   })) << "the sidecar's edit is not shown";
+  // Its color in the picker, which Esc closes.
+  click("Materials/green wall");
+  away();
+  const auto column = [this] { return screen_->grab(0, 40, picture().x, 640); };
+  const ScreenPart closed = column();
+  press(placeOf("Materials/green wall/base", /*across=*/0.96));
+  away();
+  EXPECT_GT(column().difference(closed), 0.03) << "no color picker";
+  hold("Escape");
+  EXPECT_EQ(column(), closed) << "Esc does not close it";
+  away();
   const ScreenPart near = viewport();
   key("Home");  // farther away than the file's camera
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(near) > 0.05; })) << "Home does nothing";

@@ -107,6 +107,8 @@ class WindowPanelsTest : public WindowTest {
     for (const auto& panel : makePanels()) titles[panel->region()].emplace_back(panel->title());
     for (const char* tab : {"Table", "One-time", "Compare", "Plot"}) {
       click(std::string("Timings/") + tab);
+      goAside();  // its tooltip lies over the strip
+      rests();
       look(fmt::format("{}-{}", name, tab));
     }
     for (const auto& [side, region] : {std::pair("left", Region::Left), std::pair("right", Region::Right)}) {
@@ -141,6 +143,12 @@ TEST_F(WindowPanelsTest, EveryControlAndReadOutSaysWhatItIs) {
   look("compare");
   EXPECT_GT(control("Compare/result/relMSE").area.width, 50) << "the table begins with narrow columns";
   EXPECT_GT(helps_.size(), 250u) << "not all panels are open";
+  // The rules that cannot be read off a number.
+  EXPECT_TRUE(contains(helps_["Lights/0/intensity"], "1 cd = 1 W/sr"));
+  EXPECT_TRUE(std::ranges::any_of(helps_, [](const auto& help) {
+    return help.first.starts_with("Inspector/emitters=") && contains(help.second, "Negative:");
+  })) << "what a negative correction means is not said";
+  EXPECT_TRUE(helps_.contains("Inspector/F") && helps_.contains("Inspector/F B"));
   for (const auto& [name, help] : helps_) {
     if (isCell(name)) continue;
     EXPECT_NE(help, "") << name << " says nothing";

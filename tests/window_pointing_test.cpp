@@ -154,6 +154,10 @@ TEST_F(WindowPointingTest, EndsOfTheRangeAreDraggedOnTheHistogram) {
   dragEnd("View/histogram/low", 30);
   away();
   rests();
+  // What is said lies beside the legend, or above it.
+  key("F5");
+  const Control::Area said = control("messages/0/dismiss").area, legend = control("legend").area;
+  EXPECT_TRUE(said.right() <= legend.x || said.bottom() <= legend.y) << "a message covers the legend";
   undo();
   undo();
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == before; })) << "a drag is not one step";

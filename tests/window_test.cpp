@@ -16,6 +16,10 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
     const Control c = control(name);
     EXPECT_LE(c.area.bottom(), c.region.bottom()) << name;
   }
+  // The left column has room for all of its panels, the settings and the effects unfolded; what is off is one line.
+  const Control lastPanel = control("History");
+  EXPECT_LE(lastPanel.area.bottom(), lastPanel.region.bottom()) << "the left column scrolls";
+  EXPECT_FALSE(has("Effects/sun"));
   // The panels hold text: both columns and the strip vary.
   const Control::Area p = picture();
   EXPECT_GT(screen_->grab(5, 40, p.x - 20, 600).deviation(), 0.03);
@@ -273,6 +277,11 @@ TEST_F(WindowTest, EffectsCanBeForced) {
   choose("Effects/emission", "auto");
   away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; })) << "not auto again";
+  // Those that are off fold under one line.
+  EXPECT_TRUE(has("Effects/sun"));
+  click("Effects/off");
+  EXPECT_TRUE(appears("Effects/sun", /*wanted=*/false));
+  EXPECT_TRUE(has("Effects/emission"));
   quit();
 }
 

@@ -109,6 +109,7 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   choose("Effects/emission", "off");
   away();
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
+  EXPECT_TRUE(has("Settings/side B") && has("Effects/side B")) << "panels do not say whose settings they edit";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
   // Both are saved, each with the manifest that draws it again.
@@ -136,6 +137,7 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   press(at(-329, 315));
   away();
   EXPECT_TRUE(edits("A")) << "a click on A";
+  EXPECT_TRUE(has("Settings/side A"));
   press(at(267, 235));
   away();
   EXPECT_TRUE(edits("B")) << "a click on B";

@@ -137,8 +137,10 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   // A preset is one step, whatever it sets; undone it is not unsaved.
   choose("Settings/preset", "mine");
   ASSERT_TRUE(differs(first));
+  EXPECT_TRUE(helpOf("Settings/preset").starts_with("Preset: mine")) << helpOf("Settings/preset");
   EXPECT_EQ(steps(), 2) << "the redo that is no more";
   undo();
+  EXPECT_TRUE(helpOf("Settings/preset").starts_with("Preset: none")) << helpOf("Settings/preset");
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; }));
   EXPECT_TRUE(kept().empty()) << "nothing is unsaved";
 

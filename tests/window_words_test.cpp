@@ -63,6 +63,9 @@ TEST_F(WindowWordsTest, ViewsWithoutInputSaySoAndOfferIt) {
   choose("View/view", "standard-error");
   click("missing/mend");
   EXPECT_TRUE(appears("missing/mend", /*wanted=*/false));
+  // Colours that are places have a legend.
+  choose("View/view", "jfa-seeds");
+  EXPECT_TRUE(appears("legend"));
   // A light is off: the button turns it on.
   choose("View/view", "shadow-map");
   EXPECT_TRUE(appears("missing/mend", /*wanted=*/false));

@@ -42,7 +42,10 @@ std::span<const Term> glossary() {
       Term{"cd", "candela", "W/sr", "A light's strength in one direction; here 1 cd = 1 W/sr."},
       Term{"lx", "lux", "W/m\u00B2", "Light that arrives on a surface; here 1 lx = 1 W/m\u00B2, and so 1 lm = 1 W."},
       Term{"EV", "exposure", "", "A picture is shown 2^EV times as bright."},
-      Term{"relMSE", "", "", "Mean of (value \u2212 reference)\u00B2 / (reference\u00B2 + 0.01)."},
+      Term{"relMSE", "relative error", "",
+           "How wrong a picture is, squared, as a share of its light: the mean of (value \u2212 reference)\u00B2 / "
+           "(reference\u00B2 + (0.1 mean reference)\u00B2) over blocks of 8 \u00D7 8 pixels. 0: none; 0.01: about a "
+           "tenth of the light."},
   };
   return kTerms;
 }

@@ -16,7 +16,7 @@ struct Column {
   const char *name, *help;
   const char* widest;  ///< text that has room at first
   LinkQuantity quantity;
-  bool hidden;  ///< at first
+  bool hidden;  ///< at first, as are those that there is no room for
 };
 
 const std::array kColumns{
@@ -71,12 +71,15 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
 
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable | ImGuiTableFlags_Hideable |
                                      ImGuiTableFlags_Resizable | ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY;
-  const float height = ImGui::GetTextLineHeightWithSpacing() * 12;
+  const float height = ImGui::GetTextLineHeightWithSpacing() * 12, width = ImGui::GetContentRegionAvail().x;
   if (!ImGui::BeginTable("links", static_cast<int>(kColumns.size()), kFlags, {0, height})) return result;
   ImGui::TableSetupScrollFreeze(0, 1);
+  // A column that is cut off would show half of its numbers: what has no room beside the others is hidden at first.
+  float room = width - ImGui::GetStyle().ScrollbarSize;
   for (size_t c = 0; c < kColumns.size(); ++c) {
     ImGuiTableColumnFlags flags = ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_PreferSortDescending;
-    if (kColumns[c].hidden) flags |= ImGuiTableColumnFlags_DefaultHide;
+    room -= ImGui::CalcTextSize(kColumns[c].widest).x + 2 * ImGui::GetStyle().CellPadding.x;
+    if (kColumns[c].hidden || room < 0) flags |= ImGuiTableColumnFlags_DefaultHide;
     if (kColumns[c].quantity == LinkQuantity::FB) flags |= ImGuiTableColumnFlags_DefaultSort;
     ImGui::TableSetupColumn(kColumns[c].name, flags, ImGui::CalcTextSize(kColumns[c].widest).x);
   }
@@ -84,7 +87,10 @@ LinkTable::Result LinkTable::draw(const Links& links, uint64_t serial) {
   for (size_t c = 0; c < kColumns.size(); ++c)
     if (ImGui::TableSetColumnIndex(static_cast<int>(c))) {
       ImGui::TableHeader(kColumns[c].name);
-      helpTooltip(kColumns[c].help);
+      helpTooltip([&] {
+        return fmt::format("{}\nClick: sort by it. Right click: choose the columns, of which there are more.",
+                           kColumns[c].help);
+      });
     }
   ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
   if (specs->SpecsDirty || filtered_ || serial_ != serial) {

@@ -17,17 +17,22 @@ namespace {
 struct State {
   ImVec4 color;
   std::string text;
+  const char* help = "";
 };
 
 State stateOf(const Session& session) {
   if (session.work) return {theme::accent, session.work->what};
   if (!session.pipeline) return {theme::dim, "no scene"};
-  if (session.halted) return {theme::warning, "not rebuilt"};
-  if (session.pending) return {theme::warning, "not applied yet"};
+  if (session.halted)
+    return {theme::warning, "not rebuilt", "A rebuild failed or was cancelled: the picture shows the old state"};
+  if (session.pending)
+    return {theme::warning, "not applied yet", "Settings that rebuild wait for Apply in the panel Settings"};
   if (session.next < Redo::Shade) return {theme::accent, "next: " + stagesFrom(session.next, arrowGlyph())};
-  if (session.built && session.built->faulty()) return {theme::error, "numerical watch"};
-  if (session.paused) return {theme::warning, "paused"};
-  if (session.asleep()) return {theme::good, "asleep"};
+  if (session.built && session.built->faulty())
+    return {theme::error, "wrong numbers", "The banner over the picture and the panel Solver say which"};
+  if (session.paused) return {theme::warning, "paused", "The solver waits: Space, or Resume in the panel Solver"};
+  if (session.asleep())
+    return {theme::good, "asleep", "The light is solved: nothing is computed until something changes"};
   if (session.built && session.built->solve.frames > 0)
     return {theme::accent, "brute force: " + counted(session.built->solve.frames, "frame")};
   return {theme::accent, "solving: " + counted(session.sweepsSinceWake, "sweep")};
@@ -172,6 +177,7 @@ void drawMenuBar(Session& session, const Panels& panels, const Rect& where) {
     ImGui::PushStyleColor(ImGuiCol_Text, state.color);
     clippedText(state.text, stateWidth + 1);
     ImGui::PopStyleColor();
+    if (*state.help != 0) helpTooltip(state.help);
     ImGui::PopID();
     ImGui::EndMenuBar();
   }

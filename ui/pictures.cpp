@@ -39,7 +39,6 @@ void readRange(Session& session, Frame& frame) {
 }  // namespace
 
 void drawPictures(Session& session, Frame& frame) {
-  session.shown = session.camera.camera();
   // Both sides of a comparison share one range: the same colour is the same value.
   const ViewInfo* info = viewInfo(session.view);
   const Buffer* range = nullptr;
@@ -57,7 +56,7 @@ void drawPictures(Session& session, Frame& frame) {
   }
   drawDifference(session, frame);
   readRange(session, frame);
-  session.viewDirty = false;
+  session.viewDirty = session.camera.camera() != session.shown;  // it has moved on since
   ++session.pictures;
 }
 

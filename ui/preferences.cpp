@@ -47,7 +47,8 @@ std::vector<std::string> strings(const std::filesystem::path& file, const Json& 
 }  // namespace
 
 std::set<std::string> Preferences::foldedAtFirst() {
-  std::set<std::string> titles{"Accuracy", "Cameras", "History", "Lights", "Materials", "Objects", "Scene", "Timings"};
+  std::set<std::string> titles{"Accuracy", "Cameras", "History", "Lights",   "Materials",
+                               "Objects",  "Scene",   "Timings", kEffectsOff};
   for (const std::string& group : settingGroups()) titles.insert("Settings/" + group);
   return titles;
 }

@@ -10,10 +10,13 @@
 
 namespace irad {
 
+/// The effects that are off, in the panel of that name.
+inline constexpr const char* kEffectsOff = "Effects/off";
+
 struct Preferences {
   PanelSizes sizes;
-  /// Titles of panels and columns, and "Settings/GROUP". At first those panels are folded that would push the settings
-  /// and the effects out of a window of 720 lines, and the strip, which would take a third of the picture.
+  /// Titles of panels and columns, "Settings/GROUP", and kEffectsOff. At first those panels are folded that would push
+  /// the settings and the effects out of a window of 720 lines, and the strip, which would take a third of the picture.
   std::set<std::string> folded = foldedAtFirst();
   std::vector<std::filesystem::path> recent;  ///< scenes, absolute, the last one first
 

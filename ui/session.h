@@ -160,7 +160,7 @@ struct Session : Side {
   Accuracy accuracy;
   FlyCamera camera;
   int sceneCamera = 0;             ///< index into cameras(): which `camera` began as
-  Camera shown;                    ///< of the picture in targets
+  Camera shown;                    ///< of the picture in targets, and of what is drawn over it
   bool viewDirty = true;           ///< the picture must be rendered again
   uint64_t pictures = 0;           ///< that were drawn
   View rangeView = 0;              ///< the view that `range` belongs to

@@ -103,6 +103,35 @@ std::set<std::string_view> editedGroups(const Settings& settings, const Settings
   return groups;
 }
 
+/// What a group is about.
+struct GroupHelp {
+  std::string_view group;
+  const char* help;
+};
+constexpr GroupHelp kGroupHelps[] = {
+    {"voxel", "How finely surfaces are cut into voxels, and how"},
+    {"field", "The distance field that lets rays skip empty space"},
+    {"matrix", "Rays between facets: how many, what they meet, how the form factors are kept"},
+    {"solver", "How indirect light is solved from the form factors, and how exactly"},
+    {"scatter", "How solved light is put into the volume that shading samples"},
+    {"sample", "How a pixel looks up the light of the facets around it"},
+    {"specular", "Reflections by rays of each pixel"},
+    {"writeback", "Reflections that light the scene in turn"},
+    {"light", "Shadows of suns, points and spots"},
+    {"sky", "Light from outside the scene"},
+    {"camera", "How light becomes the picture that is shown"},
+    {"view", "What the views of data show, and in which colours"},
+    {"thesis", "What the thesis does that is mended here"},
+    {"effects", "Parts of the method: as the scene calls for, always, or never (the panel Effects says why)"},
+    {"device", "How the graphics device is used"},
+    {"scene", "How the scene's file is read, and which part of it has voxels"}};
+
+std::string groupHelp(std::string_view group) {
+  const auto found = std::ranges::find(kGroupHelps, group, &GroupHelp::group);
+  return fmt::format("{}: the settings {}.*; coloured where one is changed",
+                     found != std::end(kGroupHelps) ? found->help : "Settings", group);
+}
+
 /// Its right end is at `end`.
 bool resetButton(float end, float height, const char* help) {
   const float width = ImGui::GetFrameHeight();
@@ -116,19 +145,22 @@ bool resetButton(float end, float height, const char* help) {
 }
 
 /// In the colour of edited settings where it holds an edited one, and then with a button that resets them. True while
-/// the group is unfolded.
+/// the group is unfolded. Of folded ones two share a line: `beside` says that the left half holds one already.
 bool groupHeader(const std::string& group, bool edited, bool found, Settings& settings, const Settings& defaults,
-                 std::set<std::string>& folded) {
+                 std::set<std::string>& folded, bool& beside) {
   const std::string title = "Settings/" + group;
-  const float end = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
-  ImGui::SetNextItemOpen(found || !folded.contains(title));
+  const bool half = !found && folded.contains(title), right = half && beside;
+  const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
+  const float end = start + (half && !right ? 0.5f * width : width);
+  if (right) ImGui::SameLine(start + 0.5f * width);
+  ImGui::SetNextItemOpen(!half);
   ImGui::PushStyleColor(ImGuiCol_Text, edited ? theme::accent : theme::text);
   const bool open =
-      ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
-                                           ImGuiTreeNodeFlags_AllowItemOverlap);
+      ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_AllowItemOverlap |
+                                           (half ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth));
   ImGui::PopStyleColor();
-  helpTooltip(
-      [&] { return fmt::format("The settings {}.*; in the colour of changed ones where it holds one", group); });
+  beside = half && !right && !open;
+  helpTooltip([&] { return groupHelp(group); });
   if (!found) keepFolded(folded, title, open);
   if (!edited) return open;
   ImGui::PushID(group.c_str());
@@ -139,7 +171,19 @@ bool groupHeader(const std::string& group, bool edited, bool found, Settings& se
   return open;
 }
 
+/// Words in place of letters and of what says nothing by itself; the tooltip begins with the setting's name.
+struct Label {
+  std::string_view name, shown;
+};
+constexpr Label kLabels[] = {{"solver.lambda", "light gain \u03BB"}, {"solver.omega", "relaxation \u03C9"},
+                             {"solver.flush", "dark below"},         {"writeback.alpha", "distance power \u03B1"},
+                             {"writeback.k", "centre weight k"},     {"writeback.threshold", "least score \u03C4"},
+                             {"light.points", "soft shadow points"}, {"camera.pcf", "shadow edge taps"},
+                             {"view.jfa_pass", "jump-flood pass"},   {"thesis.literal", "thesis's slips"}};
+
 std::string label(std::string_view name) {
+  for (const Label& l : kLabels)
+    if (l.name == name) return std::string(l.shown);
   std::string text(name.substr(name.find('.') + 1));
   for (char& c : text)
     if (c == '_') c = ' ';
@@ -211,13 +255,13 @@ bool settingRows(Settings& settings, const Settings& defaults, std::set<std::str
                  const SettingFilter& filter, const Settings* built) {
   const std::set<std::string_view> edited = editedGroups(settings, defaults);
   std::string_view group;
-  bool open = true, any = false;
+  bool open = true, any = false, beside = false;
   for (const Setting& setting : settingTable()) {
     if (filter.on() && !filter.passes(setting, settings, defaults)) continue;
     any = true;
     if (setting.group() != group) {
       group = setting.group();
-      open = groupHeader(std::string(group), edited.contains(group), filter.on(), settings, defaults, folded);
+      open = groupHeader(std::string(group), edited.contains(group), filter.on(), settings, defaults, folded, beside);
     }
     if (!open) continue;
     // A row that is scrolled out of view is but room; what is being edited stays.
@@ -251,6 +295,7 @@ bool differenceTable(const char* id, const Settings& a, const Settings& b, const
 void sideLine(const Session& session) {
   if (!session.comparison) return;
   ImGui::TextColored(theme::accent, "Of side %s", session.comparison->editsB ? "B" : "A");
+  ImGui::tellControl(session.comparison->editsB ? "side B" : "side A");
   helpTooltip(
       "Two sets of settings are compared: what is set and shown here is this side's alone. The panel Compare chooses "
       "the other one.");

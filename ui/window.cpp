@@ -555,6 +555,7 @@ void Window::drawFrame() {
         session_.viewDirty = true;
       }
   if (!busy) session_.pointing.take(session_);
+  const bool due = session_.viewDirty;
   double uiBegan = threadMilliseconds();
   layer_.beginFrame();
   // Drawn first: among windows that focus does not raise, ImGui keeps the order in which they were drawn.
@@ -586,7 +587,10 @@ void Window::drawFrame() {
 
   // Frames that draw nothing but panels stay out of the timings: they say nothing of the method, and while a rebuild
   // runs its own passes are being summed.
-  const bool pictured = !busy && session_.built && session_.viewDirty;
+  // Panels come after what lies over the picture: of a camera that they have just moved the picture comes with the next
+  // frame, and its handles with it.
+  const bool current = due || session_.camera.camera() == session_.shown;
+  const bool pictured = !busy && session_.built && session_.viewDirty && current;
   Frame frame = pictured ? context_.begin(frameIndex_) : context_.beginUntimed();
   if (pictured) {
     frame.sampled(frameIndex_++, lastDraw_);

@@ -51,8 +51,12 @@ class LegendOverlay : public Overlay {
   static std::optional<Rect> drawBox(Session& session, const Picture& picture, float height) {
     const float em = ImGui::GetFontSize(), margin = em;
     const Rect where = picture.clear();
-    const float width = std::min(20 * em, where.size.x - 4 * margin);
+    float width = std::min(20 * em, where.size.x - 4 * margin);
     if (width < 8 * em) return std::nullopt;
+    for (const Rect& other : session.legends) {  // beside one on the left where that leaves enough for the ticks
+      const float room = where.position.x + where.size.x - 2.5f * margin - other.position.x - other.size.x;
+      if (room >= 12 * em) width = std::min(width, room);
+    }
     const glm::vec2 size(width, height);
     glm::vec2 corner = where.position + where.size - size - 2 * margin;
     for (const Rect& other : session.legends)  // above one that reaches as far to the right

@@ -1,6 +1,9 @@
 // The effect plan: what the scene calls for, what not, why, and what that saves; every effect may be forced on or off.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "gi/plan.h"
 #include "ui/imgui.h"
 #include "ui/panel.h"
@@ -27,21 +30,49 @@ class EffectsPanel : public Panel {
     sideLine(session);
     // In the middle of a rebuild what the pipeline holds comes and goes.
     if (!session.work && refresh_.due(session)) plan_ = session.pipeline->plan(session.viewDirty);
-    valueRow("not allocated", mebibytes(plan_.bytesNotAllocated()));
-    helpTooltip("Device memory that the effects that are off would take, by the formulas, MiB (a csr matrix: at most)");
+    // Low rows: the column has room for them beside the settings in a window of 720 lines.
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
-    for (const EffectRow& row : plan_.rows) drawRow(session.edited, row);
-    ImGui::PopStyleVar();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        {ImGui::GetStyle().FramePadding.x, std::floor(0.1f * ImGui::GetFontSize())});
+    const auto foldsAway = [&](const EffectRow& row) {
+      return row.state == EffectState::off && !isForced(session.edited, row);
+    };
+    for (const EffectRow& row : plan_.rows)
+      if (!foldsAway(row)) drawRow(session.edited, row);
+    if (drawOff(session.preferences.folded))
+      for (const EffectRow& row : plan_.rows)
+        if (foldsAway(row)) drawRow(session.edited, row);
+    ImGui::PopStyleVar(2);
+    ImGui::Spacing();
   }
 
  private:
   EffectPlan plan_;
   Refresh refresh_;
 
+  static bool isForced(const Settings& settings, const EffectRow& row) {
+    return forcedMode(settings, row.effect) != EffectMode::automatic;
+  }
+
+  /// The line that those which are left out fold under. True: they are listed.
+  bool drawOff(std::set<std::string>& folded) const {
+    const auto off = std::ranges::count(plan_.rows, EffectState::off, &EffectRow::state);
+    if (off == 0) return false;
+    ImGui::SetNextItemOpen(!folded.contains(kEffectsOff));
+    const bool open = ImGui::TreeNodeEx(
+        fmt::format("{} off, {} not allocated###off", off, mebibytes(plan_.bytesNotAllocated())).c_str(),
+        ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    helpTooltip(
+        "What this scene does not call for, with the reasons, and the device memory that it would take, by the "
+        "formulas, MiB (a csr matrix: at most). What is forced stays in the list above.");
+    keepFolded(folded, kEffectsOff, open);
+    return open;
+  }
+
   /// One line: name, state and reason, and where the effect can be forced, the list of modes behind an arrow.
   static void drawRow(Settings& settings, const EffectRow& row) {
     const EffectInfo& info = row.info();
-    const bool forced = forcedMode(settings, row.effect) != EffectMode::automatic;
+    const bool forced = isForced(settings, row);
     const float start = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
     const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float words = start + width * kLabelShare, end = start + width - arrow;

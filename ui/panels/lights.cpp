@@ -165,9 +165,7 @@ class LightsPanel : public Panel {
 
     fieldLabel("color",
                "Of its light, red, green and blue from 0 to 1, as shown on a display; the file holds it linear");
-    glm::vec3 shown = glm::convertLinearToSRGB(light.color);
-    if (ImGui::ColorEdit3("##color", &shown.x, ImGuiColorEditFlags_Float))
-      light.color = glm::convertSRGBToLinear(shown);
+    colorField("##color", light.color);
     drawTemperature(light);
     drawIntensity(light, distant);
     if (kind.has(LIGHT_RANGE)) {

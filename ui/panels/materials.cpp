@@ -22,14 +22,6 @@ namespace {
 constexpr const char* kTextureLabels[] = {"base color", "metalness, roughness", "normals", "occlusion",
                                           "emission",   "transmission"};
 
-/// A colour field, shown as on a display. True where it was edited: linear, 0 to 1.
-bool colorField(const char* id, glm::vec3& linear) {
-  glm::vec3 shown = glm::convertLinearToSRGB(linear);
-  if (!ImGui::ColorEdit3(id, &shown.x, ImGuiColorEditFlags_Float)) return false;
-  linear = glm::clamp(glm::convertSRGBToLinear(shown), 0.0f, 1.0f);
-  return true;
-}
-
 class MaterialsPanel : public Panel {
  public:
   const char* title() const override { return "Materials"; }

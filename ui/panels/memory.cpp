@@ -16,6 +16,7 @@ namespace {
 
 std::string bytesText(const std::optional<uint64_t>& bytes) {
   if (!bytes) return {};
+  if (*bytes < 100) return fmt::format("{} B", *bytes);
   return *bytes < 100 * 1024 ? fmt::format("{:.1f} KiB", static_cast<double>(*bytes) / 1024) : mebibytes(*bytes);
 }
 

@@ -81,9 +81,11 @@ class ScenePanel : public Panel {
         session.edits.region =
             RegionBox{glm::vec3(origin + glm::dvec3(region.lo)), glm::vec3(origin + glm::dvec3(region.hi))};
     }
-    helpTooltip(box ? "Removes the box: all of the scene has voxels (scene.region=whole)"
-                    : "A box that scene.region=auto takes, and that the sidecar keeps. It begins as the part that has "
-                      "voxels now; its faces are dragged by their handles in the picture, and all voxels lie in it");
+    helpTooltip(
+        box ? "Removes the box: all of the scene has voxels (scene.region=whole)"
+            : "Makes voxels within a box alone, which are finer by as much as it is smaller than the scene. It "
+              "begins as the part that has voxels now; its faces are dragged in the picture. It is saved beside "
+              "the scene's file, and taken with scene.region = auto.");
     ImGui::EndDisabled();
   }
 

@@ -84,9 +84,11 @@ class SettingsPanel : public Panel {
 
   void choosePreset(Session& session) {
     if (!ImGui::BeginCombo("##preset", presetShown(session).c_str())) {
-      helpTooltip(
-          "The preset that the settings are, or the one to apply. Presets set how light is computed; the view, the "
-          "seed, exposure, sky and scene.* stay.");
+      helpTooltip([&] {
+        return presetShown(session) +
+               "\nThe preset that the settings are, or the one to apply. Presets set how light is computed; the view, "
+               "the seed, exposure, sky and scene.* stay.";
+      });
       return;
     }
     for (const std::string& name : presetNames())

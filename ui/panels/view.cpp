@@ -171,7 +171,7 @@ class ViewPanel : public Panel {
     else if (info.isFrom(FROM_PICTURE) && info.isFrom(FROM_TARGETS))
       note(fmt::format(
           "(L - R) / sqrt(R\u00B2 + {}), L and R the luminances of picture and reference, from the reference's "
-          "camera; its mean square is relMSE.",
+          "camera: 0.1 is a tenth too bright, -0.1 a tenth too dark.",
           VIEW_ERROR_EPSILON));
     else if (const std::string missing = whatIsMissing(info, pipeline.obeyed()); !missing.empty())
       note(missing);
