@@ -152,7 +152,7 @@ void record(const fs::path& folder, const DeviceSession& session, const Bench& b
                           .manifest = manifest.toJson()});
 }
 
-void run(const BenchArguments& arguments) {
+void run(const BenchArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(arguments.json);
   if (arguments.compare) return printComparison(arguments.compare->first, arguments.compare->second);
   arguments.picture.check();
@@ -173,7 +173,7 @@ void run(const BenchArguments& arguments) {
   const glm::uvec2 size = arguments.picture.resolveSize(early);
   const auto scenePath = findScene(arguments.scene, early, "box");
 
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const Camera camera = arguments.picture.resolveCameras(session.config, scene).at(0);
   std::vector<std::unique_ptr<Bench>> sets;
@@ -270,7 +270,7 @@ Command benchCommand() {
         arguments->settings.declare(options);
         arguments->device.declare(options);
       },
-      [arguments] { run(*arguments); }};
+      [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

@@ -145,7 +145,7 @@ void writeMarkdown(const std::string& path, const std::string& table) {
   writeFile(path, text.empty() ? table : text.replace(start, end - start, table));
 }
 
-void run(const CheckArguments& arguments) {
+void run(const CheckArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   if (arguments.list) return printList();
   std::vector<const CheckCase*> chosen;
@@ -153,11 +153,11 @@ void run(const CheckArguments& arguments) {
   if (chosen.empty())
     for (const CheckCase& check : checkCases()) chosen.push_back(&check);
 
-  DeviceSession session(arguments.settings, arguments.device,
+  DeviceSession session(machine, arguments.settings, arguments.device,
                         /*timedFrames=*/1);  // nobody reads them, and soak runs long
   Settings settings = session.settings;
   if (arguments.settings.sizesAreDefault()) applyCheckSizes(settings);
-  CheckOptions options{.quick = arguments.quick, .program = "/proc/self/exe", .scenes = {}};
+  CheckOptions options{.quick = arguments.quick, .program = machine.program, .scenes = {}};
   if (arguments.seeds) options.seeds = static_cast<uint32_t>(parseInteger("--seeds", *arguments.seeds, 1, 1000));
   for (const std::string& scene : builtInScenes()) options.scenes.push_back(findScene(scene, {}, std::nullopt));
   std::vector<Result> results;
@@ -212,7 +212,7 @@ Command checkCommand() {
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

@@ -9,6 +9,8 @@
 
 namespace irad::app {
 
+class Machine;
+
 /// Declares options; values arrive before Command::run is called.
 class Options {
  public:
@@ -32,7 +34,7 @@ class Options {
 struct Command {
   std::string name, summary;
   std::function<void(Options&)> declare;
-  std::function<void()> run;  ///< throws the errors of renderer/error.h
+  std::function<void(Machine&)> run;  ///< throws the errors of renderer/base/error.h
 };
 
 Command renderCommand();
@@ -48,9 +50,10 @@ Command tuneCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 Command writebackCommand();
+std::vector<Command> allCommands();
 
 /// Parses, runs, reports. The exit status: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
 /// suitable device or not enough memory.
-int runProgram(int argc, const char* const* argv, const std::vector<Command>& commands);
+int runProgram(int argc, const char* const* argv, Machine& machine);
 
 }  // namespace irad::app

@@ -146,22 +146,23 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
   throw UsageError("no command given\n\n" + app.help());
 }
 
-void run(int argc, const char* const* argv, const std::vector<Command>& commands) {
+void run(int argc, const char* const* argv, Machine& machine) {
   CLI::App app("Voxel-radiosity global illumination: interactive viewer and headless tool", "irad");
+  const std::vector<Command> commands = allCommands();
   const Parsed parsed = parse(app, argc, argv, commands);
-  if (!parsed.done) parsed.command->run();
+  if (!parsed.done) parsed.command->run(machine);
   flushStandardOutput();
 }
 
 }  // namespace
 
-int runProgram(int argc, const char* const* argv, const std::vector<Command>& commands) {
+int runProgram(int argc, const char* const* argv, Machine& machine) {
   holdStandardStreams();
   // A file-size limit should show as a failed write with a message instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const auto report = [](const char* message) { tell("irad: error: {}\n", message); };
   try {
-    run(argc, argv, commands);
+    run(argc, argv, machine);
     return 0;
   } catch (const Error& error) {
     report(error.what());

@@ -15,13 +15,23 @@
 
 namespace irad::app {
 
-DeviceSession::DeviceSession(const SettingArguments& arguments, const DeviceArguments& deviceArguments,
-                             size_t timedFrames)
-    : config(arguments.readConfig()), timings(timedFrames), sizesAreDefault_(arguments.sizesAreDefault()) {
+DeviceSession::DeviceSession(Machine& machine, const SettingArguments& arguments,
+                             const DeviceArguments& deviceArguments, size_t timedFrames)
+    : machine(machine),
+      config(arguments.readConfig()),
+      timings(timedFrames),
+      sizesAreDefault_(arguments.sizesAreDefault()) {
   (void)arguments.resolve(config, /*cpuDevice=*/true);
-  device = Device::create(deviceArguments.options());
-  context = std::make_unique<Context>(*device, shaders, timings);
+  opened = machine.open(deviceArguments.options());
+  device = opened->device.get();
+  context = std::make_unique<Context>(*device, opened->shaders, timings, opened->pipelines);
+  opened->pipelines = context->pipelines();
   settings = arguments.resolve(config, device->isCpu);
+}
+
+DeviceSession::~DeviceSession() {
+  context.reset();
+  machine.leave(std::move(opened));
 }
 
 Scene DeviceSession::load(const std::filesystem::path& path, const SceneArguments& arguments) {

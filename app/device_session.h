@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/arguments.h"
+#include "app/machine.h"
 #include "app/progress.h"
 #include "gi/manifest.h"
 #include "gi/pipeline.h"
@@ -21,12 +22,16 @@ Scene loadForRun(const std::filesystem::path& path, const SceneArguments& argume
 struct DeviceSession {
   /// Checks the settings first (so that mistakes are reported before a device is opened), then opens the device. Times
   /// are kept of the last `timedFrames` frames.
-  DeviceSession(const SettingArguments& settings, const DeviceArguments& device, size_t timedFrames = SIZE_MAX);
+  DeviceSession(Machine& machine, const SettingArguments& settings, const DeviceArguments& device,
+                size_t timedFrames = SIZE_MAX);
+  ~DeviceSession();  ///< leaves the device to the machine
+  DeviceSession(const DeviceSession&) = delete;
 
+  Machine& machine;
   Config config;
-  std::unique_ptr<Device> device;
-  ShaderLibrary shaders;
   Timings timings;
+  std::unique_ptr<OpenDevice> opened;
+  const Device* device = nullptr;  ///< that which was opened
   std::unique_ptr<Context> context;
   Settings settings;
   ProgressReport progress;

@@ -108,10 +108,10 @@ fs::path exportRecord(DeviceSession& session, const Pipeline& pipeline, const In
   return path;
 }
 
-void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& volumes,
+void exportFiles(const ExportArguments& arguments, Machine& machine, const std::vector<Volume>& volumes,
                  const std::vector<std::string>& formats, const std::optional<glm::uvec3>& inspected,
                  const fs::path& scenePath) {
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   if (session.settings.solver.method == SolverMethod::bruteForce && (arguments.matrix || arguments.inspect))
     throw UsageError(fmt::format("{}: solver.method = brute_force has no matrix; take solver.method=matrix",
                                  arguments.matrix ? "--matrix" : "--inspect"));
@@ -191,7 +191,7 @@ void exportFiles(const ExportArguments& arguments, const std::vector<Volume>& vo
   session.checkValidation();
 }
 
-void run(const ExportArguments& arguments) {
+void run(const ExportArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   arguments.picture.check();
@@ -209,7 +209,7 @@ void run(const ExportArguments& arguments) {
     writeSceneCache(openScene(scenePath, arguments.sceneOptions.load(config, settings)), *arguments.cache);
     print("wrote       {}\n", *arguments.cache);
   }
-  if (files) exportFiles(arguments, volumes, formats, inspected, scenePath);
+  if (files) exportFiles(arguments, machine, volumes, formats, inspected, scenePath);
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ Command exportCommand() {
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

@@ -1,23 +1,7 @@
 #include "app/command.h"
+#include "app/machine.h"
 
 int main(int argc, char** argv) {
-  using namespace irad::app;
-  return runProgram(argc, argv,
-                    {
-#if IRAD_UI
-                        viewCommand(),
-#endif
-                        renderCommand(),
-                        benchCommand(),
-                        checkCommand(),
-                        memoryCommand(),
-                        planCommand(),
-                        referenceCommand(),
-                        writebackCommand(),
-                        exportCommand(),
-                        settingsCommand(),
-                        studyCommand(),
-                        tuneCommand(),
-                        viewsCommand(),
-                    });
+  irad::app::Machine machine;
+  return irad::app::runProgram(argc, argv, machine);
 }

@@ -41,14 +41,14 @@ std::string facts(const DeviceSession& session, const Pipeline& pipeline) {
       inMebibytes(thesisMemory(facets.grid.voxels, 1 << 20, rays).total), inMebibytes(session.device->memory().peak()));
 }
 
-void run(const MemoryArguments& arguments) {
+void run(const MemoryArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   const auto scenePath = findScene(arguments.scene, arguments.settings.readConfig(), "box");
   std::optional<OutputFile> csv;  // first, since better to know before the work than after it
   if (arguments.csv) csv.emplace(*arguments.csv);
 
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   Pipeline pipeline(*session.context, session.load(scenePath, arguments.sceneOptions), session.settings);
   session.prepare(pipeline);
   const uint64_t rays = session.settings.matrix.gpu.rays;
@@ -82,7 +82,7 @@ Command memoryCommand() {
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

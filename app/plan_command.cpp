@@ -128,7 +128,7 @@ void show(const Subject& subject, const PlanArguments& arguments) {
   session.checkNumbers(bench.pipeline());
 }
 
-void run(const PlanArguments& arguments) {
+void run(const PlanArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(arguments.json);
   arguments.sceneOptions.check();
   arguments.picture.check();
@@ -137,7 +137,7 @@ void run(const PlanArguments& arguments) {
   if (scenes.empty()) scenes = arguments.prove ? builtInScenes() : std::vector<std::string>{"box"};
   const glm::uvec2 size = arguments.picture.resolveSize(arguments.settings.readConfig());
   const uint32_t frames = arguments.picture.resolveFrames({}, 20);
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   Proof proof;
   for (const std::string& name : scenes) {
     Scene scene = session.load(findScene(name, session.config, std::nullopt), arguments.sceneOptions);
@@ -183,7 +183,7 @@ Command planCommand() {
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

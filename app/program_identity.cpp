@@ -7,13 +7,10 @@
 
 namespace irad::app {
 
-std::string programIdentity() {
-  static const std::string identity = [] {
-    const std::string_view commit = versionCommit();
-    if (!commit.ends_with("-dirty") && commit != "unknown") return fmt::format("{} ({})", versionNumber(), commit);
-    return fmt::format("{} ({}, executable {})", versionNumber(), commit, sha256File("/proc/self/exe").substr(0, 12));
-  }();
-  return identity;
+std::string programIdentity(const std::filesystem::path& program) {
+  const std::string_view commit = versionCommit();
+  if (!commit.ends_with("-dirty") && commit != "unknown") return fmt::format("{} ({})", versionNumber(), commit);
+  return fmt::format("{} ({}, executable {})", versionNumber(), commit, sha256File(program).substr(0, 12));
 }
 
 }  // namespace irad::app

@@ -11,12 +11,12 @@ namespace reference {
 namespace fs = std::filesystem;
 namespace {
 
-void run(const Arguments& arguments) {
+void run(const Arguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   const Task task = taskOf(arguments);
   if (task.of == "triangles") return traceTriangles(arguments, task);
   const fs::path scenePath = findScene(arguments.scene, task.config, std::nullopt);
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   Scene scene = session.load(scenePath, arguments.sceneOptions);
   const Camera camera = cameraOf(arguments, task, scene);
   if (session.settings.writeback.mode != WritebackMode::off)
@@ -82,7 +82,7 @@ Command referenceCommand() {
         arguments->settings.declare(options);
         arguments->device.declare(options);
       },
-      [arguments] { reference::run(*arguments); }};
+      [arguments](Machine& machine) { reference::run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

@@ -161,7 +161,7 @@ std::string takeDrawable(std::vector<ViewInfo>& chosen, const std::vector<std::s
              : fmt::format("left out, for want of a reference picture or an oracle: {}", fmt::join(leftOut, ", "));
 }
 
-void run(const RenderArguments& arguments) {
+void run(const RenderArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   arguments.picture.check();
@@ -179,7 +179,7 @@ void run(const RenderArguments& arguments) {
   const std::string leftOut = takeDrawable(chosen, arguments.views.empty() ? std::vector<std::string>{} : wanted,
                                            arguments.reference.given(early), scenePath);
 
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   if (!leftOut.empty()) session.progress.note(leftOut);
   const std::optional<ReferencePicture> reference = arguments.reference.read(session.config, session.progress);
   if (reference && arguments.reference.file) requireSize(*reference, size);  // a manifest's was scaled by the window
@@ -279,7 +279,7 @@ Command renderCommand() {
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

@@ -75,7 +75,7 @@ Command settingsCommand() {
             options.flag("--json", arguments->json, "The registry as JSON");
             options.flag("--values", arguments->values, "The values alone, as JSON that --config takes");
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine&) { run(*arguments); }};
 }
 
 }  // namespace irad::app

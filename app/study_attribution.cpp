@@ -73,7 +73,7 @@ void AttributionArguments::declare(Options& options) {
                 "attribution: rays from each pixel in the place of its lookup, 16 to 65536 (default 256)");
 }
 
-void attributionStudy(const MeasureArguments& measure, const AttributionArguments& arguments,
+void attributionStudy(Machine& machine, const MeasureArguments& measure, const AttributionArguments& arguments,
                       const std::optional<std::string>& scene) {
   const char* const command = "irad study attribution";
   measure.check();
@@ -84,7 +84,7 @@ void attributionStudy(const MeasureArguments& measure, const AttributionArgument
     task.gatherRays = static_cast<uint32_t>(parseInteger("--gather-rays", *arguments.gatherRays, 16, 65536));
   if (measure.seeds) parseInteger("--seeds", *measure.seeds, ErrorEstimates::kFewestSeeds, 10'000);
 
-  DeviceSession session(measure.settings, measure.device);
+  DeviceSession session(machine, measure.settings, measure.device);
   auto [loaded, study] = measure.open(session, command, scene);
   if (session.settings.writeback.mode != WritebackMode::off)
     throw UsageError(fmt::format("{}: writeback.mode is to be off: what it adds is no stage's error", command));

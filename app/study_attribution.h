@@ -12,7 +12,7 @@ struct AttributionArguments {
   std::optional<std::string> finer, gatherRays;
   void declare(Options& options);
 };
-void attributionStudy(const MeasureArguments& measure, const AttributionArguments& arguments,
+void attributionStudy(Machine& machine, const MeasureArguments& measure, const AttributionArguments& arguments,
                       const std::optional<std::string>& scene);
 
 }  // namespace irad::app

@@ -33,7 +33,7 @@ struct StudyArguments {
 };
 
 /// `irad study cost SCENE`.
-void costStudy(const StudyArguments& a) {
+void costStudy(const StudyArguments& a, Machine& machine) {
   if (a.names.size() > 2) throw UsageError(fmt::format("irad study cost: unexpected argument '{}'", a.names[2]));
   a.measure.check();
   const Shard shard = a.shard ? parseShard(*a.shard) : Shard{};
@@ -47,7 +47,7 @@ void costStudy(const StudyArguments& a) {
   std::optional<uint64_t> facetRays;
   if (a.facetRays) facetRays = parseInteger("--facet-rays", *a.facetRays, kFewestFacetRays, kMostFacetRays);
 
-  DeviceSession session(a.measure.settings, a.measure.device);
+  DeviceSession session(machine, a.measure.settings, a.measure.device);
   const std::optional<std::string> name = a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt;
   auto [scene, task] = a.measure.open(session, "irad study cost", name);
   const fs::path out = task.out = a.measure.out.value_or("out/study");
@@ -63,13 +63,13 @@ void costStudy(const StudyArguments& a) {
 }
 
 /// `irad study attribution SCENE`.
-void attribution(const StudyArguments& a) {
+void attribution(const StudyArguments& a, Machine& machine) {
   if (a.names.size() > 2) throw UsageError(fmt::format("irad study attribution: unexpected argument '{}'", a.names[2]));
-  attributionStudy(a.measure, a.attribution, a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt);
+  attributionStudy(machine, a.measure, a.attribution, a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt);
 }
 
 /// `irad study merge DIR... --out DIR`.
-void mergeShards(const StudyArguments& arguments) {
+void mergeShards(const StudyArguments& arguments, Machine&) {
   const std::vector<fs::path> shards(arguments.names.begin() + 1, arguments.names.end());
   if (shards.empty()) throw UsageError("irad study merge: no folders given");
   if (!arguments.measure.out) throw UsageError("irad study merge: no --out DIR");
@@ -81,7 +81,7 @@ void mergeShards(const StudyArguments& arguments) {
 }
 
 /// `irad study pick DIR --budget-ms X`.
-void pickPoint(const StudyArguments& arguments) {
+void pickPoint(const StudyArguments& arguments, Machine&) {
   if (arguments.names.size() != 2) throw UsageError("irad study pick: expected one folder of a study");
   const Budget budget = arguments.budget.budget("irad study pick");
   const CostKind& cost = arguments.budget.kind();
@@ -99,17 +99,17 @@ void pickPoint(const StudyArguments& arguments) {
 }
 
 /// `irad study rq2`, and whatever else gi/study/named.h lists.
-void namedStudy(const StudyArguments& a) {
+void namedStudy(const StudyArguments& a, Machine& machine) {
   const std::string& name = a.names[0];
   if (a.names.size() > 1) throw UsageError(fmt::format("irad study {}: unexpected argument '{}'", name, a.names[1]));
-  runNamedStudy(name, a.measure, a.shard ? parseShard(*a.shard) : Shard{}, a.named);
+  runNamedStudy(machine, name, a.measure, a.shard ? parseShard(*a.shard) : Shard{}, a.named);
 }
 
-void run(const StudyArguments& arguments) {
+void run(const StudyArguments& arguments, Machine& machine) {
   if (arguments.measure.device.list) return printDevices(/*json=*/false);
   struct Study {
     const char* name;
-    void (*run)(const StudyArguments&);
+    void (*run)(const StudyArguments&, Machine&);
   };
   std::vector<Study> studies{
       {"cost", costStudy}, {"attribution", attribution}, {"merge", mergeShards}, {"pick", pickPoint}};
@@ -119,7 +119,7 @@ void run(const StudyArguments& arguments) {
   for (const Study& study : studies) names.emplace_back(study.name);
   if (arguments.names.empty()) throw UsageError(fmt::format("irad study: which? {}", fmt::join(names, " | ")));
   for (const Study& study : studies)
-    if (arguments.names[0] == study.name) return study.run(arguments);
+    if (arguments.names[0] == study.name) return study.run(arguments, machine);
   throw UsageError(fmt::format("unknown study '{}'{}; there are: {}", arguments.names[0],
                                suggestion(arguments.names[0], names), fmt::join(names, ", ")));
 }
@@ -155,7 +155,7 @@ Command studyCommand() {
             arguments->budget.declare(options, "pick: ");
             arguments->named.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

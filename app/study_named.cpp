@@ -205,14 +205,14 @@ std::string namedStudyHelp() {
   return out + fmt::format("{}: all of them", kAll);
 }
 
-void runNamedStudy(const std::string& name, const MeasureArguments& measure, const Shard& shard,
+void runNamedStudy(Machine& machine, const std::string& name, const MeasureArguments& measure, const Shard& shard,
                    const NamedArguments& arguments) {
   refuseOthers(name, measure);
   measure.sceneOptions.check();
   measure.picture.check();
   if (arguments.scale) (void)findScale(*arguments.scale);
   const std::optional<fs::path> sponza = findSponza(arguments.sponza);
-  DeviceSession session(measure.settings, measure.device);
+  DeviceSession session(machine, measure.settings, measure.device);
   const StudyScale& scale = findScale(arguments.scale.value_or(session.device->isCpu ? "small" : "full"));
   const auto count = [](const char* option, const std::optional<std::string>& text, uint32_t otherwise, uint32_t most) {
     return text ? static_cast<uint32_t>(parseInteger(option, *text, 1, most)) : otherwise;

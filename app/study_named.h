@@ -21,7 +21,7 @@ std::vector<std::string> namedStudyNames();
 std::string namedStudyHelp();  ///< a line's worth: "rq2: How does …?"
 
 /// Measures what the folder does not have yet, writes the reports, prints the findings.
-void runNamedStudy(const std::string& name, const MeasureArguments& measure, const Shard& shard,
+void runNamedStudy(Machine& machine, const std::string& name, const MeasureArguments& measure, const Shard& shard,
                    const NamedArguments& named);
 
 /// Whether a folder is that of a named study.

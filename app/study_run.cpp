@@ -10,7 +10,6 @@
 #include "app/interrupts.h"
 #include "app/reference.h"
 #include "app/study_ahead.h"
-#include "app/version.h"
 #include "gi/facets.h"
 #include "gi/host_facets.h"
 #include "gi/lighting.h"
@@ -189,7 +188,7 @@ LinearPixels StudyRun::picture(const Settings& settings, const std::function<voi
 StudyIdentity StudyRun::identity() const {
   nlohmann::ordered_json json;
   json["study"] = task_.study;
-  json["program"] = programIdentity();
+  json["program"] = session_.machine.identity();
   json["device"] = session_.device->info.name;
   json["cpu"] = session_.device->isCpu;
   json["scene"] = scene_.path.filename().string();

@@ -6,7 +6,6 @@
 
 #include "app/interrupts.h"
 #include "app/study_run.h"
-#include "app/version.h"
 #include "gi/check/path_state.h"
 #include "gi/sky.h"
 #include "renderer/base/error.h"
@@ -53,7 +52,7 @@ std::string TruthSource::name() const {
 std::optional<TruthRecipe> truthRecipe(const DeviceSession& session, const StudyTask& task, const Scene& scene,
                                        const std::string& sceneContent, const SkySettings& sky) {
   if (task.truth.file) return std::nullopt;
-  const TruthSubject subject{.program = programIdentity(),
+  const TruthSubject subject{.program = session.machine.identity(),
                              .scene = sceneContent,
                              .sceneName = scene.path.stem().string(),
                              .camera = task.camera,

@@ -118,12 +118,12 @@ class Search {
   ProgressReport& progress_;
 };
 
-void run(const TuneArguments& a) {
+void run(const TuneArguments& a, Machine& machine) {
   if (a.measure.device.list) return printDevices(/*json=*/false);
   a.budget.budget("irad tune"), a.budget.kind();
   a.measure.check();
   const auto rounds = static_cast<uint32_t>(parseInteger("--rounds", a.rounds.value_or("3"), 0, 100));
-  DeviceSession session(a.measure.settings, a.measure.device);
+  DeviceSession session(machine, a.measure.settings, a.measure.device);
   auto [scene, task] = a.measure.open(session, "irad tune", a.scene, kReferenceSamples);
   task.study = "tune";
   const fs::path out = task.out = a.measure.out.value_or("out/tune");
@@ -162,7 +162,7 @@ Command tuneCommand() {
                           "Times that the points around the best are measured (default 3)");
             arguments->measure.declare(options, "out/tune");
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

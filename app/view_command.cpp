@@ -141,7 +141,7 @@ void openWindow(WindowOptions options, const Config& config, const SettingArgume
 Command viewCommand() {
   const auto arguments = std::make_shared<ViewArguments>();
   return {"view", "Open a scene in the interactive window",
-          [arguments](Options& options) { arguments->declare(options); }, [arguments] { run(*arguments); }};
+          [arguments](Options& options) { arguments->declare(options); }, [arguments](Machine&) { run(*arguments); }};
 }
 
 }  // namespace irad::app

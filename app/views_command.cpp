@@ -42,7 +42,8 @@ void run(bool json) {
 Command viewsCommand() {
   const auto json = std::make_shared<bool>(false);
   return {"views", "List the views that render and view can show",
-          [json](Options& options) { options.flag("--json", *json, "The registry as JSON"); }, [json] { run(*json); }};
+          [json](Options& options) { options.flag("--json", *json, "The registry as JSON"); },
+          [json](Machine&) { run(*json); }};
 }
 
 }  // namespace irad::app

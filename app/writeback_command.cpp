@@ -44,7 +44,7 @@ Cells cellsOf(const std::string& scene, WritebackMode mode, const WritebackFigur
           ifOn(f.rounds.settled ? "yes" : "no")};
 }
 
-void run(const WritebackArguments& arguments) {
+void run(const WritebackArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   arguments.sceneOptions.check();
   arguments.picture.check();
@@ -52,7 +52,7 @@ void run(const WritebackArguments& arguments) {
   if (scenes.empty()) scenes = {"box", "check:floor-flat", "check:floor-45", "check:floor-tilted"};
   const glm::uvec2 size = arguments.picture.resolveSize(arguments.settings.readConfig());
   const uint32_t frames = arguments.picture.resolveFrames({}, 60);
-  DeviceSession session(arguments.settings, arguments.device);
+  DeviceSession session(machine, arguments.settings, arguments.device);
   std::vector<Cells> rows{kHeading};
   for (const std::string& name : scenes) {
     const Scene scene = session.load(findScene(name, session.config, std::nullopt), arguments.sceneOptions);
@@ -93,7 +93,7 @@ Command writebackCommand() {
             arguments->settings.declare(options);
             arguments->device.declare(options);
           },
-          [arguments] { run(*arguments); }};
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

@@ -26,6 +26,7 @@ struct DeviceOptions {
   // Failures to provoke, to see what follows. They are compared with `counters`; set again, they strike again.
   uint64_t failResource = 0;  ///< the buffer or image of this number finds no memory, from 1; 0: none
   uint64_t loseDevice = 0;    ///< the device is lost at the submission or wait of this number, from 1; 0: never
+  bool operator==(const DeviceOptions&) const = default;
 };
 
 /// One physical device as `--list-devices` shows it.

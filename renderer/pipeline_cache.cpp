@@ -137,4 +137,10 @@ std::vector<PipelineUse> PipelineCache::takeUsed() {
   return used;
 }
 
+void PipelineCache::handOver() {
+  takeUsed();
+  bridge = false;
+  beforeCompile = {};
+}
+
 }  // namespace irad

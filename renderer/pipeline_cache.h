@@ -29,6 +29,8 @@ class PipelineCache {
   size_t compiling() const;
   /// The pipelines that get() gave since the last call.
   std::vector<PipelineUse> takeUsed();
+  /// To another context: as new, but that pipelines are there.
+  void handOver();
 
  private:
   struct Entry {

@@ -117,7 +117,8 @@ class Allocator {
   ~Allocator();
   std::vector<MemoryRow> rows() const;  ///< live resources, largest first
   uint64_t used() const;
-  uint64_t peak() const;
+  uint64_t peak() const;  ///< the most that was used at once
+  void forgetPeak();      ///< it begins again, from what is used now
   /// Bytes this process may use on the device-local heap: its size less a reserve, DeviceOptions::memoryBudget at most.
   uint64_t budget() const;
   /// Throws DeviceError "NAME (SUBSYSTEM) needs A MiB, B of C MiB are free" if `bytes` more would exceed the budget.

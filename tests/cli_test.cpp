@@ -149,7 +149,7 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
   test::TemporaryFolder folder;
   std::ofstream(folder.path / "plain") << "x";
   const std::string out = (folder.path / "plain").string();
-  const RunResult result = runIrad({"render", "box", "--out", out, "--set", "voxel.resolution=8"}, 120);
+  const RunResult result = runIrad({"render", "box", "--out", out, "--set", "voxel.resolution=8"});
   EXPECT_EQ(result.status, 1) << result.err;
   EXPECT_TRUE(contains(result.err, out)) << result.err;
   EXPECT_EQ(slurp(folder.path / "plain"), "x");
@@ -163,16 +163,16 @@ TEST(Cli, HelpVersionAndDevicesAreStatus0) {
     EXPECT_TRUE(contains(help.out, command)) << command;
   for (const char* command : {"render", "bench", "export", "memory", "reference", "settings", "study", "views"})
     EXPECT_EQ(runIrad({command, "--help"}).status, 0) << command;
-  const RunResult version = runIrad({"--version"});
+  const RunResult version = test::startIrad({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_TRUE(version.out.starts_with("irad ")) << version.out;
-  const RunResult devices = runIrad({"--list-devices"});
+  const RunResult devices = test::startIrad({"--list-devices"});
   EXPECT_EQ(devices.status, 0) << devices.err;
   EXPECT_TRUE(contains(devices.out, "suitable")) << devices.out;
 }
 
 TEST(Cli, RegistriesAsTableAndJson) {
-  const RunResult table = runIrad({"settings"});
+  const RunResult table = test::startIrad({"settings"});
   EXPECT_EQ(table.status, 0);
   EXPECT_TRUE(contains(table.out, "voxel.resolution")) << table.out;
   const auto settings = nlohmann::json::parse(runIrad({"settings", "--json", "--set", "matrix.rays=77"}).out);
@@ -183,7 +183,7 @@ TEST(Cli, RegistriesAsTableAndJson) {
   EXPECT_EQ((*rays)["default"], 384);
   EXPECT_EQ((*rays)["default_cpu"], 128);
   EXPECT_EQ((*rays)["unit"], "rays");
-  const auto views = nlohmann::json::parse(runIrad({"views", "--json"}).out);
+  const auto views = nlohmann::json::parse(test::startIrad({"views", "--json"}).out);
   for (const char* name : {"lit", "no-gi", "direct", "indirect", "specular", "voxel-albedo", "voxel-normal", "distance",
                            "irradiance", "radiosity", "row-occupancy"})
     EXPECT_TRUE(std::any_of(views.begin(), views.end(), [&](const auto& v) { return v["name"] == name; })) << name;

@@ -22,6 +22,7 @@ using test::runIrad;
 using test::RunResult;
 using test::slurp;
 using test::smallRender;
+using test::startIrad;
 
 std::vector<std::string> names(const std::map<std::string, std::string>& files) {
   std::vector<std::string> out;
@@ -38,7 +39,7 @@ constexpr const char *kDisplay = ".npy", *kLinear = ".pfm";
 TEST(Render, WritesPicturesTablesAndAManifestThatReplaysToTheSameBits) {
   test::TemporaryFolder folder;
   const fs::path first = folder.path / "first", second = folder.path / "second", third = folder.path / "third";
-  const RunResult run = runIrad(smallRender(first, {"--seed", "3", "--validate"}));
+  const RunResult run = startIrad(smallRender(first, {"--seed", "3", "--validate"}));
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* part : {"facets", "Mrays/s", "sweeps", "bound", "wrote"})
     EXPECT_TRUE(contains(run.out, part)) << part;
@@ -202,7 +203,7 @@ TEST(CheckCommand, ListsRunsAndFails) {
   // A setting that breaks the physics breaks the case.
   std::vector<std::string> bad{"check", "furnace-box", "--quick", "--set", "solver.lambda=0.9"};
   bad.insert(bad.end(), coarse.begin(), coarse.end());
-  const RunResult failed = runIrad(bad);
+  const RunResult failed = startIrad(bad);
   EXPECT_EQ(failed.status, 1);
   EXPECT_TRUE(contains(failed.out, "FAIL") && contains(failed.out, "0 passed, 1 failed")) << failed.out;
 }
@@ -278,8 +279,8 @@ TEST(ExportCommand, NumpyReadsMatrixVolumesAndFacets) {
   if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "python3-numpy is not here";
   TemporaryFolder folder;
   const RunResult run =
-      runIrad({"export", "box", "--out", folder.path.string(), "--volume", "albedo,distance", "--matrix", "--facets",
-               "--format", "npy,csv", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+      startIrad({"export", "box", "--out", folder.path.string(), "--volume", "albedo,distance", "--matrix", "--facets",
+                 "--format", "npy,csv", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
   ASSERT_EQ(run.status, 0) << run.err;
   // The CSR triple is in range, its rows are shares of 1; the table holds the arrays' bits; a facet's voxel is solid.
   const std::string script = R"(
@@ -352,16 +353,16 @@ TEST(BenchCommand, TableCsvAndRatios) {
 TEST(BenchCommand, RecordsAndCompares) {
   test::TemporaryFolder folder;
   const std::string out = (folder.path / "new" / "recording").string();
-  const RunResult run = runIrad({"bench",      "box",
-                                 "--size",     "48x48",
-                                 "--set",      "voxel.resolution=16",
-                                 "--set",      "matrix.rays=16",
-                                 "--set",      "light.shadow_resolution=64",
-                                 "--frames",   "12",
-                                 "--rebuilds", "1",
-                                 "--warmup",   "1",
-                                 "--record",   out,
-                                 "--versus",   "solver.omega=0.5"});
+  const RunResult run = startIrad({"bench",      "box",
+                                   "--size",     "48x48",
+                                   "--set",      "voxel.resolution=16",
+                                   "--set",      "matrix.rays=16",
+                                   "--set",      "light.shadow_resolution=64",
+                                   "--frames",   "12",
+                                   "--rebuilds", "1",
+                                   "--warmup",   "1",
+                                   "--record",   out,
+                                   "--versus",   "solver.omega=0.5"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto first = contents(fs::path(out) / "settings"), second = contents(fs::path(out) / "versus");
   EXPECT_EQ(names(first), (std::vector<std::string>{"frames.csv", "manifest.json", "summary.csv", "trace.json"}));
@@ -409,7 +410,7 @@ TEST(BenchCommand, TheWindowsCostNeedsAWindow) {
   const char* before = std::getenv("DISPLAY");
   const std::string kept = before ? before : "";
   setenv("DISPLAY", ":987", 1);
-  const RunResult run = runIrad({"bench", "box", "--ui", "--frames", "10"});
+  const RunResult run = startIrad({"bench", "box", "--ui", "--frames", "10"});
   before ? setenv("DISPLAY", kept.c_str(), 1) : unsetenv("DISPLAY");
 #if IRAD_UI
   EXPECT_EQ(run.status, 4) << run.err;

@@ -151,7 +151,7 @@ void boxTable(const std::string& preset) {
   memory.insert(memory.end(), {"--csv", csv, "--validate"});
   render.insert(render.begin(), "render");
   render.insert(render.end(), {"--out", folder.path.string(), "--size", "32x32"});
-  const RunResult run = runIrad(memory), rendered = runIrad(render);
+  const RunResult run = test::startIrad(memory), rendered = runIrad(render);
   ASSERT_EQ(run.status, 0) << run.err;
   ASSERT_EQ(rendered.status, 0) << rendered.err;
   for (const char* part : {"M_s = ", "R = 32", "thesis_mib", "predicted_mib", "measured_mib", "3303.65", "seven"})

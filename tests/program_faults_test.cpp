@@ -55,7 +55,7 @@ void expectWhole(const std::map<std::string, std::string>& files, const std::map
 TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
   TemporaryFolder folder;
   const fs::path whole = folder.path / "whole";
-  ASSERT_EQ(runIrad(smallRender(whole, {"--frames", "100"})).status, 0);
+  ASSERT_EQ(startIrad(smallRender(whole, {"--frames", "100"})).status, 0);
   const auto reference = contents(whole);
   struct Case {
     std::string fault;
@@ -68,7 +68,7 @@ TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
                                 {"lost=420", 1, "the device was lost"}, {"oom=100000", 0, ""}};
   for (const Case& c : cases) {
     const fs::path out = folder.path / c.fault;
-    const RunResult result = runIrad(smallRender(out, {"--inject", c.fault, "--validate", "--frames", "100"}), 120);
+    const RunResult result = startIrad(smallRender(out, {"--inject", c.fault, "--validate", "--frames", "100"}), 120);
     EXPECT_EQ(result.status, c.status) << c.fault << "\n" << result.err;
     EXPECT_TRUE(contains(result.err, c.message)) << result.err;
     const size_t first = result.err.find("irad: ");
@@ -211,7 +211,7 @@ TEST(ProgramFaults, AFolderThatMayNotBeWrittenIsStatus1) {
   const auto run = [&](const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"--reuid=65534", "--regid=65534", "--clear-groups", iradProgram()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return root ? runProgram("/usr/bin/setpriv", words, 120) : runIrad(arguments, 120);
+    return root ? runProgram("/usr/bin/setpriv", words, 120) : startIrad(arguments, 120);
   };
   if (run({"--version"}).status != 0) GTEST_SKIP() << "another user cannot run " << iradProgram();
   for (const auto& arguments : {smallRender(locked), smallExport(locked), smallRender(locked / "sub")}) {
@@ -288,7 +288,7 @@ TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
   // The manifest vouched for files that now partly belong to another run.
   TemporaryFolder folder;
   ASSERT_EQ(runIrad(quickRender(folder.path)).status, 0);
-  const RunResult failed = runIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=250"}));
+  const RunResult failed = startIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=250"}));
   ASSERT_EQ(failed.status, 1) << failed.err;
   EXPECT_FALSE(fs::exists(folder.path / "manifest.json"));
 }
@@ -301,7 +301,7 @@ TEST(ProgramFaults, AFailedRunLeavesNoEmptyFolder) {
     std::vector<std::string> arguments = command;
     for (const char* more : {"--set", "voxel.resolution=8", "--inject", "oom=1", "--out"}) arguments.emplace_back(more);
     arguments.push_back(out.string());
-    const RunResult result = runIrad(arguments, 120);
+    const RunResult result = runIrad(arguments);
     EXPECT_EQ(result.status, 4) << command[0] << "\n" << result.err;
     EXPECT_FALSE(fs::exists(folder.path / "new")) << command[0];
   }

@@ -80,7 +80,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSeconds) {
+RunResult startIrad(const std::vector<std::string>& arguments, double timeoutSeconds) {
   return runProgram(iradProgram(), arguments, timeoutSeconds);
 }
 

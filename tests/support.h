@@ -62,12 +62,18 @@ std::string slurp(const std::filesystem::path& path);
 std::map<std::string, std::string> contents(const std::filesystem::path& folder);
 bool contains(const std::string& text, const std::string& part);
 
-/// Runs the irad binary with these arguments; output and exit status.
+/// Output and exit status of a run.
 struct RunResult {
   int status = -1;
   std::string out, err;
 };
-RunResult runIrad(const std::vector<std::string>& arguments, double timeoutSeconds = 600);
+/// Runs `irad ARGUMENTS` within this process, on the device that the run before has left, with the pipelines made on it:
+/// a start of the program, which compiles them anew, takes longer than what most tests ask of it. No window, and nothing
+/// that may not come back.
+RunResult runIrad(const std::vector<std::string>& arguments);
+/// Runs the program itself: for tests of what belongs to a process (its streams, signals, limits, the device from its
+/// start), and for one of each subcommand.
+RunResult startIrad(const std::vector<std::string>& arguments, double timeoutSeconds = 600);
 /// The same with another program, by its path.
 RunResult runProgram(const std::string& program, const std::vector<std::string>& arguments,
                      double timeoutSeconds = 600);

@@ -264,7 +264,7 @@ TEST(TruthRecipes, HaveNamesThatPeopleRead) {
 }
 
 TEST(Programs, OfTreesWithChangesAreToldApartByTheirBytes) {
-  const std::string identity = app::programIdentity(), commit = app::versionCommit();
+  const std::string identity = app::programIdentity("/proc/self/exe"), commit = app::versionCommit();
   EXPECT_TRUE(identity.starts_with(std::string(app::versionNumber()) + " (" + commit)) << identity;
   const bool names = commit != "unknown" && !commit.ends_with("-dirty");
   EXPECT_NE(contains(identity, sha256File("/proc/self/exe").substr(0, 12)), names) << identity;

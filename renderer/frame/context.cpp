@@ -12,8 +12,15 @@ constexpr uint64_t kStagingKept = 4 * 1024 * 1024;  // larger readback chunks go
 
 }  // namespace
 
-Context::Context(const Device& device, ShaderLibrary& shaders, Timings& timings)
-    : device(device), shaders(shaders), timings(timings), impl(std::make_unique<Impl>(device, shaders)) {}
+Context::Context(const Device& device, ShaderLibrary& shaders, Timings& timings,
+                 std::shared_ptr<PipelineCache> pipelines)
+    : device(device), shaders(shaders), timings(timings) {
+  if (pipelines)
+    pipelines->handOver();
+  else
+    pipelines = std::make_shared<PipelineCache>(device, shaders);
+  impl = std::make_unique<Impl>(device, std::move(pipelines));
+}
 
 Context::~Context() {
   if (!device.settle()) return;  // the loss was reported where it was met
@@ -30,20 +37,24 @@ Context::Impl::~Impl() {
 }
 
 VkDescriptorSetLayout Context::materialLayout() const {
-  return impl->pipelines.materialLayout();
+  return impl->pipelines->materialLayout();
 }
 
 std::vector<PipelineUse> Context::pipelinesUsed() {
-  return impl->pipelines.takeUsed();
+  return impl->pipelines->takeUsed();
 }
 
 void Context::bridgeVariants(bool on, std::function<void()> beforeCompile) {
-  impl->pipelines.bridge = on;
-  impl->pipelines.beforeCompile = std::move(beforeCompile);
+  impl->pipelines->bridge = on;
+  impl->pipelines->beforeCompile = std::move(beforeCompile);
+}
+
+std::shared_ptr<PipelineCache> Context::pipelines() const {
+  return impl->pipelines;
 }
 
 size_t Context::variantsCompiling() const {
-  return impl->pipelines.compiling();
+  return impl->pipelines->compiling();
 }
 
 const Image& Context::Impl::placeholder(bool cube) {
@@ -151,7 +162,7 @@ void Context::Impl::destroy(FrameSlot& slot) {
 
 void Context::collect() {
   impl->collect(timings);
-  impl->pipelines.collect();  // frames that are untimed go on without begin()
+  impl->pipelines->collect();  // frames that are untimed go on without begin()
 }
 
 void Context::finish() {
@@ -161,7 +172,7 @@ void Context::finish() {
 
 Frame Context::begin(uint64_t frameIndex) {
   impl->collect(timings);
-  impl->pipelines.collect();
+  impl->pipelines->collect();
   while (impl->inFlight.size() >= kFramesInFlight) {
     device.wait(impl->inFlight.front()->timelineValue);
     impl->collect(timings);

@@ -13,12 +13,15 @@
 namespace irad {
 
 class Frame;
+class PipelineCache;
 
 /// What lives longer than a frame: device, shaders, pipelines, timings, command pools. It is passed around; nothing is
 /// global.
 class Context {
  public:
-  Context(const Device& device, ShaderLibrary& shaders, Timings& timings);
+  /// `pipelines`: those of an earlier context of the same device and shaders, which has ended; none: new ones.
+  Context(const Device& device, ShaderLibrary& shaders, Timings& timings,
+          std::shared_ptr<PipelineCache> pipelines = nullptr);
   ~Context();
   const Device& device;
   ShaderLibrary& shaders;
@@ -37,6 +40,8 @@ class Context {
   /// the thread is thrown by a later begin().
   void bridgeVariants(bool on, std::function<void()> beforeCompile = {});
   size_t variantsCompiling() const;
+  /// For a context that comes after this one. They go before the device does.
+  std::shared_ptr<PipelineCache> pipelines() const;
   Frame beginUntimed();  ///< its passes get no row in the timing table: transfers, tests
   /// Delivers the readbacks and times of finished frames, in order; finish() first waits for those in flight.
   void collect();

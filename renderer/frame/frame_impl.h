@@ -46,18 +46,19 @@ struct FrameSlot {
 };
 
 struct Context::Impl {
-  Impl(const Device& device, const ShaderLibrary& shaders) : device(device), pipelines(device, shaders) {}
+  Impl(const Device& device, std::shared_ptr<PipelineCache> pipelines)
+      : device(device), pipelines(std::move(pipelines)) {}
   ~Impl();
 
   const Device& device;
-  PipelineCache pipelines;
+  std::shared_ptr<PipelineCache> pipelines;
   std::array<Image, 2> placeholders;
   size_t slots = 0;                                 ///< of frames recorded, in flight or idle
   std::deque<std::unique_ptr<FrameSlot>> idle;      ///< the one that ended first, first
   std::deque<std::unique_ptr<FrameSlot>> inFlight;  ///< in order of submission
 
-  /// The first few are made, then they take turns: which slot a frame has, and so what memory it takes, does not hang on
-  /// how fast the device is.
+  /// The first few are made, then they take turns: which slot a frame has, and so what memory it takes, does not hang
+  /// on how fast the device is.
   std::unique_ptr<FrameSlot> takeSlot(Timings& timings);
   /// One texel of depth, for Pass::sampleDepth. Nobody reads it.
   const Image& placeholder(bool cube);

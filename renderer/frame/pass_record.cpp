@@ -98,7 +98,7 @@ void Pass::run(const std::function<void(Commands&)>& body) {
   for (const State::Color& c : s.colors)
     s.pipeline.raster.colors.push_back(c.image ? c.image->desc.format : VK_FORMAT_UNDEFINED);
   if (s.depth) s.pipeline.raster.depth = s.depth->desc.format;
-  GpuPipeline& pipeline = context.impl->pipelines.get(s.pipeline);
+  GpuPipeline& pipeline = context.impl->pipelines->get(s.pipeline);
   s.resolveUses(pipeline.stages);
 
   // The bindings of set 0, in the order in which the pass names them.

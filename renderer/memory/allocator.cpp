@@ -276,6 +276,10 @@ uint64_t Allocator::peak() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->peak;
 }
+void Allocator::forgetPeak() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->peak = impl_->used;
+}
 uint64_t Allocator::budget() const {
   return impl_->budget();
 }
