@@ -149,7 +149,7 @@ TEST(Cli, AFileInPlaceOfTheOutputFolderIsStatus1) {
   test::TemporaryFolder folder;
   std::ofstream(folder.path / "plain") << "x";
   const std::string out = (folder.path / "plain").string();
-  const RunResult result = runIrad({"render", "box", "--out", out, "--set", "voxel.resolution=8"});
+  const RunResult result = test::startIrad({"render", "box", "--out", out, "--set", "voxel.resolution=8"});
   EXPECT_EQ(result.status, 1) << result.err;
   EXPECT_TRUE(contains(result.err, out)) << result.err;
   EXPECT_EQ(slurp(folder.path / "plain"), "x");
