@@ -67,9 +67,9 @@ struct RunResult {
   int status = -1;
   std::string out, err;
 };
-/// Runs `irad ARGUMENTS` within this process, on the device that the run before has left, with the pipelines made on it:
-/// a start of the program, which compiles them anew, takes longer than what most tests ask of it. No window, and nothing
-/// that may not come back.
+/// Runs `irad ARGUMENTS` within this process, on the device that the run before has left, with the pipelines made on
+/// it: a start of the program, which compiles them anew, takes longer than what most tests ask of it. No window, and
+/// nothing that may not come back.
 RunResult runIrad(const std::vector<std::string>& arguments);
 /// Runs the program itself: for tests of what belongs to a process (its streams, signals, limits, the device from its
 /// start), and for one of each subcommand.
