@@ -50,7 +50,6 @@ Command tuneCommand();
 Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 Command writebackCommand();
-std::vector<Command> allCommands();
 
 /// Parses, runs, reports. The exit status: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
 /// suitable device or not enough memory.

@@ -307,18 +307,24 @@ void StudyRun::measureFacets(const Settings& settings, const std::vector<glm::ve
 /// All points in turn, repeat after repeat, so that other load on the machine falls on all alike; a first round warms
 /// caches, clocks and pages and counts for nothing.
 void StudyRun::measureTimes(const std::vector<size_t>& asked, const std::function<uint32_t(size_t)>& repeatsOf) {
-  const auto due = [&](size_t point, uint32_t repeat) {
-    return repeat < repeatsOf(point) && !folder_->results.hasFailed(point) && !folder_->results.hasTimes(point, repeat);
+  struct Timed {
+    size_t point;
+    uint32_t repeats;
   };
-  std::vector<size_t> points;
+  const auto due = [&](const Timed& timed, uint32_t repeat) {
+    return repeat < timed.repeats && !folder_->results.hasFailed(timed.point) &&
+           !folder_->results.hasTimes(timed.point, repeat);
+  };
+  std::vector<Timed> points;
   uint32_t rounds = 0;  // after the one that warms up
   size_t all = 0, done = 0;
   for (const size_t point : asked) {
+    const Timed timed{point, repeatsOf(point)};
     size_t lacks = 0;
-    for (uint32_t repeat = 0; repeat < repeatsOf(point); ++repeat) lacks += due(point, repeat) ? 1 : 0;
+    for (uint32_t repeat = 0; repeat < timed.repeats; ++repeat) lacks += due(timed, repeat) ? 1 : 0;
     if (lacks == 0) continue;
-    points.push_back(point);
-    rounds = std::max(rounds, repeatsOf(point));
+    points.push_back(timed);
+    rounds = std::max(rounds, timed.repeats);
     all += lacks;
   }
   if (points.empty()) return;
@@ -327,9 +333,9 @@ void StudyRun::measureTimes(const std::vector<size_t>& asked, const std::functio
   Clock::time_point saved = Clock::now();
   for (uint32_t round = 0; round <= rounds; ++round) {
     for (size_t i = 0; i < points.size(); ++i) {
-      const size_t point = points[i];
+      const size_t point = points[i].point;
       const bool warms = round == 0;
-      if (warms ? folder_->results.hasFailed(point) : !due(point, round - 1)) continue;
+      if (warms ? folder_->results.hasFailed(point) : !due(points[i], round - 1)) continue;
       progress(warms ? "warming up" : "times", warms ? i : done++, warms ? points.size() : all);
       attempt(point, [&] {
         // The light that ends a build is not part of what is compared.
