@@ -184,6 +184,7 @@ TEST_F(WindowFaultsTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
 }
 
 TEST_F(WindowFaultsTest, ALostDeviceEndsItWithAMessage) {
+  startsProgram_ = true;
   // In the load, and once pictures are drawn.
   for (const char* fault : {"lost=30", "lost=400"}) {
     start({"--inject", fault});

@@ -10,6 +10,7 @@
 #include "tests/controls.h"
 #include "tests/file_drop.h"
 #include "tests/mouse.h"
+#include "tests/window_host.h"
 
 namespace irad::test {
 
@@ -17,6 +18,9 @@ class WindowTest : public ::testing::Test {
  protected:
   bool exposesFiles_ = false;  ///< as the window does where no exposure is given
   std::string windowSize_ = "1280x720";
+  /// Where the process is what is tested. Other windows come one after another in the same one, whose device they find
+  /// with the pipelines that those before have made.
+  bool startsProgram_ = false;
 
   void SetUp() override {
     for (const char* program : {"Xvfb", "xdotool"})
@@ -42,7 +46,11 @@ class WindowTest : public ::testing::Test {
     environment.insert(environment_.begin(), environment_.end());
     // Where it covers nothing that is compared: the server draws its pointer, too.
     xdotool("mousemove 700 6");
-    window_ = std::make_unique<Program>(command, folder_.path, environment);
+    window_.reset();
+    if (startsProgram_)
+      window_ = std::make_unique<Program>(command, folder_.path, environment);
+    else
+      window_ = std::make_unique<HostedWindow>(command, folder_.path, environment);
   }
   /// Remembered from an earlier run, as a JSON array of titles: the other panels are where a test looks for them.
   void fold(const char* panels) {
@@ -296,7 +304,7 @@ class WindowTest : public ::testing::Test {
   TemporaryFolder folder_;
   std::unique_ptr<VirtualScreen> screen_;
   std::map<std::string, std::string> environment_;  ///< of windows that start(), beside the screen's
-  std::unique_ptr<Program> window_;
+  std::unique_ptr<Running> window_;
 };
 
 const auto lit = [](const ScreenPart& p) { return p.meanLuminance() > 0.05 && p.deviation() > 0.02; };

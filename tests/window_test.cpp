@@ -6,6 +6,7 @@ namespace irad::test::window_suite {
 namespace {
 
 TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
+  startsProgram_ = true;
   start();
   ASSERT_TRUE(viewportSettles(lit)) << "mean " << viewport().meanLuminance() << ", deviation "
                                     << viewport().deviation();

@@ -273,6 +273,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
 }
 
 TEST_F(WindowToolsTest, TheMenuCapturesAFrameWithRenderDoc) {
+  startsProgram_ = true;
   environment_["LD_PRELOAD"] = (buildFolder() / "tests/renderdoc/librenderdoc.so").string();
   start();
   goAside();

@@ -234,6 +234,7 @@ TEST_F(WindowUndoTest, ACancelledRebuildReturnsTheSettingThatWasBuilt) {
 }
 
 TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
+  startsProgram_ = true;
   const std::filesystem::path scene = ownScene();
   begin(scene);
   EXPECT_TRUE(kept().empty());
@@ -317,6 +318,7 @@ TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
 }
 
 TEST_F(WindowUndoTest, BothSidesOfAComparisonAreTakenAndTheNextTimeDiscarded) {
+  startsProgram_ = true;
   begin();
   click("Compare");
   click("Compare/Compare with these settings");
