@@ -8,7 +8,10 @@
 namespace irad::test::window_faults_suite {
 namespace {
 
-using WindowFaultsTest = WindowTest;
+class WindowFaultsTest : public WindowTest {
+ protected:
+  WindowFaultsTest() { detail_ = "32"; }
+};
 
 TEST_F(WindowFaultsTest, TakesDroppedScenesAndRefusesOthersInWords) {
   start();
