@@ -158,8 +158,8 @@ void run(const BenchArguments& arguments, Machine& machine) {
   arguments.picture.check();
   arguments.sceneOptions.check();
   if (arguments.ui)
-    return measureUi(arguments.scene, arguments.view, arguments.picture, arguments.settings, arguments.sceneOptions,
-                     arguments.device);
+    return measureUi(machine, arguments.scene, arguments.view, arguments.picture, arguments.settings,
+                     arguments.sceneOptions, arguments.device);
   const Config early = arguments.settings.readConfig();
   const uint32_t frames = arguments.picture.resolveFrames({}, 20);
   const auto count = [](const char* option, const std::optional<std::string>& text, uint64_t otherwise) {

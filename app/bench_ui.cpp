@@ -14,7 +14,7 @@ namespace irad::app {
 
 #if IRAD_UI
 
-void measureUi(const std::optional<std::string>& scene, const std::optional<std::string>& view,
+void measureUi(Machine& machine, const std::optional<std::string>& scene, const std::optional<std::string>& view,
                const PictureArguments& picture, const SettingArguments& settings, const SceneArguments& sceneOptions,
                const DeviceArguments& device) {
   constexpr double kMark = 1;  // ms
@@ -27,7 +27,7 @@ void measureUi(const std::optional<std::string>& scene, const std::optional<std:
   options.view = findViews({view.value_or("lit")}).at(0).view;
   options.measuredFrames = picture.resolveFrames({}, 300);
   options.uiMilliseconds = &ms;
-  openWindow(options, config, settings, sceneOptions, device);
+  openWindow(machine, options, config, settings, sceneOptions, device);
   const TimingStats s = statistics(ms);
   print("UI, CPU ms per frame, window of {} x {}, {} frames\n", options.size.x, options.size.y, s.samples);
   print("p50 {:.3f}  mean {:.3f}  p95 {:.3f}  p99 {:.3f}  max {:.3f}\n", s.p50, s.mean, s.p95, s.p99, s.max);
@@ -36,7 +36,7 @@ void measureUi(const std::optional<std::string>& scene, const std::optional<std:
 
 #else
 
-void measureUi(const std::optional<std::string>&, const std::optional<std::string>&, const PictureArguments&,
+void measureUi(Machine&, const std::optional<std::string>&, const std::optional<std::string>&, const PictureArguments&,
                const SettingArguments&, const SceneArguments&, const DeviceArguments&) {
   throw UsageError("--ui: this program was built without its window (IRAD_UI=OFF)");
 }

@@ -5,9 +5,11 @@
 
 namespace irad::app {
 
+class Machine;
+
 /// CPU time per frame of all panels, open, while pictures follow each other; printed beside its mark. Throws
 /// DeviceError where there is no display, UsageError in a build without a window.
-void measureUi(const std::optional<std::string>& scene, const std::optional<std::string>& view,
+void measureUi(Machine& machine, const std::optional<std::string>& scene, const std::optional<std::string>& view,
                const PictureArguments& picture, const SettingArguments& settings, const SceneArguments& sceneOptions,
                const DeviceArguments& device);
 

@@ -93,10 +93,7 @@ void DeviceSession::checkNumbers(const Pipeline& pipeline, std::vector<std::stri
 }
 
 void DeviceSession::checkValidation() const {
-  if (!device->options.validate) return;
-  const std::vector<std::string> messages = device->validationMessages();
-  if (!messages.empty())
-    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+  opened->checkValidation();
 }
 
 }  // namespace irad::app

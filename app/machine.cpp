@@ -1,5 +1,10 @@
 #include "app/machine.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "app/version.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/context.h"
@@ -8,14 +13,25 @@
 namespace irad::app {
 namespace {
 
-/// Whatever else is asked for, counts or messages of one command are not those of the next.
-bool servesAgain(const DeviceOptions& options) {
-  return options == DeviceOptions{.select = options.select};
+/// What else can be asked for ends with the command: failures to come, and the memory that is left.
+bool servesAgain(const OpenDevice& opened) {
+  const DeviceOptions& options = opened.device->options;
+  return options == DeviceOptions{.select = options.select,
+                                  .validate = options.validate,
+                                  .presentable = options.presentable} &&
+         (opened.shaders.generation() == 0 || opened.shaders.modified().empty());
 }
 
 }  // namespace
 
 OpenDevice::OpenDevice(const DeviceOptions& options) : device(Device::create(options)) {}
+
+void OpenDevice::checkValidation() const {
+  std::vector<std::string> messages = device->validationMessages();
+  messages.erase(messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(messagesBefore));
+  if (device->options.validate && !messages.empty())
+    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
 
 Machine::Machine(std::filesystem::path program) : program(std::move(program)) {}
 
@@ -27,19 +43,21 @@ const std::string& Machine::identity() {
 }
 
 std::unique_ptr<OpenDevice> Machine::open(const DeviceOptions& options) {
-  if (left_ && left_->device->options == options) {
-    left_->device->memory().forgetPeak();
-    return std::move(left_);
-  }
-  return std::make_unique<OpenDevice>(options);
+  const auto found = std::ranges::find_if(left_, [&](const auto& left) { return left->device->options == options; });
+  if (found == left_.end()) return std::make_unique<OpenDevice>(options);
+  std::unique_ptr<OpenDevice> opened = std::move(*found);
+  left_.erase(found);
+  opened->device->memory().forgetPeak();
+  opened->messagesBefore = opened->device->validationMessages().size();
+  return opened;
 }
 
 void Machine::leave(std::unique_ptr<OpenDevice> opened) noexcept {
-  if (!opened || !servesAgain(opened->device->options)) return;
   try {
+    if (!opened || !servesAgain(*opened)) return;
     opened->device->waitIdle();  // what was on it goes
-    if (opened->device->memory().used() == 0) left_ = std::move(opened);
-  } catch (const Error&) {  // it is lost, as the command has said
+    if (opened->device->memory().used() == 0) left_.push_back(std::move(opened));
+  } catch (const std::exception&) {  // it is lost, as the command has said
   }
 }
 

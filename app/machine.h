@@ -3,9 +3,11 @@
 // driver's work on pipelines.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "renderer/device.h"
 #include "renderer/shaders.h"
@@ -22,6 +24,10 @@ struct OpenDevice {
   std::unique_ptr<Device> device;
   ShaderLibrary shaders;
   std::shared_ptr<PipelineCache> pipelines;  ///< none before its first context
+  size_t messagesBefore = 0;                 ///< of validation, of those that it was opened for before
+
+  /// WorkError with the messages of validation, where that was asked for and there are any.
+  void checkValidation() const;
 };
 
 class Machine {
@@ -33,15 +39,15 @@ class Machine {
 
   const std::filesystem::path program;
   const std::string& identity();  ///< programIdentity() of it
-  /// The device that was left, where one is asked for as it was; another otherwise.
+  /// A device that was left, where one is asked for as it was; another otherwise.
   std::unique_ptr<OpenDevice> open(const DeviceOptions& options);
-  /// Takes a device back that nothing is on any more. One that was lost, or that was opened to provoke failures, to
-  /// look for mistakes or with less memory, serves once.
+  /// Takes a device back that nothing is on any more. One that was lost, whose shaders are others by now, or that was
+  /// opened to provoke failures or with less memory, serves once.
   void leave(std::unique_ptr<OpenDevice> opened) noexcept;
 
  private:
   std::string identity_;
-  std::unique_ptr<OpenDevice> left_;
+  std::vector<std::unique_ptr<OpenDevice>> left_;  ///< of different options
 };
 
 }  // namespace irad::app

@@ -1,7 +1,6 @@
 // `irad view`: the interactive window.
 #if IRAD_UI
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "app/arguments.h"
 #include "app/command.h"
 #include "app/devices.h"
+#include "app/machine.h"
 #include "app/reference.h"
 #include "app/version.h"
 #include "app/view_command.h"
@@ -68,16 +68,16 @@ float parseScale(const std::string& text) {
 }
 
 /// The shader sources beside the program's build folder or in the current one, for F5; empty where there are none.
-std::filesystem::path findShaders() {
+std::filesystem::path findShaders(const Machine& machine) {
   std::error_code ignored;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::filesystem::path program = std::filesystem::canonical(machine.program, ignored);
   const std::array candidates{program.parent_path().parent_path() / "shaders", std::filesystem::path("shaders")};
   for (const std::filesystem::path& folder : candidates)
     if (std::filesystem::exists(folder / "shared" / "types.h", ignored)) return folder;
   return {};
 }
 
-void run(const ViewArguments& arguments) {
+void run(const ViewArguments& arguments, Machine& machine) {
   if (arguments.device.list) return printDevices(/*json=*/false);
   const Config config = arguments.settings.readConfig();
   arguments.sceneOptions.check();
@@ -110,38 +110,38 @@ void run(const ViewArguments& arguments) {
   options.presets = Presets(
       options.preferences.empty() ? fs::path() : options.preferences.parent_path() / "presets",
       [](Settings& settings, const fs::path& file) { settingsFromJson(settings, *readConfigFile(file).settings); });
-  options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders();
+  options.shaders = arguments.shaders ? std::filesystem::path(*arguments.shaders) : findShaders(machine);
 
-  openWindow(std::move(options), config, arguments.settings, arguments.sceneOptions, arguments.device);
+  openWindow(machine, std::move(options), config, arguments.settings, arguments.sceneOptions, arguments.device);
 }
 
 }  // namespace
 
-void openWindow(WindowOptions options, const Config& config, const SettingArguments& settings,
+void openWindow(Machine& machine, WindowOptions options, const Config& config, const SettingArguments& settings,
                 const SceneArguments& scene, const DeviceArguments& device) {
   (void)settings.resolve(config, /*cpuDevice=*/true);  // mistakes are reported before a device is opened
   DeviceOptions deviceOptions = device.options();
   deviceOptions.presentable = true;
-  const std::unique_ptr<Device> opened = Device::create(deviceOptions);
-  ShaderLibrary shaders;
+  std::unique_ptr<OpenDevice> opened = machine.open(deviceOptions);
   Timings timings(kTimedFrames);
-  options.settings = settings.resolve(config, opened->isCpu);
-  options.defaults = defaultSettings(opened->isCpu);
+  options.settings = settings.resolve(config, opened->device->isCpu);
+  options.defaults = defaultSettings(opened->device->isCpu);
   options.load = scene.load(config, options.settings);
   useSky(options.settings, options.load);
   {
-    Context context(*opened, shaders, timings);
+    Context context(*opened->device, opened->shaders, timings, opened->pipelines);
+    opened->pipelines = context.pipelines();
     runWindow(context, options);
   }
-  const std::vector<std::string> messages = opened->validationMessages();
-  if (deviceOptions.validate && !messages.empty())
-    throw WorkError(fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+  opened->checkValidation();
+  machine.leave(std::move(opened));
 }
 
 Command viewCommand() {
   const auto arguments = std::make_shared<ViewArguments>();
   return {"view", "Open a scene in the interactive window",
-          [arguments](Options& options) { arguments->declare(options); }, [arguments](Machine&) { run(*arguments); }};
+          [arguments](Options& options) { arguments->declare(options); },
+          [arguments](Machine& machine) { run(*arguments, machine); }};
 }
 
 }  // namespace irad::app

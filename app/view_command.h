@@ -6,9 +6,11 @@
 
 namespace irad::app {
 
+class Machine;
+
 /// Resolves the settings, opens the device and runs the window on it. WorkError with the validation messages, if there
 /// are any.
-void openWindow(WindowOptions options, const Config& config, const SettingArguments& settings,
+void openWindow(Machine& machine, WindowOptions options, const Config& config, const SettingArguments& settings,
                 const SceneArguments& scene, const DeviceArguments& device);
 
 }  // namespace irad::app

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support.h"
+
 namespace {
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -50,9 +52,10 @@ std::string filterOf(const std::vector<std::string>& suites, const std::string& 
   return (out.empty() ? "no test" : out) + unwanted;
 }
 
-/// Processor time of this process and of those that it has waited for.
+/// Processor time of this process, of those that it has waited for, and of those that outlive a test.
 double processorSeconds() {
   double seconds = 0;
+  for (const pid_t process : irad::test::lastingProcesses()) seconds += irad::test::processorSeconds(process);
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
     rusage used{};
     getrusage(who, &used);

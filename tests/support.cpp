@@ -1,9 +1,12 @@
 #include "tests/support.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <thread>
 
 #include "gi/check/process.h"
@@ -61,6 +64,25 @@ std::filesystem::path buildFolder() {
 
 bool everything() {
   return std::getenv("IRAD_TEST_ALL") != nullptr;
+}
+
+double processorSeconds(pid_t process) {
+  const std::string stat = slurp(fmt::format("/proc/{}/stat", process));
+  if (stat.empty()) return 0;
+  std::istringstream fields(stat.substr(stat.rfind(')') + 2));
+  std::string skipped;
+  for (int i = 3; i < 14; ++i) fields >> skipped;
+  double sum = 0, ticks = 0;
+  for (int i = 14; i < 18; ++i) {  // utime, stime, cutime, cstime
+    fields >> ticks;
+    sum += ticks;
+  }
+  return sum / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+std::set<pid_t>& lastingProcesses() {
+  static std::set<pid_t>& processes = *new std::set<pid_t>;  // outlives what ends with the program
+  return processes;
 }
 
 std::string slurp(const std::filesystem::path& path) {

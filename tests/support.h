@@ -3,11 +3,13 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "gi/settings.h"
 #include "renderer/base/temporary_folder.h"
@@ -55,6 +57,12 @@ bool everything();
   if (!::irad::test::everything()) GTEST_SKIP() << "takes long: ./test --all runs it"
 
 using irad::TemporaryFolder;
+
+/// Processor time used so far by all threads of a process that is a child of this one, and by its own children that
+/// have ended, seconds.
+double processorSeconds(pid_t process);
+/// Children that go on from one test to the next: what they do in a test counts as the test's.
+std::set<pid_t>& lastingProcesses();
 
 /// A file's bytes; none where it cannot be read.
 std::string slurp(const std::filesystem::path& path);

@@ -42,49 +42,62 @@ inline std::optional<std::string> threadsAsleep(pid_t process, pid_t except = 0)
   return runs;
 }
 
-/// A program in a folder and an environment of its own, what it prints in a file there. It ends with the test, even a
-/// test that is killed; therefore the thread that starts it must live as long.
-class Program {
+/// What runs beside the test, in a process, and prints into a file.
+class Running {
  public:
-  Program(const std::vector<std::string>& command, const std::filesystem::path& folder,
-          const std::map<std::string, std::string>& environment)
-      : log_(folder / (std::filesystem::path(command[0]).filename().string() + ".log")),
-        process_("/usr/bin/setpriv", throughEnv(command, folder, environment), log_, log_) {}
-  /// Asked to end first, so that a server removes its lock and socket.
-  ~Program() {
-    if (!running()) return;
-    kill(process_.pid(), SIGTERM);
-    wait(5);
-  }
+  explicit Running(std::filesystem::path log) : log_(std::move(log)) {}
+  virtual ~Running() = default;
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
 
-  /// At once, as a crash would.
-  void killNow() {
-    kill(process_.pid(), SIGKILL);
-    wait(60);  // until then it holds its files' locks
-  }
-  bool running() { return !process_.poll(); }
+  /// Ends the process at once, as a crash would.
+  virtual void killNow() = 0;
+  bool running() { return !poll(); }
   /// Exit status, or -1 when it still runs after `seconds`.
   int wait(double seconds) {
     for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); running();) {
       if (Clock::now() > end) return -1;
       pause(0.02);
     }
-    return *process_.poll();
+    return *poll();
   }
-  /// Processor time used so far by all its threads, seconds.
-  double cpuSeconds() const {
-    const std::string stat = slurp(fmt::format("/proc/{}/stat", process_.pid()));
-    std::istringstream fields(stat.substr(stat.rfind(')') + 2));
-    std::string skipped;
-    for (int i = 3; i < 14; ++i) fields >> skipped;
-    double user = 0, system = 0;
-    fields >> user >> system;
-    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-  }
-  std::optional<std::string> asleep() const { return threadsAsleep(process_.pid()); }
+  /// Processor time used so far by all threads of the process, seconds.
+  double cpuSeconds() const { return processorSeconds(pid()); }
+  std::optional<std::string> asleep() const { return threadsAsleep(pid()); }
   std::string log() const { return slurp(log_); }
 
  private:
+  virtual pid_t pid() const = 0;
+  virtual std::optional<int> poll() = 0;  ///< the exit status; none while it runs
+  std::filesystem::path log_;
+};
+
+/// A program in a folder and an environment of its own, what it prints in a file there. It ends with the test, even a
+/// test that is killed; therefore the thread that starts it must live as long.
+class Program : public Running {
+ public:
+  Program(const std::vector<std::string>& command, const std::filesystem::path& folder,
+          const std::map<std::string, std::string>& environment)
+      : Program(command, folder, environment,
+                folder / (std::filesystem::path(command[0]).filename().string() + ".log")) {}
+  /// Asked to end first, so that a server removes its lock and socket.
+  ~Program() override {
+    if (!running()) return;
+    kill(process_.pid(), SIGTERM);
+    wait(5);
+  }
+
+  void killNow() override {
+    kill(process_.pid(), SIGKILL);
+    wait(60);  // until then it holds its files' locks
+  }
+  pid_t pid() const override { return process_.pid(); }
+
+ private:
+  Program(const std::vector<std::string>& command, const std::filesystem::path& folder,
+          const std::map<std::string, std::string>& environment, const std::filesystem::path& log)
+      : Running(log), process_("/usr/bin/setpriv", throughEnv(command, folder, environment), log, log) {}
+  std::optional<int> poll() override { return process_.poll(); }
   /// setpriv(1) becomes env(1), and that the program: the process is the same.
   static std::vector<std::string> throughEnv(const std::vector<std::string>& command,
                                              const std::filesystem::path& folder,
@@ -94,7 +107,6 @@ class Program {
     words.insert(words.end(), command.begin(), command.end());
     return words;
   }
-  std::filesystem::path log_;
   Process process_;
 };
 

@@ -17,13 +17,14 @@ class WindowAccuracy : public WindowTest {
  protected:
   void SetUp() override {
     WindowTest::SetUp();
+    detail_ = "32";
     if (IsSkipped()) return;
     std::vector<std::string> folded;
     for (const auto& panel : makePanels())
       if (panel->title() != std::string("Accuracy")) folded.emplace_back(panel->title());
     fold(nlohmann::json(folded).dump().c_str());
   }
-  /// Three resolutions about that of start(), each better and dearer than the one before.
+  /// Three resolutions up to that of start(), each better and dearer than the one before.
   void makeStudy(const nlohmann::ordered_json& more = nlohmann::ordered_json::object()) const {
     Settings base = defaultSettings(/*cpuDevice=*/true);
     base.voxel.resolution = 32, base.matrix.gpu.rays = 32, base.specular.mode = SpecularMode::off;

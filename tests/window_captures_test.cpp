@@ -41,6 +41,7 @@ class WindowCapturesTest : public WindowTest {
   std::filesystem::path out_ = folder_.path / "out";
 
   void begin(std::vector<std::string> more = {}) {
+    detail_ = "32";
     fold(R"(["Scene", "Lights", "Effects", "Materials", "Objects", "Cameras", "View", "Compare", "Solver", "Memory"])");
     more.insert(more.end(), {"--out", out_.string()});
     start(more);

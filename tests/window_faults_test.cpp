@@ -8,7 +8,10 @@
 namespace irad::test::window_faults_suite {
 namespace {
 
-using WindowFaultsTest = WindowTest;
+class WindowFaultsTest : public WindowTest {
+ protected:
+  WindowFaultsTest() { detail_ = "32"; }
+};
 
 TEST_F(WindowFaultsTest, TakesDroppedScenesAndRefusesOthersInWords) {
   start();
@@ -184,6 +187,7 @@ TEST_F(WindowFaultsTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
 }
 
 TEST_F(WindowFaultsTest, ALostDeviceEndsItWithAMessage) {
+  startsProgram_ = true;
   // In the load, and once pictures are drawn.
   for (const char* fault : {"lost=30", "lost=400"}) {
     start({"--inject", fault});

@@ -10,6 +10,7 @@
 #include "tests/controls.h"
 #include "tests/file_drop.h"
 #include "tests/mouse.h"
+#include "tests/window_host.h"
 
 namespace irad::test {
 
@@ -17,6 +18,10 @@ class WindowTest : public ::testing::Test {
  protected:
   bool exposesFiles_ = false;  ///< as the window does where no exposure is given
   std::string windowSize_ = "1280x720";
+  std::string detail_ = "16";  ///< voxels along the Box, and rays of a facet
+  /// Where the process is what is tested. Other windows come one after another in the same one, whose device they find
+  /// with the pipelines that those before have made.
+  bool startsProgram_ = false;
 
   void SetUp() override {
     for (const char* program : {"Xvfb", "xdotool"})
@@ -27,13 +32,15 @@ class WindowTest : public ::testing::Test {
     if (HasFailure() && window_) std::cerr << "irad said:\n" << window_->log();
   }
 
-  /// A small Box, so that one picture takes a fraction of a second on a CPU rasterizer.
+  /// A small Box, so that one picture takes a fraction of a second on a CPU rasterizer, whose light is solved with one
+  /// frame: pictures of light on its way take most of what such a device has to do, and no test here looks at them.
   void start(std::vector<std::string> more = {}, const std::filesystem::path& scene = assets() / "box.glb") {
     std::vector<std::string> command{iradProgram(),  "view",
                                      scene.string(), "--size",
                                      windowSize_,    "--validate",
-                                     "--set",        "voxel.resolution=32",
-                                     "--set",        "matrix.rays=32",
+                                     "--set",        "voxel.resolution=" + detail_,
+                                     "--set",        "matrix.rays=" + detail_,
+                                     "--set",        "solver.sweeps_per_frame=100",
                                      "--set",        "specular.mode=off",
                                      "--controls",   controlsFile().string()};
     if (!exposesFiles_) command.insert(command.end(), {"--set", "camera.exposure=0"});
@@ -42,7 +49,11 @@ class WindowTest : public ::testing::Test {
     environment.insert(environment_.begin(), environment_.end());
     // Where it covers nothing that is compared: the server draws its pointer, too.
     xdotool("mousemove 700 6");
-    window_ = std::make_unique<Program>(command, folder_.path, environment);
+    window_.reset();
+    if (startsProgram_)
+      window_ = std::make_unique<Program>(command, folder_.path, environment);
+    else
+      window_ = std::make_unique<HostedWindow>(command, folder_.path, environment);
   }
   /// Remembered from an earlier run, as a JSON array of titles: the other panels are where a test looks for them.
   void fold(const char* panels) {
@@ -83,13 +94,16 @@ class WindowTest : public ::testing::Test {
   }
   /// The control with its middle in view: turns the wheel over its region until it is.
   Control shown(const std::string& name) {
+    constexpr int kMostPerTurn = 120;  // pixels that a turn scrolls by, at most
     Control c = control(name);
     for (int turn = 0; turn < 60; ++turn) {
       const int middle = c.area.y + c.area.height / 2;
       const bool below = middle >= c.region.bottom();
       if (middle >= c.region.y && !below) return c;
+      const int turns = 1 + (below ? middle - c.region.bottom() : c.region.y - middle) / kMostPerTurn;
       // At its edge: in its middle a list within it may take the wheel.
-      xdotool(fmt::format("mousemove {} {} click {}", c.region.x + 3, c.region.y + c.region.height / 2, below ? 5 : 4));
+      xdotool(fmt::format("mousemove {} {} click --repeat {} --delay 1 {}", c.region.x + 3,
+                          c.region.y + c.region.height / 2, turns, below ? 5 : 4));
       rests();
       c = control(name);
     }
@@ -296,7 +310,7 @@ class WindowTest : public ::testing::Test {
   TemporaryFolder folder_;
   std::unique_ptr<VirtualScreen> screen_;
   std::map<std::string, std::string> environment_;  ///< of windows that start(), beside the screen's
-  std::unique_ptr<Program> window_;
+  std::unique_ptr<Running> window_;
 };
 
 const auto lit = [](const ScreenPart& p) { return p.meanLuminance() > 0.05 && p.deviation() > 0.02; };

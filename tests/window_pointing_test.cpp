@@ -10,6 +10,7 @@ class WindowPointingTest : public WindowTest {
  protected:
   void begin(std::vector<std::string> more = {}) {
     fold(R"(["Accuracy", "Scene", "Effects", "Inspector", "Compare", "Solver", "Memory", "Lights", "Materials"])");
+    detail_ = "32";
     start(std::move(more));
     away();
     ASSERT_TRUE(viewportSettles(lit));

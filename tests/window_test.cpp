@@ -6,6 +6,7 @@ namespace irad::test::window_suite {
 namespace {
 
 TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
+  startsProgram_ = true;
   start();
   ASSERT_TRUE(viewportSettles(lit)) << "mean " << viewport().meanLuminance() << ", deviation "
                                     << viewport().deviation();
@@ -422,6 +423,7 @@ TEST_F(WindowTest, RefusesWhatItCannotShow) {
   start({"--view", "lti"});
   EXPECT_EQ(window_->wait(60), 2);
   EXPECT_NE(window_->log().find("lit"), std::string::npos) << "the near match is named";
+  detail_ = "32";
   start({"--inspect", "16,16,16"});
   EXPECT_EQ(window_->wait(60), 2);
   EXPECT_NE(window_->log().find("the nearest solid voxel is"), std::string::npos) << window_->log();

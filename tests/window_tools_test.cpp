@@ -12,7 +12,10 @@
 namespace irad::test::window_tools_suite {
 namespace {
 
-using WindowToolsTest = WindowTest;
+class WindowToolsTest : public WindowTest {
+ protected:
+  WindowToolsTest() { detail_ = "32"; }
+};
 
 TEST_F(WindowToolsTest, CapturesReplayToTheSameBits) {
   IRAD_ONLY_WITH_ALL();
@@ -273,6 +276,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
 }
 
 TEST_F(WindowToolsTest, TheMenuCapturesAFrameWithRenderDoc) {
+  startsProgram_ = true;
   environment_["LD_PRELOAD"] = (buildFolder() / "tests/renderdoc/librenderdoc.so").string();
   start();
   goAside();

@@ -38,6 +38,12 @@ class WindowUndoTest : public WindowTest {
     away();
     ASSERT_TRUE(viewportSettles(lit));
   }
+  /// A window in a process of its own, to be killed.
+  void startKilled(const std::filesystem::path& scene = assets() / "box.glb") {
+    startsProgram_ = true;
+    begin(scene);
+    startsProgram_ = false;
+  }
   void undo() {
     key("ctrl+z");
     rests();
@@ -235,7 +241,7 @@ TEST_F(WindowUndoTest, ACancelledRebuildReturnsTheSettingThatWasBuilt) {
 
 TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
   const std::filesystem::path scene = ownScene();
-  begin(scene);
+  startKilled(scene);
   EXPECT_TRUE(kept().empty());
   click("Lights/point");
   ASSERT_TRUE(keeps(1)) << "no autosave";
@@ -266,7 +272,7 @@ TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
   EXPECT_FALSE(std::filesystem::exists(sidecarPath(scene))) << "saved without being asked";
 
   // Taken: its scene is opened with all of it, as one step, still unsaved and still kept.
-  begin();
+  startKilled();
   click(kTake);
   EXPECT_TRUE(appears("Lights/1")) << "no light";
   shown("Cameras/Add bookmark");  // below the list, whose rows are there once it is in view
@@ -317,7 +323,7 @@ TEST_F(WindowUndoTest, AKilledWindowsWorkIsOfferedAndTaken) {
 }
 
 TEST_F(WindowUndoTest, BothSidesOfAComparisonAreTakenAndTheNextTimeDiscarded) {
-  begin();
+  startKilled();
   click("Compare");
   click("Compare/Compare with these settings");
   ASSERT_TRUE(appears("Compare/edit B"));
@@ -331,7 +337,7 @@ TEST_F(WindowUndoTest, BothSidesOfAComparisonAreTakenAndTheNextTimeDiscarded) {
   const auto before = filters();
   EXPECT_EQ(before.second, SampleFilter::linear);
   EXPECT_NE(before.first, before.second);
-  begin();
+  startKilled();
   click(kTake);
   click("Compare");
   EXPECT_TRUE(appears("Compare/End the comparison")) << "no comparison";
