@@ -346,16 +346,26 @@ void linkFacets(Context& context, FacetList& list, const Buffer& facings) {
   Surface& surface = list.surface;
   const Device& device = context.device;
   const Buffer found(device, "links as found", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
+  const Buffer at(device, "surfels to link", Subsystem::Facets, sizeof(glm::vec4) * FACET_SURFELS * list.count);
   const Buffer total = words(device, "links", 1);
   uint32_t links = 0;
   {
     Frame frame = context.begin();
+    Pass surfels = frame.pass(kListStage);
+    LinkPointsPush points{};
+    points.surface = surfels.in(surface.record);
+    points.reverse = surfels.in(list.reverse);
+    points.points = surfels.out(at);
+    points.dims = list.grid.dims;
+    points.count = list.count;
+    surfels.shader("gi/link_points.comp").push(points).dispatch(uint64_t{FACET_SURFELS} * list.count);
     Pass pass = frame.pass(kListStage);
     LinkFacetsPush push{};
     push.surface = pass.in(surface.record);
     push.voxel = pass.in(list.voxel);
     push.reverse = pass.in(list.reverse);
     push.facings = pass.in(facings);
+    push.points = pass.in(at);
     push.found = pass.out(found);
     push.masks = pass.out(surface.linkMasks);
     push.counts = pass.out(surface.firstLinks);

@@ -33,12 +33,12 @@ float liftOf(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p
   return entry == NO_FACET ? ABOVE_SURFACE : clearAbove(piecesOf(surface, entry), p.position, p.facing, p.triangle);
 }
 
-bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from, SurfelPoint b) {
-  SurfelPoint a = from.at;
+bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from, SidePoint to) {
+  SurfelPoint a = from.at, b = to.at;
   vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0;
   SideWay way = wayBetween(surface.corners, low - AROUND_CELL, high + AROUND_CELL, a, b);
   if (!way.open) return false;
-  SidePath path = pathOf(way, from, SidePoint(b, liftOf(surface, reverse, dims, b)));
+  SidePath path = pathOf(way, from, to);
   for (uint i = 0u; i < segmentsOf(path); ++i) {
     vec3 p, q;
     segmentAt(path, i, p, q);
@@ -47,11 +47,11 @@ bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint f
   return true;
 }
 
-/// The surfel of a facet that is nearest to a point, and which it is.
-SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2, out uint nearest) {
+/// The surfel of a facet that is nearest to a point.
+SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2) {
   FacetSurfels surfels = surfelsOf(surface, facet);
   distance2 = 1e30;
-  nearest = 0u;
+  uint nearest = 0u;
   for (uint k = 0u; k < FACET_SURFELS; ++k) {
     vec3 d = surfelOf(surface, surfels, k).position - point;
     if (dot(d, d) >= distance2) continue;
@@ -59,11 +59,6 @@ SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out flo
     nearest = k;
   }
   return surfelOf(surface, surfels, nearest);
-}
-
-SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2) {
-  uint nearest;
-  return nearestSurfel(surface, facet, point, distance2, nearest);
 }
 
 #endif

@@ -15,7 +15,6 @@ const uint NOTHING_STANDS = 0xFFFFu;
 shared uint sides[LINK_FACETS];                        ///< triangle | SURFEL_BACK of each facet
 shared vec3 facings[LINK_FACETS];
 shared vec3 surfels[LINK_FACETS][FACET_SURFELS];       ///< their positions
-shared float lifts[LINK_FACETS][FACET_SURFELS];
 shared uint entries[PLACES];
 shared uint state[PLACES];                        ///< link, pair and next
 shared uint wholeOrApart[PLACES];                 ///< before the rounds wholePiece(); in them apart
@@ -85,6 +84,19 @@ uint ownSurfel(uint own, vec3 point) {
   return nearest;
 }
 
+/// The same of another facet, and how far it is.
+uint nearestOf(uint facet, vec3 point, out float distance2) {
+  uint nearest = 0u;
+  distance2 = 1e30;
+  for (uint k = 0u; k < FACET_SURFELS; ++k) {
+    vec3 d = push.points.at[FACET_SURFELS * facet + k].xyz - point;
+    if (dot(d, d) >= distance2) continue;
+    distance2 = dot(d, d);
+    nearest = k;
+  }
+  return nearest;
+}
+
 /// The facet to look at in this round.
 uint otherFacet(uint place) { return firstFacet(entries[place]) + nextOf(place); }
 
@@ -92,19 +104,23 @@ uint otherFacet(uint place) { return firstFacet(entries[place]) + nextOf(place);
 bool findPair(SurfaceArrays surface, uint place) {
   uint own = place / 27u, facet = LINK_FACETS * irad_workgroup() + own;
   vec3 border = vec3(unpackVoxel(push.voxel.at[facet])) + 0.5 + 0.5 * vec3(stepOf(place));
-  uint nearest = ownSurfel(own, border), other;
-  SurfelPoint from = surfelOf(surface, facet, nearest);
+  uint nearest = ownSurfel(own, border);
   float apart;
-  SurfelPoint to = nearestSurfel(surface, otherFacet(place), from.position, apart, other);
+  uint other = nearestOf(otherFacet(place), surfels[own][nearest], apart);
   setPair(place, nearest + FACET_SURFELS * other);
   wholeOrApart[place] = floatBitsToUint(apart);
-  return apart < best[place] && mayContinue(from, to);
+  return apart < best[place] &&
+         mayContinue(surfelOf(surface, facet, nearest), surfelOf(surface, otherFacet(place), other));
+}
+
+SidePoint sidePoint(SurfaceArrays surface, uint facet, uint k) {
+  return SidePoint(surfelOf(surface, facet, k), push.points.at[FACET_SURFELS * facet + k].w);
 }
 
 void lookAt(SurfaceArrays surface, uint place) {
-  uint own = place / 27u, nearest = pairOf(place) % FACET_SURFELS;
-  SidePoint from = SidePoint(surfelOf(surface, LINK_FACETS * irad_workgroup() + own, nearest), lifts[own][nearest]);
-  SurfelPoint to = surfelOf(surface, otherFacet(place), pairOf(place) / FACET_SURFELS);
+  uint own = LINK_FACETS * irad_workgroup() + place / 27u;
+  SidePoint from = sidePoint(surface, own, pairOf(place) % FACET_SURFELS);
+  SidePoint to = sidePoint(surface, otherFacet(place), pairOf(place) / FACET_SURFELS);
   if (!continues(surface, push.reverse, push.dims, from, to)) return;
   best[place] = apartOf(place);
   setLink(place, nextOf(place));
@@ -119,11 +135,8 @@ void main() {
     sides[i] = surfelAt(surface, surfelsOf(surface, firstFacet_ + i), FACET_SURFELS / 2u).triangle;
     facings[i] = push.facings.at[firstFacet_ + i];
   }
-  for (uint i = lane; i < FACET_SURFELS * count; i += gl_WorkGroupSize.x) {
-    SurfelPoint p = surfelOf(surface, firstFacet_ + i / FACET_SURFELS, i % FACET_SURFELS);
-    surfels[i / FACET_SURFELS][i % FACET_SURFELS] = p.position;
-    lifts[i / FACET_SURFELS][i % FACET_SURFELS] = liftOf(surface, push.reverse, push.dims, p);
-  }
+  for (uint i = lane; i < FACET_SURFELS * count; i += gl_WorkGroupSize.x)
+    surfels[i / FACET_SURFELS][i % FACET_SURFELS] = push.points.at[FACET_SURFELS * firstFacet_ + i].xyz;
   if (lane < 2u) queued[lane] = likelies[lane] = 0u;
   barrier();
   for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {

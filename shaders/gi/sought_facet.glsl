@@ -130,7 +130,7 @@ Candidate foundIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 lo
         to = s;
       }
       if (next == NO_FACET) break;
-      if (continues(surface, reverse, dims, from, to)) {
+      if (continues(surface, reverse, dims, from, SidePoint(to, liftOf(surface, reverse, dims, to)))) {
         found = Candidate(next, best);
         break;
       }

@@ -233,12 +233,22 @@ struct PieceGroupsPush {
   uint count;            ///< solid voxels
 };
 
+/// gi/link_points.comp.
+struct LinkPointsPush {
+  SurfaceRecord surface;
+  UintArray reverse;
+  Vec4Array points;  ///< FACET_SURFELS per facet: a surfel's position; w: how far above it ways begin
+  uvec3 dims;
+  uint count;        ///< facets
+};
+
 /// gi/link_facets.comp: as many facets a workgroup.
 IRAD_CONST uint LINK_FACETS = 8u;
 struct LinkFacetsPush {
   SurfaceRecord surface;
   UintArray voxel, reverse;
   Vec3Array facings;     ///< FacetSurfelsPush
+  Vec4Array points;      ///< LinkPointsPush
   LinkArray found;       ///< FACET_LINKS per facet
   UintArray masks;
   UintArray counts;      ///< of links, per facet
