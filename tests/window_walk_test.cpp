@@ -390,8 +390,9 @@ class WholeWindowTest : public WindowWalk {
   void compare(const std::string& name, std::vector<std::string> more) {
     const char* font = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
     if (!std::filesystem::exists(font)) GTEST_SKIP() << font << " is not installed: the text is another font's";
-    // Solved to less than its rounding, the light would take a sweep more or less from one processor to the next.
-    more.insert(more.end(), {"--set", "solver.tolerance=1e-3"});
+    // Solved to less than its rounding, the light would take a sweep more or less from one processor to the next. The
+    // panels tell of sweeps, and of settings that are not the defaults.
+    more.insert(more.end(), {"--set", "solver.tolerance=1e-3", "--set", "solver.sweeps_per_frame=4"});
     start(settings(more));
     rests();
     xdotool("mousemove 1500 900");  // out of the picture
