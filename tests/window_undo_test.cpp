@@ -177,6 +177,21 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   EXPECT_EQ(steps(), 2);
   undo();
 
+  // The camera in numbers: where it is, the way it looks, its field of view.
+  away();
+  const ScreenPart standing = viewport();
+  const auto isAStep = [&](const char* field, const char* text, double across) {
+    enterNumber(field, text, across);
+    away();
+    EXPECT_TRUE(differs(standing)) << field;
+    undo();
+    away();
+    EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == standing; })) << field << " is not undone";
+  };
+  isAStep("Cameras/position", "1", 1.0 / 6);
+  isAStep("Cameras/yaw", "20", 0.5);
+  isAStep("Cameras/view", "70", 0.5);
+
   // The panel's buttons and list.
   click("History/Redo");
   ASSERT_TRUE(appearsUnder("History/Redo", "History/0"));
@@ -388,6 +403,10 @@ TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
   chooseLight();
   closes("Lights/0/name", "");
   closes("Cameras/name", "");
+  closes("Materials/search", "");
+  closes("Objects/search", "");
+  closes("Accuracy/samples", "Accuracy/samples/64");
+  closes("Timings/window", "Timings/window/600 frames");
   closes("Settings/preset", "Settings/preset/fast");
   closes("Effects/emission", "Effects/emission/off");
   closes("View/view", "View/view/lit");
