@@ -177,21 +177,6 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   EXPECT_EQ(steps(), 2);
   undo();
 
-  // The camera in numbers: where it is, the way it looks, its field of view.
-  away();
-  const ScreenPart standing = viewport();
-  const auto isAStep = [&](const char* field, const char* text, double across) {
-    enterNumber(field, text, across);
-    away();
-    EXPECT_TRUE(differs(standing)) << field;
-    undo();
-    away();
-    EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == standing; })) << field << " is not undone";
-  };
-  isAStep("Cameras/position", "1", 1.0 / 6);
-  isAStep("Cameras/yaw", "20", 0.5);
-  isAStep("Cameras/view", "70", 0.5);
-
   // The panel's buttons and list.
   click("History/Redo");
   ASSERT_TRUE(appearsUnder("History/Redo", "History/0"));
