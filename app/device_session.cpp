@@ -24,8 +24,7 @@ DeviceSession::DeviceSession(Machine& machine, const SettingArguments& arguments
   (void)arguments.resolve(config, /*cpuDevice=*/true);
   opened = machine.open(deviceArguments.options());
   device = opened->device.get();
-  context = std::make_unique<Context>(*device, opened->shaders, timings, opened->pipelines);
-  opened->pipelines = context->pipelines();
+  context = opened->makeContext(timings);
   settings = arguments.resolve(config, device->isCpu);
 }
 

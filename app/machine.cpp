@@ -26,6 +26,12 @@ bool servesAgain(const OpenDevice& opened) {
 
 OpenDevice::OpenDevice(const DeviceOptions& options) : device(Device::create(options)) {}
 
+std::unique_ptr<Context> OpenDevice::makeContext(Timings& timings) {
+  auto context = std::make_unique<Context>(*device, shaders, timings, pipelines);
+  pipelines = context->pipelines();
+  return context;
+}
+
 void OpenDevice::checkValidation() const {
   std::vector<std::string> messages = device->validationMessages();
   messages.erase(messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(messagesBefore));

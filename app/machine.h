@@ -13,8 +13,10 @@
 #include "renderer/shaders.h"
 
 namespace irad {
+class Context;
 class PipelineCache;
-}
+class Timings;
+}  // namespace irad
 
 namespace irad::app {
 
@@ -26,6 +28,8 @@ struct OpenDevice {
   std::shared_ptr<PipelineCache> pipelines;  ///< none before its first context
   size_t messagesBefore = 0;                 ///< of validation, of those that it was opened for before
 
+  /// On it; the next one finds the pipelines that this one makes.
+  std::unique_ptr<Context> makeContext(Timings& timings);
   /// WorkError with the messages of validation, where that was asked for and there are any.
   void checkValidation() const;
 };

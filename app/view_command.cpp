@@ -128,11 +128,7 @@ void openWindow(Machine& machine, WindowOptions options, const Config& config, c
   options.defaults = defaultSettings(opened->device->isCpu);
   options.load = scene.load(config, options.settings);
   useSky(options.settings, options.load);
-  {
-    Context context(*opened->device, opened->shaders, timings, opened->pipelines);
-    opened->pipelines = context.pipelines();
-    runWindow(context, options);
-  }
+  runWindow(*opened->makeContext(timings), options);
   opened->checkValidation();
   machine.leave(std::move(opened));
 }

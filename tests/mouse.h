@@ -41,9 +41,9 @@ class Mouse {
 
  private:
   /// Until a frame has been drawn with the mouse there, its button up or down. While light is gathered anew none is
-  /// drawn: a second on two idle cores, more than 20 where six windows share them with a compiler.
+  /// drawn: for a second on two idle cores, for more than 20 on busy ones.
   void waitUntilSeen(const std::string& place, bool down) const {
-    for (const auto end = Clock::now() + std::chrono::seconds(300); Clock::now() < end; pause(0.005))
+    for (const auto end = Clock::now() + kPatience; Clock::now() < end; pause(0.005))
       for (const Control& c : readControls(controls_))
         if (c.name == "pointer" && c.on == down && fmt::format("{} {}", c.area.x, c.area.y) == place) return;
     ADD_FAILURE() << "the window does not see the mouse at " << place << (down ? ", pressed" : ", not pressed");

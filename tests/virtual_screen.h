@@ -23,6 +23,10 @@ namespace irad::test {
 
 using Clock = std::chrono::steady_clock;
 
+/// What a busy machine may take for what an idle one does in seconds: the first window of a machine compiles every
+/// pipeline, and six windows share two cores with a compiler.
+constexpr std::chrono::seconds kPatience{300};
+
 inline void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }

@@ -227,7 +227,7 @@ class WindowTest : public ::testing::Test {
   /// can be compared.
   void rests() {
     const auto asleep = [this] { return std::pair(screen_->server().asleep(), window_->asleep()); };
-    for (const auto end = Clock::now() + std::chrono::seconds(300); Clock::now() < end && window_->running();) {
+    for (const auto end = Clock::now() + kPatience; Clock::now() < end && window_->running();) {
       const auto before = asleep();
       pause(0.05);
       if (before.first && before.second && asleep() == before) return;

@@ -10,7 +10,7 @@ class WindowLampsTest : public WindowTest {
     fold(
         R"(["Accuracy", "Settings", "Scene", "Effects", "View", "Materials", "Inspector", "Compare", "Solver", "Memory",
          "Timings", "History", "Cameras"])");
-    start({"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+    start();
     away();
     ASSERT_TRUE(viewportSettles(lit));
   }

@@ -19,7 +19,6 @@ class WindowObjectsTest : public WindowTest {
     fold(R"(["Accuracy", "Scene", "Lights", "Materials", "Cameras", "History", "Settings", "Effects", "Compare"])");
     const std::filesystem::path scene = folder_.path / "own.glb";
     if (!std::filesystem::exists(scene)) std::filesystem::copy_file(assets() / "box.glb", scene);
-    more.insert(more.begin(), {"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
     start(more, scene);
     away();
     EXPECT_TRUE(viewportSettles(lit));

@@ -37,8 +37,7 @@ class WindowPanelsTest : public WindowTest {
     fold("[]");
     windowSize_ = size;
     margin_ = static_cast<int>(5 * std::stof(scale));
-    start({"--set", "voxel.resolution=16", "--set", "matrix.rays=16", "--inspect", "7,1,13", "--view", "depth",
-           "--scale", scale});
+    start({"--inspect", "7,1,13", "--view", "depth", "--scale", scale});
     rests();
     click("View/Histogram");
     // The rows of a list are there once what is below it is in view.

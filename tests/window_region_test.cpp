@@ -19,7 +19,7 @@ class WindowRegionTest : public WindowTest {
 
 TEST_F(WindowRegionTest, ABoxIsDraggedByItsFaces) {
   fold(R"(["Accuracy", "Effects", "Lights", "Materials", "Inspector", "Compare", "Solver", "Memory", "Timings"])");
-  start({"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+  start();
   away();
   ASSERT_TRUE(viewportSettles(lit));
   EXPECT_EQ(row("region"), "whole");
@@ -55,7 +55,7 @@ TEST_F(WindowRegionTest, TheBoxIsSavedAndComesBack) {
   const std::filesystem::path scene = folder_.path / "own.glb", sidecar = sidecarPath(scene);
   std::filesystem::copy_file(assets() / "box.glb", scene);
   const auto begin = [&] {
-    start({"--set", "voxel.resolution=16", "--set", "matrix.rays=16"}, scene);
+    start({}, scene);
     away();
     ASSERT_TRUE(viewportSettles(lit));
   };

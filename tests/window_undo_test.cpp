@@ -33,7 +33,6 @@ class WindowUndoTest : public WindowTest {
   }
   void begin(const std::filesystem::path& scene = assets() / "box.glb", std::vector<std::string> more = {}) {
     fold(R"(["Accuracy", "Scene", "Materials", "Objects", "Effects", "Inspector", "Compare", "Solver", "Memory"])");
-    more.insert(more.begin(), {"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
     start(more, scene);
     away();
     ASSERT_TRUE(viewportSettles(lit));
@@ -358,7 +357,7 @@ TEST_F(WindowUndoTest, BothSidesOfAComparisonAreTakenAndTheNextTimeDiscarded) {
 /// Every list, popup and field of every panel: Esc closes it, and the window stays.
 TEST_F(WindowUndoTest, EscClosesInEveryPanelAndNeverQuits) {
   fold("[]");
-  start({"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
+  start();
   away();
   ASSERT_TRUE(viewportSettles(lit));
   click("Lights/0");

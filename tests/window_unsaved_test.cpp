@@ -20,9 +20,7 @@ class WindowUnsavedTest : public WindowTest {
   /// All panels unfolded except those whose controls would have to be scrolled to; the mouse out of the way.
   void begin(std::vector<std::string> more = {}, const std::filesystem::path& scene = assets() / "box.glb") {
     fold(R"(["Accuracy", "Scene", "Objects", "Effects", "Solver", "Memory"])");
-    std::vector<std::string> words{"--set", "voxel.resolution=16", "--set", "matrix.rays=16"};
-    words.insert(words.end(), more.begin(), more.end());
-    start(words, scene);
+    start(std::move(more), scene);
     away();
     ASSERT_TRUE(viewportSettles(lit));
   }

@@ -13,8 +13,7 @@ class WindowWordsTest : public WindowTest {
                          "History", "Cameras", {}])",
              folded)
              .c_str());
-    more.insert(more.begin(), {"--set", "voxel.resolution=16", "--set", "matrix.rays=16"});
-    start(more);
+    start(std::move(more));
     rests();
   }
 };
