@@ -111,21 +111,22 @@ constexpr std::array kStages{Redo::Voxels,   Redo::Field,  Redo::Matrix, Redo::M
                              Redo::Emission, Redo::Gather, Redo::Solve,  Redo::Scatter};
 
 /// The stages before `stage` whose products it reads.
-std::vector<Redo> readBy(Redo stage) {
+std::span<const Redo> readBy(Redo stage) {
+  static constexpr Redo kVoxels[]{Redo::Voxels}, kField[]{Redo::Field}, kMatrix[]{Redo::Matrix},
+      kLight[]{Redo::Materials, Redo::Emission, Redo::Gather}, kSolve[]{Redo::Solve};
   switch (stage) {
     case Redo::Field:
-      return {Redo::Voxels};
-    case Redo::Matrix:
-      return {Redo::Field};
     case Redo::Materials:
-      return {Redo::Voxels};
+      return kVoxels;
+    case Redo::Matrix:
+      return kField;
     case Redo::Emission:  // and M: SceneContent::emission with the settings of Redo::Materials
     case Redo::Gather:
-      return {Redo::Matrix};
+      return kMatrix;
     case Redo::Solve:
-      return {Redo::Materials, Redo::Emission, Redo::Gather};
+      return kLight;
     case Redo::Scatter:
-      return {Redo::Solve};
+      return kSolve;
     default:
       return {};
   }

@@ -66,9 +66,12 @@ void ImGuiLayer::buildFonts() {
   fonts.SetTexID(nullptr);  // slot 0
 }
 
+void ImGuiLayer::takeInput() {
+  ImGui_ImplGlfw_NewFrame();
+}
+
 void ImGuiLayer::beginFrame() {
   textures_.assign(1, {&atlas_, {.blends = true}});
-  ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
   // Tab is a key of the window's own but in a text field, from which it leads to the next.
   if (!io.WantTextInput) io.KeysDown[io.KeyMap[ImGuiKey_Tab]] = false;
@@ -109,8 +112,8 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
   // All lists into one vertex and one index array; indices are made absolute on the way.
   const auto vertexCount = static_cast<size_t>(data.TotalVtxCount),
              indexCount = static_cast<size_t>(data.TotalIdxCount);
-  vertices_ = Buffer(context_.device, "ui vertices", Subsystem::Ui, vertexCount * sizeof(ImDrawVert), Access::Upload);
-  indices_ = Buffer(context_.device, "ui indices", Subsystem::Ui, indexCount * sizeof(uint32_t), Access::Upload);
+  const Buffer& vertices = frame.hostFilled("ui vertices", Subsystem::Ui, vertexCount * sizeof(ImDrawVert));
+  const Buffer& indices = frame.hostFilled("ui indices", Subsystem::Ui, indexCount * sizeof(uint32_t));
   struct Range {
     uint32_t first, count, texture;
     ImVec4 clip;
@@ -121,12 +124,12 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
     const ImDrawList& list = *data.CmdLists[l];
     const auto count = static_cast<uint32_t>(list.VtxBuffer.Size);
     if (count > 0)
-      std::memcpy(static_cast<ImDrawVert*>(vertices_.mapped) + base, list.VtxBuffer.Data, count * sizeof(ImDrawVert));
+      std::memcpy(static_cast<ImDrawVert*>(vertices.mapped) + base, list.VtxBuffer.Data, count * sizeof(ImDrawVert));
     for (const ImDrawCmd& command : list.CmdBuffer) {
       if (command.UserCallback) continue;  // none is installed
       ranges.push_back({first, command.ElemCount, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(command.TextureId)),
                         command.ClipRect});
-      uint32_t* to = static_cast<uint32_t*>(indices_.mapped) + first;
+      uint32_t* to = static_cast<uint32_t*>(indices.mapped) + first;
       const ImDrawIdx* from = list.IdxBuffer.Data + command.IdxOffset;
       for (uint32_t i = 0; i < command.ElemCount; ++i) to[i] = base + command.VtxOffset + from[i];
       first += command.ElemCount;
@@ -150,7 +153,7 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
         .color(target, std::exchange(clear, std::nullopt))
         .alphaBlend()
         .sample(*textures_.at(texture).image, textures_[texture].use.nearest ? nearest : linear);
-    const uint64_t vertexArray = pass.in(vertices_), indexArray = pass.in(indices_);
+    const uint64_t vertexArray = pass.in(vertices), indexArray = pass.in(indices);
     pass.run([&](Commands& commands) {
       for (size_t i = begin; i < end; ++i) {
         const Range& range = ranges[i];

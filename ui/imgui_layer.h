@@ -36,6 +36,9 @@ class ImGuiLayer {
   void setScale(float scale);
   float scale() const { return scale_; }
 
+  /// Asks the window system for the window's size, its focus and the mouse (under X11 four round trips to the server),
+  /// before each beginFrame().
+  void takeInput();
   void beginFrame();
   /// Registers an image for this frame and returns what ImGui::Image takes. It must live until the frame is submitted.
   void* texture(const Image& image, ImageUse use = {});
@@ -56,7 +59,6 @@ class ImGuiLayer {
     ImageUse use;
   };
   std::vector<Texture> textures_;
-  Buffer vertices_, indices_;  ///< of the last frame; freed when the device has finished with it
 };
 
 }  // namespace irad

@@ -306,14 +306,17 @@ void Window::run() {
   if (!options_.screenshot.empty() && image_) saveScreenshot(context_, image_, options_.screenshot);
 }
 
-/// Once the light is at rest, and then what is chosen is shown, keeps pictures coming; true when enough of them have
-/// been measured.
+/// Once the light is at rest, and then what is chosen is shown, keeps frames coming as somebody's hands do: a picture,
+/// and as many frames of panels alone as follow an event. True when enough of them have been measured.
 bool Window::measured() {
   if (!measuring_ && settled()) {
     measuring_ = choseAll_;
     if (!std::exchange(choseAll_, true)) chooseAll();
   }
-  session_.viewDirty |= measuring_;
+  if (measuring_ && framesLeft_ <= 0) {
+    session_.viewDirty = true;
+    framesLeft_ = 1 + kFramesPerEvent;
+  }
   return options_.uiMilliseconds->size() >= options_.measuredFrames;
 }
 
@@ -556,6 +559,7 @@ void Window::drawFrame() {
       }
   if (!busy) session_.pointing.take(session_);
   const bool due = session_.viewDirty;
+  layer_.takeInput();
   double uiBegan = threadMilliseconds();
   layer_.beginFrame();
   // Drawn first: among windows that focus does not raise, ImGui keeps the order in which they were drawn.

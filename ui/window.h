@@ -41,7 +41,8 @@ struct WindowOptions {
   uint32_t exitAfter = 0;            ///< > 0: end after so many frames in which nothing was left to do
   std::filesystem::path screenshot;  ///< of the whole window when it ends, .png
   std::filesystem::path controls;    ///< file with their places (ui/controls.h), written with every frame
-  // For measurements: once nothing is left to do, pictures follow each other for so many frames, and the window ends.
+  // For measurements: once nothing is left to do, so many frames follow each other, a picture in every fourth, and the
+  // window ends.
   uint32_t measuredFrames = 0;
   std::vector<double>* uiMilliseconds = nullptr;  ///< CPU time of this thread for panels and their triangles, by frame
 };

@@ -147,11 +147,13 @@ void Context::Impl::reset(FrameSlot& slot) {
   slot.awaited = false;
   std::erase_if(slot.staging, [](const FrameSlot::Chunk& chunk) { return chunk.buffer.bytes > kStagingKept; });
   for (FrameSlot::Chunk& chunk : slot.staging) chunk.used = 0;
+  slot.filledUsed = 0;
 }
 
 void Context::Impl::destroy(FrameSlot& slot) {
   --slots;
   slot.staging.clear();
+  slot.filled.clear();
   device.retire(
       [device = device.handle, pool = slot.pool, descriptorPools = slot.descriptorPools, queryPools = slot.queryPools] {
         for (const VkDescriptorPool p : descriptorPools) vkDestroyDescriptorPool(device, p, nullptr);

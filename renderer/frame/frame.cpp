@@ -184,6 +184,15 @@ std::pair<const Buffer*, uint64_t> Frame::Impl::stage(uint64_t bytes, const std:
   return {&chunk->buffer, offset};
 }
 
+const Buffer& Frame::hostFilled(const char* name, SubsystemName subsystem, uint64_t bytes) {
+  FrameSlot& slot = *impl_->slot;
+  if (slot.filledUsed == slot.filled.size()) slot.filled.emplace_back();
+  Buffer& buffer = slot.filled[slot.filledUsed++];
+  if (!buffer || buffer.name != name || buffer.bytes < bytes)  // a quarter more: what grows does so by little
+    buffer = Buffer(impl_->context->device, name, subsystem, bytes + bytes / 4, Access::Upload);
+  return buffer;
+}
+
 void Frame::Impl::beginLabel(const std::string& name) {
   if (!context->device.debugUtils) return;
   const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};

@@ -24,6 +24,9 @@ class Frame {
   /// The same of a part of a 2D image: texels from `corner` on, row by row, as the image stores them.
   void readback(const Image& image, glm::uvec2 corner, glm::uvec2 size,
                 std::function<void(std::span<const uint8_t>)> done);
+  /// At least `bytes` for the host to fill before the frame is submitted and for its passes to read, until the device
+  /// has finished with the frame. Frames that ask for the same again use the memory of earlier ones.
+  const Buffer& hostFilled(const char* name, SubsystemName subsystem, uint64_t bytes);
   /// Makes the frame a sample of its own in the timing table. It is closed when its times are collected, so nobody has
   /// to wait for it. Its CPU time runs from `began` until it is submitted.
   void sampled(uint64_t frameIndex, std::chrono::steady_clock::time_point began);

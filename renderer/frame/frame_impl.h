@@ -27,6 +27,8 @@ struct FrameSlot {
     uint64_t used = 0;
   };
   std::vector<Chunk> staging;  ///< readback memory
+  std::deque<Buffer> filled;   ///< Frame::hostFilled()
+  size_t filledUsed = 0;       ///< by the frame of now: the first so many
   struct Readback {
     const std::byte* bytes;
     uint64_t size;
