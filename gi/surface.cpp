@@ -231,6 +231,12 @@ void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid,
   frame.submitAndWait();
 }
 
+constexpr uint32_t kListWorkgroup = 64;
+/// Invocations that share the work of a crowd with few points.
+uint32_t listWorkgroup(const Device& device) {
+  return device.isCpu ? std::max(8u, device.subgroupSize) : kListWorkgroup;
+}
+
 /// The points of all pieces, in `surface` the cuts of those that others stand on, and each point's facet.
 Points classifyPoints(Context& context, const Pieces& pieces, const Surface& surface, uint32_t& facets) {
   const Device& device = context.device;
@@ -241,30 +247,15 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
   p.wideStart = words(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
   const Buffer total = words(device, "facets", 1), wide = words(device, "wide facets", 1);
-  Frame frame = context.begin();
-  {
+  const Buffer crowds = words(device, "voxels with many points", pieces.solid);
+  const Buffer crowdCounts = words(device, "numbers of these", 2);
+  // Few points leave most of a workgroup without work, which the CPU driver goes through all the same; how many rounds
+  // it allows the loops of an invocation sets an end to how many points each may have.
+  const uint32_t width = listWorkgroup(device),
+                 few = width < kListWorkgroup ? MOST_COMPARED / kListWorkgroup * width : 0;
+  ClassPointsPush push{};
+  const auto classify = [&](Frame& frame) {
     Pass pass = frame.pass(kListStage);
-    PiecePointsPush push{};
-    push.pieceVoxel = pass.in(pieces.pieceVoxel);
-    push.solid = pass.in(pieces.voxel);
-    push.firstPiece = pass.in(pieces.first);
-    push.surface = pass.in(surface.record);
-    push.area = pass.in(pieces.area);
-    push.firstPoint = pass.in(pieces.firstPoint);
-    push.firstCut = pass.in(pieces.firstCut);
-    push.points = pass.out(p.at);
-    push.classes = pass.out(p.classes);
-    push.sides = pass.out(surface.sides);
-    push.cuts = pass.out(surface.cuts);
-    push.count = pieces.count;
-    pass.shader("gi/piece_points.comp")
-        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-        .push(push)
-        .dispatch(pieces.count);
-  }
-  const auto classify = [&](const char* shader) {
-    Pass pass = frame.pass(kListStage);
-    ClassPointsPush push{};
     push.solid = pass.in(pieces.voxel);
     push.firstPiece = pass.in(pieces.first);
     push.surface = pass.in(surface.record);
@@ -275,12 +266,50 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
     push.classes = pass.accumulate(p.classes);
     push.facets = pass.accumulate(p.facetStart);
     push.wide = pass.accumulate(p.wideStart);
-    push.count = pieces.solid;
-    pass.shader(shader).push(push);
+    push.crowds = pass.accumulate(crowds);
+    push.crowdCounts = pass.accumulate(crowdCounts);
     return pass;
   };
-  classify("gi/class_points.comp").dispatch(pieces.solid);
-  classify("gi/class_crowd.comp").dispatchWorkgroups(pieces.solid);
+  {
+    Frame frame = context.begin();
+    frame.pass(kListStage).fill(crowdCounts, 0);
+    Pass pass = frame.pass(kListStage);
+    PiecePointsPush points{};
+    points.pieceVoxel = pass.in(pieces.pieceVoxel);
+    points.solid = pass.in(pieces.voxel);
+    points.firstPiece = pass.in(pieces.first);
+    points.surface = pass.in(surface.record);
+    points.area = pass.in(pieces.area);
+    points.firstPoint = pass.in(pieces.firstPoint);
+    points.firstCut = pass.in(pieces.firstCut);
+    points.points = pass.out(p.at);
+    points.classes = pass.out(p.classes);
+    points.sides = pass.out(surface.sides);
+    points.cuts = pass.out(surface.cuts);
+    points.count = pieces.count;
+    pass.shader("gi/piece_points.comp")
+        .constant(CONSTANT_CLIPS_SHARED, device.isCpu)
+        .push(points)
+        .dispatch(pieces.count);
+    push.few = few;
+    push.count = pieces.solid;
+    classify(frame).shader("gi/class_points.comp").push(push).dispatch(pieces.solid);
+    frame.submitAndWait();
+  }
+  const std::vector<uint32_t> found = downloadAs<uint32_t>(context, crowdCounts);
+  Frame frame = context.begin();
+  const auto classifyCrowds = [&](uint32_t first, uint32_t count, uint32_t workgroup) {
+    if (count == 0) return;
+    push.first = first;
+    push.count = count;
+    classify(frame)
+        .shader("gi/class_crowd.comp")
+        .constant(CONSTANT_LIST_WORKGROUP, workgroup)
+        .push(push)
+        .dispatchWorkgroups(count);
+  };
+  classifyCrowds(0, found[0], width);
+  classifyCrowds(pieces.solid - found[1], found[1], kListWorkgroup);
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
   scanToEnd(frame, p.wideStart, pieces.solid, wide, p.wide);
   frame.submitAndWait();

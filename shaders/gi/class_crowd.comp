@@ -2,36 +2,36 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/class_points.glsl"
-layout(local_size_x = 64) in;
+#include "shared/constants.h"
+layout(local_size_x = 64, local_size_x_id = CONSTANT_LIST_WORKGROUP) in;
 
 shared uint next;
 shared uint leaders[LAST_CLASS + 1u];
 /// By blocks of the voxel's points those that belong to no class yet, and of these those that may belong to the
 /// leader's: far fewer, so that all invocations take turns at them.
-const uint BLOCK = 4u * gl_WorkGroupSize.x;
+const uint BLOCK = 256u;
 shared uint open[BLOCK], likely[BLOCK];
 shared uint opened, likelies;
 
 void main() {
-  uint voxel = irad_workgroup();
-  if (voxel >= push.count) return;
+  if (irad_workgroup() >= push.count) return;
+  uint voxel = push.crowds.at[push.first + irad_workgroup()];
   uint me = gl_LocalInvocationID.x;
   SurfaceArrays surface = push.surface.at[0];
   vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
   VoxelPieces pieces =
       voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
-  if (end - first <= CROWD) return;
   uint stride = (end - first + MOST_COMPARED - 1u) / MOST_COMPARED;
   uint step_ = stride * gl_WorkGroupSize.x;
-  uint classes = 0u;
+  uint classes = 0u, from = first;
   float least = LEAST_FACET;
   while (classes <= LAST_CLASS) {
     // The first that belongs to none yet leads the next class.
     if (me == 0u) next = end;
     barrier();
     bool any = false;
-    for (uint i = first + me * stride; i < end && !any; i += step_) {
+    for (uint i = from + me * stride; i < end && !any; i += step_) {
       any = push.classes.at[i] == NO_CLASS && classPoint(surface, i).area >= least;
       if (any) atomicMin(next, i);
     }
@@ -42,8 +42,10 @@ void main() {
       // Where nothing is large enough, what there is makes facets.
       if (classes > 0u || least == 0.0) break;
       least = 0.0;
+      from = first;
       continue;
     }
+    from = lead;  // none before it may lead
     if (me == 0u) leaders[classes] = lead;
     SidePoint leader = classPoint(surface, lead).point;
     for (uint block = first; block < end; block += BLOCK * stride) {

@@ -13,7 +13,12 @@ void main() {
   VoxelPieces pieces =
       voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
-  if (end - first > CROWD) return;
+  if (end - first > CROWD) {
+    bool few = end - first <= push.few;
+    uint place = atomicAdd(push.crowdCounts.at[few ? 0u : 1u], 1u);
+    push.crowds.at[few ? place : push.count - 1u - place] = voxel;
+    return;
+  }
   uint classes = 0u;
   // What is too small to be a facet joins one; where there is nothing else, it is one.
   for (uint small = 0u; small < 2u; ++small) {

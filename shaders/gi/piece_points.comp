@@ -44,10 +44,11 @@ void main() {
   bool screen = (kind & CUT_SCREEN) != 0u && (surface.cuts.at[cut + 1u] | surface.cuts.at[cut + 2u]) != 0u;
   uint triangles = cut + cutHead(kind);
   uint found = 0u;  // as many as gi/piece_shape.comp has made room for
-  for (uint i = others.first;
-       i < others.endLarge && triangles + found + 1u + mostParts(found + 1u) <= cut + count; ++i)
-    if (i != piece && standsOnSides(cell, triangleAt(surface.corners, surface.pieces.at[i]), t, back))
-      push.cuts.at[triangles + found++] = surface.pieces.at[i];
+  for (uint may = mayStandOn(others, piece, t, back);
+       may != 0u && triangles + found + 1u + mostParts(found + 1u) <= cut + count; may &= may - 1u) {
+    uint other = surface.pieces.at[others.first + findLSB(may)];
+    if (standsOnSides(cell, triangleAt(surface.corners, other), t, back)) push.cuts.at[triangles + found++] = other;
+  }
   uint parts = triangles + found, endParts = parts;
   for (uint k = 0u; k < CUT_POINTS; ++k) {
     vec3 at;

@@ -30,8 +30,8 @@ void main() {
   uint cuts = 0u;
   VoxelPieces others =
       voxelPieces(push.corners, push.pieces, push.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
-  for (uint i = others.first; i < others.endLarge && cuts < MOST_CUTS; ++i)
-    if (i != piece && standsOnSides(cell, triangleAt(push.corners, push.pieces.at[i]), t, back)) ++cuts;
+  for (uint may = mayStandOn(others, piece, t, back); may != 0u && cuts < MOST_CUTS; may &= may - 1u)
+    if (standsOnSides(cell, triangleAt(push.corners, push.pieces.at[others.first + findLSB(may)]), t, back)) ++cuts;
   uint maskWords = hasHoles(push.corners, triangle) ? (isTinted(push.corners, triangle) ? 8u : 2u) : 0u;
   bool cut = cuts > 0u || maskWords > 0u;
   push.points.at[piece] = (cut ? CUT_POINTS : 1u) * (back ? 2u : 1u);

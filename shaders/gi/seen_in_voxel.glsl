@@ -146,6 +146,22 @@ bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
   return standsOn(low, high, standing, t, facing) || (back && standsOn(low, high, standing, t, -facing));
 }
 
+/// Of the large pieces but `own` those that may stand on a triangle's sides, a bit for each from the voxel's first on: by
+/// the heights of their corners alone, which is little beside standsOnSides().
+uint mayStandOn(VoxelPieces voxel, uint own, Triangle t, bool back) {
+  vec3 facing = facingOf(t, false);
+  uint pieces = 0u;
+  for (uint i = voxel.first; i < voxel.endLarge; ++i) {
+    Triangle other = triangleAt(voxel.corners, triangleOf(voxel.pieces, i));
+    vec3 height = vec3(dot(facing, other.a - t.a), dot(facing, other.b - t.a), dot(facing, other.c - t.a));
+    float low = min(height.x, min(height.y, height.z)), high = max(height.x, max(height.y, height.z));
+    bool may = (high > ABOVE_SURFACE / 64.0 && low <= ABOVE_SURFACE) ||
+               (back && -low > ABOVE_SURFACE / 64.0 && -high <= ABOVE_SURFACE);
+    pieces |= may && i != own ? 1u << (i - voxel.first) : 0u;
+  }
+  return pieces;
+}
+
 /// How far above a point of a surface ways from it begin: nothing is on the way there. Where a triangle leans over the
 /// point that is less than ABOVE_SURFACE.
 float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
