@@ -5,6 +5,7 @@
 #include "renderer/base/sha256.h"
 #include "renderer/scene/material_edits.h"
 #include "renderer/scene/sidecar.h"
+#include "tests/scene_files.h"
 #include "tests/window_fixture.h"
 
 namespace irad::test::window_materials_suite {
@@ -89,6 +90,67 @@ TEST_F(WindowMaterialsTest, AreEditedInThePictureAndKept) {
   const ScreenPart near = viewport();
   key("Home");  // farther away than the file's camera
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(near) > 0.05; })) << "Home does nothing";
+  quit();
+}
+
+TEST_F(WindowMaterialsTest, UndoGivesThePictureBack) {
+  fold(R"(["Accuracy", "Scene", "Lights", "Objects", "Cameras", "Settings", "Effects", "Inspector", "Compare",
+           "View", "Memory"])");
+  start();
+  away();
+  ASSERT_TRUE(viewportSettles(lit));
+  const ScreenPart first = viewport();
+  const auto isUndone = [&](const std::string& material, const char* field, const std::function<void()>& edit) {
+    SCOPED_TRACE(material + '/' + field);
+    edit();
+    away();  // a tooltip may reach over the picture
+    EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.levels(first) > 5; })) << "the edit does not show";
+    key("ctrl+z");
+    away();
+    // The light starts from that of the edit, and ends within solver.tolerance: what that leaves is less than a level
+    // where the Box is not black.
+    EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.levels(first) < 0.5; })) << "not undone";
+  };
+  const auto number = [&](const std::string& material, const char* field, double across) {
+    click("Materials/" + material);
+    const std::string name = fmt::format("Materials/{}/{}", material, field);
+    isUndone(material, field, [&] { enterNumber(name, "1", across); });
+  };
+  number("green wall", "base", /*across=*/0.1);  // of its three channels the first
+  number("green wall", "metalness", 0.5);
+  click("Materials/floor tiles");
+  isUndone("floor tiles", "texture", [&] { click("Materials/floor tiles/texture: base color"); });
+  // Solved from the dark, as the first was, it has the same bits.
+  click("Solver/H = 0");
+  away();
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; })) << "something has stayed of the edits";
+  quit();  // nothing is unsaved
+}
+
+/// Above the material's alpha there is no surface.
+TEST_F(WindowMaterialsTest, UndoGivesBackWhatACutoffCutAway) {
+  fold(R"(["Accuracy", "Scene", "Lights", "Objects", "Cameras", "Settings", "Effects", "Inspector", "Compare",
+           "View", "Solver", "Memory"])");
+  GltfFile file = triangleFile();
+  file.json["materials"] = {{{"name", "leaf"},
+                             {"alphaMode", "MASK"},
+                             {"alphaCutoff", 0.25},
+                             {"doubleSided", true},
+                             {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}, {"metallicFactor", 0}}}}};
+  file.primitive()["material"] = 0;
+  start({}, file.write(folder_.path, "leaf.gltf"));
+  away();
+  ASSERT_TRUE(viewportSettles(lit)) << "no triangle is seen";
+  const ScreenPart there = viewport();
+  click("Materials/leaf");
+  enterNumber("Materials/leaf/cutoff", "0.75");
+  away();
+  // But for the handle of the sun that the scene was given.
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.meanLuminance() < 0.1 * there.meanLuminance(); }))
+      << "it is not cut away";
+  key("ctrl+z");
+  away();
+  EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == there; })) << "not undone";
   quit();
 }
 

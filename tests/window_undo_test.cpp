@@ -174,6 +174,23 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   click("Lights/0");
   enter("Lights/0/name", "a long name");
   EXPECT_EQ(steps(), 2);
+
+  // The camera in numbers: as flights that follow each other they are one step. (Where something may be redone they
+  // would be none.)
+  away();
+  const ScreenPart standing = viewport();
+  ScreenPart before = standing;
+  const auto moves = [&](const char* field, const char* text, double across) {
+    enterNumber(field, text, across);
+    EXPECT_TRUE(differs(before)) << field;
+    before = viewport();
+  };
+  moves("Cameras/position", "1", 1.0 / 6);  // its x
+  moves("Cameras/yaw", "20", 0.5);
+  moves("Cameras/view", "70", 0.5);
+  EXPECT_EQ(steps(), 3);
+  undo();
+  EXPECT_TRUE(shows(standing)) << "the camera has not come back";
   undo();
 
   // The panel's buttons and list.
