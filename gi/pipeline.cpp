@@ -379,7 +379,11 @@ struct Pipeline::Impl {
     // A new list has no light yet: if it were given up now it would stay black.
     const bool mayEnd = p.light.has_value();
     const auto goesOn = [&] { return !progress || progress("GI Solve", 0) || !mayEnd; };
-    if (!goesOn()) throw WorkError("cancelled");
+    // Between steps that may take a second each on a CPU device.
+    const auto breathe = [&] {
+      if (!goesOn()) throw WorkError("cancelled");
+    };
+    breathe();
     if (due.has(Redo::Gather) || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
     // The other method's light lacks what this one keeps, and has what this one does not need. By brute force so has
@@ -398,6 +402,7 @@ struct Pipeline::Impl {
     }
     if (due.has(Redo::Emission) && !framewise())
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
+    breathe();
     // What lies outside passes on what its materials make of it.
     if (p.facets->outer && (due.has(Redo::Materials) || due.has(Redo::Emission))) due.add(Redo::Gather);
     if (due.has(Redo::Gather)) {
@@ -406,6 +411,7 @@ struct Pipeline::Impl {
       lightOuter(frame, onDevice, *p.facets, *p.emitters, *p.field, skyOnDevice);
       if (!framewise()) gatherSky(frame, *p.matrix, binsOf(p.facets->outer, skyOnDevice), *p.light);
       frame.submitAndWait();
+      breathe();
     }
     if (due.has(Redo::Solve)) {
       useReflections(*p.light, p.facets->count);
