@@ -65,10 +65,10 @@ class CamerasPanel : public Panel {
     fieldLabel("yaw", "The way the camera looks, about the vertical, degrees: 0 along -Z, 90 along -X");
     const auto degrees = [](float value) { return std::abs(value) < 0.05f ? 0 : value; };  // no "-0.0"
     float yaw = degrees(camera.yaw()), pitch = degrees(camera.pitch());
-    if (ImGui::DragFloat("##yaw", &yaw, 0.2f, -180, 180, "%.1f\u00B0")) turn(session, yaw, pitch);
+    if (ImGui::DragFloat("##yaw", &yaw, 0.2f, -180, 180, "%.1f\u00B0")) turn(session, yaw, camera.pitch());
     fieldLabel("pitch", "How far up the camera looks, degrees: 0 level, -88 almost straight down");
     if (ImGui::DragFloat("##pitch", &pitch, 0.2f, -88, 88, "%.1f\u00B0", ImGuiSliderFlags_AlwaysClamp))
-      turn(session, yaw, pitch);
+      turn(session, camera.yaw(), pitch);
     const bool flat = camera.camera().orthographic;
     fieldLabel(flat ? "half height" : "field of view",
                flat ? "From the picture's middle to its upper edge, scene units"
