@@ -633,6 +633,16 @@ TEST(Reports, StandByThemselves) {
     EXPECT_FALSE(contains(html, outside)) << outside;
   EXPECT_TRUE(contains(html, "dominated by 1 (voxel.resolution=32)")) << "under the pointer, in the plots";
   EXPECT_TRUE(contains(html, "voxel.resolution=64 (given)"));
+  // A sentence per plot, of its own figures: those of errors, and of stages (12 to 82 ms, three quarters the matrix).
+  for (const char* sentence :
+       {"First picture: 2 of 3 points are on the front", "Build: 2 of 3 points are on the front",
+        "Relight: 1 of 3 points is on the front", "Frame: 1 of 3 points is on the front",
+        "Memory: 2 of 3 points are on the front",
+        "<p class=\"finding\">Build: 12 ms at point 0, 75 % of it GI, Build &quot;Matrix&quot;; 82 ms at point 2, 75 % "
+        "of it GI, Build &quot;Matrix&quot;.</p>",
+        "<p class=\"finding\">Relight: 2 ms at point 0, 100 % of it GI Solve.</p>",
+        "<p class=\"finding\">Frame: 1 ms at point 0, 100 % of it Forward.</p>"})
+    EXPECT_TRUE(contains(html, sentence)) << sentence;
   for (const char* name : {"points.csv", "stages.csv", "error-against-first_picture.svg", "error-against-build.svg",
                            "error-against-memory.svg", "stages-setup.svg"})
     EXPECT_TRUE(fs::exists(folder.path / name)) << name;

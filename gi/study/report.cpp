@@ -227,6 +227,32 @@ std::string stagePlot(const std::string& title, const std::string& kind, const s
 
 namespace {
 
+/// What one kind of work takes at the cheapest and at the dearest of the points, and which stage takes most of it.
+std::string stageFinding(const std::string& name, const std::string& kind, const std::vector<PointSummary>& points,
+                         const std::vector<size_t>& chosen) {
+  struct Time {
+    double all = 0;
+    std::string words;
+  };
+  std::vector<Time> times;
+  for (const size_t i : chosen) {
+    const auto stages = points[i].stages.find(kind);
+    if (stages == points[i].stages.end()) continue;
+    const double all = points[i].gpuMs(kind);
+    double most = 0;
+    std::string largest;
+    for (const auto& [stage, spread] : stages->second)
+      if (spread.p50 > most) most = spread.p50, largest = stage;
+    if (!(most > 0)) continue;
+    times.push_back(
+        {all, fmt::format("{} ms at point {}, {:.0f} % of it {}", plainNumber(all), i, 100 * most / all, largest)});
+  }
+  if (times.empty()) return fmt::format("{}: nothing was timed.", name);
+  const auto [cheapest, dearest] = std::ranges::minmax_element(times, {}, &Time::all);
+  if (!(cheapest->all < dearest->all)) return fmt::format("{}: {}.", name, cheapest->words);
+  return fmt::format("{}: {}; {}.", name, cheapest->words, dearest->words);
+}
+
 /// One row per point: its number and settings, then what `cells` makes of it; a failure in words across `columns`.
 template <class Cells>
 std::string tableOf(const std::vector<PointSummary>& points, std::optional<size_t> given,
@@ -354,14 +380,16 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
   std::vector<size_t> chosen = front(pairsOf(points, costKinds().front()));
   if (given && std::ranges::find(chosen, *given) == chosen.end() && points[*given].seeds > 0) chosen.push_back(*given);
   html +=
-      "<h2>Where the milliseconds go</h2>\n<p class=\"finding\">Medians per stage of the points on the front by first "
-      "picture, cheapest first, and of the settings given.</p>\n";
-  const std::pair<const char*, const char*> kinds[] = {
-      {"setup", "build, ms"}, {"relight", "relight, ms"}, {"camera", "frame, ms"}};
-  for (const auto& [kind, axis] : kinds) {
+      "<h2>Where the milliseconds go</h2>\n<p>Medians per stage of the points on the front by first picture, cheapest "
+      "first, and of the settings given.</p>\n";
+  struct Kind {
+    const char *kind, *axis, *name;
+  };
+  for (const auto& [kind, axis, name] : {Kind{"setup", "build, ms", "Build"}, Kind{"relight", "relight, ms", "Relight"},
+                                         Kind{"camera", "frame, ms", "Frame"}}) {
     const std::string plot = stagePlot(axis, kind, points, chosen);
     writeFile(folder / fmt::format("stages-{}.svg", kind), plot);
-    html += plot;
+    html += fmt::format("<p class=\"finding\">{}</p>\n{}", escapeXml(stageFinding(name, kind, points, chosen)), plot);
   }
   html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);
   html += pointTables(points, given);
