@@ -685,6 +685,26 @@ TEST(Reports, OpenInABrowser) {
       120);
   EXPECT_EQ(picture.status, 0) << picture.err;
   EXPECT_GT(slurp(shot).size(), 50'000u) << "an empty page is smaller";
+
+  // No picture is missing: the browser decodes each of a copy of the page, and writes how many it could into the title.
+  const std::string html = slurp(page);
+  size_t pictures = 0;
+  for (size_t at = 0; (at = html.find("<image ", at)) != std::string::npos; ++at) ++pictures;
+  EXPECT_GE(pictures, 4u) << "crops of equal time and of equal error";
+  const fs::path counting = folder.path / "counting.html";
+  writeFile(counting, html +
+                          "<script>Promise.all([...document.querySelectorAll('image')].map(e => { const i = new "
+                          "Image(); i.src = e.getAttribute('href'); return i.decode().then(() => 1, () => 0); }))"
+                          ".then(all => document.title = all.reduce((a, b) => a + b) + ' pictures decoded');"
+                          "</script>\n");
+  const RunResult counted =
+      runProgram("/usr/bin/env",
+                 {"HOME=" + folder.path.string(), "chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                  "--virtual-time-budget=20000", "--dump-dom", "file://" + counting.string()},
+                 120);
+  EXPECT_EQ(counted.status, 0) << counted.err;
+  EXPECT_TRUE(contains(counted.out, fmt::format("<title>{} pictures decoded</title>", pictures)))
+      << counted.out.substr(0, 300);
 }
 
 TEST(Plots, AreWholeXmlWithinTheirFrame) {
