@@ -10,8 +10,8 @@ namespace irad {
 class Context;
 struct FormFactors;
 
-/// One row as it is stored: csr holds each column once, ascending (of a tinted matrix once for each set of closed channels);
-/// padded holds a place per hit in the rays' order.
+/// One row as it is stored: csr holds each column once, ascending (of a tinted matrix once for each set of closed
+/// channels); padded holds a place per hit in the rays' order.
 struct HostRow {
   std::vector<uint32_t> columns, hits;  ///< hits: rays that met the column; padded: 1 per place
   uint32_t invalid = 0;                 ///< rays that count for nothing

@@ -18,6 +18,7 @@
 #include "gi/facets.h"
 #include "gi/host_facets.h"
 #include "gi/lighting.h"
+#include "gi/matrix.h"
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
 #include "renderer/image_io.h"
