@@ -35,11 +35,13 @@ HostRow decode(const MatrixArrays& arrays, const FormFactors& matrix, glm::uvec2
     decodePadded(words, row);
     return row;
   }
+  const uint32_t facetBits = arrays.columnBits - (matrix.tinted ? TINT_BITS : 0);
   for (const uint32_t word : words) {
-    row.columns.push_back(word & ((1u << (arrays.columnBits - (matrix.tinted ? TINT_BITS : 0))) - 1));
+    row.columns.push_back(word & ((1u << facetBits) - 1));
     row.hits.push_back(word >> arrays.columnBits);
+    if (matrix.tinted) row.closed.push_back(word >> facetBits & TINT_NONE_LEFT);
   }
-  return matrix.tinted ? merged(row) : row;
+  return row;
 }
 
 /// Part of a buffer, once the frame has finished.

@@ -337,6 +337,18 @@ TEST(RegionRule, AutoKeepsSmallLampsInside) {
   }
 }
 
+/// Cameras are inside; where the box around them saves less than a quarter of the voxels' edge it is the whole.
+TEST(RegionRule, AutoTakesTheWholeWhereThatCostsLittle) {
+  for (const float apart : {140.0f, 160.0f}) {
+    SceneBuilder b;
+    const uint32_t black = b.material(glm::vec3(0)), thing = b.material(glm::vec3(0.5f));
+    b.quad(black, {-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, -100});
+    b.sphere(thing, glm::vec3(0, 1, 0), 1, /*inward=*/false, 16);
+    for (const float side : {-0.5f, 0.5f}) b.camera({side * apart, 1, 0}, {0, 1, 0});
+    EXPECT_EQ(regionOf(b.finish("thing"), Settings()).whole, apart > 150) << apart;
+  }
+}
+
 /// The box that a scene brings along is that of scene.region=auto alone, and a run's settings say so without it.
 TEST(RegionRule, AutoTakesTheScenesBox) {
   Scene scene = boxUnderDome();

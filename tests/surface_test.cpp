@@ -375,6 +375,64 @@ TEST_F(SurfaceTest, AMirrorShowsTheRoomAsItIs) {
   EXPECT_NEAR(sum / truth, 1, 0.02);
 }
 
+/// Under a pane that reflects nothing, which lets .7 of everything through or a share of each channel. The floor is lit
+/// by a sun or, a mirror, shows the ceiling, a lamp.
+Scene underAPane(bool mirror, bool glazed, bool tints) {
+  SceneBuilder b;
+  const uint32_t floor = b.material(glm::vec3(mirror ? 1.0f : 0.5f)),
+                 pane = b.material(tints ? glm::vec3(0.9f, 0.5f, 0.2f) : glm::vec3(0), glm::vec3(0), true),
+                 lamp = b.material(glm::vec3(0), glm::vec3(5));
+  if (tints) {
+    b.edit(pane).transmission = 1;
+  } else {
+    b.edit(pane).alpha = AlphaMode::Blend;
+    b.edit(pane).baseColor.a = 0.3f;
+  }
+  b.quad(floor, {-0.8f, 0, 0.8f}, {0.8f, 0, 0.8f}, {0.8f, 0, -0.8f}, {-0.8f, 0, -0.8f});
+  if (glazed) b.quad(pane, {-1, 0.43f, 1}, {1, 0.43f, 1}, {1, 0.45f, -1}, {-1, 0.45f, -1});
+  if (mirror) {
+    b.edit(floor).lambertian = false;
+    b.edit(floor).metallic = 1;
+    b.edit(floor).roughness = 0;
+    b.quad(lamp, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
+  } else {
+    b.sun({0, -1, 0}, 3);
+  }
+  return b.finish("under a pane");
+}
+
+TEST_F(SurfaceTest, PanesLetTheirShareOfTheSunAndOfReflectionsThrough) {
+  for (const bool tints : {false, true}) {
+    const glm::dvec3 passes = tints ? glm::dvec3(0.9, 0.5, 0.2) : glm::dvec3(0.7);
+    glm::dvec3 byFacets[2]{}, byMaps[2]{}, mirrored[2]{};
+    for (const bool glazed : {false, true}) {
+      Settings settings = triangles(24, 32);
+      const auto shown = [&](bool mirror, View view) {
+        Pipeline& p = prepare(underAPane(mirror, glazed, tints), settings);
+        glm::dvec3 sum(0);
+        for (const glm::vec4& value : draw(p, {0, 0.3f, 0.1f}, {0, 0, 0}, view)) sum += glm::dvec3(value);
+        return sum;
+      };
+      byMaps[glazed] = shown(/*mirror=*/false, VIEW_DIRECT_IRRADIANCE);
+      const HostFacets f = hostFacets(context(), pipeline_->facets());
+      const std::vector<glm::vec3> d = perFacet(context(), pipeline_->facets(), pipeline_->lighting().direct);
+      for (size_t i = 0; i < f.count(); ++i)
+        if (f.albedo[i].x > 0.4f) byFacets[glazed] += f.area[i] * glm::dvec3(d[i]);
+      settings.specular.mode = SpecularMode::compute;
+      settings.specular.gpu.filter_ = false;
+      mirrored[glazed] = shown(/*mirror=*/true, VIEW_SPECULAR);
+    }
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GT(mirrored[0][c], 0) << "the mirror shows nothing";
+      fmt::print("channel {}: facets {:.4f}, maps {:.4f}, mirror {:.4f} of {}\n", c, byFacets[1][c] / byFacets[0][c],
+                 byMaps[1][c] / byMaps[0][c], mirrored[1][c] / mirrored[0][c], passes[c]);
+      EXPECT_NEAR(byFacets[1][c] / byFacets[0][c], passes[c], 0.02) << c;
+      EXPECT_NEAR(byMaps[1][c] / byMaps[0][c], passes[c], 0.02) << c;
+      EXPECT_NEAR(mirrored[1][c] / mirrored[0][c], passes[c], 0.02) << c;
+    }
+  }
+}
+
 TEST_F(SurfaceTest, LightFromBehindTheFaceAddsNothing) {
   // Faces that look up, their vertices' normals towards a sun that shines along them from just below.
   SceneBuilder b;

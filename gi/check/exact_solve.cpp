@@ -12,6 +12,7 @@
 #include "gi/matrix.h"
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
+#include "shaders/shared/trace.h"
 
 namespace irad {
 namespace {
@@ -25,10 +26,15 @@ constexpr size_t kLeastBlock = 1 << 14, kMostBlocks = 32;
 struct Rows {
   std::vector<size_t> first{0};
   std::vector<uint32_t> columns, hits;
-  std::vector<double> weight;  ///< of a hit
+  std::vector<uint32_t> closed;  ///< channels that panes have kept off; empty: there are none that tint
+  std::vector<double> weight;    ///< of a hit
+  /// Of one entry: its hits in each channel that is left.
+  glm::dvec3 share(size_t k) const {
+    return double{1} * hits[k] * (closed.empty() ? glm::dvec3(1) : glm::dvec3(openChannels(closed[k])));
+  }
   glm::dvec3 product(size_t row, const std::vector<glm::dvec3>& b) const {
     glm::dvec3 sum(0);
-    for (size_t k = first[row]; k < first[row + 1]; ++k) sum += double{1} * hits[k] * b[columns[k]];
+    for (size_t k = first[row]; k < first[row + 1]; ++k) sum += share(k) * b[columns[k]];
     return sum * weight[row];
   }
   /// Of `now` between two rows, of `before` elsewhere.
@@ -37,7 +43,7 @@ struct Rows {
     glm::dvec3 sum(0);
     for (size_t k = first[row]; k < first[row + 1]; ++k) {
       const size_t j = columns[k];
-      sum += double{1} * hits[k] * (j >= begin && j < end ? now : before)[j];
+      sum += share(k) * (j >= begin && j < end ? now : before)[j];
     }
     return sum * weight[row];
   }
@@ -55,6 +61,7 @@ Rows rowsOf(Context& context, const FormFactors& matrix, const std::function<voi
     if (index % kBetweenRows == 0) watch();
     rows.columns.insert(rows.columns.end(), row.columns.begin(), row.columns.end());
     rows.hits.insert(rows.hits.end(), row.hits.begin(), row.hits.end());
+    rows.closed.insert(rows.closed.end(), row.closed.begin(), row.closed.end());
     rows.first.push_back(rows.columns.size());
     rows.weight.push_back(row.weight);
   });
