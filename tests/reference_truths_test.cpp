@@ -80,6 +80,15 @@ TEST_F(ExactSolve, EndsWhereItsProgressSaysSo) {
   }
 }
 
+/// By how much any facet's H is off, in any channel.
+double errorOf(Context& context, const Pipeline& pipeline, const ExactLight& light) {
+  const std::vector<glm::vec3> h = perFacet(context, pipeline.facets(), pipeline.lighting().indirect);
+  double error = 0;
+  for (size_t i = 0; i < h.size(); ++i)
+    for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(h[i][c] - light.indirect[i][c]));
+  return error;
+}
+
 TEST_F(ExactSolve, TheSolverIsWithinItsBound) {
   // Lamps, points, spots; emitters that are sampled.
   for (const SolverAcceleration acceleration : {SolverAcceleration::off, SolverAcceleration::anderson})
@@ -92,10 +101,7 @@ TEST_F(ExactSolve, TheSolverIsWithinItsBound) {
       const SolveReport& report = pipeline.lighting().report;
       ASSERT_TRUE(report.converged);
       const ExactLight light = solveExactly(context(), pipeline, 1e-12);
-      const std::vector<glm::vec3> h = perFacet(context(), pipeline.facets(), pipeline.lighting().indirect);
-      double error = 0;
-      for (size_t i = 0; i < h.size(); ++i)
-        for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(h[i][c] - light.indirect[i][c]));
+      const double error = errorOf(context(), pipeline, light);
       printf("tolerance %g: off by %.3g, bound %.3g, mean H %.4g\n", tolerance, error, report.bound, light.meanH);
       EXPECT_LE(error, report.bound + 1e-6 * report.largestH);
       EXPECT_NEAR(report.meanH, light.meanH, report.bound + 1e-6 * light.meanH);
@@ -122,10 +128,7 @@ TEST_F(ExactSolve, PanesThatTintAreInTheEquation) {
   const SolveReport& report = pipeline.lighting().report;
   ASSERT_TRUE(report.converged);
   const ExactLight light = solveExactly(context(), pipeline, 1e-12);
-  const std::vector<glm::vec3> h = perFacet(context(), pipeline.facets(), pipeline.lighting().indirect);
-  double error = 0;
-  for (size_t i = 0; i < h.size(); ++i)
-    for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(h[i][c] - light.indirect[i][c]));
+  const double error = errorOf(context(), pipeline, light);
   printf("off by %.3g, bound %.3g, mean H %.4g\n", error, report.bound, light.meanH);
   EXPECT_LE(error, report.bound + 1e-6 * report.largestH);
 }

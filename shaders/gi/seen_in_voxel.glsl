@@ -146,8 +146,8 @@ bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
   return standsOn(low, high, standing, t, facing) || (back && standsOn(low, high, standing, t, -facing));
 }
 
-/// Of the large pieces but `own` those that may stand on a triangle's sides, a bit for each from the voxel's first on: by
-/// the heights of their corners alone, which is little beside standsOnSides().
+/// Of the large pieces but `own` those that may stand on a triangle's sides, a bit for each (they are MOST_LARGE = 32 at
+/// most) from the voxel's first on: by the heights of their corners alone, which is little beside standsOnSides().
 uint mayStandOn(VoxelPieces voxel, uint own, Triangle t, bool back) {
   vec3 facing = facingOf(t, false);
   uint pieces = 0u;
