@@ -59,7 +59,7 @@ Command referenceCommand() {
                       "triangles, matrix: also layers bounce.0 to bounce.K, the parts of lit by how often light has "
                       "been reflected before it comes to the surface seen, and each one's share of the mean. "
                       "bounce.0 has what is emitted there and the sky behind, too. What is missing to lit is of more "
-                      "reflections (matrix: and the view specular)");
+                      "reflections (matrix: and the view specular). irad study compare gives the error of each");
         options.value("--spp", "N", arguments->spp,
                       "End with N samples per pixel (triangles; default 256), or N rays per facet that count "
                       "(voxels; default 100000)");

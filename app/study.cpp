@@ -109,7 +109,8 @@ std::pair<Scene, StudyTask> MeasureArguments::open(DeviceSession& session, const
 void BudgetArguments::declare(Options& options, const std::string& prefix) {
   options.value("--budget-ms", "X", ms, prefix + "milliseconds to spend at most, of --cost");
   options.value("--budget-mib", "Y", mib, prefix + "device memory to take at most");
-  options.value("--target-error", "E", error, prefix + "the cheapest with no more relMSE");
+  options.value("--target-error", "E", error,
+                prefix + "the cheapest with no more relMSE of 8 x 8 means (irad study --help defines it)");
   options.value("--cost", "NAME", cost, prefix + "first_picture (default), build, relight or frame");
 }
 

@@ -64,44 +64,19 @@ void writeDifference(const fs::path& stem, glm::uvec2 size, const LinearPixels& 
   writeDisplay(stem, size, bytes);
 }
 
-}  // namespace
-
-void AttributionArguments::declare(Options& options) {
-  options.value("--finer", "FACTOR", finer,
-                "attribution: ideal voxels are so many times as fine, 1.25 to 8 (default 2; the grid's limit at most)");
-  options.value("--gather-rays", "N", gatherRays,
-                "attribution: rays from each pixel in the place of its lookup, 16 to 65536 (default 256)");
-}
-
-void attributionStudy(Machine& machine, const MeasureArguments& measure, const AttributionArguments& arguments,
-                      const std::optional<std::string>& scene) {
-  const char* const command = "irad study attribution";
-  measure.check();
-  if (!measure.sweeps.empty()) throw UsageError(fmt::format("{}: one point has no --sweep", command));
-  AttributionTask task;
-  if (arguments.finer) task.finer = parseNumber("--finer", *arguments.finer, 1.25, 8);
-  if (arguments.gatherRays)
-    task.gatherRays = static_cast<uint32_t>(parseInteger("--gather-rays", *arguments.gatherRays, 16, 65536));
-  if (measure.seeds) parseInteger("--seeds", *measure.seeds, ErrorEstimates::kFewestSeeds, 10'000);
-
-  DeviceSession session(machine, measure.settings, measure.device);
-  auto [loaded, study] = measure.open(session, command, scene);
-  if (session.settings.writeback.mode != WritebackMode::off)
-    throw UsageError(fmt::format("{}: writeback.mode is to be off: what it adds is no stage's error", command));
-  if (std::string_view(study.view.name) != "lit" && std::string_view(study.view.name) != "indirect")
-    throw UsageError(fmt::format("{}: --view is lit or indirect, not {}", command, study.view.name));
-  const uint32_t seeds = measure.seeds ? study.seeds : kUsualSeeds;
+/// Measures what the folder lacks, and writes all that a study of one point leaves there. Seeds and folder are those of
+/// `study`, settings those given.
+Attribution splitPoint(DeviceSession& session, Scene scene, const Settings& settings, StudyTask study,
+                       const AttributionTask& task) {
   study.study = fmt::format("attribution: {} times as fine, {} rays per pixel", task.finer, task.gatherRays);
-  study.out = measure.out.value_or("out/attribution");
-  study.seeds = seeds;
   const fs::path out = study.out;
-  const MadeFolder folder(out);
   const glm::uvec2 size = study.size;
-  const float exposure = std::exp2(session.settings.camera.exposureEv);
-  const StopOnSignal stop;
+  const uint32_t seeds = study.seeds;
+  const float exposure = std::exp2(settings.camera.exposureEv);
   std::optional<StagePictures> pictures;
-  StudyRun run(session, std::move(loaded), SettingGrid(std::vector<std::string>{}, session.settings), std::move(study),
+  StudyRun run(session, std::move(scene), SettingGrid(std::vector<std::string>{}, settings), std::move(study),
                [&](StudyRun& opened) { return pictures.emplace(session, opened, task).tryFew(); });
+  if (!pictures) pictures.emplace(session, run, task);  // where others tell of truths, nothing is said beforehand
   pictures->measure();
   run.measureTimesOnly();
   session.progress.finish();
@@ -146,6 +121,80 @@ void attributionStudy(Machine& machine, const MeasureArguments& measure, const A
   writeFile(out / "attribution-errors.svg", errorBars(result));
   writeFile(out / "attribution-times.svg", timeBars(result));
   writeFile(out / "report.html", attributionReport(result, facts, out, size, shown));
+  return result;
+}
+
+}  // namespace
+
+void AttributionArguments::declare(Options& options) {
+  options.value(
+      "--finer", "FACTOR", finer,
+      "attribution, --split: ideal voxels are so many times as fine, 1.25 to 8 (default 2; the grid's limit at most)");
+  options.value("--gather-rays", "N", gatherRays,
+                "attribution, --split: rays from each pixel in the place of its lookup, 16 to 65536 (default 256)");
+}
+
+AttributionTask AttributionArguments::task() const {
+  AttributionTask task;
+  if (finer) task.finer = parseNumber("--finer", *finer, 1.25, 8);
+  if (gatherRays) task.gatherRays = static_cast<uint32_t>(parseInteger("--gather-rays", *gatherRays, 16, 65536));
+  return task;
+}
+
+void requireSplittable(const std::string& command, const Settings& settings, const ViewInfo& view) {
+  if (settings.writeback.mode != WritebackMode::off)
+    throw UsageError(fmt::format("{}: writeback.mode is to be off: what it adds is no stage's error", command));
+  if (std::string_view(view.name) != "lit" && std::string_view(view.name) != "indirect")
+    throw UsageError(fmt::format("{}: --view is lit or indirect, not {}", command, view.name));
+}
+
+std::vector<SplitPoint> splitFront(DeviceSession& session, const Scene& scene, const SettingGrid& grid,
+                                   const StudyResults& results, const StudyTask& study, const AttributionTask& task,
+                                   size_t most) {
+  const std::vector<size_t> all = frontOfFirstPictures(summarize(results, grid.labels()));
+  std::vector<size_t> chosen;
+  const size_t count = std::min(most, all.size());
+  for (size_t i = 0; i < count; ++i)
+    chosen.push_back(all[count > 1 ? i * (all.size() - 1) / (count - 1) : all.size() / 2]);
+  SharedTruths truths{.folder = study.out / "truths", .user = "cost", .users = {}};
+  std::vector<SplitPoint> out;
+  for (const size_t point : chosen) {
+    session.progress.note(fmt::format("errors of point {} ({}) by stage", point, grid.label(point)));
+    StudyTask own = study;
+    own.out = study.out / "split" / pictureName(point);
+    own.seeds = std::max(study.seeds, static_cast<uint32_t>(ErrorEstimates::kFewestSeeds));
+    own.shard = {}, own.peerSamples.clear(), own.facetRays.reset();
+    own.sharedTruths = &truths;
+    makeFolder(own.out);
+    try {
+      out.push_back({point, splitPoint(session, scene, grid.settings(point), std::move(own), task)});
+    } catch (const DeviceError& error) {
+      session.progress.note(fmt::format("errors of point {}: {}", point, error.what()));
+      session.device->waitIdle();
+      session.timings.reset();
+    }
+  }
+  return out;
+}
+
+void attributionStudy(Machine& machine, const MeasureArguments& measure, const AttributionArguments& arguments,
+                      const std::optional<std::string>& scene) {
+  const char* const command = "irad study attribution";
+  measure.check();
+  if (!measure.sweeps.empty()) throw UsageError(fmt::format("{}: one point has no --sweep", command));
+  const AttributionTask task = arguments.task();
+  if (measure.seeds) parseInteger("--seeds", *measure.seeds, ErrorEstimates::kFewestSeeds, 10'000);
+
+  DeviceSession session(machine, measure.settings, measure.device);
+  auto [loaded, study] = measure.open(session, command, scene);
+  requireSplittable(command, session.settings, study.view);
+  if (!measure.seeds) study.seeds = kUsualSeeds;
+  study.out = measure.out.value_or("out/attribution");
+  const fs::path out = study.out;
+  const uint32_t seeds = study.seeds;
+  const MadeFolder folder(out);
+  const StopOnSignal stop;
+  const Attribution result = splitPoint(session, std::move(loaded), session.settings, std::move(study), task);
 
   std::vector<bool> right(13, true);
   right.front() = right.back() = false;

@@ -1,13 +1,16 @@
 // `irad study`: what accuracy costs. `cost` measures error, time and memory over a grid of settings; `attribution`
 // splits one point's error among the stages; `rq1` to `thesis` are the thesis's experiments; `merge` puts the shards of
-// a study together; `pick` chooses settings by a budget, among points that were measured.
+// a study together; `pick` chooses settings by a budget, among points that were measured; `compare` holds two pictures
+// against each other, layer by layer.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/devices.h"
 #include "app/interrupts.h"
+#include "app/stage_pictures.h"
 #include "app/study.h"
 #include "app/study_attribution.h"
+#include "app/study_compare.h"
 #include "app/study_merge.h"
 #include "app/study_named.h"
 #include "gi/manifest.h"
@@ -28,7 +31,7 @@ struct StudyArguments {
   AttributionArguments attribution;
   BudgetArguments budget;  ///< of pick
   std::vector<std::string> peers;
-  std::optional<std::string> shard, peerSamples, facetRays;
+  std::optional<std::string> shard, peerSamples, facetRays, split;
   NamedArguments named;
 };
 
@@ -47,18 +50,30 @@ void costStudy(const StudyArguments& a, Machine& machine) {
   std::optional<uint64_t> facetRays;
   if (a.facetRays) facetRays = parseInteger("--facet-rays", *a.facetRays, kFewestFacetRays, kMostFacetRays);
 
+  const uint64_t most = a.split ? parseInteger("--split", *a.split, 1, 1000) : 0;
+  if (most > 0 && a.shard) throw UsageError("--split: a shard does not know the front of all points");
+  const AttributionTask stages = a.attribution.task();
+
   DeviceSession session(machine, a.measure.settings, a.measure.device);
   const std::optional<std::string> name = a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt;
   auto [scene, task] = a.measure.open(session, "irad study cost", name);
+  const SettingGrid grid(a.measure.sweeps, session.settings);
+  for (size_t point = 0; most > 0 && point < grid.size(); ++point)
+    requireSplittable("--split", grid.settings(point), task.view);
   const fs::path out = task.out = a.measure.out.value_or("out/study");
   const MadeFolder folder(out);
   task.shard = shard;
   task.peerSamples = std::move(peerSamples);
   task.facetRays = facetRays;
   const StopOnSignal stop;
-  StudyRun run(session, std::move(scene), SettingGrid(a.measure.sweeps, session.settings), std::move(task));
-  run.measure();
-  finishStudy(out, run.grid(), run.results(), run.notes());
+  std::optional<StudyRun> run(std::in_place, session, scene, grid, std::move(task));
+  run->measure();
+  const SettingGrid measured = run->grid();
+  const StudyResults results = run->results();
+  const ReportNotes notes = run->notes();
+  const StudyTask done = run->task();
+  run.reset();  // its memory is free for the pictures of stages
+  finishStudy(out, measured, results, notes, splitFront(session, scene, measured, results, done, stages, most));
   session.checkValidation();
 }
 
@@ -98,6 +113,12 @@ void pickPoint(const StudyArguments& arguments, Machine&) {
   print("wrote       {} (for --config)\n", file.string());
 }
 
+/// `irad study compare PICTURE REFERENCE`.
+void compare(const StudyArguments& a, Machine&) {
+  if (a.names.size() != 3) throw UsageError("irad study compare: expected two pictures, that to be judged first");
+  comparePictures(a.names[1], a.names[2], a.measure.secondReference);
+}
+
 /// `irad study rq2`, and whatever else gi/study/named.h lists.
 void namedStudy(const StudyArguments& a, Machine& machine) {
   const std::string& name = a.names[0];
@@ -111,8 +132,11 @@ void run(const StudyArguments& arguments, Machine& machine) {
     const char* name;
     void (*run)(const StudyArguments&, Machine&);
   };
-  std::vector<Study> studies{
-      {"cost", costStudy}, {"attribution", attribution}, {"merge", mergeShards}, {"pick", pickPoint}};
+  std::vector<Study> studies{{"cost", costStudy},
+                             {"attribution", attribution},
+                             {"merge", mergeShards},
+                             {"pick", pickPoint},
+                             {"compare", compare}};
   const std::vector<std::string> named = namedStudyNames();
   for (const std::string& name : named) studies.push_back({name.c_str(), namedStudy});
   std::vector<std::string> names;
@@ -134,7 +158,8 @@ Command studyCommand() {
                 "STUDY", arguments->names,
                 "cost SCENE: measure a grid; attribution SCENE: split the error of one point among the stages; merge "
                 "DIR...: put the shards of one study together; pick DIR: settings by "
-                "a budget, from its measured points. " +
+                "a budget, from its measured points; compare PICTURE REFERENCE: two pictures layer by layer, bounce.0 "
+                "to bounce.K of irad reference --bounces among them (relMSE, RMSE, mean error of each). " +
                     namedStudyHelp() +
                     ". Of a picture v "
                     "against a reference r, over all colour channels: relMSE = mean (v - r)^2 / (r^2 + e) of means "
@@ -151,6 +176,9 @@ Command studyCommand() {
                           "facets, twice, of N rays per facet each, 1000 to 7000000. Of H h against the two, r and s, "
                           "m their mean, over facets and channels: relMSE = mean (h - r)(h - s) / (m^2 + (0.1 mean "
                           "m)^2), RMSE = sqrt mean (h - r)(h - s)");
+            options.value("--split", "N", arguments->split,
+                          "cost: split the errors of N points on the front of first pictures among the stages, as "
+                          "attribution does, beside their milliseconds; takes as long as N of those");
             arguments->attribution.declare(options);
             arguments->budget.declare(options, "pick: ");
             arguments->named.declare(options);

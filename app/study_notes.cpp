@@ -70,8 +70,8 @@ ReportNotes StudyRun::notes() const {
 }
 
 void finishStudy(const std::filesystem::path& out, const SettingGrid& grid, const StudyResults& results,
-                 const ReportNotes& notes) {
-  writeReport(out, grid, results, notes);
+                 const ReportNotes& notes, const std::vector<SplitPoint>& splits) {
+  writeReport(out, grid, results, notes, splits);
   const std::vector<PointSummary> points = summarize(results, grid.labels());
   const bool ofFacets = std::ranges::any_of(points, [](const PointSummary& p) { return !std::isnan(p.hRelMse.mean); });
   std::vector<std::vector<std::string>> rows{

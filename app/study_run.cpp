@@ -119,18 +119,18 @@ void StudyRun::announce(const PicturesOfItsOwn& own) {
   const SkySettings& sky = grid_.settings(0).sky;
   const std::optional<TruthRecipe> recipe = truthRecipe(session_, task_, scene_, sceneContent_, sky);
   const bool trace = needsTruth() && recipe && task_.truth.samples && !TruthStore(task_.out / "truths").has(*recipe);
-  const WorkAhead ahead = own ? own(*this) : picturesAhead(points);
+  ahead_ = own ? own(*this) : picturesAhead(points);
   double samples = trace ? *task_.truth.samples : 0;
   if (task_.shard.part == 1)
     for (const uint32_t peer : task_.peerSamples) samples += folder_->results.hasPeer(kPathTracer, peer) ? 0 : peer;
-  if (ahead.pictures == 0 && samples == 0) return;
-  const double seconds = ahead.seconds + (samples > 0 ? secondsOfTracing(scene_, sky, task_, samples) : 0);
+  if (ahead_.pictures == 0 && samples == 0) return;
+  if (samples > 0) ahead_.tracing = secondsOfTracing(scene_, sky, task_, samples);
   const char* const truth = task_.truth.file ? "the truth is a file"
                             : trace          ? "1 truth is to be traced"
                                              : "the truth is there";
   session_.progress.note(fmt::format("{} points, {} seeds and {} repeats each: {:.0f} pictures to come; {}; about {}",
-                                     points.size(), task_.seeds, task_.repeats, ahead.pictures, truth,
-                                     duration(seconds)));
+                                     points.size(), task_.seeds, task_.repeats, ahead_.pictures, truth,
+                                     duration(ahead_.all())));
 }
 
 double StudyRun::tryRepeat(size_t point) {

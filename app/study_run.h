@@ -74,6 +74,8 @@ class StudyRun;
 /// Pictures that a study is still to make.
 struct WorkAhead {
   double pictures = 0, seconds = 0;
+  double tracing = 0;  ///< seconds of what the path tracer makes
+  double all() const { return seconds + tracing; }
 };
 /// Of a study that makes its pictures itself: asked before the truth is made, when the run's folder and bench are
 /// there.
@@ -100,6 +102,8 @@ class StudyRun {
   const StudyTask& task() const { return task_; }
   Bench& bench() { return *bench_; }  ///< for pictures of other settings, before measure()
   double tryRepeat(size_t point);     ///< seconds of one, by a trial
+  /// What was to come of pictures and truths when the study was opened.
+  const WorkAhead& ahead() const { return ahead_; }
   ReportNotes notes() const;
 
  private:
@@ -138,6 +142,7 @@ class StudyRun {
   std::optional<Bench> bench_;
   std::unique_ptr<PathTracer> tracer_;
   std::optional<FacetTruths> facetTruths_;
+  WorkAhead ahead_;
   std::chrono::steady_clock::time_point stepBegan_;
 };
 
@@ -146,6 +151,6 @@ void writeAsShown(const std::filesystem::path& stem, glm::uvec2 size, const Line
 
 /// Writes the report, prints the table and the findings.
 void finishStudy(const std::filesystem::path& out, const SettingGrid& grid, const StudyResults& results,
-                 const ReportNotes& notes);
+                 const ReportNotes& notes, const std::vector<SplitPoint>& splits = {});
 
 }  // namespace irad::app

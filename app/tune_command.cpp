@@ -40,6 +40,32 @@ std::vector<std::string> coarseSweeps(bool cpuDevice) {
   return {"voxel.resolution=64,128,256,512", "matrix.rays=32,128,512"};
 }
 
+/// Numbers that are swept: a round measures a point on either side of each, in all combinations.
+size_t sidesOf(const SettingGrid& grid) {
+  size_t points = 1;
+  for (const Setting* setting : grid.swept())
+    points *= setting->kind == SettingKind::integer || setting->kind == SettingKind::number ? 3 : 1;
+  return points - 1;
+}
+
+/// Says before it begins how long all of it takes: the grid by its trial, every further point as long as one of the
+/// grid on average, the chosen one with twice the fewest fresh seeds. Returns the seconds.
+double announceSearch(StudyRun& run, uint32_t rounds, ProgressReport& progress) {
+  const StudyTask& task = run.task();
+  const WorkAhead& grid = run.ahead();
+  const size_t points = run.grid().size(), begun = run.grid().texts().size() - 1;
+  const double ofPicture = grid.pictures > 0 ? grid.seconds / grid.pictures : run.tryRepeat(points / 2);
+  const double further = static_cast<double>(sidesOf(run.grid())) * (rounds - std::min<double>(rounds, begun)),
+               pictures = further * (task.seeds + task.repeats + 1) + 2 * kFreshSeeds + task.repeats + 1;
+  const double seconds = grid.all() + pictures * ofPicture;
+  progress.note(
+      fmt::format("about {} in all: {} points at first{}, up to {:.0f} around the best of them ({} {}), and the "
+                  "chosen one anew with {} to {} seeds ({} counted)",
+                  duration(seconds), points, begun > 0 ? " and in earlier rounds" : "", further, rounds,
+                  rounds == 1 ? "round" : "rounds", kFreshSeeds, kMostFreshSeeds, 2 * kFreshSeeds));
+  return seconds;
+}
+
 class Search {
  public:
   Search(const TuneArguments& arguments, StudyRun& run, uint32_t firstSeed, uint32_t seeds, uint32_t repeats,
@@ -66,9 +92,9 @@ class Search {
       const size_t added = run_.grid().size() - before;
       if (added == 0) return;
       const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-      progress_.note(fmt::format("around point {} ({}): {} more points, about {:.0f} s", *best,
-                                 run_.grid().label(*best), added,
-                                 spent.count() * static_cast<double>(added) / static_cast<double>(before)));
+      progress_.note(fmt::format("around point {} ({}): {} more points, about {}", *best, run_.grid().label(*best),
+                                 added,
+                                 duration(spent.count() * static_cast<double>(added) / static_cast<double>(before))));
       run_.measure();
     }
   }
@@ -132,9 +158,9 @@ void run(const TuneArguments& a, Machine& machine) {
   const std::vector<std::string> sweeps =
       a.measure.sweeps.empty() ? coarseSweeps(session.device->isCpu) : a.measure.sweeps;
   const StopOnSignal stop;
+  const auto began = std::chrono::steady_clock::now();
   StudyRun study(session, std::move(scene), SettingGrid(sweeps, session.settings), std::move(task));
-  session.progress.note(
-      fmt::format("{} points at first, {} seeds and {} repeats each", study.grid().size(), seeds, repeats));
+  const double said = announceSearch(study, rounds, session.progress);
   Search search(a, study, session.settings.matrix.gpu.seed, seeds, repeats, session.progress);
   search.refine(rounds);
   const PointSummary promised = search.confirm();
@@ -147,6 +173,8 @@ void run(const TuneArguments& a, Machine& machine) {
   const fs::path file = out / "tuned.json";
   writeFile(file, settingsFile(study.grid().settings(promised.point)));
   print("wrote       {} (for --config)\n", file.string());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  session.progress.note(fmt::format("took {}; about {} was said", duration(took.count()), duration(said)));
   session.checkValidation();
 }
 

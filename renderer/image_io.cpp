@@ -131,10 +131,13 @@ LinearPicture readPfm(const std::filesystem::path& path) {
   return picture;
 }
 
-LinearPicture readLinear(const std::filesystem::path& path) {
 #ifdef IRAD_OIIO
+namespace {
+
+/// Opened, and found to be a picture of a size that can be read.
+std::unique_ptr<OIIO::ImageInput> openPicture(const std::filesystem::path& path) {
   checkExrHeader(path);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), OIIO::geterror()));
   const OIIO::ImageSpec spec = input->spec();
   checkSize(path, spec.width, spec.height);
@@ -145,23 +148,74 @@ LinearPicture readLinear(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}: ends before its {} x {} pixels do", path.string(), spec.width, spec.height));
   if (spec.depth > 1 || spec.nchannels < 1)
     throw InputError(fmt::format("{}: {} channels, {} deep: not a picture", path.string(), spec.nchannels, spec.depth));
-  const std::array<int, 3> channels = colorChannels(spec);
-  LinearPicture picture{{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)},
-                        {},
-                        !spec.format.is_floating_point(),
-                        {std::string(spec.get_string_attribute(kCameraAttribute)),
-                         std::string(spec.get_string_attribute(kViewAttribute))}};
-  picture.pixels.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height), glm::vec4(1));
+  return input;
+}
+
+std::vector<glm::vec4> readChannels(const std::filesystem::path& path, OIIO::ImageInput& input,
+                                    const std::array<int, 3>& channels) {
+  std::vector<glm::vec4> pixels(static_cast<size_t>(input.spec().width) * static_cast<size_t>(input.spec().height),
+                                glm::vec4(1));
   for (int c = 0; c < 3; ++c)
-    if (!input->read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT, &picture.pixels[0][c],
-                           sizeof(glm::vec4)))
-      throw InputError(fmt::format("{}: cannot be read: {}", path.string(), input->geterror()));
-  return picture;
+    if (!input.read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT, &pixels[0][c], sizeof(glm::vec4)))
+      throw InputError(fmt::format("{}: cannot be read: {}", path.string(), input.geterror()));
+  return pixels;
+}
+
+glm::uvec2 exrSizeOf(const OIIO::ImageSpec& spec) {
+  return {static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)};
+}
+PictureSubject exrSubjectOf(const OIIO::ImageSpec& spec) {
+  return {std::string(spec.get_string_attribute(kCameraAttribute)),
+          std::string(spec.get_string_attribute(kViewAttribute))};
+}
+
+}  // namespace
+#endif
+
+LinearPicture readLinear(const std::filesystem::path& path) {
+#ifdef IRAD_OIIO
+  const std::unique_ptr<OIIO::ImageInput> input = openPicture(path);
+  const OIIO::ImageSpec spec = input->spec();
+  return {exrSizeOf(spec), readChannels(path, *input, colorChannels(spec)), !spec.format.is_floating_point(),
+          exrSubjectOf(spec)};
 #else
   if (path.extension() != ".pfm")
     throw InputError(fmt::format("{}: this build reads no pictures but .pfm", path.string()));
   return readPfm(path);
 #endif
+}
+
+LayeredPicture readLayers(const std::filesystem::path& path) {
+  LayeredPicture out;
+#ifdef IRAD_OIIO
+  if (path.extension() != ".pfm") {
+    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path);
+    const OIIO::ImageSpec spec = input->spec();
+    out.size = exrSizeOf(spec), out.subject = exrSubjectOf(spec);
+    out.layers.push_back({"", readChannels(path, *input, colorChannels(spec))});
+    for (const std::string& red : spec.channelnames) {
+      if (!red.ends_with(".R")) continue;
+      const std::string name = red.substr(0, red.size() - 2);
+      const std::array<int, 3> channels{spec.channelindex(red), spec.channelindex(name + ".G"),
+                                        spec.channelindex(name + ".B")};
+      if (channels[1] >= 0 && channels[2] >= 0) out.layers.push_back({name, readChannels(path, *input, channels)});
+    }
+    return out;
+  }
+#endif
+  LinearPicture first = readLinear(path);
+  out.size = first.size;
+  out.layers.push_back({"", std::move(first.pixels)});
+  const std::string prefix = path.stem().string() + ".";
+  std::vector<std::filesystem::path> others;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::absolute(path).parent_path()))
+    if (entry.path().extension() == ".pfm" && entry.path().stem().string().starts_with(prefix))
+      others.push_back(entry.path());
+  std::ranges::sort(others);
+  for (const std::filesystem::path& other : others)
+    if (LinearPicture layer = readPfm(other); layer.size == out.size)
+      out.layers.push_back({other.stem().string().substr(prefix.size()), std::move(layer.pixels)});
+  return out;
 }
 
 bool canDrawText() {

@@ -62,5 +62,13 @@ LinearPicture readPfm(const std::filesystem::path& path);
 /// A picture to compare with: the channels R, G, B of an EXR or of its first layer that has them, the first three of
 /// any other format that OpenImageIO reads; in builds without it .pfm alone. InputError where that fails.
 LinearPicture readLinear(const std::filesystem::path& path);
+/// What writeLayers() wrote, from the path of its first file: all layers of an .exr that have the channels R, G and B,
+/// the plain one first; beside stem.pfm all stem.NAME.pfm of its size. InputError where that fails.
+struct LayeredPicture {
+  glm::uvec2 size{0};
+  std::vector<PictureLayer> layers;
+  PictureSubject subject{};
+};
+LayeredPicture readLayers(const std::filesystem::path& path);
 
 }  // namespace irad

@@ -294,6 +294,24 @@ TEST_F(AttributionRuns, AStageWithoutMemoryIsARowThatSaysSo) {
   EXPECT_EQ(field("full", "voxels", "gain"), "");
 }
 
+TEST_F(AttributionRuns, OfAPointOnTheFrontOfACostStudy) {
+  if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
+  Strings arguments = study({"", {"matrix.jitter=false"}, std::nullopt}, "cost");
+  arguments[1] = "cost";
+  append(arguments, {"--sweep", "matrix.rays=2,64", "--split", "1", "--finer", "1.25", "--gather-rays", "64"});
+  const auto gather = std::ranges::find(arguments, "--gather-rays");
+  arguments.erase(gather, gather + 2);
+  const RunResult run = runIrad(arguments);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string html = slurp(at("cost/report.html"));
+  EXPECT_TRUE(contains(html, "<h2>Errors beside milliseconds, by stage</h2>\n<p class=\"finding\">Point ")) << run.out;
+  EXPECT_FALSE(contains(html, "Not measured: --split"));
+  size_t splits = 0;
+  for (const auto& entry : fs::directory_iterator(at("cost/split"))) splits += fs::exists(entry.path() / "report.html");
+  EXPECT_EQ(splits, 1u);
+  for (const char* plot : {"split-errors.svg", "split-times.svg"}) EXPECT_TRUE(fs::exists(at("cost/") + plot)) << plot;
+}
+
 TEST_F(AttributionRuns, BadInputIsRefused) {
   const auto refused = [&](Strings arguments, const std::string& words) {
     const RunResult run = runIrad(arguments);
@@ -306,6 +324,8 @@ TEST_F(AttributionRuns, BadInputIsRefused) {
   refused({"study", "attribution", "box", "--finer", "1"}, "--finer: '1' is not allowed");
   refused({"study", "attribution", "box", "--seeds", "2"}, "--seeds: '2' is not allowed");
   refused({"study", "attribution", "box", "--gather-rays", "0"}, "--gather-rays: '0' is not allowed");
+  refused({"study", "cost", "box", "--split", "0"}, "--split: '0' is not allowed");
+  refused({"study", "cost", "box", "--split", "1", "--shard", "1/2"}, "--split: a shard does not know the front");
 }
 
 }  // namespace

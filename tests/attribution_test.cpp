@@ -11,6 +11,7 @@
 #include "gi/study/attribution.h"
 #include "gi/study/attribution_time.h"
 #include "renderer/base/csv.h"
+#include "renderer/base/number_text.h"
 #include "renderer/metrics.h"
 #include "tests/support.h"
 
@@ -375,6 +376,13 @@ TEST(Split, IsWrittenForPeopleAndPrograms) {
   const std::string page = attributionReport(a, {"A fact & more"}, "nowhere", {16, 8}, {{"none", "not there"}});
   EXPECT_TRUE(contains(page, "The error of sweeps dominates")) << page;
   EXPECT_TRUE(contains(page, "A fact &amp; more"));
+  EXPECT_TRUE(contains(
+      page,
+      fmt::format("<p class=\"finding\">Relight: {} ms, 100 % of it sweeps. Frame: {} ms, 100 % of "
+                  "it of no stage alone. The stage whose ideal gains most, sweeps ({:.0f} % of "
+                  "the error), has 76 % of these milliseconds.</p>",
+                  milliseconds(12.5), milliseconds(4), 100 * a.stages[static_cast<size_t>(ErrorStage::sweeps)].share)))
+      << page;
   EXPECT_TRUE(contains(errorBars(a), "along the chain") && contains(timeBars(a), "relight"));
   for (const std::string& text : {csv, page, errorBars(a), timeBars(a)}) EXPECT_FALSE(contains(text, "nan")) << text;
 }

@@ -392,6 +392,12 @@ TEST(NamedReports, AreWholeAndStandByThemselves) {
   EXPECT_TRUE(html.ends_with("</html>\n"));
   EXPECT_TRUE(contains(html, "Skipped: no Sponza."));
   EXPECT_TRUE(contains(html, "grows as N^3.00"));
+  // A sentence before each plot, of its figures (nobody has timed a first solve here).
+  for (const char* sentence : {"First picture: nothing was measured.",
+                               "Build: 10 ms at point 0, 100 % of it GI BuildMatrix; 80 ms at point 1, 100 % of it GI "
+                               "BuildMatrix.",
+                               "Relight: 10 ms at point 0, 100 % of it GI Scatter; ", "Frame: 10 ms at point 0, "})
+    EXPECT_TRUE(contains(html, std::string("<p class=\"finding\">") + sentence)) << sentence;
   EXPECT_TRUE(contains(html, "<td class=\"agrees\">agrees</td>") && contains(html, "<td class=\"disagrees\">"));
   EXPECT_FALSE(contains(html, "<script") || contains(html, "src=\"") || contains(html, "href=\"http"));
   if (fs::exists(own / "pictures/reference.png")) {

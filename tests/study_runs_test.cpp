@@ -290,6 +290,8 @@ TEST_F(StudyRuns, EndAtASignalWithWholeFilesAndGoOn) {
   stopped(tune, [&] { return std::ranges::count(file("tune", "errors.csv"), '\n') > 1; });
   EXPECT_FALSE(readResults(folder_.path / "tune").errors.empty());
   EXPECT_FALSE(fs::exists(folder_.path / "tune/tuned.json"));
+  const std::string said = slurp(folder_.path / "err3");
+  EXPECT_TRUE(contains(said, " in all: 2 points at first, up to 6 around the best of them (3 rounds)")) << said;
   if (!hasPathTracer()) return;
   std::vector<std::string> traced = study("traced", {"--view", "indirect", "--size", "32x24"});
   const auto reference = std::ranges::find(traced, "--reference");
@@ -382,6 +384,9 @@ TEST_F(StudyRuns, WhatTuneChoosesHoldsForOtherSeeds) {
   };
   const double promised = figure(tuned.out, "error       relMSE ");
   EXPECT_TRUE(contains(tuned.out, "confidence  error: half of a 95 % interval over ")) << tuned.out;
+  EXPECT_TRUE(contains(tuned.err, " in all: 2 points at first, up to 2 around the best of them (1 round)"))
+      << tuned.err;
+  EXPECT_TRUE(contains(tuned.err, " was said")) << "how long it took, beside that: " << tuned.err;
 
   // The same again is read, not measured, and comes to the same.
   const std::string errors = file("tune", "errors.csv"), times = file("tune", "times.csv");

@@ -15,6 +15,7 @@
 #include "app/study_run.h"
 #include "gi/study/front.h"
 #include "gi/study/html.h"
+#include "gi/study/layers.h"
 #include "gi/study/loaded.h"
 #include "gi/study/pick.h"
 #include "gi/study/plot.h"
@@ -650,6 +651,80 @@ TEST(Reports, StandByThemselves) {
     EXPECT_TRUE(contains(html, "Equal time"));
     EXPECT_TRUE(contains(html, "href=\"data:image/png;base64,iVBORw0KGgo")) << "PNG's first bytes";
   }
+}
+
+TEST(Reports, ShowErrorsBesideMillisecondsOfPointsThatWereSplit) {
+  TemporaryFolder folder;
+  EXPECT_TRUE(contains(slurp(report(folder.path)), "Not measured: --split N"));
+  Attribution split;
+  for (size_t i = 0; i < kErrorStages; ++i) split.stages.push_back({.stage = static_cast<ErrorStage>(i)});
+  const auto stage = [&](ErrorStage s) -> StageError& {
+    StageError& out = split.stages[static_cast<size_t>(s)];
+    out.presence.present = true;
+    return out;
+  };
+  split.asIs = {.01, .001};
+  split.model.mean = .001;
+  stage(ErrorStage::voxels).step.mean = .007, stage(ErrorStage::voxels).cost = {.buildMs = 1, .relightMs = 1};
+  stage(ErrorStage::rays).step.mean = .002, stage(ErrorStage::rays).cost.buildMs = 6;
+  split.other.frameMs = 2;
+  writeReport(folder.path, SettingGrid(kSweep, Settings{}), someResults(), {}, {{1, split}});
+  const std::string html = slurp(folder.path / "report.html");
+  EXPECT_TRUE(
+      contains(html,
+               "<p class=\"finding\">Point 1: of relMSE 0.01 ± 0.001 every stage ideal leaves 10 %; voxels adds "
+               "most, 70 %, and takes 20 % of 10 ms; rays takes most, 60 % of 10 ms, and adds 20 %.</p>"))
+      << html;
+  const std::string errors = slurp(folder.path / "split-errors.svg"), times = slurp(folder.path / "split-times.svg");
+  EXPECT_TRUE(contains(errors, "<title>rays: 0.002 relMSE</title>")) << errors;
+  EXPECT_TRUE(contains(times, "<title>rays: 6 ms</title>")) << times;
+  for (const std::string& plot : {errors, times}) {
+    for (const char* name : {">voxels<", ">rays<", ">model<", ">other<"}) EXPECT_TRUE(contains(plot, name)) << name;
+    EXPECT_FALSE(contains(plot, ">shadows<")) << "it has neither";
+  }
+}
+
+/// Of one colour in each layer, 16 x 8 pixels.
+fs::path layered(const fs::path& stem, const std::vector<std::pair<std::string, float>>& values) {
+  std::vector<PictureLayer> layers;
+  for (const auto& [name, value] : values) layers.push_back({name, std::vector<glm::vec4>(128, glm::vec4(value))});
+  return writeLayers(stem, {16, 8}, layers, {"", "lit"}).front();
+}
+
+TEST(Layers, AreComparedBounceByBounce) {
+  TemporaryFolder folder;
+  // A picture that is right in sum, and wrong in its parts; two references about the truth 1 and 0.5.
+  const fs::path picture = layered(folder.path / "picture", {{"", 1.5f}, {"bounce.0", 1.1f}, {"bounce.1", .35f}}),
+                 first = layered(
+                     folder.path / "first",
+                     {{"", 1.7f}, {"error", .1f}, {"bounce.0", 1.2f}, {"bounce.0.error", .1f}, {"bounce.1", .5f}}),
+                 second = layered(
+                     folder.path / "second",
+                     {{"", 1.3f}, {"error", .1f}, {"bounce.0", .8f}, {"bounce.0.error", .1f}, {"bounce.1", .5f}});
+  const LayeredPicture p = readLayers(picture), r = readLayers(first), s = readLayers(second);
+  const std::vector<LayerError> layers = compareLayers(p, r, &s);
+  ASSERT_EQ(layers.size(), 3u) << "and none of the standard errors";
+  EXPECT_EQ(layers[0].name, "lit");
+  EXPECT_EQ(layers[2].name, "bounce.1");
+  EXPECT_NEAR(layers[1].metrics.blockRelMse, (1.1 - 1.2) * (1.1 - .8) / 1.01, 1e-6);
+  EXPECT_NEAR(layers[1].metrics.pixels.meanError, .1, 1e-6);
+  EXPECT_NEAR(layers[2].metrics.blockRelMse, .15 * .15 / (.25 * 1.01), 1e-6);
+  EXPECT_NEAR(layers[2].metrics.pixels.meanError, -.15, 1e-6);
+  // Half an interval by the noise of both, e = 0.1 / 8 / sqrt 2 of a block's mean: none of the product is above 0.
+  EXPECT_NEAR(layers[1].metrics.blockRelMseHalf, 1.96 * std::sqrt(4.0 / 6) * (.01 / 128) / 1.01, 1e-7);
+  EXPECT_TRUE(std::isnan(layers[2].metrics.blockRelMseHalf));
+  EXPECT_NEAR(compareLayers(p, r)[1].metrics.blockRelMse, .01 / (1.44 * 1.01), 1e-6);
+
+  const RunResult run =
+      runIrad({"study", "compare", picture.string(), first.string(), "--second-reference", second.string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.out, "bounce.1   0.5   0.0891")) << run.out;
+  EXPECT_TRUE(contains(run.out, "bounce.1 has most among the 2 bounces, -0.15; +0.05 is of more ")) << run.out;
+  writeLayers(folder.path / "other", {8, 8}, std::vector<PictureLayer>{{"", std::vector<glm::vec4>(64)}});
+  const RunResult refused = runIrad(
+      {"study", "compare", picture.string(), (folder.path / ("other" + std::string(linearExtension()))).string()});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "pictures of 16 x 8 and of 8 x 8 pixels")) << refused.err;
 }
 
 TEST(Reports, ShowPicturesOfBuildsThatWriteNoPng) {

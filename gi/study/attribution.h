@@ -176,6 +176,8 @@ std::string attributionCsv(const Attribution& attribution);
 /// Bars of parts: errors by leaving one out and along the chain; milliseconds of build, relight and frame.
 std::string errorBars(const Attribution& attribution);
 std::string timeBars(const Attribution& attribution);
+/// What the bars of milliseconds show, in words.
+std::string timeFinding(const Attribution& attribution);
 /// For terminals.
 std::vector<std::vector<std::string>> attributionTable(const Attribution& attribution);
 

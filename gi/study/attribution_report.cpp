@@ -116,6 +116,35 @@ std::string timeBars(const Attribution& a) {
   return stackedBars("ms", names, bars);
 }
 
+std::string timeFinding(const Attribution& a) {
+  const StageError* worst = nullptr;
+  for (const StageError& row : a.stages)
+    if (row.presence.present && (!worst || row.gain.mean > worst->gain.mean)) worst = &row;
+  std::string out;
+  double ofWorst = 0, ofAll = 0;
+  for (const auto& [name, member] :
+       {std::pair("Build", &StageCost::buildMs), {"Relight", &StageCost::relightMs}, {"Frame", &StageCost::frameMs}}) {
+    double all = a.other.*member, most = all;
+    const char* largest = "of no stage alone";
+    for (const StageError& row : a.stages) {
+      const double ms = row.cost.*member;
+      all += ms;
+      if (ms > most) most = ms, largest = nameOf(row.stage);
+    }
+    if (!(all > 0)) continue;
+    ofAll += all;
+    if (worst) ofWorst += worst->cost.*member;
+    out += fmt::format("{}{}: {} ms, {:.0f} % of it {}.", out.empty() ? "" : " ", name, milliseconds(all),
+                       100 * most / all, largest);
+  }
+  if (out.empty()) return "Nothing was timed.";
+  if (worst && worst->gain.mean > 0)
+    out += fmt::format(
+        " The stage whose ideal gains most, {} ({:.0f} % of the error), has {:.0f} % of these milliseconds.",
+        nameOf(worst->stage), 100 * worst->share, 100 * ofWorst / ofAll);
+  return out;
+}
+
 std::vector<std::vector<std::string>> attributionTable(const Attribution& a) {
   std::vector<std::vector<std::string>> rows{{"stage", "relMSE, ideal", "gain", "share", "chain: relMSE", "step",
                                               "squared", "mean diff.", "build ms", "relight ms", "frame ms", "MiB",
@@ -160,7 +189,8 @@ std::string attributionReport(const Attribution& a, const std::vector<std::strin
       "<p class=\"finding\">Parts below 0 are not drawn. <i>Left out</i>: relMSE as it is less that with one stage "
       "ideal. <i>Along the chain</i>: what each stage adds when its error is put back, from all ideal on. "
       "<i>Squares</i>: squared differences of neighbouring pictures of the chain, weighted as relMSE is.</p>\n";
-  html += "<h2>What the stages cost</h2>\n" + timeBars(a);
+  html += fmt::format("<h2>What the stages cost</h2>\n<p class=\"finding\">{}</p>\n{}", escapeXml(timeFinding(a)),
+                      timeBars(a));
   html += "<h2>All figures</h2>\n<table>\n";
   bool head = true;
   for (const std::vector<std::string>& row : attributionTable(a)) {

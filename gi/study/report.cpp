@@ -51,8 +51,10 @@ std::optional<double> secondsFor(std::vector<PeerRow> peers, double error) {
   return std::nullopt;
 }
 
-std::string finding(const CostKind& cost, const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
-                    std::optional<size_t> given) {
+}  // namespace
+
+std::string errorFinding(const CostKind& cost, const std::vector<PointSummary>& points,
+                         const std::vector<PeerRow>& peers, std::optional<size_t> given) {
   const std::vector<CostAndError> pairs = pairsOf(points, cost);
   const std::vector<size_t> best = front(pairs);
   std::string name = cost.name;
@@ -99,8 +101,6 @@ std::string finding(const CostKind& cost, const std::vector<PointSummary>& point
   }
   return out;
 }
-
-}  // namespace
 
 std::string reportCrop(const fs::path& folder, const std::string& name, const std::string& caption,
                        const ReportNotes& notes) {
@@ -225,9 +225,6 @@ std::string stagePlot(const std::string& title, const std::string& kind, const s
   return stackedBars(title, names, bars);
 }
 
-namespace {
-
-/// What one kind of work takes at the cheapest and at the dearest of the points, and which stage takes most of it.
 std::string stageFinding(const std::string& name, const std::string& kind, const std::vector<PointSummary>& points,
                          const std::vector<size_t>& chosen) {
   struct Time {
@@ -252,6 +249,8 @@ std::string stageFinding(const std::string& name, const std::string& kind, const
   if (!(cheapest->all < dearest->all)) return fmt::format("{}: {}.", name, cheapest->words);
   return fmt::format("{}: {}; {}.", name, cheapest->words, dearest->words);
 }
+
+namespace {
 
 /// One row per point: its number and settings, then what `cells` makes of it; a failure in words across `columns`.
 template <class Cells>
@@ -351,12 +350,101 @@ std::string pictureName(const std::string& peer, uint32_t samples) {
 std::vector<std::string> findings(const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
                                   std::optional<size_t> given) {
   std::vector<std::string> out;
-  for (const CostKind& cost : costKinds()) out.push_back(finding(cost, points, peers, given));
+  for (const CostKind& cost : costKinds()) out.push_back(errorFinding(cost, points, peers, given));
   return out;
 }
 
-void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyResults& results,
-                 const ReportNotes& notes) {
+std::vector<size_t> frontOfFirstPictures(const std::vector<PointSummary>& points) {
+  return front(pairsOf(points, costKinds().front()));
+}
+
+namespace {
+
+double costOfStages(const StageCost& c) {
+  return c.buildMs + c.relightMs + c.frameMs;
+}
+
+/// Errors beside milliseconds, stage by stage in the same colours.
+struct SplitBars {
+  std::vector<std::string> names;
+  std::vector<Bar> errors, times;
+};
+SplitBars splitBars(const std::vector<SplitPoint>& splits, const std::vector<PointSummary>& points) {
+  SplitBars out;
+  const auto add = [&](const std::string& name, auto&& error, auto&& ms) {
+    bool any = false;
+    for (const SplitPoint& s : splits) any = any || error(s.split) != 0 || ms(s.split) > 0;
+    if (!any) return;  // it would only fill the legend
+    out.names.push_back(name);
+    for (size_t i = 0; i < splits.size(); ++i) {
+      out.errors[i].parts.push_back(error(splits[i].split));
+      out.times[i].parts.push_back(ms(splits[i].split));
+    }
+  };
+  for (const SplitPoint& s : splits) {
+    const std::string label = fmt::format("{}: {}", s.point, points[s.point].label);
+    out.errors.push_back({label, {}}), out.times.push_back({label, {}});
+  }
+  for (size_t stage = 0; stage < kErrorStages; ++stage)
+    add(
+        nameOf(static_cast<ErrorStage>(stage)),
+        [&](const Attribution& a) { return a.stages[stage].presence.present ? a.stages[stage].step.mean : 0.0; },
+        [&](const Attribution& a) { return costOfStages(a.stages[stage].cost); });
+  add(
+      "model", [](const Attribution& a) { return a.model.mean; }, [](const Attribution&) { return 0.0; });
+  add(
+      "other", [](const Attribution&) { return 0.0; }, [](const Attribution& a) { return costOfStages(a.other); });
+  return out;
+}
+
+/// Of one point: the stage with the most error and its time, the one with the most time and its error.
+std::string splitFinding(const SplitPoint& s) {
+  const Attribution& a = s.split;
+  double all = costOfStages(a.other);
+  const StageError *wrong = nullptr, *slow = nullptr;
+  for (const StageError& row : a.stages) {
+    all += costOfStages(row.cost);
+    if (row.presence.present && (!wrong || row.step.mean > wrong->step.mean)) wrong = &row;
+    if (!slow || costOfStages(row.cost) > costOfStages(slow->cost)) slow = &row;
+  }
+  const auto error = [&](double value) {
+    return a.asIs.mean > 0 ? fmt::format("{:.0f} %", 100 * value / a.asIs.mean) : shortNumber(value);
+  };
+  const auto time = [&](const StageError& row) {
+    return fmt::format("{:.0f} % of {} ms", 100 * costOfStages(row.cost) / all, plainNumber(all));
+  };
+  std::string out = fmt::format("Point {}: of relMSE {} ± {} every stage ideal leaves {}", s.point,
+                                shortNumber(a.asIs.mean), shortNumber(a.asIs.half), error(a.model.mean));
+  if (wrong && wrong->step.mean > 0)
+    out += fmt::format("; {} adds most, {}, and takes {}", nameOf(wrong->stage), error(wrong->step.mean), time(*wrong));
+  if (slow && slow != wrong && costOfStages(slow->cost) > 0)
+    out += fmt::format("; {} takes most, {}, and adds {}", nameOf(slow->stage), time(*slow),
+                       slow->presence.present ? error(slow->step.mean) : "nothing that was measured");
+  return out + ".";
+}
+
+std::string splitSection(const fs::path& folder, const std::vector<SplitPoint>& splits,
+                         const std::vector<PointSummary>& points) {
+  std::string out = "<h2>Errors beside milliseconds, by stage</h2>\n";
+  if (splits.empty())
+    return out + "<p>Not measured: --split N splits the errors of N points on the front of first pictures.</p>\n";
+  for (const SplitPoint& s : splits) out += fmt::format("<p class=\"finding\">{}</p>\n", escapeXml(splitFinding(s)));
+  const SplitBars bars = splitBars(splits, points);
+  const std::string errors = stackedBars("relMSE of 8 × 8 means: what each stage adds along the chain", bars.names,
+                                         bars.errors, "relMSE"),
+                    times = stackedBars("ms of a rebuild, a relight and a frame", bars.names, bars.times);
+  writeFile(folder / "split-errors.svg", errors);
+  writeFile(folder / "split-times.svg", times);
+  return out + errors + times +
+         "<p>From pictures with every stage ideal (model: what they are off by) one error after the other is put back, "
+         "in the legend's order; parts below 0 are not drawn. Other: passes of no stage alone. Pages of their own: "
+         "split/point-…/report.html.</p>\n";
+}
+
+}  // namespace
+
+void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyResults& results, const ReportNotes& notes,
+                 const std::vector<SplitPoint>& splits) {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> values;
   for (const Setting* setting : grid.swept()) names.emplace_back(setting->name);
@@ -377,7 +465,7 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
   }
 
   // The front by first picture, and the settings given.
-  std::vector<size_t> chosen = front(pairsOf(points, costKinds().front()));
+  std::vector<size_t> chosen = frontOfFirstPictures(points);
   if (given && std::ranges::find(chosen, *given) == chosen.end() && points[*given].seeds > 0) chosen.push_back(*given);
   html +=
       "<h2>Where the milliseconds go</h2>\n<p>Medians per stage of the points on the front by first picture, cheapest "
@@ -391,6 +479,7 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
     writeFile(folder / fmt::format("stages-{}.svg", kind), plot);
     html += fmt::format("<p class=\"finding\">{}</p>\n{}", escapeXml(stageFinding(name, kind, points, chosen)), plot);
   }
+  html += splitSection(folder, splits, points);
   html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);
   html += pointTables(points, given);
   writeFile(folder / "report.html", htmlPage("What accuracy costs", notes.facts, html));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gi/study/attribution.h"
 #include "gi/study/results.h"
 #include "gi/study/sweep.h"
 
@@ -27,9 +28,18 @@ ReportNotes readNotes(const std::filesystem::path& folder);
 std::vector<std::string> findings(const std::vector<PointSummary>& points, const std::vector<PeerRow>& peers,
                                   std::optional<size_t> given);
 
-/// points.csv, stages.csv, error-against-COST.svg, stages.svg, report.html; from the folder's pictures/ the crops.
+/// A point whose error was split among the stages.
+struct SplitPoint {
+  size_t point = 0;
+  Attribution split;
+};
+/// The points on the front of error against first pictures, cheapest first.
+std::vector<size_t> frontOfFirstPictures(const std::vector<PointSummary>& points);
+
+/// points.csv, stages.csv, error-against-COST.svg, stages.svg, of points that were split split-errors.svg and
+/// split-times.svg, report.html; from the folder's pictures/ the crops.
 void writeReport(const std::filesystem::path& folder, const SettingGrid& grid, const StudyResults& results,
-                 const ReportNotes& notes);
+                 const ReportNotes& notes, const std::vector<SplitPoint>& splits = {});
 
 /// Names within pictures/, without extension.
 std::string pictureName(size_t point);
