@@ -102,6 +102,7 @@ class StudyRun {
   const StudyTask& task() const { return task_; }
   Bench& bench() { return *bench_; }  ///< for pictures of other settings, before measure()
   double tryRepeat(size_t point);     ///< seconds of one, by a trial
+  WorkAhead picturesAhead() { return picturesAhead(ownPoints()); }  ///< of measure(), by a trial
   /// What was to come of pictures and truths when the study was opened.
   const WorkAhead& ahead() const { return ahead_; }
   ReportNotes notes() const;

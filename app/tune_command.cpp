@@ -48,22 +48,21 @@ size_t sidesOf(const SettingGrid& grid) {
   return points - 1;
 }
 
-/// Says before it begins how long all of it takes: the grid by its trial, every further point as long as one of the
-/// grid on average, the chosen one with twice the fewest fresh seeds. Returns the seconds.
-double announceSearch(StudyRun& run, uint32_t rounds, ProgressReport& progress) {
+/// All that a search may have to do: the grid by its trial, every further point as long as one of the grid on average,
+/// the chosen one with twice the fewest fresh seeds.
+WorkAhead searchAhead(StudyRun& run, uint32_t rounds, ProgressReport& progress) {
   const StudyTask& task = run.task();
-  const WorkAhead& grid = run.ahead();
   const size_t points = run.grid().size(), begun = run.grid().texts().size() - 1;
-  const double ofPicture = grid.pictures > 0 ? grid.seconds / grid.pictures : run.tryRepeat(points / 2);
-  const double further = static_cast<double>(sidesOf(run.grid())) * (rounds - std::min<double>(rounds, begun)),
-               pictures = further * (task.seeds + task.repeats + 1) + 2 * kFreshSeeds + task.repeats + 1;
-  const double seconds = grid.all() + pictures * ofPicture;
+  const double further = static_cast<double>(sidesOf(run.grid())) * (rounds - std::min<double>(rounds, begun));
   progress.note(
-      fmt::format("about {} in all: {} points at first{}, up to {:.0f} around the best of them ({} {}), and the "
-                  "chosen one anew with {} to {} seeds ({} counted)",
-                  duration(seconds), points, begun > 0 ? " and in earlier rounds" : "", further, rounds,
-                  rounds == 1 ? "round" : "rounds", kFreshSeeds, kMostFreshSeeds, 2 * kFreshSeeds));
-  return seconds;
+      fmt::format("all in all, with up to {:.0f} points around the best of the grid ({} {}) and the chosen one "
+                  "anew by {} to {} seeds ({} are counted):",
+                  further, rounds, rounds == 1 ? "round" : "rounds", kFreshSeeds, kMostFreshSeeds, 2 * kFreshSeeds));
+  WorkAhead out = run.picturesAhead();
+  const double ofPicture = out.pictures > 0 ? out.seconds / out.pictures : run.tryRepeat(points / 2),
+               pictures = further * (task.seeds + task.repeats + 1) + 2 * kFreshSeeds + task.repeats + 1;
+  out.pictures += pictures, out.seconds += pictures * ofPicture;
+  return out;
 }
 
 class Search {
@@ -159,8 +158,8 @@ void run(const TuneArguments& a, Machine& machine) {
       a.measure.sweeps.empty() ? coarseSweeps(session.device->isCpu) : a.measure.sweeps;
   const StopOnSignal stop;
   const auto began = std::chrono::steady_clock::now();
-  StudyRun study(session, std::move(scene), SettingGrid(sweeps, session.settings), std::move(task));
-  const double said = announceSearch(study, rounds, session.progress);
+  StudyRun study(session, std::move(scene), SettingGrid(sweeps, session.settings), std::move(task),
+                 [&](StudyRun& opened) { return searchAhead(opened, rounds, session.progress); });
   Search search(a, study, session.settings.matrix.gpu.seed, seeds, repeats, session.progress);
   search.refine(rounds);
   const PointSummary promised = search.confirm();
@@ -174,7 +173,8 @@ void run(const TuneArguments& a, Machine& machine) {
   writeFile(file, settingsFile(study.grid().settings(promised.point)));
   print("wrote       {} (for --config)\n", file.string());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-  session.progress.note(fmt::format("took {}; about {} was said", duration(took.count()), duration(said)));
+  session.progress.note(
+      fmt::format("took {}; about {} was said", duration(took.count()), duration(study.ahead().all())));
   session.checkValidation();
 }
 
