@@ -296,11 +296,11 @@ TEST_F(AttributionRuns, AStageWithoutMemoryIsARowThatSaysSo) {
 
 TEST_F(AttributionRuns, OfAPointOnTheFrontOfACostStudy) {
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
-  Strings arguments = study({"", {"matrix.jitter=false"}, std::nullopt}, "cost");
+  const Strings options{"--finer", "1.25", "--gather-rays", "16"};
+  Strings arguments =
+      study({"", {"matrix.jitter=false"}, std::nullopt, "indirect", options, "still.glb", "16x16"}, "cost");
   arguments[1] = "cost";
-  append(arguments, {"--sweep", "matrix.rays=2,64", "--split", "1", "--finer", "1.25", "--gather-rays", "64"});
-  const auto gather = std::ranges::find(arguments, "--gather-rays");
-  arguments.erase(gather, gather + 2);
+  append(arguments, {"--sweep", "matrix.rays=2,64", "--split", "1"});
   const RunResult run = runIrad(arguments);
   ASSERT_EQ(run.status, 0) << run.err;
   const std::string html = slurp(at("cost/report.html"));
