@@ -76,7 +76,10 @@ Attribution splitPoint(DeviceSession& session, Scene scene, const Settings& sett
   std::optional<StagePictures> pictures;
   StudyRun run(session, std::move(scene), SettingGrid(std::vector<std::string>{}, settings), std::move(study),
                [&](StudyRun& opened) { return pictures.emplace(session, opened, task).tryFew(); });
-  if (!pictures) pictures.emplace(session, run, task);  // where others tell of truths, nothing is said beforehand
+  if (!pictures) {  // where others tell of truths, nobody was asked what is ahead
+    const WorkAhead ahead = pictures.emplace(session, run, task).tryFew();
+    session.progress.note(fmt::format("  {:.0f} pictures to come, about {}", ahead.pictures, duration(ahead.all())));
+  }
   pictures->measure();
   run.measureTimesOnly();
   session.progress.finish();

@@ -303,6 +303,7 @@ TEST_F(AttributionRuns, OfAPointOnTheFrontOfACostStudy) {
   append(arguments, {"--sweep", "matrix.rays=2,64", "--split", "1"});
   const RunResult run = runIrad(arguments);
   ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.err, ") by stage\n") && contains(run.err, " pictures to come, about ")) << run.err;
   const std::string html = slurp(at("cost/report.html"));
   EXPECT_TRUE(contains(html, "<h2>Errors beside milliseconds, by stage</h2>\n<p class=\"finding\">Point ")) << run.out;
   EXPECT_FALSE(contains(html, "Not measured: --split"));
