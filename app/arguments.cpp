@@ -273,7 +273,7 @@ fs::path findScene(const std::optional<std::string>& argument, const Config& con
     throw UsageError(
         fmt::format("no scene given: a .gltf or .glb file, or one of: {}", fmt::join(builtInScenes(), ", ")));
   if (isCheckScene(*wanted)) {
-    (void)findCheckCase(wanted->substr(wanted->find(':') + 1));
+    (void)caseOf(*wanted);
     return *wanted;
   }
   for (const char* extension : {".glb", ".irscene"})  // a build without image decoders comes with the latter

@@ -3,8 +3,11 @@
 #include "gi/check/families.h"
 
 #include <algorithm>
+#include <set>
 
+#include "gi/check/check.h"
 #include "gi/check/path_tracer.h"
+#include "renderer/base/error.h"
 #include "tests/support.h"
 
 namespace irad::test::families_suite {
@@ -52,6 +55,28 @@ TEST_P(FamilyOf, IsLitOrDarkAsMeant) {
           EXPECT_GT(mean, 0) << "seed " << seed << ", N " << resolution << ", camera " << c;
       }
     }
+}
+
+TEST_P(FamilyOf, IsOpenedByItsSeedAndVoxels) {
+  const std::string name = std::string("check:") + GetParam().name;
+  const auto positions = [&](const std::string& more) { return openScene(name + more).positions; };
+  EXPECT_EQ(positions(""), familyMember(GetParam(), 1, 64).scene.positions);
+  EXPECT_EQ(positions(":3"), familyMember(GetParam(), 3, 64).scene.positions);
+  EXPECT_EQ(positions(":3:32"), familyMember(GetParam(), 3, 32).scene.positions);
+  const Scene scene = openScene(name + ":3:32");
+  std::set<std::string> cameras;
+  for (const Camera& camera : scene.cameras) EXPECT_TRUE(cameras.insert(camera.name).second) << camera.name;
+  for (const char* wrong : {":", ":x", ":1:", ":1:7", ":1:1023", ":1:32:4", ":-1"})
+    EXPECT_THROW((void)openScene(name + wrong), UsageError) << wrong;
+}
+
+TEST(CheckScenes, OfOneSceneHaveNoSeeds) {
+  try {
+    (void)openScene("check:furnace-box:2");
+    FAIL() << "opened";
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(), "check:furnace-box:2: the case 'furnace-box' is one scene, not a family with seeds");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, FamilyOf, ::testing::ValuesIn(families().begin(), families().end()),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gi/check/cases.h"
+#include "gi/check/families.h"
 #include "renderer/base/error.h"
 #include "renderer/base/near_match.h"
 #include "renderer/scene/material_edits.h"
@@ -15,7 +16,36 @@
 
 namespace irad {
 namespace {
+
 constexpr std::string_view kScheme = "check:";
+
+/// The case and, of a family, the member that "check:NAME" or "check:NAME:SEED:N" names.
+struct Named {
+  const CheckCase& check;
+  const Family* family = nullptr;
+  uint64_t seed = 1;
+  uint32_t resolution = 0;
+};
+
+Named parseName(const std::filesystem::path& path) {
+  const std::string text = path.native().substr(kScheme.size());
+  const size_t name = std::min(text.find(':'), text.size()), seed = std::min(text.find(':', name + 1), text.size());
+  Named named{.check = findCheckCase(text.substr(0, name))};
+  for (const Family& family : families())
+    if (std::string_view(family.name) == named.check.name) named.family = &family;
+  if (name < text.size() && named.family == nullptr)
+    throw UsageError(
+        fmt::format("{}: the case '{}' is one scene, not a family with seeds", path.string(), named.check.name));
+  Settings given;
+  applyCheckSizes(given);
+  given.matrix.gpu.seed = 1;
+  if (name < text.size()) applySetting(given, "matrix.seed=" + text.substr(name + 1, seed - name - 1));
+  if (seed < text.size()) applySetting(given, "voxel.resolution=" + text.substr(seed + 1));
+  named.seed = given.matrix.gpu.seed;
+  named.resolution = given.voxel.resolution;
+  return named;
+}
+
 }  // namespace
 
 std::span<const CheckCase> checkCases() {
@@ -45,11 +75,16 @@ bool isCheckScene(const std::filesystem::path& path) {
   return path.native().starts_with(kScheme);
 }
 
+const CheckCase& caseOf(const std::filesystem::path& path) {
+  return parseName(path).check;
+}
+
 Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (!isCheckScene(path)) return loadScene(path, options);
-  const CheckCase& check = findCheckCase(path.native().substr(kScheme.size()));
+  const Named named = parseName(path);
+  const CheckCase& check = named.check;
   if (check.scene == nullptr) throw UsageError(fmt::format("the case '{}' has no scene: {}", check.name, check.setup));
-  Scene scene = check.scene();
+  Scene scene = named.family ? familyMember(*named.family, named.seed, named.resolution).scene : check.scene();
   scene.path = path;
   scene.fileLights = scene.lights;
   if (options.lights) replaceLights(scene, *options.lights);
@@ -63,7 +98,7 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
 
 ExpectedIrradiance expectedIrradiance(const Scene& scene) {
   if (!isCheckScene(scene.path)) return {};
-  return findCheckCase(scene.path.native().substr(kScheme.size())).expected;
+  return caseOf(scene.path).expected;
 }
 
 bool CheckOutcome::passed() const {

@@ -33,9 +33,13 @@ std::span<const CheckCase> checkCases();
 /// UsageError lists near matches of an unknown name.
 const CheckCase& findCheckCase(std::string_view name);
 
-/// "check:NAME", as `irad view` takes it.
+/// "check:NAME" or, of a family, "check:NAME:SEED" and "check:NAME:SEED:N" (its member for N voxels; 1 and 64 where they
+/// are not said), as `irad view` takes it.
 bool isCheckScene(const std::filesystem::path& path);
-/// loadScene, or the scene of a case, which has no sidecar. UsageError where a case has none.
+/// The case of such a path; UsageError where there is none, or not such a member of it.
+const CheckCase& caseOf(const std::filesystem::path& path);
+/// loadScene, or the scene of a case, which has no sidecar. UsageError where a case has none, or is no family and a
+/// seed is given.
 Scene openScene(const std::filesystem::path& path, const LoadOptions& options = {});
 /// What is known about a scene that openScene made; empty: nothing.
 ExpectedIrradiance expectedIrradiance(const Scene& scene);

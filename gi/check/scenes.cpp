@@ -1,5 +1,7 @@
 #include "gi/check/scenes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,8 +98,10 @@ void SceneBuilder::point(glm::dvec3 position, float candela) {
 void SceneBuilder::camera(glm::dvec3 position, glm::dvec3 target) {
   const glm::dvec3 way = glm::normalize(target - position);
   const glm::dvec3 up = std::abs(way.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
-  scene_.cameras.push_back(
-      {.name = "front", .position = position, .orientation = glm::quatLookAt(glm::vec3(way), glm::vec3(up))});
+  const size_t before = scene_.cameras.size();
+  scene_.cameras.push_back({.name = before == 0 ? "front" : fmt::format("front {}", before + 1),
+                            .position = position,
+                            .orientation = glm::quatLookAt(glm::vec3(way), glm::vec3(up))});
 }
 
 Scene SceneBuilder::finish(std::string name) {
