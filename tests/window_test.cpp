@@ -275,9 +275,13 @@ TEST_F(WindowTest, EffectsCanBeForced) {
   away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.1; }))
       << "the lamp still shines";
+  // It stays in the list, and is counted apart from what the scene does not call for.
+  EXPECT_TRUE(contains(helpOf("Effects/off"), "; 1 forced off, ")) << helpOf("Effects/off");
+  EXPECT_TRUE(has("Effects/emission"));
   choose("Effects/emission", "auto");
   away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; })) << "not auto again";
+  EXPECT_FALSE(contains(helpOf("Effects/off"), " forced off, ")) << helpOf("Effects/off");
   // Those that are off fold under one line.
   EXPECT_TRUE(has("Effects/sun"));
   click("Effects/off");

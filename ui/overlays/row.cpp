@@ -124,13 +124,14 @@ class RowOverlay : public Overlay {
         line(facet.position, pointedAt->position, ImGui::GetColorU32(theme::text), 3);
         box(centre(glm::ivec3(pointedAt->voxel)), theme::text, 2);
       }
-      drawKey(fmt::format("{} of {}{}", drawn.size(), counted(passing, "link"),
-                          passing < links.size() ? ", filtered" : ": F B"),
-              scale);
+      const std::string most = drawn.size() < passing ? fmt::format("{} of ", drawn.size()) : "";
+      drawKey(
+          fmt::format("Light by {}{}{}", most, counted(passing, "link"), passing < links.size() ? ", filtered" : ""),
+          scale);
     }
     /// What the colours stand for, in the lower left corner.
     void drawKey(const std::string& title, const LinkScale& scale) const {
-      const float em = ImGui::GetFontSize(), width = 12 * em;
+      const float em = ImGui::GetFontSize(), width = std::max(12 * em, ImGui::CalcTextSize(title.c_str()).x);
       const Rect where = picture.clear();
       const glm::vec2 at = where.position + glm::vec2(0, where.size.y) + glm::vec2(em, -5 * em);
       legends.push_back({at, {width + em, 4 * em}});
