@@ -66,8 +66,7 @@ void drawDominating(const Session& session) {
   std::string text = "\u2014";
   if (accuracy.measured && report.frames == 0 && report.meanH > 0 && accuracy.measured->blockRelMse > 0) {
     const double relative = report.bound / report.meanH, share = relative * relative / accuracy.measured->blockRelMse;
-    text =
-        !(share < 0.5) ? "sweeps, by the bound" : fmt::format("not sweeps (< {})", sharePercent(std::max(share, .01)));
+    text = !(share < 0.5) ? "sweeps, by the bound" : fmt::format("not sweeps (< {:.2g} %)", 100 * std::max(share, .01));
   }
   valueRow("largest part", text);
   helpTooltip(
