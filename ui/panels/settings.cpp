@@ -143,7 +143,12 @@ class SettingsPanel : public Panel {
         "Settings that rebuild wait, marked in the list, until Apply builds once for all of them. What only the "
         "picture shows is taken at once.");
     const float button = ImGui::CalcTextSize("Apply").x + 4 * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
+    ImGui::SameLine();
+    // At the line's end; below where large text leaves no room.
+    if (const float room = ImGui::GetContentRegionAvail().x; room >= button)
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - button);
+    else
+      ImGui::NewLine();
     ImGui::BeginDisabled(!session.pending);
     if (ImGui::Button("Apply", {button, 0})) session.applyNow = true;
     ImGui::EndDisabled();
