@@ -19,11 +19,13 @@ namespace {
 
 /// Exponents of N and R between the ends of the table in docs/performance.md (N 64 to 192 with 128 rays, 64 to 384 rays
 /// with N = 128): voxelization and list 363 -> 1,943 ms; the field, N^3 by its definition; the matrix 2,269 -> 18,870
-/// and 4,106 -> 21,871 ms; gather and scatter 44 -> 312 ms, with sweeps that grow with the rays.
+/// and 4,106 -> 21,871 ms; gather 15 -> 87 ms; a sweep 9.2 -> 103.9 and 17.7 -> 66.2 ms; scatter 29 -> 225 ms. What
+/// materials give the facets grows as these do.
 struct Growth {
   double resolution, rays;
 };
-constexpr std::array<Growth, BuildTimes::kParts> kGrowth{{{1.5, 0}, {3, 0}, {1.93, 0.93}, {1.9, 0.4}}};
+constexpr std::array<Growth, BuildTimes::kParts> kGrowth{
+    {{1.5, 0}, {3, 0}, {1.93, 0.93}, {2, 0}, {1.6, 0}, {2.2, 0.74}, {1.87, 0}}};
 constexpr double kEntriesByRays = 0.93;
 
 constexpr double resolutionOf(const Settings& s) {
@@ -37,8 +39,8 @@ double grown(size_t part, double resolution, double rays) {
   return std::pow(resolution, kGrowth[part].resolution) * std::pow(rays, kGrowth[part].rays);
 }
 
-/// Whether a part is redone where `first` is the first stage that is. Stages that need no redoing after it are counted:
-/// materials alone leave the matrix, and count as light.
+/// Whether a part is redone where `first` is the first stage that is. A build from the voxels on shades its facets as
+/// it makes them. Settings of materials are read by what gathers from emission, too.
 bool redone(BuildTimes::Part part, Redo first) {
   switch (part) {
     case BuildTimes::Part::Voxels:
@@ -47,8 +49,14 @@ bool redone(BuildTimes::Part part, Redo first) {
       return first <= Redo::Field;
     case BuildTimes::Part::Matrix:
       return first <= Redo::Matrix;
-    case BuildTimes::Part::Light:
-      return first < Redo::Shade;
+    case BuildTimes::Part::Materials:
+      return first == Redo::Materials;
+    case BuildTimes::Part::Gather:
+      return first <= Redo::Gather;
+    case BuildTimes::Part::Solve:
+      return first <= Redo::Solve;
+    case BuildTimes::Part::Scatter:
+      return first <= Redo::Scatter;
   }
   return false;
 }
@@ -65,7 +73,10 @@ BuildTimes::Part BuildTimes::partOf(const char* stage) {
   if (name == "GI Voxelization") return Part::Voxels;
   if (name == "GI SDF") return Part::Field;
   if (name == "GI BuildMatrix") return Part::Matrix;
-  return Part::Light;
+  if (name == "GI Materials") return Part::Materials;
+  if (name == "GI Gather") return Part::Gather;
+  if (name == "GI Scatter") return Part::Scatter;
+  return Part::Solve;
 }
 
 double BuildTimes::growth(Part part, const Settings& from, const Settings& to) {

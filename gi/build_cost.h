@@ -25,10 +25,11 @@ std::string costText(const BuildCost& cost);
 /// Times of the stages of one scene's last builds, as they were waited for: work on the processor included.
 class BuildTimes {
  public:
-  /// Stages whose times are told apart. Light: what materials give the facets, gather, the first sweeps, scatter.
-  enum class Part { Voxels, Field, Matrix, Light };
-  static constexpr size_t kParts = 4;
-  /// The part that a stage's name in Progress belongs to.
+  /// Stages whose times are told apart. Materials: what these give the facets of voxels that stay. Gather: D, and F M.
+  /// Solve: the first sweeps.
+  enum class Part { Voxels, Field, Matrix, Materials, Gather, Solve, Scatter };
+  static constexpr size_t kParts = 7;
+  /// The part that a stage's name in Progress belongs to: Solve where it is no other's.
   static Part partOf(const char* stage);
 
   /// By how much its time grows from one settings' voxels and rays to other ones'.

@@ -378,12 +378,12 @@ struct Pipeline::Impl {
     ++revision.light;
     // A new list has no light yet: if it were given up now it would stay black.
     const bool mayEnd = p.light.has_value();
-    const auto goesOn = [&] { return !progress || progress("GI Solve", 0) || !mayEnd; };
+    const char* stage = "GI Gather";  // that runs
+    const auto goesOn = [&] { return !progress || progress(stage, 0) || !mayEnd; };
     // Between steps that may take a second each on a CPU device.
     const auto breathe = [&] {
       if (!goesOn()) throw WorkError("cancelled");
     };
-    breathe();
     if (due.has(Redo::Gather) || !p.light) place(context, planned.on(Effect::sky) ? sky : Sky{}, skyOnDevice);
     if (!lit()) return darken(p);
     // The other method's light lacks what this one keeps, and has what this one does not need. By brute force so has
@@ -400,11 +400,14 @@ struct Pipeline::Impl {
       fitEmitted(context, *p.facets, *p.light);
       due.add(Redo::Emission);
     }
+    // What lies outside passes on what its materials make of it.
+    if (p.facets->outer && (due.has(Redo::Materials) || due.has(Redo::Emission))) due.add(Redo::Gather);
+    // Only stages that run are told: their times foretell those of the next edit.
+    if (!due.has(Redo::Emission) && !due.has(Redo::Gather)) stage = due.has(Redo::Solve) ? "GI Solve" : "GI Scatter";
+    breathe();
     if (due.has(Redo::Emission) && !framewise())
       gatherEmitters(context, *p.facets, *p.matrix, {&*p.emitters, &*p.field}, planned.settings(), *p.light);
     breathe();
-    // What lies outside passes on what its materials make of it.
-    if (p.facets->outer && (due.has(Redo::Materials) || due.has(Redo::Emission))) due.add(Redo::Gather);
     if (due.has(Redo::Gather)) {
       Frame frame = context.begin(frameIndex);
       gather(frame, onDevice, *shadows, *p.facets, *p.field, *p.light, planned.settings());
@@ -414,11 +417,15 @@ struct Pipeline::Impl {
       breathe();
     }
     if (due.has(Redo::Solve)) {
+      stage = "GI Solve";
+      breathe();
       useReflections(*p.light, p.facets->count);
       const bool restarts = due.has(Redo::Materials) || due.has(Redo::Emission) || due.has(Redo::Gather);
       solveFor(p, restarts, maxSweeps, progress, goesOn);
       solvedFrame = frameIndex;
     }
+    stage = "GI Scatter";
+    goesOn();  // whatever it says: this is soon done, and the light with it
     showSolved(p);
     context.timings.endFrame(frameIndex++, /*setup=*/false, since(start));
   }

@@ -9,6 +9,7 @@
 #include "gi/emitter_rule.h"
 #include "gi/region.h"
 #include "gi/stage_keys.h"
+#include "renderer/base/number_text.h"
 #include "renderer/forward.h"
 #include "renderer/shadow.h"
 #include "shaders/shared/pixel_emitters.h"
@@ -245,8 +246,8 @@ class Planner {
     r.epsilon = kEmitterAgreement;
     r.of = "the sum of F M";
     r.state = when(few);
-    r.reason = t_.build ? fmt::format("{} of {} facets emit, {} a tenth", b_.emitters, b_.facets,
-                                      few ? "less than" : "not less than")
+    r.reason = t_.build ? fmt::format("{} of {} facets emit, {} a tenth", withThousands(b_.emitters),
+                                      withThousands(b_.facets), few ? "less than" : "not less than")
                         : "known once the emissive facets are counted";
     // F M does not depend on the lights: once the samples were tried, the outcome holds until there is another matrix.
     if (t_.build && few && (b_.sampled || b_.sampledShare > 0 || (automatic && t_.light.due > Redo::Solve))) {

@@ -1,6 +1,9 @@
 // The settings, a row each: SETTING(member of Settings, name, range of a number, help, what a change redoes).
+// Below it what panels call those that have letters for names, and what each group is about.
+#include <algorithm>
 #include <type_traits>
 
+#include "gi/setting_words.h"
 #include "gi/settings.h"
 
 namespace irad {
@@ -335,7 +338,47 @@ constexpr Setting kTable[] = {
 
 #undef SETTING
 
+struct Words {
+  std::string_view name;
+  const char* text;
+};
+constexpr Words kLabels[] = {{"solver.lambda", "light gain \u03BB"}, {"solver.omega", "relaxation \u03C9"},
+                             {"solver.flush", "dark below"},         {"writeback.alpha", "distance power \u03B1"},
+                             {"writeback.k", "centre weight k"},     {"writeback.threshold", "least score \u03C4"},
+                             {"light.points", "soft shadow points"}, {"camera.pcf", "shadow edge taps"},
+                             {"view.jfa_pass", "jump-flood pass"},   {"thesis.literal", "thesis's slips"}};
+constexpr Words kGroups[] = {
+    {"voxel", "How finely surfaces are cut into voxels, and how"},
+    {"field", "The distance field that lets rays skip empty space"},
+    {"matrix", "Rays between facets: how many, what they meet, how the form factors are kept"},
+    {"solver", "How indirect light is solved from the form factors, and how exactly"},
+    {"scatter", "How solved light is put into the volume that shading samples"},
+    {"sample", "How a pixel looks up the light of the facets around it"},
+    {"specular", "Reflections by rays of each pixel"},
+    {"writeback", "Reflections that light the scene in turn"},
+    {"light", "Shadows of suns, points and spots"},
+    {"sky", "Light from outside the scene"},
+    {"camera", "How light becomes the picture that is shown"},
+    {"view", "What the views of data show, and in which colours"},
+    {"thesis", "What the thesis does that is mended here"},
+    {"effects", "Parts of the method: as the scene calls for, always, or never (the panel Effects says why)"},
+    {"device", "How the graphics device is used"},
+    {"scene", "How the scene's file is read, and which part of it has voxels"}};
+
 }  // namespace
+
+std::string settingLabel(std::string_view name) {
+  const auto* const own = std::ranges::find(kLabels, name, &Words::name);
+  if (own != std::end(kLabels)) return own->text;
+  std::string text(name.substr(name.find('.') + 1));
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+std::string_view settingGroupHelp(std::string_view group) {
+  const auto* const own = std::ranges::find(kGroups, group, &Words::name);
+  return own != std::end(kGroups) ? own->text : std::string_view();
+}
 
 std::span<const Setting> settingTable() {
   return rows::kTable;

@@ -270,10 +270,10 @@ struct Foreseen {
     asIs.solver.frames = 100, many.solver.frames = 1600;
   }
   Settings asIs, many;
-  // voxels, field, matrix, light
-  PictureTime plain{.build = {2, 1, 10, 3}, .draw = 1},
-      exact{.build = {2, 1, 10, 5}, .exact = 20, .draw = 1, .gather = 7},
-      finer{.build = {8, 8, 40, 20}, .exact = 80, .draw = 2, .gather = 9};
+  // voxels, field, matrix, materials, gather, solve, scatter
+  PictureTime plain{.build = {2, 1, 10, 0, 1, 1.5, .5}, .draw = 1},
+      exact{.build = {2, 1, 10, 0, 1, 3.5, .5}, .exact = 20, .draw = 1, .gather = 7},
+      finer{.build = {8, 8, 40, 0, 4, 14, 2}, .exact = 80, .draw = 2, .gather = 9};
 };
 
 TEST(Foreseen, TriesThePictureWithMostIdealOfEachKindOfFacets) {
@@ -302,10 +302,10 @@ TEST(Foreseen, IsTheSumOfWhatIsNotThereYet) {
   EXPECT_DOUBLE_EQ(*times.predict(most, true, Ideals{storage, sweeps}), 6 + 7);
   EXPECT_DOUBLE_EQ(*times.predict(most, false, Ideals{storage, sweeps}), 10 + 26 + 7);
   EXPECT_DOUBLE_EQ(*times.predict({voxels}, true, Ideals{}), 8 + 8 + 40 + 20 + 2);
-  // Many rays: 16^.93 times the matrix, 16^.4 the light.
-  EXPECT_NEAR(*times.predict({rays}, true, Ideals{}), 10 * std::pow(16, .93) + 3 * std::pow(16, .4) + 1, 1e-9);
+  // Many rays: 16^.93 times the matrix, 16^.74 the sweeps.
+  EXPECT_NEAR(*times.predict({rays}, true, Ideals{}), 10 * std::pow(16, .93) + 1.5 * std::pow(16, .74) + 1.5 + 1, 1e-9);
   // What has been seen of the picture itself counts for more.
-  times.took({rays}, {.build = {0, 0, 100, 4}, .draw = 1});
+  times.took({rays}, {.build = {0, 0, 100, 0, 1, 2, 1}, .draw = 1});
   EXPECT_DOUBLE_EQ(*times.predict({rays}, true, Ideals{}), 105);
   EXPECT_DOUBLE_EQ(*times.predict({}, false, Ideals{rays}), 14);
 }
@@ -321,7 +321,7 @@ TEST(ManyRays, AreAtMostWhatARowCountsBesideItsColumns) {
 TEST(Foreseen, FramesOfBruteForceAreAsLongEach) {
   const Foreseen f(SolverMethod::bruteForce);
   AttributionTimes times(f.asIs, f.many);
-  times.took({}, {.build = {2, 1, 0, 30}, .draw = 1});
+  times.took({}, {.build = {2, 1, 0, 0, 0, 30, 0}, .draw = 1});
   EXPECT_DOUBLE_EQ(*times.predict({ErrorStage::rays}, true, Ideals{}), 16 * 30 + 1);
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <set>
 
 #include "gi/build_cost.h"
 #include "gi/pipeline.h"
@@ -26,16 +27,25 @@ TEST(BuildTimes, GrowAsTheDocumentsSay) {
   times.took(BuildTimes::Part::Voxels, 400, made);
   times.took(BuildTimes::Part::Field, 2, made);
   times.took(BuildTimes::Part::Matrix, 2000, made);
-  times.took(BuildTimes::Part::Light, 100, made);
+  times.took(BuildTimes::Part::Gather, 60, made);
+  times.took(BuildTimes::Part::Solve, 30, made);
+  times.took(BuildTimes::Part::Scatter, 10, made);
   EXPECT_FALSE(times.predict(made, Redo::Nothing));
   EXPECT_FALSE(times.predict(made, Redo::Shade));
   EXPECT_NEAR(*times.predict(made, Redo::Voxels), 2502, 1e-6) << "the same again";
   EXPECT_NEAR(*times.predict(made, Redo::Matrix), 2100, 1e-6);
-  EXPECT_NEAR(*times.predict(made, Redo::Solve), 100, 1e-6);
+  EXPECT_NEAR(*times.predict(made, Redo::Gather), 100, 1e-6);
+  EXPECT_NEAR(*times.predict(made, Redo::Solve), 40, 1e-6) << "light that is only solved anew is not gathered";
+  EXPECT_NEAR(*times.predict(made, Redo::Scatter), 10, 1e-6) << "another filter of the lookup is no relight";
+  EXPECT_FALSE(times.predict(made, Redo::Materials)) << "facets were never shaded anew";
+  times.took(BuildTimes::Part::Materials, 5, made);
+  EXPECT_NEAR(*times.predict(made, Redo::Materials), 105, 1e-6);
+  EXPECT_NEAR(*times.predict(made, Redo::Matrix), 2100, 1e-6) << "a build shades its facets as it makes them";
   // docs/performance.md: 128 rays from N = 64 to 192, and N = 128 from 64 to 384 rays.
   BuildTimes documented;
   documented.took(BuildTimes::Part::Matrix, 2269, made);
-  documented.took(BuildTimes::Part::Light, 0, made);
+  for (const auto light : {BuildTimes::Part::Gather, BuildTimes::Part::Solve, BuildTimes::Part::Scatter})
+    documented.took(light, 0, made);
   EXPECT_NEAR(*documented.predict(sized(192, 128), Redo::Matrix), 18870, 0.02 * 18870);
   documented.took(BuildTimes::Part::Matrix, 4106, sized(128, 64));
   EXPECT_NEAR(*documented.predict(sized(128, 384), Redo::Matrix), 21871, 0.02 * 21871);
@@ -45,13 +55,38 @@ TEST(BuildTimes, StagesHaveTheNamesOfTheirProgress) {
   EXPECT_EQ(BuildTimes::partOf("GI Voxelization"), BuildTimes::Part::Voxels);
   EXPECT_EQ(BuildTimes::partOf("GI SDF"), BuildTimes::Part::Field);
   EXPECT_EQ(BuildTimes::partOf("GI BuildMatrix"), BuildTimes::Part::Matrix);
-  for (const char* light : {"GI Materials", "GI Solve", "GI BruteForce"})
-    EXPECT_EQ(BuildTimes::partOf(light), BuildTimes::Part::Light) << light;
+  EXPECT_EQ(BuildTimes::partOf("GI Materials"), BuildTimes::Part::Materials);
+  EXPECT_EQ(BuildTimes::partOf("GI Gather"), BuildTimes::Part::Gather);
+  for (const char* light : {"GI Solve", "GI BruteForce"})
+    EXPECT_EQ(BuildTimes::partOf(light), BuildTimes::Part::Solve) << light;
+  EXPECT_EQ(BuildTimes::partOf("GI Scatter"), BuildTimes::Part::Scatter);
   EXPECT_EQ(costText({1900, 480u << 20}), "1.9 s, 480 MiB");
   EXPECT_EQ(costText({420, 12u << 20}), "420 ms, 12 MiB");
 }
 
 class BuildCostTest : public GiTest {};
+
+/// What is told of an edit is what is timed of it: a stage that does not run must not be taken for a quick one.
+TEST_F(BuildCostTest, AnEditTellsTheStagesThatItRedoes) {
+  Pipeline pipeline(context(), loadScene(assets() / "box.glb"), sized(16, 16));
+  const auto redone = [&] {
+    std::set<std::string> stages;
+    pipeline.prepare([&](const char* stage, float) { return stages.insert(stage), true; });
+    return stages;
+  };
+  redone();
+  Settings edited = pipeline.settings();
+  const auto edit = [&](const char* name, double value) {
+    for (const Setting& setting : settingTable())
+      if (std::string_view(name) == setting.name) setting.set(edited, value);
+    pipeline.set(edited);
+    return redone();
+  };
+  EXPECT_EQ(edit("sample.filter", static_cast<double>(SampleFilter::linear)), std::set<std::string>{"GI Scatter"});
+  EXPECT_EQ(edit("solver.tolerance", 1e-4), (std::set<std::string>{"GI Solve", "GI Scatter"}));
+  EXPECT_EQ(edit("light.points", 8), (std::set<std::string>{"GI Gather", "GI Solve", "GI Scatter"}));
+  EXPECT_EQ(edit("matrix.rays", 20), (std::set<std::string>{"GI BuildMatrix", "GI Gather", "GI Solve", "GI Scatter"}));
+}
 
 /// From each of several sizes to others. The memory's formulas are exact but for the counts of facets and entries that
 /// they are given. Times are the machine's, and waver by more than the growth is off: they are printed, and what is

@@ -177,6 +177,10 @@ TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
           screen_->xdotool("mousemove " + place);
           idles("mouse at " + place, 5);
         }
+        // With the keyboard in a field.
+        screen_->xdotool("key ctrl+f");
+        idles("the search has the keyboard", 3);
+        screen_->xdotool("key Escape");
         screen_->xdotool("mousemove 4 400 click --repeat 60 --delay 50 4 sleep 0.5");
         // With something unsaved: every edit is soon in the autosave, and then that is left alone.
         EXPECT_EQ(autosave(), "");

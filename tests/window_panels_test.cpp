@@ -31,11 +31,14 @@ class WindowPanelsTest : public WindowTest {
  protected:
   std::map<std::string, std::string> helps_;  ///< by the control's name: what is said while the mouse rests on it
   std::set<std::string> faults_;              ///< of how they are laid out
+  int width_ = 0, height_ = 0;                ///< of the window
   int margin_ = 5;                            ///< by which rows of lists are wider than their text, pixels
 
   void begin(const std::string& size, const std::string& scale) {
     fold("[]");
     windowSize_ = size;
+    width_ = std::stoi(size);
+    height_ = std::stoi(size.substr(size.find('x') + 1));
     margin_ = static_cast<int>(5 * std::stof(scale));
     start({"--inspect", "7,1,13", "--view", "depth", "--scale", scale});
     rests();
@@ -65,7 +68,7 @@ class WindowPanelsTest : public WindowTest {
     // To be looked at by a person: IRAD_SHOTS=FOLDER keeps them.
     if (const char* folder = std::getenv("IRAD_SHOTS")) {
       std::filesystem::create_directories(folder);
-      writePng(std::filesystem::path(folder) / (where + ".png"), screen_->grab(0, 0, 1600, 1000));
+      writePng(std::filesystem::path(folder) / (where + ".png"), screen_->grab(0, 0, width_, height_));
     }
   }
   /// What reaches out of its region to the side, but in tables, which scroll sideways; and what lies over another.

@@ -88,6 +88,8 @@ TEST_F(WindowTest, PanelsFoldToTheEdgeAndThePictureFillsTheWindow) {
   start();
   away();
   const Control::Area first = picture();
+  EXPECT_GE(first.width * first.height, 1280 * 720 / 2) << "the picture has less than half of the window at first";
+  EXPECT_LE(control("History").area.bottom(), 720) << "with settings and effects open the column has to be scrolled";
   EXPECT_FALSE(has("frame time"));
   key("Tab");
   rests();
@@ -199,6 +201,28 @@ TEST_F(WindowTest, SettingsSayWhatTheyCostAndWaitForApply) {
   const std::string log = window_->log();
   EXPECT_EQ(log.find("irad: predicted "), log.rfind("irad: predicted ")) << "built more than once";
   EXPECT_TRUE(contains(log, " MiB; took ")) << log;
+  // What only scatters the light anew is not foretold as a relight; nor that as a build.
+  const auto predicted = [this] {
+    const std::string help = helpOf("Settings/cost"), word = "predicted ";
+    EXPECT_TRUE(help.starts_with(word)) << help;
+    double value = 0;
+    std::string unit;
+    std::istringstream(help.substr(std::min(word.size(), help.size()))) >> value >> unit;
+    return unit.starts_with("ms") ? value : 1000 * value;
+  };
+  click("Settings/voxel");
+  click("Settings/matrix");
+  click("Settings/scatter");
+  click("Settings/solver");
+  click("Settings/scatter.edge_removal");
+  const double scatter = predicted();
+  enterNumber("Settings/solver.omega", "0.5");
+  const double relight = predicted();
+  click("Settings/field");
+  choose("Settings/field.method", "jfa");
+  const double build = predicted();
+  EXPECT_LT(scatter, relight);
+  EXPECT_LT(relight, build);
   quitDiscarding();  // the settings
 }
 
@@ -275,9 +299,13 @@ TEST_F(WindowTest, EffectsCanBeForced) {
   away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) > 0.1; }))
       << "the lamp still shines";
+  // It stays in the list, and is counted apart from what the scene does not call for.
+  EXPECT_TRUE(contains(helpOf("Effects/off"), "; 1 forced off, ")) << helpOf("Effects/off");
+  EXPECT_TRUE(has("Effects/emission"));
   choose("Effects/emission", "auto");
   away();
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(first) < 0.01; })) << "not auto again";
+  EXPECT_FALSE(contains(helpOf("Effects/off"), " forced off, ")) << helpOf("Effects/off");
   // Those that are off fold under one line.
   EXPECT_TRUE(has("Effects/sun"));
   click("Effects/off");

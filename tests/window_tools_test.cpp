@@ -154,6 +154,9 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == alsoA && left() == a; })) << "X does not show A";
   key("x");
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p == b && left() != a; })) << "X does not show B";
+  EXPECT_FALSE(has("legend"));
+  click("Compare/show B - A");
+  EXPECT_TRUE(appears("legend")) << "the colours of the difference are not explained";
   quit();
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "gi/setting_words.h"
 #include "ui/glossary.h"
 #include "ui/setting_rows.h"
 #include "ui/words.h"
@@ -30,6 +31,16 @@ TEST(Words, WhatRoundsToZeroHasNoSign) {
   EXPECT_EQ(percentText(0.123, 1), "12.3 %");
 }
 
+TEST(Words, ReadOutsKeepTheirDigits) {
+  EXPECT_EQ(withDigits(0.036), "0.0360");
+  EXPECT_EQ(withDigits(1.7), "1.70");
+  EXPECT_EQ(withDigits(100), "100") << "no point without digits after it";
+  EXPECT_EQ(withDigits(-2), "-2.00");
+  EXPECT_EQ(withDigits(1.2e-6), "1.20e-06");
+  EXPECT_EQ(withDigits(0), "0");
+  EXPECT_EQ(withDigits(2.5, 2), "2.5");
+}
+
 TEST(Words, TheGlossaryHasTheLettersOfThePanels) {
   std::set<std::string> symbols;
   for (const Term& term : glossary()) {
@@ -38,6 +49,16 @@ TEST(Words, TheGlossaryHasTheLettersOfThePanels) {
   }
   for (const char* needed : {"D", "H", "B", "M", "F", "\u03C1", "\u03BB", "residual", "bound"})
     EXPECT_TRUE(symbols.contains(needed)) << needed;
+}
+
+TEST(Words, SettingsAreCalledByWordsAndTheirGroupsSayWhatTheyAreAbout) {
+  EXPECT_EQ(settingLabel("solver.sweeps_per_frame"), "sweeps per frame");
+  EXPECT_EQ(settingLabel("solver.omega"), "relaxation \u03C9");
+  for (const Setting& setting : settingTable()) {
+    EXPECT_GT(settingLabel(setting.name).size(), 2u) << setting.name << " is called by a letter";
+    EXPECT_FALSE(settingGroupHelp(setting.group()).empty()) << setting.group();
+  }
+  EXPECT_TRUE(settingGroupHelp("no such group").empty());
 }
 
 TEST(SettingFilter, FindsNamesAndMeaningsAndWhatIsChanged) {

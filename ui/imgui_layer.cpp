@@ -26,6 +26,7 @@ ImGuiLayer::ImGuiLayer(Context& context, GLFWwindow* window) : context_(context)
   io.BackendRendererName = "irad";
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigInputTextCursorBlink = false;  // a window that waits for a key draws nothing
   ImGui_ImplGlfw_InitForOther(window, /*install_callbacks=*/true);
 }
 

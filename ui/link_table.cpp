@@ -8,6 +8,7 @@
 #include "ui/imgui.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -36,7 +37,7 @@ std::string text(const Link& l, size_t column) {
   if (quantity == LinkQuantity::voxel) return voxelText(l);
   const double value = quantityOf(l, quantity);
   return quantity == LinkQuantity::hits || quantity == LinkQuantity::facet ? fmt::format("{:.0f}", value)
-                                                                           : shortNumber(value);
+                                                                           : withDigits(value);
 }
 
 }  // namespace

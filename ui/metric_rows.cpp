@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/base/number_text.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -20,22 +20,22 @@ std::vector<MetricRow> metricRows(const PictureMetrics& metrics, const std::stri
   const std::string units = unit.empty() ? "No unit." : fmt::format("In {}.", unit);
   const std::string relMse =
       std::isfinite(metrics.blockRelMseHalf)
-          ? fmt::format("{} \u00B1 {}", shortNumber(metrics.blockRelMse), shortNumber(metrics.blockRelMseHalf))
-          : shortNumber(metrics.blockRelMse);
+          ? fmt::format("{} \u00B1 {}", withDigits(metrics.blockRelMse), withDigits(metrics.blockRelMseHalf))
+          : withDigits(metrics.blockRelMse);
   return {
       {"relMSE", relMse,
        fmt::format("({0} \u2212 {1})\u00B2 / ({1}\u00B2 + (0.1 mean {1})\u00B2), the mean over blocks of {2} \u00D7 "
                    "{2} pixels; of voxels, over voxels. It has no unit.",
                    value, reference, kBlockSide)},
-      {"RMSE", shortNumber(m.rmse), "Root of the mean squared difference. " + units},
-      {"mean error", fmt::format("{}{}", m.meanError > 0 ? "+" : "", shortNumber(m.meanError)),
+      {"RMSE", withDigits(m.rmse), "Root of the mean squared difference. " + units},
+      {"mean error", fmt::format("{}{}", m.meanError > 0 ? "+" : "", withDigits(m.meanError)),
        fmt::format("Mean of {} \u2212 {}: signed. {}", value, reference, units)},
       {"PSNR", std::isfinite(m.psnr) ? fmt::format("{:.1f} dB", m.psnr) : kNone,
        fmt::format("20 log10(largest {} / RMSE); \u2014: equal", reference)},
-      {"FLIP", std::isfinite(metrics.flip) ? shortNumber(metrics.flip) : kNone,
+      {"FLIP", std::isfinite(metrics.flip) ? withDigits(metrics.flip) : kNone,
        "How different they look to one who flips between them, 0 to 1, at the exposure shown; of pictures, where "
        "it was asked for"},
-      {"largest", shortNumber(m.largest), fmt::format("Of |{} \u2212 {}|. {}", value, reference, units)}};
+      {"largest", withDigits(m.largest), fmt::format("Of |{} \u2212 {}|. {}", value, reference, units)}};
 }
 
 std::vector<MetricRow> metricRows(const Metrics& metrics, const std::string& value, const std::string& reference,

@@ -51,10 +51,12 @@ void drawPanels(Session& session, const Panels& panels, const Layout& layout) {
     for (const auto& panel : panels) {
       if (panel->region() != tile.region) continue;
       const bool open = drawHeader(*panel, session.preferences.folded);
-      if (strip && !open) {
+      // Beside its title, where there is room for both.
+      if (const std::string time = frameTime(session) + "  ";
+          strip && !open && ImGui::CalcTextSize(time.c_str()).x < 0.45f * tile.where.size.x) {
         ImGui::SameLine(ImGui::GetWindowWidth() * 0.5f);
         ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
-        rightText(frameTime(session) + "  ");
+        rightText(time);
         ImGui::PopStyleColor();
       }
       if (!open) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gi/setting_words.h"
 #include "renderer/base/error.h"
 #include "ui/imgui.h"
 #include "ui/session.h"
@@ -16,6 +17,7 @@ namespace irad {
 namespace {
 
 std::string format(const SettingRange& range, const char* number) {
+  if (std::string_view(range.unit) == "degrees") return std::string(number) + "\u00B0";
   const std::string unit = prettyUnit(range.unit);  // no unit holds a percent sign, which would be read as a format
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
@@ -103,33 +105,9 @@ std::set<std::string_view> editedGroups(const Settings& settings, const Settings
   return groups;
 }
 
-/// What a group is about.
-struct GroupHelp {
-  std::string_view group;
-  const char* help;
-};
-constexpr GroupHelp kGroupHelps[] = {
-    {"voxel", "How finely surfaces are cut into voxels, and how"},
-    {"field", "The distance field that lets rays skip empty space"},
-    {"matrix", "Rays between facets: how many, what they meet, how the form factors are kept"},
-    {"solver", "How indirect light is solved from the form factors, and how exactly"},
-    {"scatter", "How solved light is put into the volume that shading samples"},
-    {"sample", "How a pixel looks up the light of the facets around it"},
-    {"specular", "Reflections by rays of each pixel"},
-    {"writeback", "Reflections that light the scene in turn"},
-    {"light", "Shadows of suns, points and spots"},
-    {"sky", "Light from outside the scene"},
-    {"camera", "How light becomes the picture that is shown"},
-    {"view", "What the views of data show, and in which colours"},
-    {"thesis", "What the thesis does that is mended here"},
-    {"effects", "Parts of the method: as the scene calls for, always, or never (the panel Effects says why)"},
-    {"device", "How the graphics device is used"},
-    {"scene", "How the scene's file is read, and which part of it has voxels"}};
-
-std::string groupHelp(std::string_view group) {
-  const auto found = std::ranges::find(kGroupHelps, group, &GroupHelp::group);
-  return fmt::format("{}: the settings {}.*; coloured where one is changed",
-                     found != std::end(kGroupHelps) ? found->help : "Settings", group);
+/// With what it is about.
+std::string groupTooltip(std::string_view group) {
+  return fmt::format("{}: the settings {}.*; coloured where one is changed", settingGroupHelp(group), group);
 }
 
 /// Its right end is at `end`.
@@ -160,7 +138,7 @@ bool groupHeader(const std::string& group, bool edited, bool found, Settings& se
                                            (half ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth));
   ImGui::PopStyleColor();
   beside = half && !right && !open;
-  helpTooltip([&] { return groupHelp(group); });
+  helpTooltip([&] { return groupTooltip(group); });
   if (!found) keepFolded(folded, title, open);
   if (!edited) return open;
   ImGui::PushID(group.c_str());
@@ -169,25 +147,6 @@ bool groupHeader(const std::string& group, bool edited, bool found, Settings& se
       if (setting.group() == group) setting.set(settings, setting.get(defaults));
   ImGui::PopID();
   return open;
-}
-
-/// Words in place of letters and of what says nothing by itself; the tooltip begins with the setting's name.
-struct Label {
-  std::string_view name, shown;
-};
-constexpr Label kLabels[] = {{"solver.lambda", "light gain \u03BB"}, {"solver.omega", "relaxation \u03C9"},
-                             {"solver.flush", "dark below"},         {"writeback.alpha", "distance power \u03B1"},
-                             {"writeback.k", "centre weight k"},     {"writeback.threshold", "least score \u03C4"},
-                             {"light.points", "soft shadow points"}, {"camera.pcf", "shadow edge taps"},
-                             {"view.jfa_pass", "jump-flood pass"},   {"thesis.literal", "thesis's slips"}};
-
-std::string label(std::string_view name) {
-  for (const Label& l : kLabels)
-    if (l.name == name) return std::string(l.shown);
-  std::string text(name.substr(name.find('.') + 1));
-  for (char& c : text)
-    if (c == '_') c = ' ';
-  return text;
 }
 
 /// Label, widget, reset.
@@ -201,7 +160,7 @@ void row(const Setting& setting, Settings& settings, const Settings& defaults, c
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::AlignTextToFramePadding();
   if (edited || waits) ImGui::PushStyleColor(ImGuiCol_Text, waits ? theme::warning : theme::accent);
-  const std::string name = (waits ? "\u00B7 " : "") + label(setting.name);
+  const std::string name = (waits ? "\u00B7 " : "") + settingLabel(setting.name);
   const float words = std::clamp(ImGui::CalcTextSize(name.c_str()).x + gap, width * kLabelShare, width * 0.6f);
   clippedText(name, words - gap);
   if (edited || waits) ImGui::PopStyleColor();
@@ -241,7 +200,7 @@ bool SettingFilter::passes(const Setting& setting, const Settings& settings, con
   };
   // "jfa_pass" is found by "jfa pass" too.
   const std::string text =
-      lower(fmt::format("{} {} {} {}", setting.name, setting.group(), label(setting.name), setting.help));
+      lower(fmt::format("{} {} {} {}", setting.name, setting.group(), settingLabel(setting.name), setting.help));
   std::string wanted = lower(words);
   while (!wanted.empty()) {
     const size_t end = std::min(wanted.find(' '), wanted.size());

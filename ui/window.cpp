@@ -350,7 +350,6 @@ void Window::wait() {
   const bool hidden = !visible_ && !working();
   const bool typing = ImGui::GetIO().WantTextInput || session_.dialogOpen();  // keys that are held fly nowhere
   const bool idle = settled() && framesLeft_ <= 0 && (typing || !input_.flying()) && options_.exitAfter == 0;
-  const bool blinks = idle && ImGui::GetIO().WantTextInput;                                   // the text cursor
   const bool watches = idle && (session_.accuracy.tracingNow() || session_.captures.busy());  // their progress
   const auto message = session_.nextMessageEnds();
   if (hidden)
@@ -361,15 +360,13 @@ void Window::wait() {
     glfwWaitEventsTimeout(kWatchInterval);
   else if (writer_.busy())
     glfwWaitEventsTimeout(kWriteInterval);
-  else if (blinks)
-    glfwWaitEventsTimeout(0.4);
   else if (message)
     glfwWaitEventsTimeout(std::max(std::chrono::duration<double>(*message - Clock::now()).count(), 0.01));
   else
     glfwWaitEvents();
   if (input_.takeEvent() || (message && Clock::now() >= *message))
     framesLeft_ = kFramesPerEvent;
-  else if (blinks || watches || hidden)
+  else if (watches || hidden)
     framesLeft_ = 1;
 }
 

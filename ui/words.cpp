@@ -2,9 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "renderer/base/number_text.h"
 
 namespace irad {
+
+std::string withDigits(double value, int digits) {
+  if (value == 0) return "0";
+  char buffer[48];  // fmt's '#' makes "100.0" of 100
+  std::snprintf(buffer, sizeof buffer, "%#.*g", digits, value);
+  std::string text(buffer);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
 
 std::string counted(uint64_t n, const char* one, const char* many) {
   if (n == 1) return fmt::format("1 {}", one);

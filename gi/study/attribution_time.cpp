@@ -59,7 +59,7 @@ double AttributionTimes::growth(Part part, const Ideals& from, const Ideals& to)
     return ideals.has(ErrorStage::rays) ? manyRays_ : asIs_;
   };
   if (asIs_.solver.method == SolverMethod::bruteForce)
-    return part == Part::Light ? double{1} * settings(to).solver.frames / settings(from).solver.frames : 1;
+    return part == Part::Solve ? double{1} * settings(to).solver.frames / settings(from).solver.frames : 1;
   return BuildTimes::growth(part, settings(from), settings(to));
 }
 
@@ -90,7 +90,8 @@ std::optional<double> AttributionTimes::predict(const Ideals& ideals, bool sameS
   const bool facetsShared = before && sameFacets(ideals, *before),
              fieldShared = facetsShared && sameWay(ideals, *before),
              matrixShared = fieldShared && sameSeed && sameRays(ideals, *before);
-  double sum = built(Part::Light);
+  double sum = 0;
+  for (const Part part : {Part::Materials, Part::Gather, Part::Solve, Part::Scatter}) sum += built(part);
   if (!facetsShared) sum += built(Part::Voxels);
   if (!fieldShared) sum += built(Part::Field);
   if (!matrixShared) sum += built(Part::Matrix);

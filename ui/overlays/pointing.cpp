@@ -43,24 +43,31 @@ class PointingOverlay : public Overlay {
     const std::vector<Part> all = parts(session);
     if (all.empty()) return;
     const Rect& window = picture.window();
-    const float em = ImGui::GetFontSize(), line = statusLine(), lines = statusHeight(window.size.x) / line;
-    const float height = lines * line, bottom = window.position.y + window.size.y;
+    const float em = ImGui::GetFontSize(), line = statusLine(), most = statusHeight(window.size.x);
+    const float bottom = window.position.y + window.size.y, end = window.size.x - 0.5f * em;
+    // In a second line what the first has no room for, where there may be two.
+    std::vector<glm::vec2> places;
+    glm::vec2 next{0.5f * em, 0.5f * (line - ImGui::GetTextLineHeight())};
+    float height = line;
+    for (const Part& part : all) {
+      const float width = ImGui::CalcTextSize(part.text.c_str()).x;
+      if (next.x + width > end && next.x > em && height + line <= most) {
+        next = {0.5f * em, next.y + line};
+        height += line;
+      }
+      places.push_back(next);
+      next.x += width + 1.2f * em;
+    }
     const ImVec2 mouse = ImGui::GetMousePos();
-    const bool above = session.pointing.over && mouse.y >= bottom - height;
+    const bool above = session.pointing.over && mouse.y >= bottom - most;
     const glm::vec2 corner{window.position.x, above ? window.position.y : bottom - height};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({corner.x, corner.y}, {corner.x + window.size.x, corner.y + height}, IM_COL32(20, 20, 22, 225));
     ImGui::enterControls("Pointing");
-    const float end = corner.x + window.size.x - 0.5f * em;
-    glm::vec2 at = corner + glm::vec2(0.5f * em, 0.5f * (line - ImGui::GetTextLineHeight()));
-    for (const Part& part : all) {
-      const float width = ImGui::CalcTextSize(part.text.c_str()).x;
-      if (at.x + width > end && at.x > corner.x + em && at.y + line < corner.y + height)
-        at = {corner.x + 0.5f * em, at.y + line};
-      ImGui::SetCursorScreenPos({at.x, at.y});
-      ImGui::TextUnformatted(clipped(part.text, std::max(end - at.x, 1.0f)).c_str());
-      ImGui::tellControl(fmt::format("{}={}", part.name, part.text).c_str());
-      at.x += width + 1.2f * em;
+    for (size_t i = 0; i < all.size(); ++i) {
+      ImGui::SetCursorScreenPos({corner.x + places[i].x, corner.y + places[i].y});
+      ImGui::TextUnformatted(clipped(all[i].text, std::max(end - places[i].x, 1.0f)).c_str());
+      ImGui::tellControl(fmt::format("{}={}", all[i].name, all[i].text).c_str());
     }
     ImGui::leaveControls();
   }

@@ -124,13 +124,15 @@ class RowOverlay : public Overlay {
         line(facet.position, pointedAt->position, ImGui::GetColorU32(theme::text), 3);
         box(centre(glm::ivec3(pointedAt->voxel)), theme::text, 2);
       }
-      drawKey(fmt::format("{} of {}{}", drawn.size(), counted(passing, "link"),
-                          passing < links.size() ? ", filtered" : ": F B"),
-              scale);
+      const std::string most = drawn.size() < passing ? fmt::format("{} of ", drawn.size()) : "";
+      drawKey(
+          fmt::format("Light by {}{}{}", most, counted(passing, "link"), passing < links.size() ? ", filtered" : "") +
+              (scale.logarithmic ? " (log)" : ""),
+          scale);
     }
     /// What the colours stand for, in the lower left corner.
     void drawKey(const std::string& title, const LinkScale& scale) const {
-      const float em = ImGui::GetFontSize(), width = 12 * em;
+      const float em = ImGui::GetFontSize(), width = std::max(12 * em, ImGui::CalcTextSize(title.c_str()).x);
       const Rect where = picture.clear();
       const glm::vec2 at = where.position + glm::vec2(0, where.size.y) + glm::vec2(em, -5 * em);
       legends.push_back({at, {width + em, 4 * em}});
@@ -138,8 +140,8 @@ class RowOverlay : public Overlay {
       const glm::vec2 inside = at + glm::vec2(0.5f * em, 0.3f * em);
       list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), title.c_str());
       drawColorBar(list, inside + glm::vec2(0, 1.4f * em), {width, 0.7f * em}, map);
-      const std::string high = shortNumber(scale.high) + " W/m\u00B2";
-      const std::string least = scale.logarithmic ? shortNumber(scale.low) + " log" : "0";
+      const std::string high = withDigits(scale.high) + " W/m\u00B2";
+      const std::string least = scale.logarithmic ? withDigits(scale.low) : "0";
       const float below = inside.y + 2.3f * em;
       list.AddText({inside.x, below}, ImGui::GetColorU32(theme::text), least.c_str());
       list.AddText({inside.x + width - ImGui::CalcTextSize(high.c_str()).x, below}, ImGui::GetColorU32(theme::text),

@@ -8,6 +8,7 @@
 #include "ui/panels/accuracy_parts.h"
 #include "ui/setting_rows.h"
 #include "ui/theme.h"
+#include "ui/words.h"
 
 namespace irad {
 namespace {
@@ -18,13 +19,14 @@ void drawBound(const Session& session) {
   const double bound = frames ? report.standardError : report.bound;
   const bool known = std::isfinite(bound) && report.meanH > 0;
   valueRow(frames ? "standard error" : "solver's bound",
-           known ? fmt::format("{} W/m\u00B2, {}", shortNumber(bound), sharePercent(bound / report.meanH)) : "\u2014");
-  helpTooltip(frames
-                  ? "Of the indirect irradiance H by brute force, W/m\u00B2, and as a share of the mean H: known "
-                    "without a reference"
-                  : "No facet's radiosity B is further from the solution of its matrix than this, W/m\u00B2; and as a "
-                    "share of the mean H. Known without a reference; it covers what sweeps are left alone, not the "
-                    "errors of rays, voxels or lookups.");
+           known ? fmt::format("{} of mean H", sharePercent(bound / report.meanH)) : "\u2014");
+  helpTooltip([&] {
+    return (known ? withDigits(bound) + " W/m\u00B2. " : std::string()) +
+           (frames ? "Of the indirect irradiance H by brute force, as a share of its mean: known without a reference"
+                   : "No facet's radiosity B is further from the solution of its matrix than this share of the mean H. "
+                     "Known without a reference; it covers what sweeps are left alone, not the errors of rays, voxels "
+                     "or lookups.");
+  });
 }
 
 /// What is known of the noise of finitely many rays.
@@ -35,11 +37,11 @@ void drawNoise(const Session& session, const PlaceInStudy* place) {
     Settings other = comparison->other.edited;
     other.matrix.gpu.seed = session.edited.matrix.gpu.seed;
     if (other == session.edited && comparison->other.edited.matrix.gpu.seed != session.edited.matrix.gpu.seed)
-      text = fmt::format("relMSE {} (A, B)", shortNumber(comparison->result->picture.blockRelMse / 2));
+      text = fmt::format("relMSE {} (A, B)", withDigits(comparison->result->picture.blockRelMse / 2));
   }
   if (text == "\u2014" && place != nullptr) {
     const PointSummary& p = session.accuracy.study->points[place->point];
-    if (p.seeds > 1) text = fmt::format("\u00B1 {}, {} seeds", shortNumber(p.relMse.half), p.seeds);
+    if (p.seeds > 1) text = fmt::format("\u00B1 {}, {} seeds", withDigits(p.relMse.half), p.seeds);
   }
   valueRow("rays' noise", text);
   helpTooltip(
@@ -52,11 +54,11 @@ void drawDominating(const Session& session) {
   const Accuracy& accuracy = session.accuracy;
   if (accuracy.study && !accuracy.study->stages.empty() && accuracy.studyMisfit(session).usable()) {
     const std::vector<StageShare>& stages = accuracy.study->stages;
-    valueRow("largest part", fmt::format("{}, {}", stages[0].stage, shortNumber(stages[0].relMse)));
+    valueRow("largest part", fmt::format("{}, {}", stages[0].stage, withDigits(stages[0].relMse)));
     std::string all =
         "relMSE by stage, of the attribution.csv that was loaded (what is gained where it alone is ideal; model: "
         "what is left where all are):";
-    for (const StageShare& stage : stages) all += fmt::format("\n{}  {}", shortNumber(stage.relMse), stage.stage);
+    for (const StageShare& stage : stages) all += fmt::format("\n{}  {}", withDigits(stage.relMse), stage.stage);
     helpTooltip(all);
     return;
   }
@@ -64,8 +66,7 @@ void drawDominating(const Session& session) {
   std::string text = "\u2014";
   if (accuracy.measured && report.frames == 0 && report.meanH > 0 && accuracy.measured->blockRelMse > 0) {
     const double relative = report.bound / report.meanH, share = relative * relative / accuracy.measured->blockRelMse;
-    text =
-        !(share < 0.5) ? "sweeps, by the bound" : fmt::format("not sweeps (< {})", sharePercent(std::max(share, .01)));
+    text = !(share < 0.5) ? "sweeps, by the bound" : fmt::format("not sweeps (< {:.2g} %)", 100 * std::max(share, .01));
   }
   valueRow("largest part", text);
   helpTooltip(
@@ -86,7 +87,7 @@ void accuracyParagraph(const ImVec4& color, const std::string& text) {
 }
 
 std::string sharePercent(double share) {
-  return share >= 0.0995 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{} %", shortNumber(100 * share));
+  return share >= 0.0995 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{} %", withDigits(100 * share));
 }
 
 std::string nameOfView(View view) {

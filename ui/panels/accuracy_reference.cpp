@@ -144,7 +144,7 @@ void drawReference(Session& session) {
                          size.x, size.y);
     });
     if (accuracy.traced()) {
-      valueRow("its noise", shortNumber(accuracy.traced()->noise));
+      valueRow("its noise", withDigits(accuracy.traced()->noise));
       helpTooltip(
           "The reference's own error, as a share of its light: \u221ArelMSE of its pixels by their standard errors. In "
           "relMSE above it has been taken out, but for the \u00B1.");

@@ -54,7 +54,7 @@ class CamerasPanel : public Panel {
     FlyCamera& camera = session.camera;
     const Scene& scene = session.pipeline->scene();
     const float size = std::max(glm::distance(scene.boundsMin, scene.boundsMax), 1e-6f);
-    fieldLabel("position", "Where the window's camera is: x, y and z in the world, scene units (glTF's are metres)");
+    fieldLabel("position", "Where the window's camera is: x, y and z in the world, metres");
     glm::dvec3 position = camera.camera().position;
     const double low = -kMaxCoordinate, high = kMaxCoordinate;
     if (ImGui::DragScalarN("##position", ImGuiDataType_Double, &position.x, 3, size * 1e-3f, &low, &high, "%.4g",
@@ -71,7 +71,7 @@ class CamerasPanel : public Panel {
       turn(session, camera.yaw(), pitch);
     const bool flat = camera.camera().orthographic;
     fieldLabel(flat ? "half height" : "field of view",
-               flat ? "From the picture's middle to its upper edge, scene units"
+               flat ? "From the picture's middle to its upper edge, metres"
                     : "Angle from the picture's lower to its upper edge, degrees; 1 to 170");
     float view = camera.view();
     if (flat ? ImGui::DragFloat("##view", &view, size * 1e-3f, size * 1e-6f, size * 1e3f, "%.4g",

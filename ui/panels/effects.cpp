@@ -39,7 +39,7 @@ class EffectsPanel : public Panel {
     };
     for (const EffectRow& row : plan_.rows)
       if (!foldsAway(row)) drawRow(session.edited, row);
-    if (drawOff(session.preferences.folded))
+    if (drawOff(session.edited, session.preferences.folded))
       for (const EffectRow& row : plan_.rows)
         if (foldsAway(row)) drawRow(session.edited, row);
     ImGui::PopStyleVar(2);
@@ -54,17 +54,33 @@ class EffectsPanel : public Panel {
     return forcedMode(settings, row.effect) != EffectMode::automatic;
   }
 
-  /// The line that those which are left out fold under. True: they are listed.
-  bool drawOff(std::set<std::string>& folded) const {
-    const auto off = std::ranges::count(plan_.rows, EffectState::off, &EffectRow::state);
-    if (off == 0) return false;
+  /// The line that those fold under which are left out of themselves, beside how many are forced off. True: they are
+  /// listed.
+  bool drawOff(const Settings& settings, std::set<std::string>& folded) const {
+    struct {
+      uint64_t count = 0, bytes = 0;
+    } left, forced;
+    for (const EffectRow& row : plan_.rows)
+      if (row.state == EffectState::off) {
+        auto& of = isForced(settings, row) ? forced : left;
+        ++of.count;
+        of.bytes += row.bytesNotAllocated;
+      }
+    if (left.count + forced.count == 0) return false;
+    const std::string text = forced.count == 0
+                                 ? fmt::format("{} off, {} not allocated", left.count, mebibytes(left.bytes))
+                                 : fmt::format("{} off, {}; {} forced off, {}", left.count, mebibytes(left.bytes),
+                                               forced.count, mebibytes(forced.bytes));
     ImGui::SetNextItemOpen(!folded.contains(kEffectsOff));
-    const bool open = ImGui::TreeNodeEx(
-        fmt::format("{} off, {} not allocated###off", off, mebibytes(plan_.bytesNotAllocated())).c_str(),
-        ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
-    helpTooltip(
-        "What this scene does not call for, with the reasons, and the device memory that it would take, by the "
-        "formulas, MiB (a csr matrix: at most). What is forced stays in the list above.");
+    const bool open = ImGui::TreeNodeEx((text + "###off").c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen |
+                                                                       ImGuiTreeNodeFlags_SpanAvailWidth |
+                                                                       (left.count == 0 ? ImGuiTreeNodeFlags_Leaf : 0));
+    helpTooltip([&] {
+      return text +
+             "\nOff: what scene and settings do not call for, with the reasons. Forced off: by the lists behind the "
+             "arrows (they stay in the list above). The device memory is what each would take, by the formulas (a csr "
+             "matrix: at most), and is not allocated.";
+    });
     keepFolded(folded, kEffectsOff, open);
     return open;
   }

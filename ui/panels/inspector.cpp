@@ -19,7 +19,7 @@ namespace irad {
 namespace {
 
 std::string three(const glm::dvec3& v) {
-  return fmt::format("{:.3g} {:.3g} {:.3g}", v.x, v.y, v.z);
+  return fmt::format("{} {} {}", withDigits(v.x), withDigits(v.y), withDigits(v.z));
 }
 std::string three(const glm::uvec3& v) {
   return fmt::format("{} {} {}", v.x, v.y, v.z);
@@ -126,14 +126,15 @@ class InspectorPanel : public Panel {
 
   static void drawPlace(const Inspection& in, const InspectedFacet& facet) {
     drawVoxel(in);
-    valueRow("area", shortNumber(facet.area) + " m\u00B2");
+    valueRow("area", withDigits(facet.area) + " m\u00B2");
     helpTooltip("Of the facet: the part of its plane inside the voxel, m\u00B2");
     valueRow("albedo \u03C1", three(facet.albedo));
     helpTooltip("Share of the light that arrives which is reflected diffusely: red, green, blue");
   }
 
   static void drawNormal(const InspectedFacet& facet) {
-    valueRow("normal", three(facet.normal));
+    const glm::dvec3& n = facet.normal;
+    valueRow("normal", fmt::format("{:.3g} {:.3g} {:.3g}", n.x, n.y, n.z));
     helpTooltip("The way the facet faces, as decoded from its code: x y z of an arrow of length 1");
     valueRow("stored", fmt::format("{:#06x}, offset {:+.3f}", facet.shape & 0xFFFFu, facetOffset(facet.shape)));
     helpTooltip(
@@ -144,7 +145,7 @@ class InspectorPanel : public Panel {
              fmt::format("{:.2f}\u00B0, face {:.2f}\u00B0", facet.mesh->shadingError, facet.mesh->faceError));
     helpTooltip(
         fmt::format("Angle from the decoded normal to the mesh's interpolated normal, and to the plane of the "
-                    "triangle that won the voxel: {}{}",
+                    "triangle that the voxel's normal was taken from, number {}{}",
                     facet.mesh->triangle, facet.mesh->back ? ", its back" : ""));
   }
 
@@ -158,7 +159,7 @@ class InspectorPanel : public Panel {
     valueRow("radiosity B", three(facet.radiosity));
     helpTooltip("All that leaves diffusely: M + \u03C1 (D + H), W/m\u00B2");
     if (hasMatrix) {
-      valueRow("residual", shortNumber(facet.residual) + " W/m\u00B2");
+      valueRow("residual", withDigits(facet.residual) + " W/m\u00B2");
       helpTooltip("How far one more sweep would move the radiosity B here, W/m\u00B2");
     } else {
       valueRow("std error", three(facet.standardError));
@@ -200,7 +201,7 @@ class InspectorPanel : public Panel {
                                    : fmt::format("H in {} since the pick", counted(in.live.back().sweep, "sweep"));
       ImGui::PlotLines("##history", values.data(), static_cast<int>(values.size()), 0, name.c_str(), 0,
                        largest > 0 ? 1.4f * largest : 1, {ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 4});
-      helpTooltip([&] { return fmt::format("Luminance, W/m\u00B2; largest {}", shortNumber(largest)); });
+      helpTooltip([&] { return fmt::format("Luminance, W/m\u00B2; largest {}", withDigits(largest)); });
     }
     ImGui::BeginDisabled(!hasMatrix);
     if (ImGui::Button("Solve from the dark", {-1, 0})) in.wantReplay = true;
@@ -232,7 +233,7 @@ class InspectorPanel : public Panel {
     if (row) {
       const RayShares& r = facet.rays;
       const double n = std::max(r.rays, 1u);
-      valueRow("escaped", fmt::format("{} of {}", percent(r.escaped / n), r.rays));
+      valueRow("escaped", fmt::format("{} of {}", percent(r.escaped / n), counted(r.rays, "ray")));
       helpTooltip(
           fmt::format("{} left the grid; {} ended at the back of a face", counted(r.escaped, "ray"), r.blocked));
       valueRow("invalid", percent(r.invalid / n));
@@ -281,7 +282,7 @@ class InspectorPanel : public Panel {
         if (ImGui::IsItemHovered()) in.highlighted = entry.facet;
         for (const double value : {entry.a, entry.b, std::abs(entry.a - entry.b)}) {
           ImGui::TableNextColumn();
-          rightText(shortNumber(value));
+          rightText(withDigits(value));
         }
       }
     ImGui::EndTable();

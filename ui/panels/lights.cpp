@@ -169,7 +169,7 @@ class LightsPanel : public Panel {
     drawTemperature(light);
     drawIntensity(light, distant);
     if (kind.has(LIGHT_RANGE)) {
-      fieldLabel("range", "Distance at which the light has faded out, scene units; 0: unlimited");
+      fieldLabel("range", "Distance at which the light has faded out, metres; 0: unlimited");
       ImGui::DragFloat("##range", &light.range, std::max(light.range * 0.01f, 0.01f), 0,
                        static_cast<float>(kMaxCoordinate), light.range > 0 ? "%.4g" : "unlimited",
                        ImGuiSliderFlags_AlwaysClamp);
@@ -180,7 +180,7 @@ class LightsPanel : public Panel {
       ImGui::DragFloat("##angle", &light.angle, 0.02f, 0, static_cast<float>(kMaxLightAngle),
                        light.angle > 0 ? "%.3g\u00B0" : "a point", ImGuiSliderFlags_AlwaysClamp);
     } else {
-      fieldLabel("radius", "Of the lamp, scene units: the larger, the softer its shadows");
+      fieldLabel("radius", "Of the lamp, metres: the larger, the softer its shadows");
       ImGui::DragFloat("##radius", &light.radius, std::max(light.radius * 0.01f, 0.001f), 0,
                        static_cast<float>(kMaxCoordinate), light.radius > 0 ? "%.4g" : "a point",
                        ImGuiSliderFlags_AlwaysClamp);
@@ -188,7 +188,7 @@ class LightsPanel : public Panel {
     if (kind.has(LIGHT_CONE)) drawCone(light);
 
     fieldLabel("position", distant ? "Of its handle in the picture: the light comes from everywhere"
-                                   : "Where it is: x, y and z in the world, scene units (glTF's are metres)");
+                                   : "Where it is: x, y and z in the world, metres");
     const double low = -kMaxCoordinate, high = kMaxCoordinate;
     const float size = glm::distance(session.pipeline->scene().boundsMin, session.pipeline->scene().boundsMax);
     ImGui::DragScalarN("##position", ImGuiDataType_Double, &light.position.x, 3, std::max(size * 1e-3f, 1e-9f), &low,

@@ -41,12 +41,13 @@ class ScenePanel : public Panel {
     valueRow("triangles", withThousands(scene.triangleCount()));
     helpTooltip("Of all meshes, once per node that shows them");
     valueRow("materials", fmt::format("{}, {}", scene.materials.size(), counted(scene.images.size(), "image")));
-    helpTooltip("Materials, and the images that their textures are made of");
+    helpTooltip(
+        "Materials of the file, whether a surface has them or not, and the images that their textures are made of");
     valueRow("lights", lights(session.edits.lights));
     helpTooltip("How many there are of each kind, with those that are off");
     const glm::vec3 size = scene.boundsMax - scene.boundsMin;
-    valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", size.x, size.y, size.z));
-    helpTooltip("Of the box around all surfaces along x, y and z, scene units (glTF's are metres)");
+    valueRow("size", fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g} m", size.x, size.y, size.z));
+    helpTooltip("Of the box around all surfaces along x, y and z, metres");
     if (!session.built) return;
     const Built& built = *session.built;
     valueRow("grid", fmt::format("{} \u00D7 {} \u00D7 {}", built.dims.x, built.dims.y, built.dims.z));
@@ -59,8 +60,9 @@ class ScenePanel : public Panel {
       helpTooltip("Facets whose albedo was outside 0 to .98, or no number");
     }
     const glm::vec3 part = built.region.hi - built.region.lo;
-    valueRow("region",
-             built.region.whole ? "whole" : fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g}", part.x, part.y, part.z));
+    valueRow("region", built.region.whole
+                           ? "whole"
+                           : fmt::format("{:.4g} \u00D7 {:.4g} \u00D7 {:.4g} m", part.x, part.y, part.z));
     helpTooltip(
         "The part of the scene that has voxels (scene.region), m along x, y and z. What lies outside of it is lit "
         "directly and gives light, but passes none on.");

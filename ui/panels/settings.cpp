@@ -143,7 +143,12 @@ class SettingsPanel : public Panel {
         "Settings that rebuild wait, marked in the list, until Apply builds once for all of them. What only the "
         "picture shows is taken at once.");
     const float button = ImGui::CalcTextSize("Apply").x + 4 * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
+    ImGui::SameLine();
+    // At the line's end; below where large text leaves no room.
+    if (const float room = ImGui::GetContentRegionAvail().x; room >= button)
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - button);
+    else
+      ImGui::NewLine();
     ImGui::BeginDisabled(!session.pending);
     if (ImGui::Button("Apply", {button, 0})) session.applyNow = true;
     ImGui::EndDisabled();
@@ -161,7 +166,7 @@ class SettingsPanel : public Panel {
       much = session.forecast->bytes > budget;
       text = "predicted " + costText(*session.forecast) + (much ? ": more than there is" : "");
     } else if (due) {
-      text = "no prediction: not built yet";
+      text = "no prediction: not timed yet";
     } else if (session.lastBuild) {
       const auto& [predicted, took] = *session.lastBuild;
       text = "took " + costText(took) + (predicted ? "; predicted " + costText(*predicted) : "");
@@ -170,8 +175,8 @@ class SettingsPanel : public Panel {
     ImGui::tellControl("cost", due);
     helpTooltip(text +
                 "\nSeconds until the new light is seen first, and the device memory then in use (MiB of 2\u00B2\u2070 "
-                "bytes). Predicted from the last build's by the growth with voxel.resolution and matrix.rays; what "
-                "other settings change is not foreseen.");
+                "bytes). Predicted of the stages that are redone, from what each took last, by the growth with "
+                "voxel.resolution and matrix.rays; what other settings change is not foreseen.");
   }
 };
 

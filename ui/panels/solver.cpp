@@ -47,23 +47,23 @@ class SolverPanel : public Panel {
     helpTooltip(
         "Rounds in which every facet gathers once, since the solver last woke; how many are left is extrapolated from "
         "the bound's slope over the last frames");
-    valueRow("residual", shortNumber(report.residual) + " W/m\u00B2");
+    valueRow("residual", withDigits(report.residual) + " W/m\u00B2");
     helpTooltip("Largest change of the radiosity B in the last sweep");
-    valueRow("error bound", shortNumber(report.bound) + " W/m\u00B2");
+    valueRow("error bound", withDigits(report.bound) + " W/m\u00B2");
     helpTooltip(
         "How far B can be from the exact solution at most: (\u03BA/\u03C9 \u2212 1) times the residual, \u03BA the "
         "error factor below, \u03C9 solver.omega");
-    valueRow("sleeps below", shortNumber(session.built->solve.allowed) + " W/m\u00B2");
+    valueRow("sleeps below", withDigits(session.built->solve.allowed) + " W/m\u00B2");
     helpTooltip(
         "The error bound at which the indirect light H is known to solver.tolerance of its mean: the solver sleeps "
         "then");
-    valueRow("indirect H", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
+    valueRow("mean, largest H", withDigits(report.meanH) + ", " + withDigits(report.largestH) + " W/m\u00B2");
     helpTooltip(
         "Indirect irradiance H over all facets: its mean by their areas, and its largest; of the brightest colour "
         "channel");
-    valueRow("largest row gain", shortNumber(report.largestGain));
+    valueRow("largest row gain", withDigits(report.largestGain));
     helpTooltip("The largest share of its light that a facet's row passes on: below 1 the solver converges");
-    valueRow("error factor \u03BA", shortNumber(report.kappa));
+    valueRow("error factor \u03BA", withDigits(report.kappa));
     helpTooltip(
         "\u03BA: proven from the gains of all rows together, an error of B is at most so many times the residual");
     drawReflections(session);
@@ -80,17 +80,17 @@ class SolverPanel : public Panel {
     valueRow("frames", fmt::format("{} of {}", withThousands(report.frames),
                                    withThousands(session.pipeline->settings().solver.frames)));
     helpTooltip("Frames of rays that the mean H is made of; a change of the scene or its light begins anew");
-    valueRow("standard error", shortNumber(report.standardError) + " W/m\u00B2");
+    valueRow("standard error", withDigits(report.standardError) + " W/m\u00B2");
     helpTooltip(
         "Of H, from the spread of the frames: the mean over the facets' areas, of the brightest colour channel. The "
         "view standard-error shows each facet's");
-    valueRow("ends below", shortNumber(report.allowed) + " W/m\u00B2");
+    valueRow("ends below", withDigits(report.allowed) + " W/m\u00B2");
     helpTooltip("The standard error at which it ends: solver.tolerance times the mean H");
-    valueRow("indirect H", shortNumber(report.meanH) + ", " + shortNumber(report.largestH) + " W/m\u00B2");
+    valueRow("mean, largest H", withDigits(report.meanH) + ", " + withDigits(report.largestH) + " W/m\u00B2");
     helpTooltip(
         "Indirect irradiance H over all facets: its mean by their areas, and its largest; of the brightest colour "
         "channel");
-    valueRow("largest row gain", shortNumber(report.largestGain));
+    valueRow("largest row gain", withDigits(report.largestGain));
     helpTooltip("The largest share of its light that a facet's rays of the last frame pass on");
     const PlotLine lines[] = {{"standard error", ImGui::GetColorU32(theme::accent), bound_}};
     drawPlot(lines, "frame", "the standard error is drawn from the second frame on", "dashed: target");
@@ -155,7 +155,7 @@ class SolverPanel : public Panel {
     ImGui::PlotHistogram("##writers", bars.data(), static_cast<int>(bars.size()), 0, nullptr, 0, FLT_MAX,
                          {ImGui::GetContentRegionAvail().x, std::floor(3 * ImGui::GetFontSize())});
     helpTooltip("Visible facets with 0, 1, ... 7 writers, and with 8 or more");
-    valueRow("written W, change", shortNumber(report->largest) + ", " + shortNumber(report->change) + " W/m\u00B2");
+    valueRow("written W, change", withDigits(report->largest) + ", " + withDigits(report->change) + " W/m\u00B2");
     helpTooltip("The largest that is written back, and by how much it differs from what the light was solved with");
   }
 
@@ -192,7 +192,9 @@ class SolverPanel : public Panel {
   /// Over `step`s, in the singular; `few`: in place of curves of one call, `mark`: what the dashed line is.
   void drawPlot(std::span<const PlotLine> lines, const char* step, const char* few, const char* mark) const {
     if (x_.size() < 2) {
+      ImGui::PushTextWrapPos(0);
       ImGui::TextColored(theme::dim, "%s", few);
+      ImGui::PopTextWrapPos();
       return;
     }
     PlotAxes axes;
@@ -226,8 +228,7 @@ class SolverPanel : public Panel {
     valueRow("energy in", watts(energy.entering));
     helpTooltip(
         "Power that enters the scene, W: emitted, and direct light that arrives. The sum over facets of A (M + D), A "
-        "their "
-        "areas");
+        "their areas");
     valueRow("absorbed", watts(energy.absorbed));
     helpTooltip("Power that surfaces take up, W: the sum over facets of A (1 \u2212 \u03C1)(D + H)");
     valueRow("escaped", watts(energy.escaped));

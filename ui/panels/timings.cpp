@@ -20,6 +20,7 @@ constexpr std::array<size_t, 4> kWindows{300, 600, 1000, TimingHistory::kMost}; 
 constexpr const char* kPicture = "RE Forward";  ///< frames that ran it drew a picture; others relit or drew panels
 
 std::string withUnit(double value) {
+  if (value == 0) return "0 ms";
   return value < 0.01 && value > 0 ? fmt::format("{:.2g} ms", value) : milliseconds(value) + " ms";
 }
 

@@ -71,9 +71,9 @@ class ViewPanel : public Panel {
     ImGui::Separator();
     const glm::dvec3 p = session.camera.camera().position;
     valueRow("position", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
-    helpTooltip("The camera's x, y and z in the world, scene units (glTF's are metres)");
-    valueRow("speed", fmt::format("{:.3g} units/s", session.camera.unitsPerSecond()));
-    helpTooltip("At which keys fly, scene units a second; the wheel over the picture changes it");
+    helpTooltip("The camera's x, y and z in the world, metres");
+    valueRow("speed", fmt::format("{:.3g} m/s", session.camera.unitsPerSecond()));
+    helpTooltip("At which keys fly, metres a second; the wheel over the picture changes it");
     valueRow("picture", fmt::format("{} \u00D7 {}", session.targets.size.x, session.targets.size.y));
     helpTooltip("Width and height in pixels, which Save (F12) takes, too");
     if (ImGui::Button("Save (F12)", {-1, 0})) session.capture = true;
