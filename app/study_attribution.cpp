@@ -95,7 +95,7 @@ void attributionStudy(Machine& machine, const MeasureArguments& measure, const A
   study.out = measure.out.value_or("out/attribution");
   study.seeds = seeds;
   const fs::path out = study.out;
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   const glm::uvec2 size = study.size;
   const float exposure = std::exp2(session.settings.camera.exposureEv);
   const StopOnSignal stop;

@@ -51,7 +51,7 @@ void costStudy(const StudyArguments& a, Machine& machine) {
   const std::optional<std::string> name = a.names.size() > 1 ? std::optional(a.names[1]) : std::nullopt;
   auto [scene, task] = a.measure.open(session, "irad study cost", name);
   const fs::path out = task.out = a.measure.out.value_or("out/study");
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   task.shard = shard;
   task.peerSamples = std::move(peerSamples);
   task.facetRays = facetRays;
@@ -74,7 +74,7 @@ void mergeShards(const StudyArguments& arguments, Machine&) {
   if (shards.empty()) throw UsageError("irad study merge: no folders given");
   if (!arguments.measure.out) throw UsageError("irad study merge: no --out DIR");
   const fs::path out = *arguments.measure.out;
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   if (isNamedStudy(shards.front())) return mergeNamedStudies(shards, out);
   mergeStudies(shards, out);
   finishStudy(out, gridOf(readIdentity(out)), readResults(out), readNotes(out));

@@ -9,6 +9,7 @@
 #include "gi/emitter_rule.h"
 #include "gi/region.h"
 #include "gi/stage_keys.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/forward.h"
 #include "renderer/shadow.h"
 #include "shaders/shared/pixel_emitters.h"
@@ -419,7 +420,7 @@ std::string planJson(const EffectPlan& plan, int indent) {
     row["bytes_not_allocated"] = r.bytesNotAllocated;
     out.push_back(std::move(row));
   }
-  return out.dump(indent);
+  return jsonText(out, indent);
 }
 
 Planned::Planned(const Scene& scene, const Settings& settings) : traits(measure(scene, settings.voxel.resolution)) {

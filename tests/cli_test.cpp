@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/progress.h"
-#include "tests/support.h"
+#include "renderer/image_io.h"
+#include "tests/scene_files.h"
 
 namespace irad::cli_suite {
 namespace {
@@ -120,6 +121,8 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
       {{"settings", "--config", write("f.json", R"({"matrix.rayz": 3})")},
        "f.json: unknown setting 'matrix.rayz' (did you mean matrix.rays"},
       {{"settings", "--config", write("g.json", R"({"matrix.rays": 0})")}, "g.json: matrix.rays: '0' is not allowed"},
+      {{"render", "box", "--config", write("h.json", R"({"settings": {"matrix.rays": 99999999}})")},
+       "h.json: matrix.rays: '99999999' is not allowed; expected an integer, 1 to 4096 rays"},
       {{"render", folder.path.string()}, "is a folder, not a file"},
       {{"render", "/dev/null"}, "/dev/null: is a device or a pipe, not a file"},
       {{"render", "no\xFFsuch\x1b.glb"}, "no\\xFFsuch\\x1B.glb: no such file"},
@@ -129,6 +132,81 @@ TEST(Cli, BadInputIsStatus3AndNamesTheFile) {
     EXPECT_EQ(result.status, 3) << c.expected << "\n" << result.err;
     EXPECT_TRUE(contains(result.err, c.expected)) << result.err;
   }
+}
+
+/// Names that Linux allows and JSON does not: what is written is JSON all the same.
+TEST(Cli, ANameThatIsNoUtf8IsSaidInJson) {
+  test::TemporaryFolder folder;
+  const std::string scene = (folder.path / "n\xFF.glb").string(), out = (folder.path / "study").string();
+  std::filesystem::copy_file(test::assets() / "box.glb", scene);
+  const std::vector<std::string> small{"--set", "voxel.resolution=8", "--set", "matrix.rays=8", "--size", "32x24"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), small.begin(), small.end());
+    return runIrad(arguments);
+  };
+  const RunResult planned = run({"plan", scene, "--json"});
+  EXPECT_EQ(planned.status, 0) << planned.err;
+  EXPECT_TRUE(nlohmann::json::parse(planned.out)["scene"].get<std::string>().ends_with("n\uFFFD.glb")) << planned.out;
+  const std::string truth =
+      writeLinear(folder.path / "truth", glm::uvec2(32, 24), std::vector<glm::vec4>(32 * 24, glm::vec4(1))).string();
+  const RunResult studied = run({"study", "cost", scene, "--sweep", "matrix.rays=4", "--seeds", "1", "--repeats", "1",
+                                 "--reference", truth, "--out", out});
+  EXPECT_EQ(studied.status, 0) << studied.err;
+  EXPECT_EQ(nlohmann::json::parse(slurp(out + "/study.json"))["scene"], "n\uFFFD.glb");
+}
+
+/// A room of 10 m and in it a box of .2 m, of metal or diffuse.
+std::string thingInARoom(const std::filesystem::path& folder, bool metal) {
+  test::GltfFile file = test::triangleFile();
+  std::vector<float> corners;
+  for (const float half : {5.0f, 0.1f})
+    for (const size_t axis : {0, 1, 2})
+      for (const float side : {-half, half})
+        for (const auto& [u, v] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}}) {
+          float at[3];
+          at[axis] = side, at[(axis + 1) % 3] = half * static_cast<float>(u),
+          at[(axis + 2) % 3] = half * static_cast<float>(v);
+          corners.insert(corners.end(), at, at + 3);
+        }
+  file.attributes()["POSITION"] = file.vec3(corners);
+  file.primitive()["material"] = 0;
+  file.json["materials"] = {
+      {{"doubleSided", true}, {"pbrMetallicRoughness", {{"metallicFactor", metal ? 1 : 0}, {"roughnessFactor", 0.5}}}}};
+  return file.write(folder, metal ? "metal.gltf" : "diffuse.gltf").string();
+}
+
+TEST(Cli, MetalThatNothingLightsIsSaidByPlanAndInThePicture) {
+  test::TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string(),
+                    words = "The one material is not diffuse: metal shows what is around it";
+  const auto run = [&](const char* command, bool metal, std::vector<std::string> more) {
+    more.insert(more.begin(), {command, thingInARoom(folder.path, metal), "--set", "voxel.resolution=8", "--set",
+                               "matrix.rays=8", "--size", "640x120"});
+    const RunResult result = runIrad(more);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result;
+  };
+  EXPECT_TRUE(contains(run("plan", true, {}).out, words));
+  EXPECT_FALSE(contains(run("plan", false, {}).out, words));
+  const auto json = nlohmann::json::parse(run("plan", true, {"--json"}).out);
+  EXPECT_TRUE(contains(json["nothing_diffuse"].dump(), words)) << json["nothing_diffuse"];
+  EXPECT_FALSE(nlohmann::json::parse(run("plan", false, {"--json"}).out).contains("nothing_diffuse"));
+#ifdef IRAD_OIIO
+  EXPECT_TRUE(contains(run("render", true, {"--out", out}).err, words));
+  const auto lit = readLinear(out + "/lit.exr").pixels, shown = readLinear(out + "/lit.png").pixels;
+  const auto light = [](const std::vector<glm::vec4>& picture) {
+    return std::ranges::count_if(picture, [](const glm::vec4& p) { return p.y > 0.1f; });
+  };
+  EXPECT_EQ(light(lit), 0) << "it is black";
+  EXPECT_GT(light(shown), 200) << "no words in the picture";
+#endif
+}
+
+TEST(Cli, TheLineOfTheRegionSaysWhyItIsTheWhole) {
+  test::TemporaryFolder folder;
+  const RunResult result =
+      runIrad({"plan", thingInARoom(folder.path, false), "--set", "voxel.resolution=8", "--set", "matrix.rays=8"});
+  EXPECT_TRUE(contains(result.err, "% of the light outside of -0.3,-0.3,-0.3,0.3,0.3,0.3")) << result.err;
 }
 
 TEST(Cli, TimeLeftInWords) {
