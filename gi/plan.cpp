@@ -163,7 +163,8 @@ class Planner {
   /// Metals show what is around them, which is black without a sky, but for highlights of the lights.
   void nothingDiffuse() {
     const bool metal = most(&MaterialTraits::f0) > 0 && most(&MaterialTraits::albedo) == 0;
-    if (!metal || !shines_ || emits_ || plan_.on(Effect::sky)) return;
+    // Rays to what lies outside the region are in the sky's row, too.
+    if (!metal || !shines_ || emits_ || (plan_.on(Effect::sky) && t_.sky > 0)) return;
     const std::string which = used_.size() == 1 ? "The one material is not diffuse"
                                                 : fmt::format("None of {} materials is diffuse", used_.size());
     plan_.nothingDiffuse = {which + ": metal shows what is around it, and nothing there gives light.",
