@@ -436,8 +436,8 @@ std::string manyNodes(size_t count) {
 }
 
 /// 300,000 nodes, in time that goes with their number: a reader that walks all nodes at the end of each takes sixteen
-/// times as long for four times as many. The mark of 2 s is one of a machine at rest, where the JSON library alone
-/// takes about .3 s for the same text; other work on the machine lengthens the processor time of both.
+/// times as long for four times as many. They are to take 2 s where the JSON library alone takes a third of a second
+/// for the same text; other work on the machine lengthens the processor time of both.
 TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
   double parsed = 0;
   const auto load = [&](size_t count) {
@@ -455,7 +455,7 @@ TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
   const double few = load(75'000), many = load(300'000);
   fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s, of which JSON alone takes {:.2f} s\n", few, many, parsed);
   EXPECT_LT(many, 6 * few) << few << " s and " << many << " s";
-  EXPECT_LT(many, 7 * parsed) << many << " s, and JSON alone " << parsed << " s";
+  EXPECT_LT(many, 6 * parsed) << many << " s, and JSON alone " << parsed << " s";
 }
 
 TEST_F(SceneLoading, NodesThatAreListedTwiceAreTakenOnce) {
