@@ -17,6 +17,7 @@
 #include "renderer/base/compare_timings.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/near_match.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
@@ -203,7 +204,7 @@ void run(const BenchArguments& arguments, Machine& machine) {
     nlohmann::ordered_json out = toJson(*sets[0], copy);
     out["device"] = session.device->info.name;
     if (sets.size() > 1) out["versus"] = toJson(*sets[1], copy);
-    print("{}\n", out.dump(2));
+    print("{}\n", jsonText(out, 2));
   } else {
     print("{}, {} x {}, view {}\n", session.device->info.name, size.x, size.y, view.name);
     for (size_t i = 0; i < sets.size(); ++i) {

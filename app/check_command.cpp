@@ -12,6 +12,7 @@
 #include "renderer/base/console.h"
 #include "renderer/base/csv.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/output_file.h"
 
 namespace irad::app {
@@ -180,7 +181,7 @@ void run(const CheckArguments& arguments, Machine& machine) {
     printCase(result, arguments.figures);
     results.push_back(std::move(result));
   }
-  if (arguments.json) writeFile(*arguments.json, toJson(results, session.device->info).dump(2) + "\n");
+  if (arguments.json) writeFile(*arguments.json, jsonText(toJson(results, session.device->info), 2) + "\n");
   if (arguments.csv) writeFile(*arguments.csv, toCsv(results));
   if (arguments.markdown) writeMarkdown(*arguments.markdown, toMarkdown(results));
   print("{} passed, {} failed{}\n", results.size() - failed - pending, failed,

@@ -6,7 +6,7 @@
 #include "app/progress.h"
 #include "app/version.h"
 #include "gi/check/check.h"
-#include "gi/region.h"
+#include "gi/region_line.h"
 #include "gi/sizes.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
@@ -45,7 +45,7 @@ Scene loadForRun(const std::filesystem::path& path, const SceneArguments& argume
   Scene scene = openScene(path, options);
   if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
   for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
-  if (const std::string left = describe(scene, regionOf(scene, settings)); !left.empty()) progress.note(left);
+  if (const std::string line = regionLine(scene, settings); !line.empty()) progress.note(line);
   warnIfOther(progress, config, path, scene.sha256, config.sceneSha256);
   if (scene.sky && !arguments.sky) warnIfOther(progress, config, scene.sky->path, scene.sky->sha256, config.skySha256);
   if (!config.shaders.empty())

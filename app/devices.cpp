@@ -7,6 +7,7 @@
 
 #include "app/table.h"
 #include "renderer/base/console.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/device.h"
 
 namespace irad::app {
@@ -24,7 +25,7 @@ void printDevices(bool json) {
                      {"memory_bytes", d.memoryBytes},
                      {"suitable", d.missing.empty()},
                      {"missing", d.missing}});
-    print("{}\n", out.dump(2));
+    print("{}\n", jsonText(out, 2));
     return;
   }
   std::vector<std::vector<std::string>> rows{{"index", "name", "type", "driver", "Vulkan", "memory", "suitable"}};

@@ -18,6 +18,7 @@
 #include "gi/plan.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/near_match.h"
 #include "renderer/base/output_file.h"
 #include "renderer/targets.h"
@@ -94,7 +95,7 @@ std::string gridJson(const Scene& scene, const Grid& grid) {
   json["edge"] = static_cast<double>(grid.edge);
   json["origin"] = {corner.x, corner.y, corner.z};
   json["scene_origin"] = {scene.origin.x, scene.origin.y, scene.origin.z};
-  return json.dump();
+  return jsonText(json);
 }
 
 /// inspect.json: the record of one voxel, and its light sweep by sweep. `voxel` is in the grid and holds facets.

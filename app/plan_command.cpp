@@ -15,6 +15,7 @@
 #include "gi/views/views.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 
@@ -105,7 +106,7 @@ void printJson(const Proof& rows, const EffectPlan& plan, const Scene& scene, co
   for (size_t i = 0; i < rows.size(); ++i)
     for (const auto& [name, ms] : rows[i].figures)
       out["effects"][i]["ms_not_spent"][name.substr(0, name.find('_'))] = ms;
-  print("{}\n", out.dump(2));
+  print("{}\n", jsonText(out, 2));
 }
 
 void show(const Subject& subject, const PlanArguments& arguments) {

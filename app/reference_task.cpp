@@ -10,6 +10,7 @@
 #include "app/device_session.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/near_match.h"
 #include "renderer/frame/transfer.h"
 #include "renderer/scene/camera_json.h"
@@ -129,7 +130,7 @@ void finishFiles(const Task& task, const Arguments& arguments, Manifest manifest
   if (arguments.glossySeen) manifest.arguments.emplace_back("--glossy-seen");
   if (arguments.centred) manifest.arguments.emplace_back("--centred");
   if (arguments.facets) manifest.arguments.emplace_back("--facets");
-  manifest.details.emplace_back("truth", truth.dump());
+  manifest.details.emplace_back("truth", jsonText(truth));
   for (const fs::path& path : written) manifest.files.push_back(path.filename().string());
   writeFile(task.beside(".json"), manifest.toJson());
   written.push_back(task.beside(".json"));
@@ -178,7 +179,7 @@ void checkMade(const fs::path& state, const Json& before, const Json& made) {
       const Json there = before.value(name, Json()), here = made.value(name, Json());
       if (there != here)
         throw UsageError(fmt::format("--resume: {} is of another picture: {} {}, not {}", state.string(), name,
-                                     there.dump(), here.dump()));
+                                     jsonText(there), jsonText(here)));
     }
 }
 

@@ -12,6 +12,7 @@
 #include "gi/sky.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sky_image.h"
@@ -91,7 +92,7 @@ void traceTriangles(const Arguments& arguments, const Task& task) {
 
   const auto tracer = makePathTracer(scene, makeSky(settings.sky, skyInputs(scene, scene.lights)));
   const uint64_t most = task.spp || task.seconds || task.noise ? task.spp.value_or(0) : kUsualSamples;
-  const auto save = [&] { writeSums(task.beside(".state"), {made.dump(), sums}); };
+  const auto save = [&] { writeSums(task.beside(".state"), {jsonText(made), sums}); };
   const StopOnSignal interrupts;
   const Goal goal(task, most, before);
   double noise = std::numeric_limits<double>::infinity(), saved = 0;

@@ -14,6 +14,7 @@
 #include "gi/pipeline.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/output_file.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/sky_image.h"
@@ -88,7 +89,7 @@ void traceVoxels(const Arguments& arguments, const Task& task, DeviceSession& se
     const Lighting& light = pipeline.lighting();
     if (!light || light.report.frames == 0 || light.report.nonFinite > 0 || light.report.diverging) return;
     writeFrames(task.beside(".state"),
-                {made.dump(), secondsBefore + goal.elapsed(), saveFrames(*session.context, light)});
+                {jsonText(made), secondsBefore + goal.elapsed(), saveFrames(*session.context, light)});
     saved = goal.elapsed();
   };
   const auto noise = [&](const SolveReport& r) {

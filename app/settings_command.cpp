@@ -7,6 +7,7 @@
 #include "app/table.h"
 #include "gi/manifest.h"
 #include "renderer/base/console.h"
+#include "renderer/base/json_reader.h"
 
 namespace irad::app {
 namespace {
@@ -60,7 +61,7 @@ void run(const SettingsArguments& arguments) {
   if (arguments.values)
     print("{}\n", settingsFile(settings));
   else if (arguments.json)
-    print("{}\n", registry(settings).dump(2));
+    print("{}\n", jsonText(registry(settings), 2));
   else
     print("{}", table(settings));
 }

@@ -33,6 +33,9 @@ struct MeasureArguments {
                                    std::optional<uint32_t> otherwise = std::nullopt) const;
 };
 
+/// The files of a study's folder that say which study it is, and nothing of what was found.
+inline const std::vector<std::string> kStudyLabels{"study.json", "named.json"};
+
 /// --budget-ms, --budget-mib, --target-error, --cost.
 struct BudgetArguments {
   std::optional<std::string> ms, mib, error, cost;

@@ -70,6 +70,7 @@ Attribution splitPoint(DeviceSession& session, Scene scene, const Settings& sett
                        const AttributionTask& task) {
   study.study = fmt::format("attribution: {} times as fine, {} rays per pixel", task.finer, task.gatherRays);
   const fs::path out = study.out;
+  const MadeFolder folder(out, kStudyLabels);
   const glm::uvec2 size = study.size;
   const uint32_t seeds = study.seeds;
   const float exposure = std::exp2(settings.camera.exposureEv);

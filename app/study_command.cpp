@@ -61,7 +61,7 @@ void costStudy(const StudyArguments& a, Machine& machine) {
   for (size_t point = 0; most > 0 && point < grid.size(); ++point)
     requireSplittable("--split", grid.settings(point), task.view);
   const fs::path out = task.out = a.measure.out.value_or("out/study");
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   task.shard = shard;
   task.peerSamples = std::move(peerSamples);
   task.facetRays = facetRays;
@@ -89,7 +89,7 @@ void mergeShards(const StudyArguments& arguments, Machine&) {
   if (shards.empty()) throw UsageError("irad study merge: no folders given");
   if (!arguments.measure.out) throw UsageError("irad study merge: no --out DIR");
   const fs::path out = *arguments.measure.out;
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   if (isNamedStudy(shards.front())) return mergeNamedStudies(shards, out);
   mergeStudies(shards, out);
   finishStudy(out, gridOf(readIdentity(out)), readResults(out), readNotes(out));

@@ -46,9 +46,13 @@ struct NamedFolder {
     return name == kAll ? root / study.name : root;
   }
   std::string json() const {
-    return Json{{"named", name}, {"scale", scale}, {"device", device},
-                {"cpu", cpu},    {"seeds", seeds}, {"repeats", repeats}}
-        .dump(2);
+    return jsonText(Json{{"named", name},
+                         {"scale", scale},
+                         {"device", device},
+                         {"cpu", cpu},
+                         {"seeds", seeds},
+                         {"repeats", repeats}},
+                    2);
   }
 };
 
@@ -234,7 +238,7 @@ void runNamedStudy(Machine& machine, const std::string& name, const MeasureArgum
                       "--out, or remove it",
                       root.string(), there.name, there.scale, there.device, named.name, named.scale, named.device));
   }
-  const MadeFolder folder(root);
+  const MadeFolder folder(root, kStudyLabels);
   writeFile(root / kNamedFile, named.json());
   session.progress.note(fmt::format("scale {}: {}", scale.name,
                                     arguments.scale ? "as asked for"

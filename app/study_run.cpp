@@ -16,6 +16,7 @@
 #include "gi/matrix.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
@@ -86,11 +87,11 @@ void StudyRun::measure() {
   session_.progress.finish();
   if (!needsTruth()) return;  // a shard beyond the last point: the others have the notes
   const ReportNotes n = notes();
-  writeFile(task_.out / "notes.json", nlohmann::ordered_json{{"facts", n.facts},
-                                                             {"picture", {n.pictureSize.x, n.pictureSize.y}},
-                                                             {"crop", {n.cropAt.x, n.cropAt.y}},
-                                                             {"crop_size", {n.cropSize.x, n.cropSize.y}}}
-                                          .dump(2));
+  const nlohmann::ordered_json json{{"facts", n.facts},
+                                    {"picture", {n.pictureSize.x, n.pictureSize.y}},
+                                    {"crop", {n.cropAt.x, n.cropAt.y}},
+                                    {"crop_size", {n.cropSize.x, n.cropSize.y}}};
+  writeFile(task_.out / "notes.json", jsonText(json, 2));
 }
 
 void StudyRun::measureMore(size_t point, uint32_t seeds, uint32_t repeats) {
@@ -202,7 +203,7 @@ StudyIdentity StudyRun::identity() const {
   if (task_.facetRays) json["facet_rays"] = *task_.facetRays;
   json["sweeps"] = grid_.texts();
   json["settings"] = nlohmann::ordered_json::parse(settingsToJson(grid_.base()));
-  return json.dump(2);
+  return jsonText(json, 2);
 }
 
 // ---- Measuring ----

@@ -152,7 +152,7 @@ void run(const TuneArguments& a, Machine& machine) {
   auto [scene, task] = a.measure.open(session, "irad tune", a.scene, kReferenceSamples);
   task.study = "tune";
   const fs::path out = task.out = a.measure.out.value_or("out/tune");
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   const uint32_t seeds = task.seeds, repeats = task.repeats;
   const std::vector<std::string> sweeps =
       a.measure.sweeps.empty() ? coarseSweeps(session.device->isCpu) : a.measure.sweeps;

@@ -8,6 +8,7 @@
 #include "app/table.h"
 #include "gi/views/views.h"
 #include "renderer/base/console.h"
+#include "renderer/base/json_reader.h"
 
 namespace irad::app {
 namespace {
@@ -25,7 +26,7 @@ void run(bool json) {
                      {"min", view.rangeMin},
                      {"max", view.rangeMax},
                      {"tone_mapped", view.toneMapped()}});
-    print("{}\n", out.dump(2));
+    print("{}\n", jsonText(out, 2));
     return;
   }
   const auto range = [](const ViewInfo& view) -> std::string {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/inspected.h"
+#include "renderer/base/json_reader.h"
 #include "shaders/shared/trace.h"
 
 namespace irad {
@@ -121,7 +122,7 @@ std::string inspectJson(const InspectedVoxel& record, const Grid& grid, NormalEn
   }
   json["residual_history"] = history.residual;
   json["converged"] = history.converged;
-  return folded(json.dump(1)) + "\n";
+  return folded(jsonText(json, 1)) + "\n";
 }
 
 }  // namespace irad

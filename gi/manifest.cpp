@@ -9,6 +9,7 @@
 #include "gi/check/check.h"
 #include "gi/picture.h"
 #include "gi/region.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/scene/camera_json.h"
 #include "renderer/scene/light_json.h"
 #include "renderer/scene/material_edits.h"
@@ -57,7 +58,7 @@ std::optional<int64_t> timeFromText(const std::string& text) {
 std::string settingsFile(const Settings& settings) {
   Json json{{"format", kConfigFormat}};
   json.update(Json::parse(settingsToJson(settings)));
-  return json.dump(2);
+  return jsonText(json, 2);
 }
 
 std::string Manifest::commandLine() const {
@@ -117,7 +118,7 @@ std::string Manifest::toJson() const {
   for (const auto& [name, text] : details) json[name] = Json::parse(text);
   json["files"] = files;
   json["warnings"] = scene->warnings;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 }  // namespace irad

@@ -9,6 +9,7 @@
 #include "gi/emitter_rule.h"
 #include "gi/region.h"
 #include "gi/stage_keys.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/forward.h"
 #include "renderer/shadow.h"
@@ -163,7 +164,8 @@ class Planner {
   /// Metals show what is around them, which is black without a sky, but for highlights of the lights.
   void nothingDiffuse() {
     const bool metal = most(&MaterialTraits::f0) > 0 && most(&MaterialTraits::albedo) == 0;
-    if (!metal || !shines_ || emits_ || plan_.on(Effect::sky)) return;
+    // Rays to what lies outside the region are in the sky's row, too.
+    if (!metal || !shines_ || emits_ || (plan_.on(Effect::sky) && t_.sky > 0)) return;
     const std::string which = used_.size() == 1 ? "The one material is not diffuse"
                                                 : fmt::format("None of {} materials is diffuse", used_.size());
     plan_.nothingDiffuse = {which + ": metal shows what is around it, and nothing there gives light.",
@@ -420,7 +422,7 @@ std::string planJson(const EffectPlan& plan, int indent) {
     row["bytes_not_allocated"] = r.bytesNotAllocated;
     out.push_back(std::move(row));
   }
-  return out.dump(indent);
+  return jsonText(out, indent);
 }
 
 Planned::Planned(const Scene& scene, const Settings& settings) : traits(measure(scene, settings.voxel.resolution)) {

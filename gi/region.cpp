@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "gi/region_line.h"
 #include "gi/settings.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/material_edits.h"
@@ -31,8 +32,10 @@ bool holds(const SceneRegion& region, const glm::vec3& p) {
   return glm::all(glm::greaterThanEqual(p, region.lo)) && glm::all(glm::lessThanEqual(p, region.hi));
 }
 
-/// A part that is no smaller than this share of the scene gets enough voxels of the whole.
-constexpr double kSmall = 1.0 / 24;
+/// Detail that is larger than this share of the scene gets enough voxels of the whole.
+constexpr double kSmall = 0.1;
+/// The whole is taken where that has voxels which are larger by less than a quarter.
+constexpr double kWorth = 0.75;
 /// Triangles are detail below this share of the median size.
 constexpr double kFine = 0.25;
 /// Of the detail's area so much may lie outside on either side of an axis.
@@ -151,9 +154,17 @@ void keepFewEmitters(const Scene& scene, const std::vector<bool>& emits, glm::dv
   if (squares > 0 && light * light < kFew * 4 * std::numbers::pi * squares) lo = outLo, hi = outHi;
 }
 
-/// The part that holds the detail; nothing where that is not small, or what lies around it lights itself. By the file's
-/// materials: an edit of one moves no voxels.
-std::optional<SceneRegion> detailOf(const Scene& scene) {
+/// The part that holds the detail, and why the whole has the voxels all the same.
+struct Detail {
+  enum class Kept { No, Large, Reflects };
+  SceneRegion part;
+  Kept kept = Kept::No;
+  double share = 0;  ///< of the scene's extent, or of the light
+};
+
+/// Nothing where there is no detail, or the part is not worth it. By the file's materials: an edit of one moves no
+/// voxels.
+std::optional<Detail> detailOf(const Scene& scene) {
   struct Face {
     glm::dvec3 lo, hi;
     double size, area;
@@ -185,7 +196,6 @@ std::optional<SceneRegion> detailOf(const Scene& scene) {
   }
   const glm::dvec3 boundsLo(scene.boundsMin), boundsHi(scene.boundsMax);
   const double whole = largest(boundsHi - boundsLo), extent = largest(hi - lo);
-  if (!(extent <= kSmall * whole)) return std::nullopt;
   // As much again on all sides: what is beside it lights it, and is in its shadow.
   lo -= extent, hi += extent;
   if (!scene.defaultCamera)
@@ -195,9 +205,35 @@ std::optional<SceneRegion> detailOf(const Scene& scene) {
     }
   keepFewEmitters(scene, emits, lo, hi);
   lo = glm::max(lo, boundsLo), hi = glm::min(hi, boundsHi);
-  if (largest(hi - lo) > 0.75 * whole) return std::nullopt;
-  const SceneRegion region{glm::vec3(lo), glm::vec3(hi), false};
-  return sharedOutside(scene, region) <= kShared ? std::optional(region) : std::nullopt;
+  if (!(largest(hi - lo) <= kWorth * whole)) return std::nullopt;
+  Detail detail{{glm::vec3(lo), glm::vec3(hi), false}, Detail::Kept::Large, extent / whole};
+  if (detail.share > kSmall) return detail;
+  detail.share = sharedOutside(scene, detail.part);
+  detail.kept = detail.share > kShared ? Detail::Kept::Reflects : Detail::Kept::No;
+  return detail;
+}
+
+/// World coordinates.
+std::string cornersOf(const Scene& scene, const SceneRegion& region) {
+  return corners(scene.origin + glm::dvec3(region.lo), scene.origin + glm::dvec3(region.hi));
+}
+
+std::string whyWhole(const Scene& scene, const Detail& detail) {
+  const std::string part = cornersOf(scene, detail.part);
+  if (detail.kept == Detail::Kept::Large)
+    return fmt::format(
+        "scene.region: whole, since its detail is {:.2g} of it, more than {}, and so has voxels enough; "
+        "scene.region={} takes the part around it",
+        detail.share, kSmall, part);
+  return fmt::format(
+      "scene.region: whole, since {:.2g} % of the light outside of {}, the part with its detail, is reflected to and "
+      "fro there, more than {:.2g} %, and would be lost; scene.region={} takes the part",
+      100 * detail.share, part, 100 * kShared, part);
+}
+
+bool looksForDetail(const Scene& scene, const Settings& settings) {
+  return settings.scene.region.mode == RegionMode::automatic && !scene.region && scene.triangleCount() > 0 &&
+         settings.matrix.gpu.hitRule != HitRule::thesis;
 }
 
 }  // namespace
@@ -218,9 +254,11 @@ SceneRegion regionOf(const Scene& scene, const Settings& settings) {
   };
   if (wanted.mode == RegionMode::box)
     return boxed({wanted.x0, wanted.y0, wanted.z0}, {wanted.x1, wanted.y1, wanted.z1}, "scene.region");
-  if (settings.matrix.gpu.hitRule == HitRule::thesis) return whole;
-  if (scene.region) return boxed(scene.region->least, scene.region->largest, scene.sidecar.string() + ": region");
-  return detailOf(scene).value_or(whole);
+  if (scene.region && settings.matrix.gpu.hitRule != HitRule::thesis)
+    return boxed(scene.region->least, scene.region->largest, scene.sidecar.string() + ": region");
+  if (!looksForDetail(scene, settings)) return whole;
+  const std::optional<Detail> detail = detailOf(scene);
+  return detail && detail->kept == Detail::Kept::No ? detail->part : whole;
 }
 
 SceneRegion regionOrWhole(const Scene& scene, const Settings& settings) {
@@ -258,11 +296,17 @@ std::vector<uint32_t> trianglesOutside(const Geometry& geometry, const SceneRegi
 std::string describe(const Scene& scene, const SceneRegion& region) {
   if (region.whole) return {};
   const size_t outside = trianglesOutside(scene, region).size();
-  const glm::dvec3 lo = scene.origin + glm::dvec3(region.lo), hi = scene.origin + glm::dvec3(region.hi);
   return fmt::format(
       "scene.region: voxels are made of {} alone; {} of {} triangles lie outside of it, at least in part: there they "
       "are lit directly, and give light, but pass none on",
-      corners(lo, hi), outside, scene.triangleCount());
+      cornersOf(scene, region), outside, scene.triangleCount());
+}
+
+std::string regionLine(const Scene& scene, const Settings& settings) {
+  if (!looksForDetail(scene, settings)) return describe(scene, regionOf(scene, settings));
+  const std::optional<Detail> detail = detailOf(scene);
+  if (!detail) return {};
+  return detail->kept == Detail::Kept::No ? describe(scene, detail->part) : whyWhole(scene, *detail);
 }
 
 }  // namespace irad

@@ -10,6 +10,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/json_extent.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/near_match.h"
 
 namespace irad {
@@ -176,7 +177,7 @@ std::string settingsToJson(const Settings& settings, int indent) {
     else
       json[setting.name] = nlohmann::ordered_json::parse(setting.text(settings));
   }
-  return json.dump(indent);
+  return jsonText(json, indent);
 }
 
 void settingsFromJson(Settings& settings, std::string_view json) {
@@ -191,8 +192,8 @@ void settingsFromJson(Settings& settings, std::string_view json) {
   Settings changed = settings;  // all or nothing
   for (const auto& [name, value] : parsed.items()) {
     if (value.is_structured() || value.is_null())
-      throw UsageError(fmt::format("{}: expected a number, true, false or a name, not {}", name, value.dump()));
-    assign(changed, name, value.is_string() ? value.get<std::string>() : value.dump());
+      throw UsageError(fmt::format("{}: expected a number, true, false or a name, not {}", name, jsonText(value)));
+    assign(changed, name, value.is_string() ? value.get<std::string>() : jsonText(value));
   }
   settings = changed;
 }

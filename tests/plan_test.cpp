@@ -220,6 +220,7 @@ TEST(Plan, SaysThatAllMetalIsBlackWithoutASky) {
       "sky.source = constant or preetham, or a picture of one (--sky FILE, or dropped into the window).");
   const Edit second = EDIT(t.materials[1].triangles = 1);  // which is diffuse
   EXPECT_TRUE(said(second + EDIT(t.materials[1].albedo = 0)).starts_with("None of 2 materials"));
+  EXPECT_TRUE(said(EDIT(t.region.whole = false)).starts_with("The one material is not diffuse"));
   for (const Edit& edit : {second, EDIT(t.lights.clear()) /* no light at all, which noLight says */,
                            EDIT(t.materials[0].emission = 1), skyLit})
     EXPECT_EQ(said(edit), "");

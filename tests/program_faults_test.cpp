@@ -2,6 +2,7 @@
 // a kill in the middle, files of newer programs. Exit statuses as in docs/conventions.md, errors in words, nothing
 // half-written.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -293,18 +294,51 @@ TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
   EXPECT_FALSE(fs::exists(folder.path / "manifest.json"));
 }
 
+/// Whether it fails on the device, or on input that is looked at when the folder has been made.
 TEST(ProgramFaults, AFailedRunLeavesNoEmptyFolder) {
   TemporaryFolder folder;
-  const fs::path out = folder.path / "new" / "out";
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"render", "box"}, {"export", "box", "--matrix"}, {"export", "box", "--facets"}}) {
-    std::vector<std::string> arguments = command;
-    for (const char* more : {"--set", "voxel.resolution=8", "--inject", "oom=1", "--out"}) arguments.emplace_back(more);
-    arguments.push_back(out.string());
+  const fs::path made = folder.path / "new", out = made / "out";
+  const auto leavesNothing = [&](std::vector<std::string> arguments, const fs::path& into, int status,
+                                 const std::string& said) {
+    const std::string name = fmt::format("{}", fmt::join(arguments, " "));
+    arguments.insert(arguments.end(), {"--out", into.string()});
     const RunResult result = runIrad(arguments);
-    EXPECT_EQ(result.status, 4) << command[0] << "\n" << result.err;
-    EXPECT_FALSE(fs::exists(folder.path / "new")) << command[0];
+    EXPECT_EQ(result.status, status) << name << "\n" << result.err;
+    EXPECT_TRUE(contains(result.err, said)) << name << "\n" << result.err;
+    EXPECT_FALSE(fs::exists(made)) << name;
+    fs::remove_all(made);
+  };
+  const fs::path truth = writeLinear(folder.path / "truth", glm::uvec2(32, 24), std::vector<glm::vec4>(32 * 24));
+  const fs::path picture = out / fmt::format("truth{}", linearExtension());
+  const auto failing = [&](std::vector<std::string> command, const fs::path& into) {
+    for (const char* more : {"--set", "voxel.resolution=8", "--inject", "oom=1"}) command.emplace_back(more);
+    leavesNothing(command, into, 4, "out of memory");
+  };
+  failing({"render", "box"}, out);
+  failing({"export", "box", "--matrix"}, out);
+  failing({"export", "box", "--facets"}, out);
+  failing({"reference", "box", "--of", "voxels", "--spp", "1000"}, picture);
+  failing({"reference", "box", "--of", "matrix"}, picture);
+  failing({"tune", "box", "--budget-ms", "5", "--reference", truth.string()}, out);
+  failing({"study", "cost", "box", "--sweep", "matrix.rays=4", "--reference", truth.string()}, out);
+  failing({"study", "attribution", "box", "--reference", truth.string()}, out);
+
+  const std::vector<std::string> tiny{"--set", "voxel.resolution=8", "--size", "4x4"};
+  const auto tooSmall = [&](std::vector<std::string> command) {
+    command.insert(command.end(), tiny.begin(), tiny.end());
+    leavesNothing(command, out, 2, "holds no block");
+  };
+  tooSmall({"tune", "box", "--budget-ms", "5", "--reference", truth.string()});
+  tooSmall({"study", "cost", "box", "--sweep", "matrix.rays=4", "--reference", truth.string()});
+  tooSmall({"study", "attribution", "box", "--reference", truth.string()});
+  leavesNothing({"reference", "box", "--of", "matrix", "--set", "effects.matrix=off", "--set", "voxel.resolution=8"},
+                picture, 2, "there is no matrix");
+  const std::string shards[] = {(folder.path / "a").string(), (folder.path / "b").string()};
+  for (const std::string& shard : shards) {
+    fs::create_directory(shard);
+    std::ofstream(fs::path(shard) / "study.json") << fmt::format(R"({{"scene": "{}", "sweeps": []}})", shard);
   }
+  leavesNothing({"study", "merge", shards[0], shards[1]}, out, 3, "not the study of");
 }
 
 TEST(ProgramFaults, ABuiltInSceneIsNotHiddenByAFolderOfItsName) {

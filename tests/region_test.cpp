@@ -15,6 +15,7 @@
 #include "gi/outer.h"
 #include "gi/pipeline.h"
 #include "gi/ray_kernel.h"
+#include "gi/region_line.h"
 #include "gi/subsystems.h"
 #include "gi/traits.h"
 #include "renderer/base/error.h"
@@ -312,6 +313,51 @@ TEST(RegionRule, AutoKeepsWhatReflects) {
     b.sphere(vase, glm::vec3(0, -4.8f, 0), 0.1f, /*inward=*/false, 16);
     b.camera({0.3, -4.7, 0.3}, {0, -4.8, 0});
     EXPECT_EQ(regionOf(b.finish("vase"), s).whole, albedo > 0) << albedo;
+  }
+}
+
+/// Where there is a part that would have been taken, the line says why it is not, and how to have it.
+TEST(RegionRule, WhyTheWholeIsKeptIsSaid) {
+  // A ship under a dome: one that reflects lights itself.
+  for (const float albedo : {0.0f, 0.015f, 0.5f}) {
+    SceneBuilder b;
+    const uint32_t dome = b.material(glm::vec3(albedo), glm::vec3(1)), ship = b.material(glm::vec3(0.5f));
+    b.sphere(dome, glm::vec3(0), 100, /*inward=*/true, 16);
+    b.sphere(ship, glm::vec3(0), 1, /*inward=*/false, 16);
+    const Scene scene = b.finish("ship");
+    Settings s;
+    const std::string line = regionLine(scene, s);
+    EXPECT_EQ(regionOf(scene, s).whole, albedo > 0.02f) << albedo;
+    EXPECT_TRUE(line.starts_with(albedo > 0.02f ? "scene.region: whole, since 50 % of the light outside of "
+                                                : "scene.region: voxels are made of "))
+        << line;
+    const size_t offered = line.find("scene.region=");
+    EXPECT_EQ(offered != std::string::npos, albedo > 0.02f) << line;
+    if (offered == std::string::npos) continue;
+    applySetting(s, line.substr(offered, line.find(' ', offered) - offered));
+    EXPECT_TRUE(regionLine(scene, s).starts_with("scene.region: voxels are made of -3,-3,-3,3,3,3 alone"))
+        << regionLine(scene, s);
+    s.scene.region.mode = RegionMode::whole;
+    EXPECT_EQ(regionLine(scene, s), "");
+    applyPreset(s, "thesis", true);
+    s.scene.region = {};
+    EXPECT_EQ(regionLine(scene, s), "");
+  }
+  // Something on a plane: from a tenth of it on the whole has voxels enough, and where the part would be three quarters
+  // of it nobody waits for one.
+  for (const float radius : {9.0f, 11.0f, 40.0f}) {
+    SceneBuilder b;
+    const uint32_t grey = b.material(glm::vec3(0.5f));
+    b.quad(grey, {-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, -100});
+    b.sphere(grey, glm::vec3(0, radius, 0), radius, /*inward=*/false, 16);
+    const Scene scene = b.finish("ball");
+    const std::string line = regionLine(scene, Settings());
+    EXPECT_EQ(regionOf(scene, Settings()).whole, radius > 10) << radius;
+    EXPECT_TRUE(line.starts_with(radius < 10   ? "scene.region: voxels are made of "
+                                 : radius < 20 ? "scene.region: whole, since its detail is 0.11 of it, more than 0.1"
+                                               : ""))
+        << line;
+    EXPECT_EQ(line.empty(), radius > 20) << line;
   }
 }
 

@@ -1,6 +1,7 @@
 // The part of the scene that has voxels, as a box in the picture.
 #include <nlohmann/json.hpp>
 
+#include "gi/check/scenes.h"
 #include "renderer/scene/sidecar.h"
 #include "tests/window_fixture.h"
 
@@ -45,6 +46,19 @@ TEST_F(WindowRegionTest, ABoxIsDraggedByItsFaces) {
   key("ctrl+z");
   rests();
   EXPECT_FALSE(has("region/largest x"));
+  quit();
+}
+
+/// Small things in a room that reflects: auto would take them alone where it did not.
+TEST_F(WindowRegionTest, WhyTheWholeIsKeptIsSaid) {
+  const std::filesystem::path scene = folder_.path / "ship.irscene";
+  SceneBuilder b;
+  const uint32_t dome = b.material(glm::vec3(0.5f), glm::vec3(1)), ship = b.material(glm::vec3(0.5f));
+  b.sphere(dome, glm::vec3(0), 100, /*inward=*/true, 16);
+  b.sphere(ship, glm::vec3(0), 1, /*inward=*/false, 16);
+  writeSceneCache(b.finish("ship"), scene);
+  start({}, scene);
+  EXPECT_TRUE(says("scene.region: whole, since 50 % of the light outside of")) << window_->log();
   quit();
 }
 

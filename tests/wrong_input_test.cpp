@@ -136,7 +136,28 @@ TEST(MadeFolder, GoesWhereNothingWasWritten) {
   EXPECT_TRUE(std::filesystem::exists(made / "result"));
   { const MadeFolder work(there / "a"); }
   EXPECT_TRUE(std::filesystem::exists(made / "result"));
+  {
+    const MadeFolder work(there / "a", {"result"});  // was there before
+  }
+  EXPECT_TRUE(std::filesystem::exists(made / "result"));
   EXPECT_THROW(MadeFolder(made / "result"), WorkError);
+}
+
+/// A file that says only what was to come into the folder goes with it; where there is more, it stays.
+TEST(MadeFolder, TakesLabelsAlong) {
+  TemporaryFolder folder;
+  const std::filesystem::path made = folder.path / "a" / "b", inner = made / "c";
+  for (const bool more : {false, true}) {
+    {
+      const MadeFolder work(made, {"label"});
+      std::filesystem::create_directory(inner);
+      for (const auto& where : {made, inner}) std::ofstream(where / "label") << "x";
+      if (more) std::ofstream(inner / "result") << "x";
+    }
+    EXPECT_EQ(std::filesystem::exists(folder.path / "a"), more);
+    EXPECT_EQ(std::filesystem::exists(made / "label"), more);
+    EXPECT_EQ(std::filesystem::exists(inner / "label"), more);
+  }
 }
 
 /// A PNG's first 29 bytes.

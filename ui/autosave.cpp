@@ -79,7 +79,7 @@ void writeAutosave(const fs::path& file, const Autosave& autosave) {
   json["settings"] = OrderedJson::parse(settingsToJson(autosave.settings));
   if (autosave.other) json["other_settings"] = OrderedJson::parse(settingsToJson(*autosave.other));
   makeFolder(file.parent_path());
-  writeFile(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
+  writeFile(file, jsonText(json, 2) + "\n");
 }
 
 Autosave readAutosave(const fs::path& file) {

@@ -10,6 +10,7 @@
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/plan.h"
+#include "gi/region_line.h"
 #include "gi/shadow_needs.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
@@ -429,8 +430,8 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
   if (&pipeline != side.pipeline.get()) side.woke();
   const FacetList& facets = pipeline.facets();
   const SolveReport& report = pipeline.lighting().report;
-  if (!facets.region.whole && !(side.built && side.built->region == facets.region))
-    session_.note(describe(pipeline.scene(), facets.region));
+  if (!(side.built && side.built->region == facets.region))
+    if (const std::string line = regionLine(pipeline.scene(), pipeline.settings()); !line.empty()) session_.note(line);
   std::vector<uint32_t> withoutShadow = pipeline.lightsWithoutShadow();
   if (!withoutShadow.empty() && !(side.built && side.built->withoutShadow == withoutShadow))
     session_.note(describeWithoutShadow(pipeline.scene().lights, withoutShadow));

@@ -29,8 +29,7 @@ constexpr Member kSizes[] = {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& member, const Json& value,
                        const char* wanted) {
-  throw InputError(fmt::format("{}: {} is {}; it must be {}", file.string(), member,
-                               value.dump(-1, ' ', false, Json::error_handler_t::replace), wanted));
+  throw InputError(fmt::format("{}: {} is {}; it must be {}", file.string(), member, jsonText(value), wanted));
 }
 
 std::vector<std::string> strings(const std::filesystem::path& file, const Json& json, const char* member) {
@@ -121,7 +120,7 @@ void writePreferences(const std::filesystem::path& file, const Preferences& pref
   json["recent"] = Json::array();
   for (const std::filesystem::path& path : preferences.recent) json["recent"].push_back(path.string());
   makeFolder(file.parent_path());
-  writeFile(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(file, jsonText(json, 2) + "\n");
 }
 
 }  // namespace irad

@@ -7,6 +7,7 @@
 
 #include "gi/memory_report.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/output_file.h"
 #include "renderer/base/recording.h"
 #include "ui/capture.h"
@@ -41,7 +42,7 @@ std::string manifestJson(Session& session, const Recording& recording, double se
   if (const auto& from = session.recorder.from)
     if (const std::string changed = whatChanged(*from, editStateOf(session)); !changed.empty())
       of["changed_meanwhile"] = changed;
-  manifest.details.emplace_back("recording", of.dump());
+  manifest.details.emplace_back("recording", jsonText(of));
   if (session.comparison)
     manifest.details.emplace_back("other_settings", settingsToJson(session.sideB().pipeline->settings()));
   return manifest.toJson();

@@ -38,7 +38,7 @@ InputError refusal(const std::filesystem::path& path, const std::string& why) {
 
 void writeState(const std::filesystem::path& path, const std::string& kind, const nlohmann::ordered_json& json,
                 const std::vector<std::span<const std::byte>>& arrays) {
-  const std::string line = json.dump();
+  const std::string line = jsonText(json);
   OutputFile file(path);
   file.write(fmt::format("{}\n{}\n{}\n", kind, line, digestOf(line, arrays)));
   for (const auto& values : arrays) file.write(values);
@@ -49,7 +49,7 @@ uint64_t wholeOf(const nlohmann::ordered_json& json, const std::filesystem::path
                  uint64_t most) {
   const auto& value = json.at(name);
   if (!value.is_number_unsigned() || value.get<uint64_t>() > most)
-    throw refusal(path, fmt::format("{}: unexpected value {}", name, value.dump()));
+    throw refusal(path, fmt::format("{}: unexpected value {}", name, jsonText(value)));
   return value.get<uint64_t>();
 }
 

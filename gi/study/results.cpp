@@ -134,7 +134,7 @@ namespace {
 StudyIdentity withGrids(const StudyIdentity& identity, const GridTexts& grids) {
   auto json = nlohmann::ordered_json::parse(identity);
   json["sweeps"] = grids;
-  return json.dump(2);
+  return jsonText(json, 2);
 }
 
 bool beginsWith(const GridTexts& longer, const GridTexts& start) {
@@ -228,7 +228,7 @@ StudyIdentity readIdentity(const fs::path& folder) {
     throw InputError(fmt::format("{}: no such file: not a study's folder", file.string()));
   const OrderedJson json = readJsonFile(file);
   if (!json.is_object()) throw InputError(fmt::format("{}: expected a JSON object", file.string()));
-  return json.dump(2);
+  return jsonText(json, 2);
 }
 
 std::string differences(const StudyIdentity& a, const StudyIdentity& b) {
@@ -245,11 +245,11 @@ std::string differences(const StudyIdentity& a, const StudyIdentity& b) {
       const nlohmann::ordered_json there = valueOf(first, name), here = valueOf(second, name);
       if (there == here || (names == &second && first.contains(name))) continue;
       if (!there.is_object() || !here.is_object()) {
-        add(name, there.dump(), here.dump());
+        add(name, jsonText(there), jsonText(here));
         continue;
       }
       for (const auto& [member, value] : here.items())  // settings: only those that differ
-        if (valueOf(there, member) != value) add(member, valueOf(there, member).dump(), value.dump());
+        if (valueOf(there, member) != value) add(member, valueOf(there, member).dump(), jsonText(value));
     }
   return out;
 }

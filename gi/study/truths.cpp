@@ -84,7 +84,7 @@ Json commonJson(const TruthSubject& subject, const char* by) {
 TruthRecipe recipeOf(const TruthSubject& subject, const Json& made) {
   return {fmt::format("{}-{}-{}", plain(subject.sceneName, "scene"), plain(subject.camera.name, "camera"),
                       plain(subject.view, "view")),
-          made.dump(-1, ' ', false, Json::error_handler_t::replace)};
+          jsonText(made)};
 }
 
 const char* const kHalves[] = {"a", "b"};
@@ -168,7 +168,7 @@ void TruthStore::keep(const TruthRecipe& recipe, int half, glm::uvec2 size, cons
   const std::vector<fs::path> written = writeLayers(stem(recipe, half), size, {&layer, 1}, subject);
   Json json = vouchers(file, recipe).value_or(Json{{"made", Json::parse(recipe.made)}, {kPictures, Json::object()}});
   json[kPictures][kHalves[half]] = sha256File(written.front());
-  writeFile(file, json.dump(2));
+  writeFile(file, jsonText(json, 2));
 }
 
 }  // namespace irad

@@ -94,8 +94,7 @@ void JsonObject::refuse(const char* member, const std::string& why) const {
 }
 
 void JsonObject::refuse(const char* member, const std::string& expected, const OrderedJson& value) const {
-  refuse(member,
-         fmt::format("{}, not {}", expected, value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace)));
+  refuse(member, fmt::format("{}, not {}", expected, jsonText(value)));
 }
 
 }  // namespace irad

@@ -19,6 +19,13 @@ OrderedJson readJsonFile(const std::filesystem::path& path);
 /// UsageError "LABEL: not JSON ...", also where it is nested too deeply.
 OrderedJson parseJson(std::string_view text, const std::string& label);
 
+/// As text to be printed or written. Names of files, of devices and whatever else was never read as JSON may hold bytes
+/// that are no UTF-8, at which dump() throws: they become U+FFFD.
+template <class Json>
+std::string jsonText(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// The float's fewest digits that read back to the same bits.
 OrderedJson jsonNumber(float value);
 

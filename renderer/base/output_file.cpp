@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -156,21 +157,31 @@ void makeFolder(const std::filesystem::path& path) {
 
 namespace {
 
-/// Removes a folder and those in it as far as they hold no file.
-void removeEmpty(const fs::path& folder) {
+/// Whether a folder and those in it hold no file but labels.
+bool isEmpty(const fs::path& folder, const std::vector<std::string>& labels) {
   std::error_code error;
-  std::vector<fs::path> inside;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->is_symlink(error) || !entry->is_directory(error)) return;
-    inside.push_back(entry->path());
+    const bool label = entry->is_regular_file(error) && std::ranges::count(labels, entry->path().filename().string());
+    if (!label && (entry->is_symlink(error) || !entry->is_directory(error) || !isEmpty(entry->path(), labels)))
+      return false;
   }
-  for (const fs::path& path : inside) removeEmpty(path);
+  return !error;
+}
+
+/// What isEmpty() has found: nothing that another run may have put there since.
+void removeEmpty(const fs::path& folder, const std::vector<std::string>& labels) {
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_directory(error)) folders.push_back(entry->path());
+  for (const fs::path& path : folders) removeEmpty(path, labels);
+  for (const std::string& label : labels) fs::remove(folder / label, error);
   fs::remove(folder, error);  // does so where it is empty
 }
 
 }  // namespace
 
-MadeFolder::MadeFolder(const fs::path& path) {
+MadeFolder::MadeFolder(const fs::path& path, std::vector<std::string> labels) : labels_(std::move(labels)) {
   std::error_code error;
   for (fs::path folder = fs::absolute(path, error).lexically_normal(); !error && !fs::exists(folder, error);
        folder = folder.parent_path()) {
@@ -181,7 +192,7 @@ MadeFolder::MadeFolder(const fs::path& path) {
 }
 
 MadeFolder::~MadeFolder() {
-  if (!made_.empty()) removeEmpty(made_);
+  if (!made_.empty() && isEmpty(made_, labels_)) removeEmpty(made_, labels_);
 }
 
 template <class T>

@@ -57,14 +57,16 @@ void removeFile(const std::filesystem::path& path);
 void makeFolder(const std::filesystem::path& path);
 
 /// makeFolder() for the time of some work. Where that leaves nothing behind, because it failed, the folders that were
-/// made for it go again: those that hold nothing but such folders.
+/// made for it go again: those that hold nothing but such folders, and files with these names, which say no more than
+/// what was to come into them.
 class MadeFolder {
  public:
-  explicit MadeFolder(const std::filesystem::path& path);
+  explicit MadeFolder(const std::filesystem::path& path, std::vector<std::string> labels = {});
   ~MadeFolder();
   MadeFolder(const MadeFolder&) = delete;
 
  private:
+  const std::vector<std::string> labels_;
   std::filesystem::path made_;  ///< the uppermost one that was not there; empty: all of them were
 };
 

@@ -12,6 +12,7 @@
 
 #include "renderer/base/csv.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/output_file.h"
 
 namespace irad {
@@ -37,7 +38,7 @@ double clockOffset(const std::deque<FrameSample>& frames) {
 }
 
 std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump();
+  return jsonText(nlohmann::json(text));
 }
 
 /// A line of a recording, for messages.

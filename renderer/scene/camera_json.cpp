@@ -32,7 +32,7 @@ std::string cameraToJson(const Camera& camera) {
   if (camera.aspect > 0) json["aspect"] = jsonNumber(camera.aspect);
   json["znear"] = jsonNumber(camera.znear);
   if (camera.zfar > 0) json["zfar"] = jsonNumber(camera.zfar);
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return jsonText(json);
 }
 
 Camera cameraFromJson(std::string_view text, const std::string& label) {

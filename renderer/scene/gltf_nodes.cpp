@@ -202,12 +202,14 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
     if (shown[i].instances > 0) wanted[i] = true;
     if (wanted[i] && shown[i].parent != SceneNode::kNoParent) wanted[shown[i].parent] = true;
   }
-  doc.take(static_cast<uint64_t>(std::count(wanted.begin(), wanted.end(), true)) * 2 * sizeof(SceneNode), "nodes");
+  const auto count = static_cast<size_t>(std::count(wanted.begin(), wanted.end(), true));
+  doc.take(uint64_t{count} * 2 * sizeof(SceneNode), "nodes");
   std::vector<uint32_t> number(shown.size());
-  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones, and the next number to try, by
-  // parent and name, so that a thousand of one name do not ask a thousand times each.
+  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones, and for those that more want the
+  // next number to try, by parent and name, so that a thousand of one name do not ask a thousand times each.
   std::unordered_set<std::string> taken;
   std::unordered_map<std::string, int> next;
+  taken.reserve(count);
   for (size_t i = 0; i < shown.size(); ++i) {
     if (!wanted[i]) continue;
     number[i] = static_cast<uint32_t>(scene.nodes.size());
@@ -218,8 +220,11 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
     const std::string name = own.empty() ? fmt::format("node {}", shown[i].node) : own;
     const std::string of = fmt::format("{}:", node.parent);
     node.name = name;
+    if (taken.insert(of + name).second) continue;
     int& n = next.try_emplace(of + name, 2).first->second;
-    while (!taken.insert(of + node.name).second) node.name = fmt::format("{} {}", name, n++);
+    do {
+      node.name = fmt::format("{} {}", name, n++);
+    } while (!taken.insert(of + node.name).second);
   }
   for (size_t i = scene.nodes.size(); i-- > 0;) {
     SceneNode& node = scene.nodes[i];

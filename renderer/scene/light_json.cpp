@@ -101,7 +101,7 @@ Light fromJson(const OrderedJson& parsed, const std::string& label) {
 std::string lightsToJson(const std::vector<Light>& lights) {
   OrderedJson json = OrderedJson::array();
   for (const Light& light : lights) json.push_back(toJson(light));
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return jsonText(json);
 }
 
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& label) {

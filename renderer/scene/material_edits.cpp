@@ -57,7 +57,7 @@ uint32_t readTextures(const JsonObject& json, const char* member) {
   for (const OrderedJson& name : json.at(member)) {
     const auto found = name.is_string() ? std::ranges::find(known, name.get<std::string>()) : known.end();
     if (found == known.end())
-      json.refuse(member, fmt::format("unknown {}{}", name.dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
+      json.refuse(member, fmt::format("unknown {}{}", jsonText(name),
                                       name.is_string() ? suggestion(name.get<std::string>(), known) : ""));
     off |= 1u << (found - known.begin());
   }
@@ -170,7 +170,7 @@ std::vector<std::string> unknownMaterials(const Scene& scene, std::span<const Ma
 std::string materialEditsToJson(std::span<const MaterialEdit> edits) {
   OrderedJson json = OrderedJson::array();
   for (const MaterialEdit& edit : edits) json.push_back(editToJson(edit));
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return jsonText(json);
 }
 
 std::vector<MaterialEdit> materialEditsFromJson(std::string_view text, const std::string& label) {

@@ -22,7 +22,7 @@ void checkFormat(const OrderedJson& json, const std::string& file) {
   if (!json.is_object() || !json.contains("format")) throw UsageError(file + ": format is missing");
   const OrderedJson& format = json["format"];
   if (!format.is_number_unsigned() || format.get<uint64_t>() < 1)
-    throw UsageError(fmt::format("{}: format: expected a whole number from 1, not {}", file, format.dump()));
+    throw UsageError(fmt::format("{}: format: expected a whole number from 1, not {}", file, jsonText(format)));
   if (format.get<uint64_t>() > kSidecarFormat)
     throw UsageError(fmt::format("{}: is of format {}, written by a newer program; this one reads up to format {}",
                                  file, format.get<uint64_t>(), kSidecarFormat));
@@ -110,7 +110,7 @@ std::string sidecarToJson(const Sidecar& sidecar) {
     };
     json["region"] = {{"least", list(region->least)}, {"largest", list(region->largest)}};
   }
-  return json.dump(2);
+  return jsonText(json, 2);
 }
 
 Sidecar sidecarFromJson(std::string_view json, const std::string& label) {
