@@ -14,7 +14,7 @@
 namespace irad {
 namespace {
 
-Image uploadTexture(Context& context, const SceneImage& source) {
+Image uploadTexture(Context& context, const SceneImage& source, AlphaMode alpha = AlphaMode::Opaque) {
   IRAD_CHECK_OP(source.rgba.size(), ==, 4ull * source.width * source.height);
   ImageDesc desc;
   desc.name = source.name.empty() ? "texture" : source.name;
@@ -27,7 +27,8 @@ Image uploadTexture(Context& context, const SceneImage& source) {
   Image image(context.device, desc);
   upload(context, image, std::as_bytes(std::span(source.rgba)));
   uint32_t mip = 0;
-  for (const MipLevel& level : mipLevels(source)) upload(context, image, std::as_bytes(std::span(level.rgba)), ++mip);
+  for (const MipLevel& level : mipLevels(source, alpha))
+    upload(context, image, std::as_bytes(std::span(level.rgba)), ++mip);
   return image;
 }
 
@@ -115,7 +116,8 @@ SceneOnDevice::SceneOnDevice(Context& context, const Scene& source) : scene(sour
   materialValues = gpuMaterials(scene.materials);
   materials = uploadArray(context, "materials", materialValues);
   textures.reserve(scene.images.size() + 2);
-  for (const SceneImage& image : scene.images) textures.push_back(uploadTexture(context, image));
+  for (size_t i = 0; i < scene.images.size(); ++i)
+    textures.push_back(uploadTexture(context, scene.images[i], alphaOf(scene, i)));
   const size_t white = textures.size();
   textures.push_back(constantTexture(context, "white", {255, 255, 255, 255}));
   const size_t flat = textures.size();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "renderer/scene/srgb.h"
@@ -53,6 +54,80 @@ TEST(Mips, ColoursAreAveragedAsLightAndAlphaAsItIs) {
   const std::vector<uint8_t> checker{0, 0, 0, 0, 255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 0};
   EXPECT_EQ(mipLevels({"", 2, 2, true, checker}).at(0).rgba, (std::vector<uint8_t>{188, 188, 188, 128}));
   EXPECT_EQ(mipLevels({"", 2, 2, false, checker}).at(0).rgba, (std::vector<uint8_t>{128, 128, 128, 128}));
+}
+
+SceneImage masked(uint32_t edge, const std::function<std::vector<uint8_t>(uint32_t, uint32_t)>& texel) {
+  SceneImage image{"", edge, edge, true, {}};
+  for (uint32_t y = 0; y < edge; ++y)
+    for (uint32_t x = 0; x < edge; ++x) {
+      const std::vector<uint8_t> t = texel(x, y);
+      image.rgba.insert(image.rgba.end(), t.begin(), t.end());
+    }
+  return image;
+}
+const std::vector<uint8_t> kLeaf{0, 90, 0, 255}, kCut{255, 255, 255, 0}, kThin{0, 90, 0, 128};
+
+TEST(Mips, ColoursOfWhatIsCutOffDoNotGetIntoWhatIsThere) {
+  const auto mip = [](std::initializer_list<std::vector<uint8_t>> texels, AlphaMode alpha) {
+    return mipLevels(masked(2, [&](uint32_t x, uint32_t y) { return texels.begin()[2 * y + x]; }), alpha).at(0).rgba;
+  };
+  for (const AlphaMode alpha : {AlphaMode::Mask, AlphaMode::Blend}) {  // of one texel a mask's alpha is the mean, too
+    EXPECT_EQ(mip({kLeaf, kCut, kCut, kCut}, alpha), (std::vector<uint8_t>{0, 90, 0, 64}));
+    EXPECT_EQ(mip({kThin, kThin, kThin, kCut}, alpha), (std::vector<uint8_t>{0, 90, 0, 96}));
+    EXPECT_EQ(mip({kLeaf, kLeaf, kLeaf, kLeaf}, alpha), (std::vector<uint8_t>{0, 90, 0, 255}));
+    EXPECT_EQ(mip({kCut, kCut, kCut, kCut}, alpha), (std::vector<uint8_t>{255, 255, 255, 0}));
+  }
+  EXPECT_GT(mip({kLeaf, kCut, kCut, kCut}, AlphaMode::Opaque)[0], 200) << "its alpha says nothing";
+
+  // Down to one texel: a single one that is there among 255.
+  const SceneImage one = masked(16, [](uint32_t x, uint32_t y) { return x == 5 && y == 2 ? kLeaf : kCut; });
+  EXPECT_EQ(mipLevels(one, AlphaMode::Blend).back().rgba, (std::vector<uint8_t>{1, 90, 1, 1}));
+}
+
+TEST(Mips, MasksLeaveAsMuchOfEveryLevelAsOfTheImage) {
+  // Leaves as speckles that cover three tenths: no mean of four or more texels gets above a half but by chance.
+  std::mt19937 random(2);
+  const SceneImage image = masked(64, [&](uint32_t, uint32_t) { return random() % 10 < 3 ? kLeaf : kCut; });
+  const auto left = [](const std::vector<uint8_t>& rgba, int cutoff) {
+    double count = 0;
+    for (size_t i = 3; i < rgba.size(); i += 4) count += rgba[i] >= cutoff;
+    return count / (static_cast<double>(rgba.size()) / 4);
+  };
+  const double whole = left(image.rgba, 128);
+  const std::vector<MipLevel> levels = mipLevels(image, AlphaMode::Mask), means = mipLevels(image, AlphaMode::Blend);
+  for (const size_t level : {0, 1, 2}) {
+    const auto texels = static_cast<double>(levels[level].width * levels[level].height);
+    // Equal means are one step, of which a level of means of 4 texels has five.
+    EXPECT_NEAR(left(levels[level].rgba, 128), whole, level == 0 ? 0.2 : 0.1 + 1 / texels) << level;
+    double mean = 0;
+    for (size_t i = 3; i < levels[level].rgba.size(); i += 4) mean += levels[level].rgba[i] / 255.0 / texels;
+    EXPECT_NEAR(mean, whole, 0.004) << level;
+  }
+  EXPECT_LT(left(means[2].rgba, 128), 0.02) << "by their means they are gone";
+
+  // What has all alphas from 0 to 1 keeps them all.
+  const SceneImage slope = masked(64, [&](uint32_t, uint32_t) {
+    return std::vector<uint8_t>{9, 9, 9, static_cast<uint8_t>(random() % 256)};
+  });
+  for (const int cutoff : {64, 128, 192})
+    EXPECT_NEAR(left(mipLevels(slope, AlphaMode::Mask)[1].rgba, cutoff), left(slope.rgba, cutoff), 0.02) << cutoff;
+}
+
+TEST(Mips, AlphaCountsWhereEveryBaseColourIsMaskedOrBlended) {
+  Scene scene;
+  scene.images.resize(4);
+  const auto add = [&](int image, AlphaMode alpha) {
+    scene.materials.emplace_back().baseColorTexture.image = image;
+    scene.materials.back().alpha = alpha;
+  };
+  add(0, AlphaMode::Mask), add(0, AlphaMode::Blend), add(1, AlphaMode::Mask), add(1, AlphaMode::Opaque);
+  add(3, AlphaMode::Mask), add(3, AlphaMode::Mask);
+  scene.materials.emplace_back().emissiveTexture.image = 2;
+  scene.materials.back().alpha = AlphaMode::Mask;
+  EXPECT_EQ(alphaOf(scene, 0), AlphaMode::Blend);
+  EXPECT_EQ(alphaOf(scene, 1), AlphaMode::Opaque) << "where it is opaque all of it is seen";
+  EXPECT_EQ(alphaOf(scene, 2), AlphaMode::Opaque) << "its alpha says nothing";
+  EXPECT_EQ(alphaOf(scene, 3), AlphaMode::Mask);
 }
 
 /// A level in double precision: light, row by row.

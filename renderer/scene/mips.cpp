@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
+#include <numeric>
+#include <optional>
 
+#include "renderer/scene/material_edits.h"
 #include "renderer/scene/srgb.h"
 
 namespace irad {
@@ -58,13 +62,41 @@ Level half(uint32_t width, uint32_t height, const Texel& texel) {
   return out;
 }
 
+/// The alphas of a level, spread as those of the image are (`alphas`, ascending): the texels of the least mean get the
+/// mean of as large a share of the least ones, and so on; those of equal means the mean of what is theirs together.
+/// Empty where there are none.
+std::vector<float> spreadAlphas(const Level& level, const std::vector<float>& alphas) {
+  if (alphas.empty()) return {};
+  const size_t count = level.texels.size();
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return level.texels[i].a; });
+  std::vector<double> sums(alphas.size() + 1);
+  std::partial_sum(alphas.begin(), alphas.end(), sums.begin() + 1, std::plus<double>());
+  const auto upTo = [&](size_t texels) {  // the sum of the least of this share of the alphas
+    const double place = static_cast<double>(texels) / static_cast<double>(count) * static_cast<double>(alphas.size());
+    const size_t whole = std::min(static_cast<size_t>(place), alphas.size() - 1);
+    return sums[whole] + (place - static_cast<double>(whole)) * double{alphas[whole]};
+  };
+  std::vector<float> out(count);
+  for (size_t first = 0; first < count;) {
+    size_t end = first + 1;
+    while (end < count && level.texels[order[end]].a == level.texels[order[first]].a) ++end;
+    const double share =
+        static_cast<double>(end - first) / static_cast<double>(count) * static_cast<double>(alphas.size());
+    const auto mean = static_cast<float>((upTo(end) - upTo(first)) / share);
+    for (; first < end; ++first) out[order[first]] = mean;
+  }
+  return out;
+}
+
 }  // namespace
 
 uint32_t mipCount(uint32_t width, uint32_t height) {
   return static_cast<uint32_t>(std::bit_width(std::max(width, height)));
 }
 
-std::vector<MipLevel> mipLevels(const SceneImage& image) {
+std::vector<MipLevel> mipLevels(const SceneImage& image, AlphaMode alpha) {
   std::array<float, 256> plain, color;
   for (int code = 0; code < 256; ++code) {
     plain[code] = static_cast<float>(code) / 255.0f;
@@ -73,22 +105,52 @@ std::vector<MipLevel> mipLevels(const SceneImage& image) {
   const auto code = [&](float value, int channel) {
     return image.srgb && channel < 3 ? srgbFromLinear(value) : static_cast<uint8_t>(value * 255.0f + 0.5f);
   };
+  // Far less than the least alpha there is, so that a colour is left where all of it is 0.
+  constexpr float kNothingThere = 1e-6f;
+  const auto texel = [&](size_t i) {
+    const uint8_t* t = &image.rgba[4 * i];
+    return glm::vec4(color[t[0]], color[t[1]], color[t[2]], plain[t[3]]);
+  };
+  const auto weighted = [&](size_t i) {
+    const glm::vec4 t = texel(i);
+    const float weight = std::max(t.a, kNothingThere);
+    return glm::vec4(glm::vec3(t) * weight, weight);
+  };
+  const auto below = [](const Level& above) {
+    return half(above.width, above.height, [&](size_t i) { return above.texels[i]; });
+  };
 
+  std::vector<float> alphas;  // of the image, ascending
+  if (alpha == AlphaMode::Mask) {
+    for (size_t i = 3; i < image.rgba.size(); i += 4) alphas.push_back(plain[image.rgba[i]]);
+    std::ranges::sort(alphas);
+  }
+  const bool covered = alpha != AlphaMode::Opaque;
   std::vector<MipLevel> levels;
-  Level level{image.width, image.height, {}};
+  Level level, colors;  // `colors`: times their weight, and it
   for (uint32_t mip = 1; mip < mipCount(image.width, image.height); ++mip) {
-    level = mip == 1 ? half(image.width, image.height,
-                            [&](size_t i) {
-                              const uint8_t* t = &image.rgba[4 * i];
-                              return glm::vec4(color[t[0]], color[t[1]], color[t[2]], plain[t[3]]);
-                            })
-                     : half(level.width, level.height, [&](size_t i) { return level.texels[i]; });
+    level = mip == 1 ? half(image.width, image.height, texel) : below(level);
+    if (covered) colors = mip == 1 ? half(image.width, image.height, weighted) : below(colors);
     MipLevel& out = levels.emplace_back(MipLevel{level.width, level.height, {}});
     out.rgba.reserve(4 * level.texels.size());
-    for (const glm::vec4& texel : level.texels)
-      for (int c = 0; c < 4; ++c) out.rgba.push_back(code(texel[c], c));
+    const std::vector<float> spread = spreadAlphas(level, alphas);
+    for (size_t i = 0; i < level.texels.size(); ++i) {
+      glm::vec4 t = level.texels[i];
+      if (covered) t = glm::vec4(glm::vec3(colors.texels[i]) / colors.texels[i].a, spread.empty() ? t.a : spread[i]);
+      for (int c = 0; c < 4; ++c) out.rgba.push_back(code(t[c], c));
+    }
   }
   return levels;
+}
+
+AlphaMode alphaOf(const Scene& scene, size_t image) {
+  std::optional<AlphaMode> found;
+  for (const Material& material : fileMaterials(scene)) {
+    if (material.baseColorTexture.image != static_cast<int>(image)) continue;
+    if (material.alpha == AlphaMode::Opaque) return AlphaMode::Opaque;
+    found = found.value_or(material.alpha) == material.alpha ? material.alpha : AlphaMode::Blend;
+  }
+  return found.value_or(AlphaMode::Opaque);
 }
 
 }  // namespace irad

@@ -19,6 +19,14 @@ struct MipLevel {
 /// covers, a partly covered one (of an odd number) by its part; rounded once, for the level itself. The same bytes
 /// everywhere, where a device's blits round at every level and approximate sRGB each in its own way: Mesa's CPU
 /// driver's were 1.4 % too dark after a few levels, and another machine's others.
-std::vector<MipLevel> mipLevels(const SceneImage& image);
+///
+/// Where alpha says how much of a texel is there, colours count by it, so that what a mask cuts off (white around a
+/// leaf) does not get into the colour of what it leaves; where nothing is there they count alike. Of a mask every level
+/// has as many texels of every alpha as the image itself, the largest where its mean is largest: whatever the
+/// cutoff, as much is there from far away as from near. Means alone let leaves vanish that cover less than the cutoff.
+std::vector<MipLevel> mipLevels(const SceneImage& image, AlphaMode alpha = AlphaMode::Opaque);
+/// What the materials that have an image for their base colour make of its alpha; Opaque where one of them ignores it
+/// or there is none, Blend where some blend.
+AlphaMode alphaOf(const Scene& scene, size_t image);
 
 }  // namespace irad
