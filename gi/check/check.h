@@ -33,8 +33,8 @@ std::span<const CheckCase> checkCases();
 /// UsageError lists near matches of an unknown name.
 const CheckCase& findCheckCase(std::string_view name);
 
-/// "check:NAME" or, of a family, "check:NAME:SEED" and "check:NAME:SEED:N" (its member for N voxels; 1 and 64 where they
-/// are not said), as `irad view` takes it.
+/// "check:NAME" or, of a family, "check:NAME:SEED" and "check:NAME:SEED:N" (its member for N voxels; 1 and 64 where
+/// they are not said), as `irad view` takes it.
 bool isCheckScene(const std::filesystem::path& path);
 /// The case of such a path; UsageError where there is none, or not such a member of it.
 const CheckCase& caseOf(const std::filesystem::path& path);
