@@ -316,7 +316,8 @@ def office(s, r):
     partition = s.material("partition", colour(r))
     for i in range(r.randint(2, 4)):
         x = width * (i + 1) / 5
-        s.put("partition", None, partition, block((x, .05, 0), (x + .02, r.uniform(1.3, 2.5), depth * r.uniform(.4, .75))))
+        s.put("partition", None, partition,
+              block((x, .05, 0), (x + .02, r.uniform(1.3, 2.5), depth * r.uniform(.4, .75))))
     desk = s.material("desk", colour(r))
     for _ in range(6):
         x, z = r.uniform(.8, width - .8), r.uniform(.6, depth - .6)
