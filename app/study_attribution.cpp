@@ -70,7 +70,6 @@ Attribution splitPoint(DeviceSession& session, Scene scene, const Settings& sett
                        const AttributionTask& task) {
   study.study = fmt::format("attribution: {} times as fine, {} rays per pixel", task.finer, task.gatherRays);
   const fs::path out = study.out;
-  const MadeFolder folder(out, kStudyLabels);
   const glm::uvec2 size = study.size;
   const uint32_t seeds = study.seeds;
   const float exposure = std::exp2(settings.camera.exposureEv);
@@ -196,7 +195,7 @@ void attributionStudy(Machine& machine, const MeasureArguments& measure, const A
   study.out = measure.out.value_or("out/attribution");
   const fs::path out = study.out;
   const uint32_t seeds = study.seeds;
-  const MadeFolder folder(out);
+  const MadeFolder folder(out, kStudyLabels);
   const StopOnSignal stop;
   const Attribution result = splitPoint(session, std::move(loaded), session.settings, std::move(study), task);
 
