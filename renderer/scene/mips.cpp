@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "renderer/scene/material_edits.h"
 #include "renderer/scene/srgb.h"
@@ -62,33 +63,42 @@ Level half(uint32_t width, uint32_t height, const Texel& texel) {
   return out;
 }
 
-/// The alphas of a level, spread as those of the image are (`alphas`, ascending): the texels of the least mean get the
-/// mean of as large a share of the least ones, and so on; those of equal means the mean of what is theirs together.
-/// Empty where there are none.
-std::vector<float> spreadAlphas(const Level& level, const std::vector<float>& alphas) {
-  if (alphas.empty()) return {};
-  const size_t count = level.texels.size();
-  std::vector<size_t> order(count);
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::stable_sort(order, {}, [&](size_t i) { return level.texels[i].a; });
-  std::vector<double> sums(alphas.size() + 1);
-  std::partial_sum(alphas.begin(), alphas.end(), sums.begin() + 1, std::plus<double>());
-  const auto upTo = [&](size_t texels) {  // the sum of the least of this share of the alphas
-    const double place = static_cast<double>(texels) / static_cast<double>(count) * static_cast<double>(alphas.size());
-    const size_t whole = std::min(static_cast<size_t>(place), alphas.size() - 1);
-    return sums[whole] + (place - static_cast<double>(whole)) * double{alphas[whole]};
-  };
-  std::vector<float> out(count);
-  for (size_t first = 0; first < count;) {
-    size_t end = first + 1;
-    while (end < count && level.texels[order[end]].a == level.texels[order[first]].a) ++end;
-    const double share =
-        static_cast<double>(end - first) / static_cast<double>(count) * static_cast<double>(alphas.size());
-    const auto mean = static_cast<float>((upTo(end) - upTo(first)) / share);
-    for (; first < end; ++first) out[order[first]] = mean;
+/// How the alphas of an image are spread.
+class AlphaSpread {
+ public:
+  explicit AlphaSpread(std::vector<float> alphas) : alphas_(std::move(alphas)), sums_(alphas_.size() + 1) {
+    std::ranges::sort(alphas_);
+    std::partial_sum(alphas_.begin(), alphas_.end(), sums_.begin() + 1, std::plus<double>());
   }
-  return out;
-}
+  /// The alphas of a level, spread alike: the texels of the least mean get the mean of as large a share of the image's
+  /// least ones, and so on; those of equal means the mean of what is theirs together.
+  std::vector<float> of(const Level& level) const {
+    const size_t count = level.texels.size();
+    std::vector<size_t> order(count);
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::ranges::stable_sort(order, {}, [&](size_t i) { return level.texels[i].a; });
+    const auto placeOf = [&](size_t texels) {
+      return static_cast<double>(texels) / static_cast<double>(count) * static_cast<double>(alphas_.size());
+    };
+    std::vector<float> out(count);
+    for (size_t first = 0; first < count;) {
+      size_t end = first + 1;
+      while (end < count && level.texels[order[end]].a == level.texels[order[first]].a) ++end;
+      const auto mean =
+          static_cast<float>((sumOfLeast(placeOf(end)) - sumOfLeast(placeOf(first))) / placeOf(end - first));
+      for (; first < end; ++first) out[order[first]] = mean;
+    }
+    return out;
+  }
+
+ private:
+  double sumOfLeast(double count) const {
+    const size_t whole = std::min(static_cast<size_t>(count), alphas_.size() - 1);
+    return sums_[whole] + (count - static_cast<double>(whole)) * double{alphas_[whole]};
+  }
+  std::vector<float> alphas_;  ///< ascending
+  std::vector<double> sums_;   ///< of the first ones
+};
 
 }  // namespace
 
@@ -120,10 +130,11 @@ std::vector<MipLevel> mipLevels(const SceneImage& image, AlphaMode alpha) {
     return half(above.width, above.height, [&](size_t i) { return above.texels[i]; });
   };
 
-  std::vector<float> alphas;  // of the image, ascending
+  std::optional<AlphaSpread> spread;
   if (alpha == AlphaMode::Mask) {
+    std::vector<float> alphas;
     for (size_t i = 3; i < image.rgba.size(); i += 4) alphas.push_back(plain[image.rgba[i]]);
-    std::ranges::sort(alphas);
+    spread.emplace(std::move(alphas));
   }
   const bool covered = alpha != AlphaMode::Opaque;
   std::vector<MipLevel> levels;
@@ -133,10 +144,10 @@ std::vector<MipLevel> mipLevels(const SceneImage& image, AlphaMode alpha) {
     if (covered) colors = mip == 1 ? half(image.width, image.height, weighted) : below(colors);
     MipLevel& out = levels.emplace_back(MipLevel{level.width, level.height, {}});
     out.rgba.reserve(4 * level.texels.size());
-    const std::vector<float> spread = spreadAlphas(level, alphas);
+    const std::vector<float> alphas = spread ? spread->of(level) : std::vector<float>();
     for (size_t i = 0; i < level.texels.size(); ++i) {
       glm::vec4 t = level.texels[i];
-      if (covered) t = glm::vec4(glm::vec3(colors.texels[i]) / colors.texels[i].a, spread.empty() ? t.a : spread[i]);
+      if (covered) t = glm::vec4(glm::vec3(colors.texels[i]) / colors.texels[i].a, spread ? alphas[i] : t.a);
       for (int c = 0; c < 4; ++c) out.rgba.push_back(code(t[c], c));
     }
   }
