@@ -22,7 +22,6 @@ constexpr std::string_view kScheme = "check:";
 /// The case and, of a family, the member that "check:NAME" or "check:NAME:SEED:N" names.
 struct Named {
   const CheckCase& check;
-  const Family* family = nullptr;
   uint64_t seed = 1;
   uint32_t resolution = 0;
 };
@@ -31,9 +30,7 @@ Named parseName(const std::filesystem::path& path) {
   const std::string text = path.native().substr(kScheme.size());
   const size_t name = std::min(text.find(':'), text.size()), seed = std::min(text.find(':', name + 1), text.size());
   Named named{.check = findCheckCase(text.substr(0, name))};
-  for (const Family& family : families())
-    if (std::string_view(family.name) == named.check.name) named.family = &family;
-  if (name < text.size() && named.family == nullptr)
+  if (name < text.size() && named.check.family == nullptr)
     throw UsageError(
         fmt::format("{}: the case '{}' is one scene, not a family with seeds", path.string(), named.check.name));
   Settings given;
@@ -83,8 +80,9 @@ Scene openScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (!isCheckScene(path)) return loadScene(path, options);
   const Named named = parseName(path);
   const CheckCase& check = named.check;
-  if (check.scene == nullptr) throw UsageError(fmt::format("the case '{}' has no scene: {}", check.name, check.setup));
-  Scene scene = named.family ? familyMember(*named.family, named.seed, named.resolution).scene : check.scene();
+  if (!check.scene && !check.family)
+    throw UsageError(fmt::format("the case '{}' has no scene: {}", check.name, check.setup));
+  Scene scene = check.family ? familyMember(*check.family, named.seed, named.resolution).scene : check.scene();
   scene.path = path;
   scene.fileLights = scene.lights;
   if (options.lights) replaceLights(scene, *options.lights);

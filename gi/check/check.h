@@ -12,20 +12,23 @@
 
 namespace irad {
 
+struct Family;
+
 struct CheckCase {
   const char* name;
   const char* setup;
   const char* oracle;
   const char* mark;
   void (*run)(CheckRun&) = nullptr;  ///< none: it cannot be run yet
-  /// What `irad view check:NAME` opens; none where the case has no scene (a sampler, an encoding).
+  /// What `irad view check:NAME` opens; none where the case has no scene (a sampler, an encoding), or is a family.
   Scene (*scene)() = nullptr;
   /// What H should be in `scene`; none where the oracle does not give it.
   glm::dvec3 (*expected)(const glm::dvec3& position, const glm::dvec3& normal) = nullptr;
   /// Why it cannot be run yet or, where there is something to run, until when it is known to fail: then it is run only
   /// where it is asked for by name.
   const char* pending = nullptr;
-  bool soak = false;  ///< long: CheckRun::quick shortens it
+  bool soak = false;               ///< long: CheckRun::quick shortens it
+  const Family* family = nullptr;  ///< whose members it opens
 };
 
 /// All cases, in the catalogue's order.

@@ -168,16 +168,11 @@ template <size_t index>
 void familyCase(CheckRun& run) {
   judgeFamily(run, families()[index]);
 }
-/// The first member, at the resolution that checks usually have.
-template <size_t index>
-Scene familyScene() {
-  return familyMember(families()[index], 1, 64).scene;
-}
 
 template <size_t... index>
 std::vector<CheckCase> casesOf(std::index_sequence<index...>) {
   std::vector<CheckCase> cases;
-  const auto add = [&](const Family& family, void (*work)(CheckRun&), Scene (*scene)()) {
+  const auto add = [&](const Family& family, void (*work)(CheckRun&)) {
     cases.push_back({.name = family.name,
                      .setup = family.setup,
                      .oracle = family.dark ? "inside 0" : "a path tracer on the triangles",
@@ -185,9 +180,9 @@ std::vector<CheckCase> casesOf(std::index_sequence<index...>) {
                              : family.dark  ? "0 at N >= 64, <= 1e-7 at 32; energy 2 %"
                                             : "N = 128: mean 5 %, relMSE .02; energy 2 %",
                      .run = work,
-                     .scene = scene});
+                     .family = &family});
   };
-  (add(families()[index], familyCase<index>, familyScene<index>), ...);
+  (add(families()[index], familyCase<index>), ...);
   return cases;
 }
 
