@@ -18,13 +18,13 @@ void comparePictures(const std::filesystem::path& path, const std::filesystem::p
   const LayeredPicture picture = readLayers(path), reference = readLayers(referencePath);
   std::optional<LayeredPicture> second;
   if (secondPath) second = readLayers(*secondPath);
-  const std::optional<Camera> camera = readReference(path).camera;
-  const auto requireCamera = [&](const std::filesystem::path& other) {
-    const std::string why = camera ? otherCamera(readReference(other).camera, *camera) : "";
-    if (!why.empty()) throw UsageError(fmt::format("{}: made from another camera: {}", other.string(), why));
+  const std::optional<Camera> camera = cameraOf(path, picture.subject);
+  const auto requireCamera = [&](const std::filesystem::path& of, const LayeredPicture& other) {
+    const std::string why = camera ? otherCamera(cameraOf(of, other.subject), *camera) : "";
+    if (!why.empty()) throw UsageError(fmt::format("{}: made from another camera: {}", of.string(), why));
   };
-  requireCamera(referencePath);
-  if (secondPath) requireCamera(*secondPath);
+  requireCamera(referencePath, reference);
+  if (second) requireCamera(*secondPath, *second);
   const std::vector<LayerError> layers = compareLayers(picture, reference, second ? &*second : nullptr);
   std::vector<std::vector<std::string>> rows{{"layer", "mean", "relMSE", "±", "RMSE", "mean error", "of the mean"}};
   for (const LayerError& layer : layers) {

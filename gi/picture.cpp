@@ -70,6 +70,15 @@ std::string rangeJson(Context& context, const Targets& targets, const ViewInfo& 
       .dump();
 }
 
+std::optional<Camera> cameraOf(const std::filesystem::path& path, const PictureSubject& subject) {
+  if (subject.camera.empty()) return std::nullopt;
+  try {
+    return cameraFromJson(subject.camera, path.string() + ": iradCamera");
+  } catch (const UsageError& error) {
+    throw InputError(error.what());
+  }
+}
+
 ReferencePicture readReference(const std::filesystem::path& path) {
   LinearPicture picture = readLinear(path);
   std::string note;
@@ -80,12 +89,7 @@ ReferencePicture readReference(const std::filesystem::path& path) {
         "curve are still in it",
         path.string());
   }
-  std::optional<Camera> camera;
-  if (!picture.subject.camera.empty()) try {
-      camera = cameraFromJson(picture.subject.camera, path.string() + ": iradCamera");
-    } catch (const UsageError& error) {
-      throw InputError(error.what());
-    }
+  std::optional<Camera> camera = cameraOf(path, picture.subject);
   const View of = findView(picture.subject.view).value_or(VIEW_LIT);
   return {std::filesystem::absolute(path).lexically_normal(),
           sha256File(path),

@@ -44,6 +44,8 @@ struct ReferencePicture {
   std::optional<Camera> camera{};  ///< that it was made from, where the file says it
   std::string note{};              ///< what is odd about it, in words; empty: nothing
 };
+/// The camera that a picture says it was made from; none where it does not say. InputError, with the picture's `path`.
+std::optional<Camera> cameraOf(const std::filesystem::path& path, const PictureSubject& subject);
 /// In words, how the camera that a picture was made from differs from another in what is seen; empty: in nothing but
 /// roundings, or it is not known.
 std::string otherCamera(const std::optional<Camera>& made, const Camera& camera);
