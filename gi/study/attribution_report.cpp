@@ -182,15 +182,13 @@ std::string attributionReport(const Attribution& a, const std::vector<std::strin
                               const std::filesystem::path& folder, glm::uvec2 pictureSize,
                               const std::vector<std::pair<std::string, std::string>>& pictures) {
   std::string html = "<h2>What the error comes from</h2>\n";
-  for (const std::string& finding : a.findings)
-    html += fmt::format("<p class=\"finding\">{}</p>\n", escapeXml(finding));
+  for (const std::string& finding : a.findings) html += htmlFinding(finding);
   html += errorBars(a);
   html +=
       "<p class=\"finding\">Parts below 0 are not drawn. <i>Left out</i>: relMSE as it is less that with one stage "
       "ideal. <i>Along the chain</i>: what each stage adds when its error is put back, from all ideal on. "
       "<i>Squares</i>: squared differences of neighbouring pictures of the chain, weighted as relMSE is.</p>\n";
-  html += fmt::format("<h2>What the stages cost</h2>\n<p class=\"finding\">{}</p>\n{}", escapeXml(timeFinding(a)),
-                      timeBars(a));
+  html += "<h2>What the stages cost</h2>\n" + htmlFinding(timeFinding(a)) + timeBars(a);
   html += "<h2>All figures</h2>\n<table>\n";
   bool head = true;
   for (const std::vector<std::string>& row : attributionTable(a)) {

@@ -72,6 +72,10 @@ std::string htmlPage(const std::string& title, const std::vector<std::string>& f
   return out + htmlList(facts) + body + "</body>\n</html>\n";
 }
 
+std::string htmlFinding(const std::string& words) {
+  return fmt::format("<p class=\"finding\">{}</p>\n", escapeXml(words));
+}
+
 std::string htmlList(const std::vector<std::string>& items) {
   if (items.empty()) return "";
   std::string out = "<ul>\n";

@@ -11,6 +11,7 @@ namespace irad {
 /// A page with its style; the title is its first heading, too, the facts a list below it. `body` is HTML.
 std::string htmlPage(const std::string& title, const std::vector<std::string>& facts, const std::string& body);
 
+std::string htmlFinding(const std::string& words);            ///< a sentence, of plain text, about what follows
 std::string htmlList(const std::vector<std::string>& items);  ///< of plain texts; empty: nothing
 
 /// The part of a picture's pixels that a figure shows.

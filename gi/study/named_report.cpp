@@ -59,10 +59,6 @@ const char* truthOf(TruthKind truth) {
   return "";
 }
 
-std::string findingText(const std::string& words) {
-  return fmt::format("<p class=\"finding\">{}</p>\n", escapeXml(words));
-}
-
 std::string experimentSection(const fs::path& folder, const ExperimentResult& e) {
   std::string out = fmt::format("<h2>{}</h2>\n", escapeXml(e.experiment.name));
   if (!e.skipped.empty()) return out + fmt::format("<p>Skipped: {}.</p>\n", escapeXml(e.skipped));
@@ -78,14 +74,10 @@ std::string experimentSection(const fs::path& folder, const ExperimentResult& e)
   std::erase_if(all, [&](size_t i) { return points[i].seeds == 0; });
   if (points.size() > 1) {
     const CostKind& cost = costKinds().front();
-    out += findingText(errorFinding(cost, points, {}, std::nullopt)) + errorPlot(cost, points, {}, std::nullopt);
+    out += htmlFinding(errorFinding(cost, points, {}, std::nullopt)) + errorPlot(cost, points, {}, std::nullopt);
   }
-  struct Kind {
-    const char *kind, *axis, *name;
-  };
-  for (const auto& [kind, axis, name] : {Kind{"setup", "build, ms", "Build"}, Kind{"relight", "relight, ms", "Relight"},
-                                         Kind{"camera", "frame, ms", "Frame"}})
-    out += findingText(stageFinding(name, kind, points, all)) + stagePlot(axis, kind, points, all);
+  for (const auto& [kind, axis, name] : kTimeKinds)
+    out += htmlFinding(stageFinding(name, kind, points, all)) + stagePlot(axis, kind, points, all);
   std::string crops = reportCrop(own, kReferenceName, "Truth", notes);
   for (const size_t i : all)
     crops += reportCrop(own, pictureName(points[i].point),

@@ -428,7 +428,7 @@ std::string splitSection(const fs::path& folder, const std::vector<SplitPoint>& 
   std::string out = "<h2>Errors beside milliseconds, by stage</h2>\n";
   if (splits.empty())
     return out + "<p>Not measured: --split N splits the errors of N points on the front of first pictures.</p>\n";
-  for (const SplitPoint& s : splits) out += fmt::format("<p class=\"finding\">{}</p>\n", escapeXml(splitFinding(s)));
+  for (const SplitPoint& s : splits) out += htmlFinding(splitFinding(s));
   const SplitBars bars = splitBars(splits, points);
   const std::string errors = stackedBars("relMSE of 8 × 8 means: what each stage adds along the chain", bars.names,
                                          bars.errors, "relMSE"),
@@ -460,8 +460,7 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
     const CostKind& cost = costKinds()[i];
     const std::string plot = errorPlot(cost, points, results.peers, given);
     writeFile(folder / fmt::format("error-against-{}.svg", cost.name), plot);
-    html += fmt::format("<h2>Error against {}</h2>\n<p class=\"finding\">{}</p>\n{}", escapeXml(cost.axis),
-                        escapeXml(sentences[i]), plot);
+    html += fmt::format("<h2>Error against {}</h2>\n{}{}", escapeXml(cost.axis), htmlFinding(sentences[i]), plot);
   }
 
   // The front by first picture, and the settings given.
@@ -470,14 +469,10 @@ void writeReport(const fs::path& folder, const SettingGrid& grid, const StudyRes
   html +=
       "<h2>Where the milliseconds go</h2>\n<p>Medians per stage of the points on the front by first picture, cheapest "
       "first, and of the settings given.</p>\n";
-  struct Kind {
-    const char *kind, *axis, *name;
-  };
-  for (const auto& [kind, axis, name] : {Kind{"setup", "build, ms", "Build"}, Kind{"relight", "relight, ms", "Relight"},
-                                         Kind{"camera", "frame, ms", "Frame"}}) {
+  for (const auto& [kind, axis, name] : kTimeKinds) {
     const std::string plot = stagePlot(axis, kind, points, chosen);
     writeFile(folder / fmt::format("stages-{}.svg", kind), plot);
-    html += fmt::format("<p class=\"finding\">{}</p>\n{}", escapeXml(stageFinding(name, kind, points, chosen)), plot);
+    html += htmlFinding(stageFinding(name, kind, points, chosen)) + plot;
   }
   html += splitSection(folder, splits, points);
   html += "<h2>Pictures</h2>\n" + crops(folder, points, results.peers, given, notes);

@@ -10,6 +10,13 @@
 
 namespace irad {
 
+/// The kinds of work whose stages are timed (PointSummary::stages), with the axis of their plot and their name in a
+/// sentence.
+struct TimeKind {
+  const char *kind, *axis, *name;
+};
+inline constexpr TimeKind kTimeKinds[] = {
+    {"setup", "build, ms", "Build"}, {"relight", "relight, ms", "Relight"}, {"camera", "frame, ms", "Frame"}};
 /// Part of a picture of the folder, at least twice as large, with its caption; empty where the picture is not there.
 std::string reportCrop(const std::filesystem::path& folder, const std::string& name, const std::string& caption,
                        const ReportNotes& notes);

@@ -249,7 +249,7 @@ std::string differences(const StudyIdentity& a, const StudyIdentity& b) {
         continue;
       }
       for (const auto& [member, value] : here.items())  // settings: only those that differ
-        if (valueOf(there, member) != value) add(member, valueOf(there, member).dump(), jsonText(value));
+        if (valueOf(there, member) != value) add(member, jsonText(valueOf(there, member)), jsonText(value));
     }
   return out;
 }
