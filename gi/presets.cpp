@@ -30,7 +30,9 @@ void thesis(Settings& s) {
   s.specular.gpu.rays = 2;
   s.specular.gpu.traversal = Traversal::dda;
   s.specular.gpu.filter_ = 0;
-  s.specular.gpu.metalRoughness = s.specular.gpu.maxRoughness;
+  s.specular.gpu.maxRoughness = s.specular.gpu.metalRoughness = 0.6f;
+  s.light.shadowResolution = 2048;
+  s.light.points = 32;
   // The thesis's stages run whatever the scene holds. But lights without intensity stay out, and light at rest is not
   // solved again.
   forceEffects(s, EffectMode::on);
@@ -43,7 +45,7 @@ void fast(Settings& s, bool cpuDevice) {
   s.matrix.gpu.rays = cpuDevice ? 64 : 128;
   s.solver.tolerance = 2e-2f;
   s.specular.gpu.rays = 1;
-  s.light.shadowResolution = 1024;
+  s.light.shadowResolution = cpuDevice ? 1024 : 2048;
 }
 
 void reference(Settings& s, bool cpuDevice) {
@@ -54,8 +56,7 @@ void reference(Settings& s, bool cpuDevice) {
   s.sample.emitterRays = 32;
   s.specular.gpu.rays = 32;
   s.specular.gpu.filter_ = 0;
-  s.light.shadowResolution = 4096;
-  s.camera.gpu.pcf = 5;
+  s.light.shadowResolution = cpuDevice ? 4096 : 8192;
 }
 
 }  // namespace
@@ -71,6 +72,9 @@ Settings defaultSettings(bool cpuDevice) {
   if (cpuDevice) {
     settings.sample.emitters = EmitterLookup::facets;  // rays of pixels would take longer than all else
     settings.matrix.emitterSamples = 128;              // which the host traces
+    settings.light.shadowResolution = 2048;
+  } else {
+    settings.specular.gpu.maxRoughness = 0.8f;  // rays of rough surfaces are cheap there
   }
   return settings;
 }

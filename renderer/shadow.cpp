@@ -333,13 +333,14 @@ ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector
     if (light.shadowLayer >= 0) (lightUsesCube(light.type, light.outerCos) ? cubes : flats) += channels;
   }
 
-  // Choose the largest size that the device and a bounded share of memory allow.
+  // The largest sizes that the device and a bounded share of memory allow: the kind that takes more gives way first.
   uint32_t size = std::clamp(resolution, 16u, context.device.limits.maxImageDimension2D);
-  const auto bytes = [&](uint64_t side) {
-    return (side * side * flats + (side / 2) * (side / 2) * 6 * cubes) * shadowTexelBytes(needs.filter);
-  };
-  while (size > 64 && bytes(size) > kMostBytes) size /= 2;
-  const uint32_t cubeSize = size / 2;
+  uint32_t cubeSize = size / 2;
+  const uint64_t texelBytes = shadowTexelBytes(needs.filter);
+  const auto flatBytes = [&] { return texelBytes * size * size * flats; };
+  const auto cubeBytes = [&] { return texelBytes * cubeSize * cubeSize * 6 * cubes; };
+  while (flatBytes() + cubeBytes() > kMostBytes && std::max(size, cubeSize) > 64)
+    (flatBytes() > cubeBytes() ? size : cubeSize) /= 2;
 
   ShadowMaps maps;
   if (flats > 0)

@@ -29,7 +29,7 @@ struct ShadowNeeds {
   ShadowFilter filter = ShadowFilter::pcf;
   uint32_t taps = 3;            ///< vsm: moments are means over so many texels per axis, odd
   float bleedReduction = 0.3f;  ///< GpuLight::bleedReduction
-  uint32_t points = 32;         ///< GpuLight::points
+  uint32_t points = 16;         ///< GpuLight::points
 };
 /// Bytes that a texel of a map takes.
 uint64_t shadowTexelBytes(ShadowFilter filter);
@@ -37,7 +37,8 @@ uint64_t shadowTexelBytes(ShadowFilter filter);
 /// where the device has not the layers for all.
 std::vector<int> shadowLayers(const Device& device, std::span<const GpuLight> lights, const ShadowNeeds& needs);
 /// Draws the maps ("RE Shadow") and fills in every light's layer and matrix. `resolution`: texels per side of a flat
-/// map, twice those of a cube's; less where there are too many. DeviceError when the device has not the memory.
+/// map, twice those of a cube's; where lights are too many those that take more have less. DeviceError when the device
+/// has not the memory.
 ShadowMaps drawShadows(Context& context, const SceneOnDevice& scene, std::vector<GpuLight>& lights, uint32_t resolution,
                        const ShadowNeeds& needs = {});
 /// The same for the scene's own lights, which are uploaded again. When it throws, they and their maps stay as they
