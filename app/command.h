@@ -51,6 +51,8 @@ Command viewCommand();  ///< in builds with IRAD_UI
 Command viewsCommand();
 Command writebackCommand();
 
+std::vector<Command> allCommands();  ///< in the order in which help lists them
+
 /// Parses, runs, reports. The exit status: 0 done, 1 the work failed, 2 bad usage, 3 bad input file, 4 no
 /// suitable device or not enough memory.
 int runProgram(int argc, const char* const* argv, Machine& machine);

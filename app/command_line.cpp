@@ -146,16 +146,6 @@ Parsed parse(CLI::App& app, int argc, const char* const* argv, const std::vector
   throw UsageError("no command given\n\n" + app.help());
 }
 
-std::vector<Command> allCommands() {
-  return {
-#if IRAD_UI
-    viewCommand(),
-#endif
-        renderCommand(), benchCommand(), checkCommand(), memoryCommand(), planCommand(), referenceCommand(),
-        writebackCommand(), exportCommand(), settingsCommand(), studyCommand(), tuneCommand(), viewsCommand(),
-  };
-}
-
 void run(int argc, const char* const* argv, Machine& machine) {
   CLI::App app("Voxel-radiosity global illumination: interactive viewer and headless tool", "irad");
   const std::vector<Command> commands = allCommands();

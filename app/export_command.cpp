@@ -72,9 +72,7 @@ std::vector<std::string> parseFormats(const ExportArguments& arguments) {
   for (const std::string& name : wanted)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw UsageError(fmt::format("unknown format '{}'{}", name, suggestion(name, known)));
-#ifndef IRAD_VDB
-  if (contains(wanted, "vdb")) throw UsageError("--format vdb: this build has no OpenVDB (IRAD_VDB)");
-#endif
+  if (contains(wanted, "vdb") && !canWriteVdb()) throw UsageError("--format vdb: this build has no OpenVDB (IRAD_VDB)");
   const auto check = [&](const char* option, bool given, const std::vector<std::string>& has) {
     const bool written = std::any_of(has.begin(), has.end(), [&](const auto& name) { return contains(wanted, name); });
     if (given && !written) throw UsageError(fmt::format("{} is written as {}", option, fmt::join(has, " or ")));
@@ -148,9 +146,7 @@ void exportFiles(const ExportArguments& arguments, Machine& machine, const std::
     const VolumeValues values =
         readVolume(*session.context, volume, pipeline.facets(), pipeline.field(), pipeline.lighting());
     if (contains(formats, "npy")) written.push_back(writeVolumeNpy(values, out));
-#ifdef IRAD_VDB
     if (contains(formats, "vdb")) written.push_back(writeVolumeVdb(values, pipeline.scene().origin, out));
-#endif
   }
   const auto append = [&](const std::vector<fs::path>& files) {
     written.insert(written.end(), files.begin(), files.end());

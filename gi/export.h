@@ -43,10 +43,12 @@ VolumeValues readVolume(Context& context, Volume volume, const FacetList& facets
 std::filesystem::path writeVolumeNpy(const VolumeValues& volume, const std::filesystem::path& folder);
 /// NAME.vdb, for Blender, ParaView, Houdini: one grid NAME of float or vec3s, background 0. Its index space has voxel
 /// centres at whole numbers, its world space is the scene's: metres, glTF's axes (y up), `sceneOrigin` added. Active
-/// are the solid voxels; of the distance all. Metadata: unit. The same values give the same bytes. In builds with
-/// IRAD_VDB.
+/// are the solid voxels; of the distance all. Metadata: unit. The same values give the same bytes. Throws in builds
+/// that cannot.
 std::filesystem::path writeVolumeVdb(const VolumeValues& volume, glm::dvec3 sceneOrigin,
                                      const std::filesystem::path& folder);
+/// Whether this build has OpenVDB (IRAD_VDB).
+bool canWriteVdb();
 
 /// indptr.npy (int64, rows + 1), indices.npy (int32, ascending in each row), data.npy (float32, F_ij): what
 /// scipy.sparse.csr_matrix((data, indices, indptr), shape=(rows, rows)) takes. Hits of a padded row on the same column

@@ -73,6 +73,10 @@ void nameByContents(std::string& file) {
 
 }  // namespace
 
+bool canWriteVdb() {
+  return true;
+}
+
 std::filesystem::path writeVolumeVdb(const VolumeValues& volume, glm::dvec3 sceneOrigin,
                                      const std::filesystem::path& folder) {
   openvdb::initialize();

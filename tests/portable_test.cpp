@@ -1,4 +1,4 @@
-// The headless binary for another Linux, which ./test builds beside the full one (build-portable/irad).
+// The headless binary for another Linux, which is built beside the full one (portable/irad there).
 #include <fstream>
 #include <sstream>
 #include <tuple>
@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 class Portable : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(program_)) GTEST_SKIP() << program_ << " is not built: cmake --preset portable (./test does)";
+    if (!fs::exists(program_)) GTEST_SKIP() << program_ << " is not built: this build is the portable one";
   }
-  const fs::path program_ = sourceFolder() / "build-portable" / "irad";
+  const fs::path program_ = fs::path(iradProgram()).parent_path() / "portable" / "irad";
 };
 
 ExrPicture readPfm(const fs::path& path) {
