@@ -12,12 +12,22 @@
 #include "renderer/base/number_text.h"
 
 namespace irad::app {
+namespace {
+
+LayeredPicture readCompared(const std::filesystem::path& path) {
+  LayeredPicture picture = readLayers(path);
+  if (picture.integers)
+    for (PictureLayer& layer : picture.layers) tell("warning: {}\n", decodeIntegers(path, layer.pixels));
+  return picture;
+}
+
+}  // namespace
 
 void comparePictures(const std::filesystem::path& path, const std::filesystem::path& referencePath,
                      const std::optional<std::filesystem::path>& secondPath) {
-  const LayeredPicture picture = readLayers(path), reference = readLayers(referencePath);
+  const LayeredPicture picture = readCompared(path), reference = readCompared(referencePath);
   std::optional<LayeredPicture> second;
-  if (secondPath) second = readLayers(*secondPath);
+  if (secondPath) second = readCompared(*secondPath);
   const std::optional<Camera> camera = cameraOf(path, picture.subject);
   const auto requireCamera = [&](const std::filesystem::path& of, const LayeredPicture& other) {
     const std::string why = camera ? otherCamera(cameraOf(of, other.subject), *camera) : "";

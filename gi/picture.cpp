@@ -79,16 +79,18 @@ std::optional<Camera> cameraOf(const std::filesystem::path& path, const PictureS
   }
 }
 
+std::string decodeIntegers(const std::filesystem::path& path, std::span<glm::vec4> pixels) {
+  for (glm::vec4& pixel : pixels) pixel = {decodeSrgb(pixel.x), decodeSrgb(pixel.y), decodeSrgb(pixel.z), 1};
+  return fmt::format(
+      "{} holds integers and is decoded from sRGB: what was brighter than white is lost, and any exposure and tone "
+      "curve are still in it",
+      path.string());
+}
+
 ReferencePicture readReference(const std::filesystem::path& path) {
   LinearPicture picture = readLinear(path);
   std::string note;
-  if (picture.integers) {
-    for (glm::vec4& pixel : picture.pixels) pixel = {decodeSrgb(pixel.x), decodeSrgb(pixel.y), decodeSrgb(pixel.z), 1};
-    note = fmt::format(
-        "{} holds integers and is decoded from sRGB: what was brighter than white is lost, and any exposure and tone "
-        "curve are still in it",
-        path.string());
-  }
+  if (picture.integers) note = decodeIntegers(path, picture.pixels);
   std::optional<Camera> camera = cameraOf(path, picture.subject);
   const View of = findView(picture.subject.view).value_or(VIEW_LIT);
   return {std::filesystem::absolute(path).lexically_normal(),

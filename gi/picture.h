@@ -49,8 +49,9 @@ std::optional<Camera> cameraOf(const std::filesystem::path& path, const PictureS
 /// In words, how the camera that a picture was made from differs from another in what is seen; empty: in nothing but
 /// roundings, or it is not known.
 std::string otherCamera(const std::optional<Camera>& made, const Camera& camera);
-/// As readLinear() does; integers (PNG, JPEG) are what screens show, and are decoded from sRGB, which `note` says.
-/// InputError.
+/// Integers (PNG, JPEG) are what screens show: decoded from sRGB. What that leaves in them, in words.
+std::string decodeIntegers(const std::filesystem::path& path, std::span<glm::vec4> pixels);
+/// As readLinear() does; integers are decoded, which `note` says. InputError.
 ReferencePicture readReference(const std::filesystem::path& path);
 
 }  // namespace irad

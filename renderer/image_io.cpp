@@ -192,6 +192,7 @@ LayeredPicture readLayers(const std::filesystem::path& path) {
     const std::unique_ptr<OIIO::ImageInput> input = openPicture(path);
     const OIIO::ImageSpec spec = input->spec();
     out.size = exrSizeOf(spec), out.subject = exrSubjectOf(spec);
+    out.integers = !spec.format.is_floating_point();
     out.layers.push_back({"", readChannels(path, *input, colorChannels(spec))});
     for (const std::string& red : spec.channelnames) {
       if (!red.ends_with(".R")) continue;

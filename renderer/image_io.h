@@ -67,6 +67,7 @@ LinearPicture readLinear(const std::filesystem::path& path);
 struct LayeredPicture {
   glm::uvec2 size{0};
   std::vector<PictureLayer> layers;
+  bool integers = false;  ///< as of a LinearPicture
   PictureSubject subject{};
 };
 LayeredPicture readLayers(const std::filesystem::path& path);

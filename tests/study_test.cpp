@@ -727,6 +727,18 @@ TEST(Layers, AreComparedBounceByBounce) {
   EXPECT_TRUE(contains(refused.err, "pictures of 16 x 8 and of 8 x 8 pixels")) << refused.err;
 }
 
+#ifdef IRAD_OIIO
+TEST(Layers, OfIntegersAreDecodedAsReferencesAre) {
+  TemporaryFolder folder;
+  const fs::path linear = layered(folder.path / "linear", {{"", .5f}}),
+                 shown = writeDisplay(folder.path / "shown", {16, 8}, std::vector<glm::u8vec4>(128, {188, 188, 188, 255}));
+  const RunResult run = runIrad({"study", "compare", linear.string(), shown.string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.err, "shown.png holds integers and is decoded from sRGB")) << run.err;
+  EXPECT_TRUE(contains(run.out, "lit    0.503")) << run.out;  // 188 / 255 decoded; taken as it is it would be 0.737
+}
+#endif
+
 TEST(Reports, ShowPicturesOfBuildsThatWriteNoPng) {
   TemporaryFolder folder;
   std::vector<uint8_t> pixels(18);

@@ -13,16 +13,15 @@ namespace {
 /// A primitive somewhere in the world, its positions still to be transformed.
 struct Placed {
   const Primitive* primitive = nullptr;
-  uint32_t node = 0;  ///< of Scene::nodes
-  glm::dmat4 world{1.0};
-  const std::vector<glm::dmat4>* joints = nullptr;  ///< skinned: these instead of `world`
+  const Instance* instance = nullptr;
+  const std::vector<glm::dmat4>* joints = nullptr;  ///< skinned: these instead of the instance's transform
   std::vector<bool> keep;                           ///< per triangle; empty: all
   uint64_t kept = 0;
 };
 
 /// The transform of a vertex: the instance's, or the weighted mean of its joints' (glTF 3.7.3.3).
 glm::dmat4 vertexTransform(const Document& doc, const Placed& placed, size_t vertex) {
-  if (placed.joints == nullptr) return placed.world;
+  if (placed.joints == nullptr) return placed.instance->world;
   const Primitive& p = *placed.primitive;
   glm::dmat4 sum(0.0);
   double total = 0.0;
@@ -62,7 +61,7 @@ std::string whyNone(const Document& doc, const Flattened& flat, uint64_t triangl
   if (meshes == 0) return ": the file has no meshes";
   if (!flat.instances.empty()) return triangles == 0 ? ": its meshes have none" : "";
   const std::string none = fmt::format(": none of the file's {} meshes is shown: ", meshes);
-  if (model.nodes.empty()) return none + "it has no nodes";
+  if (doc.nodes.empty()) return none + "it has no nodes";
   if (!model.scenes.empty() && model.scenes[scene].nodes.empty())
     return none + fmt::format("scenes[{}] lists no nodes", scene);
   return none + (model.scenes.empty() ? "no node names one" : fmt::format("no node of scenes[{}] names one", scene));
@@ -73,19 +72,23 @@ struct Counts {
 };
 
 /// Which triangles survive their transform, and the bounds of those.
-void measure(const Document& doc, Placed& placed, glm::dvec3& lo, glm::dvec3& hi, Counts& counts) {
-  std::vector<glm::dvec3> world;
+void measure(const Document& doc, Placed& placed, std::vector<glm::dvec3>& world, glm::dvec3& lo, glm::dvec3& hi,
+             Counts& counts) {
   worldPositions(doc, placed, world);
   const auto& indices = placed.primitive->indices;
-  placed.keep.assign(indices.size() / 3, true);
-  for (size_t t = 0; t < placed.keep.size(); ++t) {
+  const size_t triangles = indices.size() / 3;
+  const auto leaveOut = [&](size_t t) {
+    if (placed.keep.empty()) placed.keep.assign(triangles, true);
+    placed.keep[t] = false;
+  };
+  for (size_t t = 0; t < triangles; ++t) {
     const glm::dvec3 &a = world[indices[3 * t]], &b = world[indices[3 * t + 1]], &c = world[indices[3 * t + 2]];
     if (!usable(a) || !usable(b) || !usable(c)) {
       ++counts.nonFinite;
-      placed.keep[t] = false;
+      leaveOut(t);
     } else if (zeroArea(a, b, c)) {
       ++counts.degenerate;
-      placed.keep[t] = false;
+      leaveOut(t);
     } else {
       lo = glm::min(lo, glm::min(a, glm::min(b, c)));
       hi = glm::max(hi, glm::max(a, glm::max(b, c)));
@@ -127,8 +130,8 @@ void append(const Document& doc, const Placed& placed, Scene& scene) {
     scene.uv1.push_back(p.uv1[i]);
     scene.colors.push_back(p.colors[i]);
   }
-  for (size_t t = 0; t < placed.keep.size(); ++t) {
-    if (!placed.keep[t]) continue;
+  for (size_t t = 0; t < p.indices.size() / 3; ++t) {
+    if (!placed.keep.empty() && !placed.keep[t]) continue;
     scene.indices.push_back(base + p.indices[3 * t]);
     scene.indices.push_back(base + p.indices[3 * t + (mirrored ? 2 : 1)]);
     scene.indices.push_back(base + p.indices[3 * t + (mirrored ? 1 : 2)]);
@@ -143,11 +146,12 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
   std::map<Key, std::vector<std::unique_ptr<Primitive>>> meshes;
   std::map<int, std::vector<glm::dmat4>> joints;
   std::vector<Placed> placed;
+  placed.reserve(flat.instances.size());
   Counts counts;
   uint64_t triangles = 0;
   for (const Instance& instance : flat.instances) {
     const tinygltf::Mesh& mesh = doc.model.meshes[static_cast<size_t>(instance.mesh)];
-    const tinygltf::Node& node = doc.model.nodes[static_cast<size_t>(instance.node)];
+    const Node& node = doc.nodes[static_cast<size_t>(instance.node)];
     const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
     auto [entry, isNew] = meshes.try_emplace(Key(instance.mesh, weights));
     if (isNew) {
@@ -160,7 +164,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
       }
     }
     for (const auto& primitive : entry->second) {
-      Placed place{primitive.get(), instance.sceneNode, instance.world, nullptr, {}, 0};
+      Placed place{primitive.get(), &instance, nullptr, {}, 0};
       if (instance.skin >= 0 && primitive->influences > 0) {
         doc.warn("skins are shown in their rest pose; they are not animated");
         if (!joints.contains(instance.skin)) joints[instance.skin] = jointMatrices(doc, instance.skin, flat.nodeWorld);
@@ -177,7 +181,8 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
   }
 
   glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi(-lo);
-  for (Placed& place : placed) measure(doc, place, lo, hi, counts);
+  std::vector<glm::dvec3> world;
+  for (Placed& place : placed) measure(doc, place, world, lo, hi, counts);
   if (counts.nonFinite > 0)
     doc.warn(fmt::format("{} triangles with non-finite or unusably large vertex data are left out", counts.nonFinite));
   if (counts.degenerate > 0) doc.warn(fmt::format("{} triangles without area are left out", counts.degenerate));
@@ -191,8 +196,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
   scene.origin = 0.5 * (lo + hi);
 
   // Count, allocate once, then fill in material order (stable: file order within a material).
-  std::stable_sort(placed.begin(), placed.end(),
-                   [](const Placed& a, const Placed& b) { return a.primitive->material < b.primitive->material; });
+  std::ranges::stable_sort(placed, {}, [](const Placed& p) { return p.primitive->material; });
   uint64_t vertexCount = 0, indexCount = 0;
   for (const Placed& place : placed) vertexCount += place.primitive->positions.size(), indexCount += place.kept * 3;
   doc.take(vertexCount * 96 + indexCount * 4, "meshes");
@@ -206,8 +210,9 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
     const uint32_t added = static_cast<uint32_t>(scene.indices.size()) - first;
     const uint32_t vertices = static_cast<uint32_t>(scene.positions.size()) - firstVertex;
     const bool newDraw = scene.draws.empty() || scene.draws.back().material != place.primitive->material;
-    if (newDraw || scene.pieces.back().node != place.node)
-      scene.pieces.push_back({place.node, firstVertex, vertices, first, added});
+    const uint32_t node = place.instance->sceneNode;
+    if (newDraw || scene.pieces.back().node != node)
+      scene.pieces.push_back({node, firstVertex, vertices, first, added});
     else
       scene.pieces.back().vertexCount += vertices, scene.pieces.back().indexCount += added;
     if (newDraw) {

@@ -78,8 +78,16 @@ struct KeyWatch : nlohmann::json::json_sax_t {
   std::vector<std::set<std::string>> keys_;  ///< of each object that is open
 };
 
-/// Depth and size of the JSON before any parser sees it.
-void checkJson(Document& doc) {
+/// Of all objects in it, together.
+uint64_t membersOf(const Json& value) {
+  uint64_t members = value.is_object() ? value.size() : 0;
+  if (value.is_structured())
+    for (const Json& element : value) members += membersOf(element);
+  return members;
+}
+
+/// Depth and size of the JSON before any parser sees it; its members, as the text has them.
+uint64_t checkJson(Document& doc) {
   if (doc.json.size() > kMaxJsonBytes)
     doc.fail("JSON", fmt::format("{} bytes, at most {} are accepted", doc.json.size(), kMaxJsonBytes));
   const JsonExtent extent = jsonExtent({reinterpret_cast<const char*>(doc.json.data()), doc.json.size()});
@@ -87,6 +95,7 @@ void checkJson(Document& doc) {
     doc.fail("JSON", fmt::format("nested deeper than {} levels ({})", kMaxJsonDepth, extent.depth));
   if (extent.elements > kMaxJsonElements) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonElements));
   doc.take(extent.elements * kJsonElementBytes, "JSON");
+  return extent.members;
 }
 
 }  // namespace
@@ -154,14 +163,16 @@ void readContainer(Document& doc) {
   } else {
     doc.json = doc.file;
   }
-  checkJson(doc);
-  // Duplicate keys would make two readers see two scenes; the specification forbids them. They are looked for in a pass
-  // of its own: the parser's callback while a document is made walks all elements of a container at each element's end.
+  const uint64_t members = checkJson(doc);
   try {
-    KeyWatch watch;
-    nlohmann::json::sax_parse(doc.json.begin(), doc.json.end(), &watch);  // what is no JSON is said by parse(), below
-    if (watch.duplicate) doc.fail("JSON", fmt::format("duplicate key \"{}\"", *watch.duplicate));
-    doc.root = std::make_unique<nlohmann::json>(nlohmann::json::parse(doc.json.begin(), doc.json.end()));
+    doc.root = std::make_unique<Json>(Json::parse(doc.json.begin(), doc.json.end()));
+    // Duplicate keys would make two readers see two scenes; the specification forbids them. The document has kept one of
+    // them, and so fewer members than the text has. Which key it is takes a pass of its own.
+    if (membersOf(*doc.root) != members) {
+      KeyWatch watch;
+      Json::sax_parse(doc.json.begin(), doc.json.end(), &watch);
+      doc.fail("JSON", fmt::format("duplicate key \"{}\"", watch.duplicate.value_or("")));
+    }
   } catch (const nlohmann::json::exception& error) {
     doc.fail("JSON", jsonProblem(error));
   }

@@ -41,6 +41,14 @@ struct View {
   bool present = false;
 };
 
+/// A node as the file has it, but for its transform and its instances' (gltf_nodes.cpp); there may be very many.
+struct Node {
+  std::string name;
+  int mesh = -1, skin = -1, camera = -1, light = -1;
+  std::vector<int> children;
+  std::vector<double> weights;
+};
+
 struct Document {
   Document();
   ~Document();
@@ -52,7 +60,8 @@ struct Document {
   bool hasBin = false;
 
   std::unique_ptr<Json> root;
-  tinygltf::Model model;  ///< without buffers, images and animations
+  tinygltf::Model model;  ///< without nodes, buffers, images and animations
+  std::vector<Node> nodes;
   std::vector<Bytes> owned;
   std::vector<ByteSpan> buffers;
   std::vector<bool> bufferPresent;

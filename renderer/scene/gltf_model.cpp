@@ -46,29 +46,18 @@ void strip(Json& value) {
   }
 }
 
-std::vector<double> numbers(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() ? found->get<std::vector<double>>() : std::vector<double>();
-}
-
-tinygltf::Node nodeOf(const Json& json) {
-  tinygltf::Node node;
-  node.name = json.value("name", std::string());
-  node.mesh = json.value("mesh", -1), node.skin = json.value("skin", -1), node.camera = json.value("camera", -1);
-  if (const auto children = json.find("children"); children != json.end())
-    node.children = children->get<std::vector<int>>();
-  node.matrix = numbers(json, "matrix"), node.weights = numbers(json, "weights");
-  node.rotation = numbers(json, "rotation"), node.scale = numbers(json, "scale");
-  node.translation = numbers(json, "translation");
-  const auto extensions = json.find("extensions");
-  if (extensions == json.end()) return node;
-  using tinygltf::Value;
-  if (const auto light = extensions->find("KHR_lights_punctual"); light != extensions->end())
-    node.extensions["KHR_lights_punctual"] = Value(Value::Object{{"light", Value(light->at("light").get<int>())}});
-  if (const auto many = extensions->find("EXT_mesh_gpu_instancing"); many != extensions->end()) {
-    Value::Object attributes;
-    for (const auto& [name, accessor] : many->at("attributes").items()) attributes.emplace(name, accessor.get<int>());
-    node.extensions["EXT_mesh_gpu_instancing"] = Value(Value::Object{{"attributes", Value(std::move(attributes))}});
+Node nodeOf(const Json& json) {
+  Node node;
+  for (const auto& [name, value] : json.get_ref<const Json::object_t&>()) {
+    if (name == "name") value.get_to(node.name);
+    if (name == "mesh") value.get_to(node.mesh);
+    if (name == "skin") value.get_to(node.skin);
+    if (name == "camera") value.get_to(node.camera);
+    if (name == "children") value.get_to(node.children);
+    if (name == "weights") value.get_to(node.weights);
+    if (name == "extensions")
+      if (const auto light = value.find("KHR_lights_punctual"); light != value.end())
+        light->at("light").get_to(node.light);
   }
   return node;
 }
@@ -78,7 +67,7 @@ void takeModel(Document& doc) {
   const auto take = [&](const char* name, uint64_t each) {
     if (doc.root->contains(name)) doc.take(doc.root->at(name).size() * each, name);
   };
-  take("nodes", sizeof(tinygltf::Node)), take("materials", sizeof(tinygltf::Material));
+  take("nodes", sizeof(Node)), take("materials", sizeof(tinygltf::Material));
   take("meshes", sizeof(tinygltf::Mesh)), take("accessors", sizeof(tinygltf::Accessor));
   take("bufferViews", sizeof(tinygltf::BufferView)), take("textures", sizeof(tinygltf::Texture));
   take("samplers", sizeof(tinygltf::Sampler)), take("skins", sizeof(tinygltf::Skin));
@@ -145,8 +134,8 @@ void parseModel(Document& doc) {
     if (want != size) doc.fail(name, fmt::format("{} objects in the file, {} understood", want, size));
   };
   if (doc.root->contains("nodes")) {
-    doc.model.nodes.reserve(doc.root->at("nodes").size());
-    for (const Json& node : doc.root->at("nodes")) doc.model.nodes.push_back(nodeOf(node));
+    doc.nodes.reserve(doc.root->at("nodes").size());
+    for (const Json& node : doc.root->at("nodes")) doc.nodes.push_back(nodeOf(node));
   }
   same("scenes", doc.model.scenes.size()), same("meshes", doc.model.meshes.size());
   same("accessors", doc.model.accessors.size()), same("bufferViews", doc.model.bufferViews.size());

@@ -4,7 +4,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "renderer/scene/gltf_document.h"
 
@@ -28,27 +27,28 @@ glm::dquat rotation(Document& doc, const std::function<std::string()>& where, do
 
 /// 'nodes[3] "lamp"'
 std::string nameOf(const Document& doc, size_t node) {
-  const std::string& name = doc.model.nodes[node].name;
+  const std::string& name = doc.nodes[node].name;
   return name.empty() ? fmt::format("nodes[{}]", node) : fmt::format("nodes[{}] \"{}\"", node, name.substr(0, 40));
 }
 
-glm::dmat4 localTransform(Document& doc, size_t index) {
-  const tinygltf::Node& node = doc.model.nodes[index];
-  if (node.matrix.size() == 16) {
-    glm::dmat4 m;
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; ++r) m[c][r] = node.matrix[static_cast<size_t>(c * 4 + r)];
-    return m;
+glm::dmat4 localTransform(Document& doc, const Json& node, size_t index) {
+  glm::dmat4 m;
+  glm::dvec3 translation(0.0), scale(1.0);
+  glm::dquat turn(1, 0, 0, 0);
+  for (const auto& [name, value] : node.get_ref<const Json::object_t&>()) {
+    if (name == "matrix") {
+      for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) m[c][r] = value[static_cast<size_t>(c * 4 + r)].get<double>();
+      return m;
+    }
+    const auto number = [&value = value](size_t i) { return value[i].get<double>(); };
+    if (name == "translation") translation = {number(0), number(1), number(2)};
+    if (name == "scale") scale = {number(0), number(1), number(2)};
+    if (name == "rotation")
+      turn = rotation(
+          doc, [&] { return nameOf(doc, index) + ".rotation"; }, number(0), number(1), number(2), number(3));
   }
-  const auto vector = [](const std::vector<double>& v, double otherwise) {
-    return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
-  };
-  const auto& q = node.rotation;
-  return compose(vector(node.translation, 0.0),
-                 q.size() == 4 ? rotation(
-                                     doc, [&] { return nameOf(doc, index) + ".rotation"; }, q[0], q[1], q[2], q[3])
-                               : glm::dquat(1, 0, 0, 0),
-                 vector(node.scale, 1.0));
+  return compose(translation, turn, scale);
 }
 
 bool finite(const glm::dmat4& m) {
@@ -73,7 +73,7 @@ glm::dmat3 orthonormal(const glm::dmat4& m) {
 }
 
 /// Where a light or camera stands.
-glm::dvec3 place(const Document& doc, const tinygltf::Node& node, const glm::dmat4& world) {
+glm::dvec3 place(const Document& doc, const Node& node, const glm::dmat4& world) {
   const glm::dvec3 p(world[3]), size = glm::abs(p);
   if (!(std::max({size.x, size.y, size.z}) <= kMaxCoordinate))
     doc.fail(fmt::format("node \"{}\"", node.name),
@@ -81,10 +81,9 @@ glm::dvec3 place(const Document& doc, const tinygltf::Node& node, const glm::dma
   return p;
 }
 
-void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world, Scene& scene) {
-  const auto extension = node.extensions.find("KHR_lights_punctual");
-  if (extension == node.extensions.end()) return;
-  const size_t index = static_cast<size_t>(extension->second.Get("light").GetNumberAsInt());
+void addLight(Document& doc, const Node& node, const glm::dmat4& world, Scene& scene) {
+  if (node.light < 0) return;
+  const size_t index = static_cast<size_t>(node.light);
   if (index >= doc.model.lights.size())
     doc.fail(fmt::format("node \"{}\"", node.name), fmt::format("light {} is unknown", index));
   const tinygltf::Light& in = doc.model.lights[index];
@@ -118,7 +117,7 @@ void addLight(Document& doc, const tinygltf::Node& node, const glm::dmat4& world
   scene.lights.push_back(light);
 }
 
-void addCamera(Document& doc, const tinygltf::Node& node, const glm::dmat4& world, Scene& scene) {
+void addCamera(Document& doc, const Node& node, const glm::dmat4& world, Scene& scene) {
   if (node.camera < 0) return;
   const tinygltf::Camera& in = doc.model.cameras[static_cast<size_t>(node.camera)];
   Camera camera;
@@ -141,14 +140,11 @@ void addCamera(Document& doc, const tinygltf::Node& node, const glm::dmat4& worl
 }
 
 /// EXT_mesh_gpu_instancing: one transform per instance, relative to the node.
-std::vector<glm::dmat4> instanceTransforms(Document& doc, const tinygltf::Node& node, size_t index) {
-  const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
-  if (extension == node.extensions.end()) return {glm::dmat4(1.0)};
-  const tinygltf::Value& attributes = extension->second.Get("attributes");
+std::vector<glm::dmat4> instanceTransforms(Document& doc, const Json& many, size_t index) {
   const std::string where = fmt::format("nodes[{}].EXT_mesh_gpu_instancing", index);
   Elements t, r, s;
-  for (const std::string& name : attributes.Keys()) {
-    const int accessor = attributes.Get(name).GetNumberAsInt();
+  for (const auto& [name, of] : many.at("attributes").items()) {
+    const int accessor = of.get<int>();
     if (name == "TRANSLATION") t = readFloats(doc, accessor, 3, where);
     if (name == "ROTATION") r = readFloats(doc, accessor, 4, where);
     if (name == "SCALE") s = readFloats(doc, accessor, 3, where);
@@ -174,15 +170,20 @@ std::vector<glm::dmat4> instanceTransforms(Document& doc, const tinygltf::Node& 
   return out;
 }
 
+std::vector<bool> isChild(const Document& doc) {
+  std::vector<bool> child(doc.nodes.size(), false);
+  for (const Node& node : doc.nodes)
+    for (const int c : node.children) child[static_cast<size_t>(c)] = true;
+  return child;
+}
+
 std::vector<int> rootNodes(const Document& doc) {
   const tinygltf::Model& model = doc.model;
   if (!model.scenes.empty())
     return model.scenes[model.defaultScene >= 0 ? static_cast<size_t>(model.defaultScene) : 0].nodes;
   // Without scenes every root node is shown.
-  std::vector<bool> child(model.nodes.size(), false);
-  for (const tinygltf::Node& node : model.nodes)
-    for (const int c : node.children) child[static_cast<size_t>(c)] = true;
   std::vector<int> roots;
+  const std::vector<bool> child = isChild(doc);
   for (size_t i = 0; i < child.size(); ++i)
     if (!child[i]) roots.push_back(static_cast<int>(i));
   return roots;
@@ -195,6 +196,15 @@ struct Shown {
   uint32_t instances = 0;  ///< of its mesh
 };
 
+struct NameUnder {
+  uint32_t parent = 0;
+  std::string_view name;
+  bool operator==(const NameUnder&) const = default;
+  struct Hash {
+    size_t operator()(const NameUnder& n) const { return std::hash<std::string_view>()(n.name) * 31 + n.parent; }
+  };
+};
+
 /// Those that have meshes, and those above them, as Scene::nodes, which the instances name from then on.
 void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Flattened& flat) {
   std::vector<bool> wanted(shown.size());
@@ -204,11 +214,11 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
   }
   const auto count = static_cast<size_t>(std::count(wanted.begin(), wanted.end(), true));
   doc.take(uint64_t{count} * 2 * sizeof(SceneNode), "nodes");
+  scene.nodes.reserve(count);
   std::vector<uint32_t> number(shown.size());
-  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones, and for those that more want the
-  // next number to try, by parent and name, so that a thousand of one name do not ask a thousand times each.
-  std::unordered_set<std::string> taken;
-  std::unordered_map<std::string, int> next;
+  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones (their texts are the nodes'), with
+  // the next number to try, so that a thousand of one name do not ask a thousand times each.
+  std::unordered_map<NameUnder, int, NameUnder::Hash> taken;
   taken.reserve(count);
   for (size_t i = 0; i < shown.size(); ++i) {
     if (!wanted[i]) continue;
@@ -216,15 +226,15 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
     SceneNode& node = scene.nodes.emplace_back();
     if (shown[i].parent != SceneNode::kNoParent) node.parent = number[shown[i].parent];
     node.instances = shown[i].instances;
-    const std::string& own = doc.model.nodes[shown[i].node].name;
+    const std::string& own = doc.nodes[shown[i].node].name;
     const std::string name = own.empty() ? fmt::format("node {}", shown[i].node) : own;
-    const std::string of = fmt::format("{}:", node.parent);
     node.name = name;
-    if (taken.insert(of + name).second) continue;
-    int& n = next.try_emplace(of + name, 2).first->second;
+    const auto [first, isNew] = taken.try_emplace({node.parent, node.name}, 2);
+    if (isNew) continue;
+    int& n = first->second;
     do {
       node.name = fmt::format("{} {}", name, n++);
-    } while (!taken.insert(of + node.name).second);
+    } while (!taken.try_emplace({node.parent, node.name}, 2).second);
   }
   for (size_t i = scene.nodes.size(); i-- > 0;) {
     SceneNode& node = scene.nodes[i];
@@ -240,25 +250,25 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
 
 Flattened flattenNodes(Document& doc, Scene& scene) {
   Flattened out;
-  out.nodeWorld.assign(doc.model.nodes.size(), glm::dmat4(1.0));
   // World transforms of all nodes (skins may use joints outside the scene); the tree was checked, the stack is ours.
-  std::vector<bool> child(doc.model.nodes.size(), false);
-  for (const tinygltf::Node& node : doc.model.nodes)
-    for (const int c : node.children) child[static_cast<size_t>(c)] = true;
+  out.nodeWorld.reserve(doc.nodes.size());
+  for (size_t i = 0; i < doc.nodes.size(); ++i)
+    out.nodeWorld.push_back(localTransform(doc, doc.root->at("nodes")[i], i));
   std::vector<int> stack;
+  const std::vector<bool> child = isChild(doc);
   for (size_t i = child.size(); i-- > 0;)
     if (!child[i]) stack.push_back(static_cast<int>(i));
-  for (const int root : stack)
-    out.nodeWorld[static_cast<size_t>(root)] = localTransform(doc, static_cast<size_t>(root));
   while (!stack.empty()) {
     const size_t n = static_cast<size_t>(stack.back());
     stack.pop_back();
-    for (const int c : doc.model.nodes[n].children) {
-      out.nodeWorld[static_cast<size_t>(c)] = out.nodeWorld[n] * localTransform(doc, static_cast<size_t>(c));
+    for (const int c : doc.nodes[n].children) {
+      out.nodeWorld[static_cast<size_t>(c)] = out.nodeWorld[n] * out.nodeWorld[static_cast<size_t>(c)];
       stack.push_back(c);
     }
   }
   std::vector<Shown> shown;  // in the order in which they are met: what lies under a node comes right behind it
+  shown.reserve(doc.nodes.size());
+  out.instances.reserve(static_cast<size_t>(std::ranges::count_if(doc.nodes, [](const Node& n) { return n.mesh >= 0; })));
   std::vector<std::pair<int, uint32_t>> open;  // nodes, and their parents in that order
   const std::vector<int> roots = rootNodes(doc);
   for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.emplace_back(*it, SceneNode::kNoParent);
@@ -267,14 +277,23 @@ Flattened flattenNodes(Document& doc, Scene& scene) {
     const auto own = static_cast<uint32_t>(shown.size());
     shown.push_back({.node = n, .parent = open.back().second});
     open.pop_back();
-    const tinygltf::Node& node = doc.model.nodes[n];
+    const Node& node = doc.nodes[n];
     const glm::dmat4& world = out.nodeWorld[n];
     if (!finite(world)) doc.fail(fmt::format("nodes[{}]", n), "its world transform is not finite");
-    if (node.mesh >= 0)
-      for (const glm::dmat4& instance : instanceTransforms(doc, node, n)) {
-        out.instances.push_back({node.mesh, static_cast<int>(n), node.skin, own, world * instance});
-        ++shown[own].instances;
+    const auto addInstance = [&](const glm::dmat4& transform) {
+      out.instances.push_back({node.mesh, static_cast<int>(n), node.skin, own, transform});
+      ++shown[own].instances;
+    };
+    if (node.mesh >= 0) {
+      const Json& source = doc.root->at("nodes")[n];
+      const auto extensions = source.find("extensions");
+      if (extensions != source.end() && extensions->contains("EXT_mesh_gpu_instancing")) {
+        for (const glm::dmat4& instance : instanceTransforms(doc, extensions->at("EXT_mesh_gpu_instancing"), n))
+          addInstance(world * instance);
+      } else {
+        addInstance(world);
       }
+    }
     addLight(doc, node, world, scene);
     addCamera(doc, node, world, scene);
     for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) open.emplace_back(*it, own);
