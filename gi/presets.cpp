@@ -30,7 +30,7 @@ void thesis(Settings& s) {
   s.specular.gpu.rays = 2;
   s.specular.gpu.traversal = Traversal::dda;
   s.specular.gpu.filter_ = 0;
-  s.specular.gpu.maxRoughness = s.specular.gpu.metalRoughness = 0.6f;
+  s.specular.gpu.metalRoughness = s.specular.gpu.maxRoughness;
   s.light.shadowResolution = 2048;
   s.light.points = 32;
   // The thesis's stages run whatever the scene holds. But lights without intensity stay out, and light at rest is not
@@ -73,8 +73,6 @@ Settings defaultSettings(bool cpuDevice) {
     settings.sample.emitters = EmitterLookup::facets;  // rays of pixels would take longer than all else
     settings.matrix.emitterSamples = 128;              // which the host traces
     settings.light.shadowResolution = 2048;
-  } else {
-    settings.specular.gpu.maxRoughness = 0.8f;  // rays of rough surfaces are cheap there
   }
   return settings;
 }
