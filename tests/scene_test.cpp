@@ -436,8 +436,8 @@ std::string manyNodes(size_t count) {
 }
 
 /// 300,000 nodes, in time that goes with their number: a reader that walks all nodes at the end of each takes sixteen
-/// times as long for four times as many. They are to take 2 s where the JSON library alone takes a third of a second
-/// for the same text; other work on the machine lengthens the processor time of both.
+/// times as long for four times as many. They are to take 2 s, where the JSON library alone takes half a second for the
+/// same text, on a slow machine; other work on the machine lengthens the processor time of both.
 TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
   double parsed = 0;
   const auto load = [&](size_t count) {
@@ -455,7 +455,7 @@ TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
   const double few = load(75'000), many = load(300'000);
   fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s, of which JSON alone takes {:.2f} s\n", few, many, parsed);
   EXPECT_LT(many, 6 * few) << few << " s and " << many << " s";
-  EXPECT_LT(many, 6 * parsed) << many << " s, and JSON alone " << parsed << " s";
+  EXPECT_LT(many, 4 * parsed) << many << " s, and JSON alone " << parsed << " s";
 }
 
 TEST_F(SceneLoading, NodesThatAreListedTwiceAreTakenOnce) {
@@ -506,6 +506,49 @@ TEST_F(SceneLoading, OddLensesLightsAndRotationsAreMendedAndNamed) {
         "lights[1].range: 0 is not above 0; the light \"bulb\" reaches without limit",
         "lights[2].range: -4 is not above 0", "nodes[0] \"flat\".rotation: (0, 0, 0, 0) is no rotation"})
     EXPECT_TRUE(warns(s, said)) << said << "\n" << fmt::format("{}", fmt::join(s.warnings, "\n"));
+}
+
+TEST_F(SceneLoading, HardConesAndOddPlanesAreTaken) {
+  GltfFile file = triangleFile();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  const auto spot = [](const char* name, double inner, double outer) {
+    return nlohmann::json{
+        {"type", "spot"}, {"name", name}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}};
+  };
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      spot("hard", .5, .5), {{"type", "spot"}, {"name", "bare"}}};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = -3;
+  file.json["cameras"] = {
+      {{"type", "perspective"},
+       {"name", "near"},
+       {"perspective", {{"yfov", 1}, {"znear", 0}, {"zfar", -1}, {"aspectRatio", 0}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 1}, {"znear", -5}, {"zfar", 0}}}}};
+  for (int i = 0; i < 2; ++i)
+    file.json["nodes"].push_back({{"camera", i}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  file.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const Scene s = load(file);
+  expectCorners(s, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  ASSERT_EQ(s.lights.size(), 2u);
+  EXPECT_EQ(s.lights[0].innerCos, s.lights[0].outerCos);
+  EXPECT_NEAR(s.lights[0].outerCos, std::cos(.5), 1e-6);
+  EXPECT_EQ(s.lights[0].intensity, 0.0f);
+  EXPECT_NEAR(s.lights[1].outerCos, std::cos(M_PI / 4), 1e-6);
+  EXPECT_EQ(s.lights[1].innerCos, 1.0f);
+  ASSERT_EQ(s.cameras.size(), 2u);
+  EXPECT_EQ(s.cameras[0].znear, Camera{}.znear);
+  EXPECT_EQ(s.cameras[0].zfar, 0.0f);
+  EXPECT_EQ(s.cameras[0].aspect, 0.0f);
+  EXPECT_EQ(s.cameras[1].znear, 0.0f);
+  EXPECT_EQ(unsound(s), "");
+  for (const char* said :
+       {"lights[0].intensity: -3 is clamped to 0",
+        "lights[1]: a spot light without \"spot\"",
+        "cameras[0] \"near\".perspective.aspectRatio: 0 is not from", "cameras[0] \"near\".perspective.znear: 0 is not above 0",
+        "cameras[0] \"near\".perspective.zfar: -1 is not beyond znear", "cameras[1].orthographic.znear: -5 is not 0 or more",
+        "cameras[1].orthographic.zfar: 0 is not beyond znear"})
+    EXPECT_TRUE(warns(s, said)) << said << "\n" << fmt::format("{}", fmt::join(s.warnings, "\n"));
+  // three.js writes both angles the same by default, and Blender for a blend of 0: nothing to speak of.
+  EXPECT_FALSE(warns(s, "lights[0].spot"));
 }
 
 TEST_F(SceneLoading, RotationsOfInstancesThatAreNoneAreNamed) {

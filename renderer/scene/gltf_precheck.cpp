@@ -250,20 +250,20 @@ std::vector<Rule> rules() {
   ref("skins/[]/inverseBindMatrices", "accessors");
   add("cameras/[]", Object), add("cameras/[]/name", String), add("cameras/[]/type", String, 0, 0, true);
   add("cameras/[]/perspective/yfov", Number, -kHuge, kHuge, true),
-      add("cameras/[]/perspective/aspectRatio", Number, 1e-4, 1e4);
-  add("cameras/[]/perspective/znear", Number, 1e-30, kHuge, true),
-      add("cameras/[]/perspective/zfar", Number, 1e-30, kHuge);
+      add("cameras/[]/perspective/aspectRatio", Number, -kHuge, kHuge);
+  add("cameras/[]/perspective/znear", Number, -kHuge, kHuge, true),
+      add("cameras/[]/perspective/zfar", Number, -kHuge, kHuge);
   add("cameras/[]/orthographic/xmag", Number, -kHuge, kHuge, true),
       add("cameras/[]/orthographic/ymag", Number, -kHuge, kHuge, true);
-  add("cameras/[]/orthographic/znear", Number, 0, kHuge, true),
-      add("cameras/[]/orthographic/zfar", Number, 0, kHuge, true);
+  add("cameras/[]/orthographic/znear", Number, -kHuge, kHuge, true),
+      add("cameras/[]/orthographic/zfar", Number, -kHuge, kHuge, true);
   const std::string light = "extensions/KHR_lights_punctual/lights/[]";
   r.push_back({"extensions/KHR_lights_punctual/lights", Array, 0, 0, "", true});
   r.push_back({light, Object, 0, 0, "", false});
   r.push_back({light + "/type", String, 0, 0, "", true});
   r.push_back({light + "/name", String, 0, 0, "", false});
   r.push_back({light + "/color", Numbers, 3, 3, "", false});
-  r.push_back({light + "/intensity", Number, 0, 1e39, "", false});
+  r.push_back({light + "/intensity", Number, -kHuge, 1e39, "", false});
   r.push_back({light + "/range", Number, -kHuge, kHuge, "", false});
   r.push_back({light + "/spot", Object, 0, 0, "", false});
   r.push_back({light + "/spot/innerConeAngle", Number, 0, 1.5707964, "", false});
@@ -305,14 +305,14 @@ void checkExtensions(Document& doc) {
                                                    "KHR_texture_transform",      "KHR_mesh_quantization",
                                                    "EXT_texture_webp",           "EXT_mesh_gpu_instancing",
                                                    "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                   "KHR_meshopt_compression",    "KHR_materials_transmission"};
+                                                   "KHR_meshopt_compression",    "KHR_materials_transmission",
+                                                   // Which gltf_materials.cpp warns of.
+                                                   "KHR_materials_pbrSpecularGlossiness"};
   // Effects the renderer has no term for: without them, the material stands in, and a warning says so.
-  static const std::set<std::string> kApproximated = {"KHR_materials_unlit",      "KHR_materials_pbrSpecularGlossiness",
-                                                      "KHR_materials_variants",   "KHR_materials_ior",
-                                                      "KHR_materials_specular",   "KHR_materials_clearcoat",
-                                                      "KHR_materials_sheen",      "KHR_materials_iridescence",
-                                                      "KHR_materials_anisotropy", "KHR_techniques_webgl",
-                                                      "KHR_technique_webgl"};
+  static const std::set<std::string> kApproximated = {
+      "KHR_materials_unlit",     "KHR_materials_variants", "KHR_materials_ior",         "KHR_materials_specular",
+      "KHR_materials_clearcoat", "KHR_materials_sheen",    "KHR_materials_iridescence", "KHR_materials_anisotropy",
+      "KHR_techniques_webgl",    "KHR_technique_webgl"};
   // What light does on its way through a body: there are thin panes alone.
   static const std::set<std::string> kOfBodies = {"KHR_materials_volume", "KHR_materials_dispersion",
                                                   "KHR_materials_diffuse_transmission"};
@@ -432,6 +432,41 @@ std::string knownLightTypes() {
   return out;
 }
 
+/// What others write and readers take: an aspect ratio of 0, planes at 0 or in the wrong order.
+void mendPlanes(Document& doc, const std::string& where, Json& lens, bool perspective) {
+  const auto value = [&](const char* name) { return lens.at(name).get<double>(); };
+  if (lens.contains("aspectRatio") && !(value("aspectRatio") >= 1e-4 && value("aspectRatio") <= 1e4)) {
+    doc.warn(fmt::format("{}.aspectRatio: {} is not from 0.0001 to 10000; the picture's is taken", where,
+                         lens.at("aspectRatio").dump()));
+    lens.erase("aspectRatio");
+  }
+  const double least = perspective ? 1e-30 : 0.0, otherwise = double{Camera{}.znear};
+  if (!(value("znear") >= least)) {
+    doc.warn(fmt::format("{}.znear: {} is not {}; {:.6g} is taken", where, lens.at("znear").dump(),
+                         perspective ? "above 0" : "0 or more", perspective ? otherwise : 0.0));
+    lens["znear"] = perspective ? otherwise : 0.0;
+  }
+  if (!lens.contains("zfar") || value("zfar") > value("znear")) return;
+  const double far = perspective ? 0.0 : value("znear") + double{kMaxCoordinate};
+  doc.warn(fmt::format("{}.zfar: {} is not beyond znear, {}; there is no limit then", where, lens.at("zfar").dump(),
+                       lens.at("znear").dump()));
+  if (perspective) lens.erase("zfar");
+  else lens["zfar"] = far;
+}
+
+/// Equal angles, which the specification forbids, are what three.js writes of a spot by default, and Blender of one with
+/// a blend of 0: a hard edge.
+void checkCone(Document& doc, const std::string& where, Json& light) {
+  if (!light.contains("spot")) {
+    doc.warn(fmt::format("{}: a spot light without \"spot\"; its cone is the default one", where));
+    light["spot"] = Json::object();
+  }
+  const Json& spot = light.at("spot");
+  const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", 0.7853981633974483);
+  if (!(inner <= outer && outer > 0.0))
+    doc.fail(where + ".spot", fmt::format("innerConeAngle {} is not below outerConeAngle {}", inner, outer));
+}
+
 /// What others write and readers take: yfov in degrees, and worse.
 void mendLens(Document& doc, const std::string& where, Json& lens) {
   if (!lens.contains("yfov")) return;
@@ -469,12 +504,7 @@ void checkLightsAndCameras(Document& doc) {
           if (!size->is_number() || !(*size >= 0.0 && *size <= most))
             doc.fail(fmt::format("{}.extras.{}", where, member),
                      fmt::format("{} is not a number from 0 to {}", size->dump().substr(0, 40), most));
-      if (!kind->has(LIGHT_CONE)) continue;
-      if (!lights[i].contains("spot")) doc.fail(where, fmt::format("a {} without \"spot\"", kind->one));
-      const Json& spot = lights[i].at("spot");
-      const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", 0.7853981633974483);
-      if (!(inner < outer))
-        doc.fail(where + ".spot", fmt::format("innerConeAngle {} is not below outerConeAngle {}", inner, outer));
+      if (kind->has(LIGHT_CONE)) checkCone(doc, where, lights[i]);
     }
   }
   if (!doc.root->contains("cameras")) return;
@@ -485,12 +515,12 @@ void checkLightsAndCameras(Document& doc) {
       doc.fail(where + ".type", fmt::format("\"{}\" is neither perspective nor orthographic", type.substr(0, 40)));
     if (!cameras[i].contains(type)) doc.fail(where, fmt::format("has no \"{}\"", type));
     Json& lens = cameras[i].at(type);
-    if (type == "perspective") mendLens(doc, where + quoted(cameras[i].value("name", "")), lens);
+    const std::string named = where + quoted(cameras[i].value("name", ""));
+    if (type == "perspective") mendLens(doc, named, lens);
+    mendPlanes(doc, named + "." + type, lens, type == "perspective");
     for (const char* mag : {"xmag", "ymag"})
       if (const double size = std::abs(lens.value(mag, 1.0)); size < 1e-15 || size > kMaxCoordinate)
         doc.fail(where + "." + mag, fmt::format("{} is not from 1e-15 to {}", size, kMaxCoordinate));
-    if (lens.contains("zfar") && lens.at("zfar").get<double>() <= lens.at("znear").get<double>())
-      doc.fail(where, fmt::format("zfar {} is not beyond znear {}", lens.at("zfar").dump(), lens.at("znear").dump()));
   }
 }
 

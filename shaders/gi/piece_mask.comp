@@ -18,25 +18,25 @@ void main() {
   uint packedVoxel = push.solid.at[push.pieceVoxel.at[piece]];
   vec3 cell = vec3(unpackVoxel(packedVoxel));
   uint flags = triangleFlags(push.scene, triangle);
-  bool screen = (flags & MATERIAL_BLEND) != 0u, tinted = (flags & MATERIAL_TRANSMISSIVE) != 0u;
+  bool screen = (flags & MATERIAL_BLEND) != 0u, tinted = PANES && (flags & MATERIAL_TRANSMISSIVE) != 0u;
   uint seed = hashUint(packedVoxel ^ hashUint(triangle));
   uint left = 0u, right = 0u;
   uvec3 closedLeft = uvec3(0u), closedRight = uvec3(0u);  // squares closed to each channel
   for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
     vec3 at = cell + maskPoint(t.normal, t.v[0] - cell, bit);
+    MaterialPoint p = materialPoint(push.scene, t, triangle, at);
+    p.area *= float(MASK_EDGE * MASK_EDGE);  // filtered over a square
     if (tinted) {
       // Those that are there are closed to all; thresholds are the same, so that channels have squares in common.
-      vec3 kept = 1.0 - passesAt(push.scene, t, triangle, at, float(MASK_EDGE * MASK_EDGE));
+      vec3 kept = 1.0 - panePoint(push.scene, p).passes;
       bvec3 closed = greaterThan(kept, vec3(screenThreshold(bit, seed)));
       uvec3 set = mix(uvec3(0u), uvec3(1u << (bit & 31u)), closed);
       if (bit < 32u) closedLeft |= set;
       else closedRight |= set;
       if (!all(closed)) continue;
-    } else if (screen) {
-      float cover = coverAt(push.scene, t, triangle, at, float(MASK_EDGE * MASK_EDGE));
-      if (cover <= screenThreshold(bit, seed)) continue;
-    } else if (masked(push.scene, t, triangle, MATERIAL_ALPHA_MASK, at, float(MASK_EDGE * MASK_EDGE))) {
-      continue;
+    } else {
+      float cover = baseColorAt(push.scene, p).a, cutoff = push.scene.at[0].materials.at[p.material].alphaCutoff;
+      if (screen ? cover <= screenThreshold(bit, seed) : SAMPLES_TEXTURES != 0u && cover < cutoff) continue;
     }
     if (bit < 32u) left |= 1u << bit;
     else right |= 1u << (bit - 32u);

@@ -4,6 +4,8 @@
 #include "shared/constants.h"
 #include "shared/glass.h"
 layout(constant_id = CONSTANT_SAMPLES_TEXTURES) const uint SAMPLES_TEXTURES = 1u;
+/// There are panes: without, there is no code for them, which Mesa's CPU driver would go through at every point.
+layout(constant_id = CONSTANT_TINTED) const bool PANES = true;
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
 layout(set = 1, binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 4) uniform sampler2D emissiveTexture;
@@ -104,7 +106,7 @@ PanePoint panePoint(SceneArray scenes, MaterialPoint p) {
   return pane;
 }
 bool isPane(SceneArray scenes, MaterialPoint p) {
-  return (scenes.at[0].materials.at[p.material].flags & MATERIAL_TRANSMISSIVE) != 0u;
+  return PANES && (scenes.at[0].materials.at[p.material].flags & MATERIAL_TRANSMISSIVE) != 0u;
 }
 /// What stands for a pane in its facets is less than alpha says; what it does to light is as much more.
 float paneWeight(PanePoint pane) {
@@ -154,13 +156,6 @@ float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point, flo
   MaterialPoint p = materialPoint(scenes, t, triangle, point);
   p.area *= squares;
   return baseColorAt(scenes, p).a;
-}
-
-/// What a pane lets through of each channel, filtered the same way.
-vec3 passesAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point, float squares) {
-  MaterialPoint p = materialPoint(scenes, t, triangle, point);
-  p.area *= squares;
-  return panePoint(scenes, p).passes;
 }
 
 /// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a
