@@ -63,9 +63,12 @@ bool redone(BuildTimes::Part part, Redo first) {
 
 }  // namespace
 
+std::string durationText(double ms) {
+  return ms < 950 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.1f} s", 1e-3 * ms);
+}
+
 std::string costText(const BuildCost& cost) {
-  const std::string time = cost.ms < 950 ? fmt::format("{:.0f} ms", cost.ms) : fmt::format("{:.1f} s", 1e-3 * cost.ms);
-  return fmt::format("{}, {:.0f} MiB", time, inMebibytes(cost.bytes));
+  return fmt::format("{}, {:.0f} MiB", durationText(cost.ms), inMebibytes(cost.bytes));
 }
 
 BuildTimes::Part BuildTimes::partOf(const char* stage) {
@@ -97,6 +100,22 @@ std::optional<double> BuildTimes::predict(const Settings& wanted, Redo first) co
     any = true;
   }
   return any ? std::optional(sum) : std::nullopt;
+}
+
+void BuildWatch::runs(std::optional<BuildTimes::Part> part, double ms, double pipelineWaitMs) {
+  if (part_ == part) return;
+  const double now = ms - pipelineWaitMs;
+  if (part_) {
+    std::optional<double>& sum = ms_[static_cast<size_t>(*part_)];
+    sum = sum.value_or(0) + now - since_;
+  }
+  since_ = now;
+  part_ = part;
+}
+
+void BuildWatch::tell(BuildTimes& times, const Settings& settings) const {
+  for (size_t i = 0; i < ms_.size(); ++i)
+    if (ms_[i]) times.took(static_cast<BuildTimes::Part>(i), *ms_[i], settings);
 }
 
 uint64_t predictedBytes(const Pipeline& pipeline, uint64_t used, const Settings& wanted, Redo first) {

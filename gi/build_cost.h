@@ -21,6 +21,8 @@ struct BuildCost {
 };
 /// "1.9 s, 480 MiB"
 std::string costText(const BuildCost& cost);
+/// "1.9 s", "420 ms"
+std::string durationText(double ms);
 
 /// Times of the stages of one scene's last builds, as they were waited for: work on the processor included.
 class BuildTimes {
@@ -45,6 +47,22 @@ class BuildTimes {
     double resolution, rays;
   };
   std::array<std::optional<Seen>, kParts> seen_;
+};
+
+/// What the parts of a build take, as it goes on. Its user reads two clocks: one that always runs, and one of the time
+/// in which passes waited for pipelines to be compiled (renderer/frame/pipeline_wait.h), which is left out: another
+/// build finds them.
+class BuildWatch {
+ public:
+  /// From now on this part, and no longer the one before; none: it has ended.
+  void runs(std::optional<BuildTimes::Part> part, double ms, double pipelineWaitMs);
+  /// To `times`, of every part that has run.
+  void tell(BuildTimes& times, const Settings& settings) const;
+
+ private:
+  double since_ = 0;                      ///< by the first clock less the second
+  std::optional<BuildTimes::Part> part_;  ///< that runs since then
+  std::array<std::optional<double>, BuildTimes::kParts> ms_{};
 };
 
 /// Bytes in use once `wanted` has been built from `first` on, of which `used` are in use now that the pipeline holds

@@ -113,8 +113,11 @@ GpuPipeline& PipelineCache::get(const PipelineRequest& request) {
         compileMeanwhile(general, all);
       }
     }
-    if (given == &wanted)
+    if (given == &wanted) {
+      const auto began = std::chrono::steady_clock::now();
       wanted.pipeline = wanted.pending.valid() ? wanted.pending.get() : compile(parts(request), cache_);
+      waitedMs_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+    }
   }
   given->used = true;
   return *given->pipeline;

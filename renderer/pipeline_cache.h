@@ -27,6 +27,7 @@ class PipelineCache {
   /// Takes what the other thread has finished, and throws what it has met.
   void collect();
   size_t compiling() const;
+  double waitedMs() const { return waitedMs_; }  ///< frame/pipeline_wait.h
   /// The pipelines that get() gave since the last call.
   std::vector<PipelineUse> takeUsed();
   /// To another context: as new, but that pipelines are there.
@@ -49,6 +50,7 @@ class PipelineCache {
   const Device& device_;
   const ShaderLibrary& shaders_;
   uint64_t generation_ = 0;
+  double waitedMs_ = 0;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout material_ = VK_NULL_HANDLE;
   std::map<std::string, Entry> entries_;

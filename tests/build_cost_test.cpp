@@ -7,6 +7,7 @@
 
 #include "gi/build_cost.h"
 #include "gi/pipeline.h"
+#include "renderer/frame/pipeline_wait.h"
 #include "renderer/scene/scene.h"
 #include "tests/gi_fixture.h"
 
@@ -51,6 +52,23 @@ TEST(BuildTimes, GrowAsTheDocumentsSay) {
   EXPECT_NEAR(*documented.predict(sized(128, 384), Redo::Matrix), 21871, 0.02 * 21871);
 }
 
+/// Shaders that are compiled for a part are compiled once: what the part takes again is the rest.
+TEST(BuildTimes, LeaveOutWhatCompilesShaders) {
+  const Settings made = sized(64, 128);
+  BuildWatch watch;
+  watch.runs(BuildTimes::Part::Gather, 1000, 500);
+  watch.runs(BuildTimes::Part::Gather, 1700, 900);  // 400 of these for shaders
+  watch.runs(BuildTimes::Part::Solve, 2000, 1100);  // and 200
+  watch.runs(BuildTimes::Part::Scatter, 2050, 1100);
+  watch.runs({}, 2080, 1120);
+  BuildTimes times;
+  watch.tell(times, made);
+  EXPECT_NEAR(*times.predict(made, Redo::Scatter), 10, 1e-6);
+  EXPECT_NEAR(*times.predict(made, Redo::Solve), 60, 1e-6);
+  EXPECT_NEAR(*times.predict(made, Redo::Gather), 460, 1e-6);
+  EXPECT_FALSE(times.predict(made, Redo::Matrix)) << "a part that has not run";
+}
+
 TEST(BuildTimes, StagesHaveTheNamesOfTheirProgress) {
   EXPECT_EQ(BuildTimes::partOf("GI Voxelization"), BuildTimes::Part::Voxels);
   EXPECT_EQ(BuildTimes::partOf("GI SDF"), BuildTimes::Part::Field);
@@ -74,7 +92,13 @@ TEST_F(BuildCostTest, AnEditTellsTheStagesThatItRedoes) {
     pipeline.prepare([&](const char* stage, float) { return stages.insert(stage), true; });
     return stages;
   };
+  // A build waits for its shaders; the same build again does not.
   redone();
+  const double waited = pipelineWaitMs(context());
+  EXPECT_GT(waited, 0);
+  pipeline.invalidate(Redo::Voxels);
+  EXPECT_TRUE(redone().contains("GI Voxelization"));
+  EXPECT_EQ(pipelineWaitMs(context()), waited);
   Settings edited = pipeline.settings();
   const auto edit = [&](const char* name, double value) {
     for (const Setting& setting : settingTable())
@@ -104,18 +128,11 @@ TEST_F(BuildCostTest, IsNearToWhatRealBuildsTake) {
                                     : std::chrono::duration<double, std::milli>(wall).count();
     };
     const double began = time();
-    double since = began;
-    std::optional<BuildTimes::Part> part;
-    std::array<double, BuildTimes::kParts> ms{};
-    const auto runs = [&](std::optional<BuildTimes::Part> next) {
-      const double now = time();
-      if (part) ms[static_cast<size_t>(*part)] += now - since;
-      since = now;
-      part = next;
-    };
+    BuildWatch watch;
+    const auto runs = [&](std::optional<BuildTimes::Part> next) { watch.runs(next, time(), 0); };
     pipeline.prepare([&](const char* stage, float) { return runs(BuildTimes::partOf(stage)), true; }, 4);
     runs({});
-    for (size_t i = 0; i < ms.size(); ++i) times.took(static_cast<BuildTimes::Part>(i), ms[i], pipeline.settings());
+    watch.tell(times, pipeline.settings());
     return BuildCost{time() - began, context().device.memory().used()};
   };
   for (const auto& [resolution, rays] : sizes) {  // compiles the shaders

@@ -1,4 +1,10 @@
 // Lights in the window: their axes in the picture, snapping, on and off, units, temperatures.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/scene/first_surface.h"
+#include "renderer/scene/light_json.h"
 #include "tests/window_fixture.h"
 
 namespace irad::test::window_lamps_suite {
@@ -72,26 +78,39 @@ TEST_F(WindowLampsTest, AxesMoveALightAlongThemselvesAndInTheirPlanes) {
   EXPECT_NEAR(both.x, up.x - 60, 3);
   EXPECT_NEAR(both.y, up.y + 40, 3);
 
-  // Onto the surface under the mouse, with Ctrl; a step like every drag.
+  // Onto the surface under the mouse, with Ctrl: a voxel before it. A step like every drag.
   away();  // no tooltip in what is compared
   const ScreenPart before = viewport();
-  pull("picture/light", {0, 150}, "ctrl");
+  const glm::ivec2 from = at("picture/light"), on = from + glm::ivec2(0, 150);
+  pull("picture/light", on - from, "ctrl");
   ASSERT_TRUE(differs(before));
-  strike("ctrl+z");
-  EXPECT_TRUE(shows(before)) << "a drag is one step";
-
-  // Captures have no handles; the window has none where they are turned off.
   int captures = 0;
   const auto capture = [&] {
     ++captures;
     key("F12");
     EXPECT_TRUE(says(fmt::format("box.{:03}", captures)));
-    return contents(folder_.path / fmt::format("out/captures/box.{:03}", captures)).at("lit.png");
+    return contents(folder_.path / fmt::format("out/captures/box.{:03}", captures));
   };
-  const std::string with = capture();
+  const auto lights = nlohmann::json::parse(capture().at("manifest.json")).at("lights");
+  const Light put = lightsFromJson(lights.dump()).at(1);
+  const Scene box = loadScene(assets() / "box.glb");
+  const Camera& camera = box.cameras.at(0);
+  const double focal = 0.5 * p.height / std::tan(camera.yfov / 2);
+  const glm::dvec3 direction = glm::dquat(camera.orientation) * glm::dvec3(on.x + 0.5 - p.x - 0.5 * p.width,
+                                                                           0.5 * p.height - (on.y + 0.5 - p.y), -focal);
+  const auto surface = firstSurface(box, camera.position, direction);
+  ASSERT_TRUE(surface);
+  const double inFront = glm::dot(put.position - surface->position, surface->normal);
+  EXPECT_NEAR(glm::distance(put.position, surface->position), inFront, 0.05) << "beside what is under the mouse";
+  EXPECT_NEAR(inFront, 0.666, 0.01) << "the edge of a voxel";
+  strike("ctrl+z");
+  EXPECT_TRUE(shows(before)) << "a drag is one step";
+
+  // Captures have no handles; the window has none where they are turned off.
+  const std::string with = capture().at("lit.png");
   click("Lights/handles in the picture");
   EXPECT_TRUE(appears("picture/x", /*wanted=*/false));
-  EXPECT_EQ(capture(), with);
+  EXPECT_EQ(capture().at("lit.png"), with);
   quitDiscarding();
 }
 

@@ -202,7 +202,7 @@ TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
 TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
   std::ofstream(options_.preferences) << R"({"format": 1, "folded": ["Accuracy", "Scene", "Settings", "Effects",
                                              "Materials", "Objects", "History"]})";
-  double from = 0, to = 0;
+  double from = 0, to = 0, toDepth = 0;
   Counters before, after;
   run([&] {
     click("Lights/0");
@@ -229,6 +229,9 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
     to = timings_.now();
     after = context_->counters();
     vkQueuePresentKHR = driversPresent;
+    screen_->key("9");
+    EXPECT_TRUE(until([&] { return rests(); }));
+    toDepth = timings_.now();
   });
   int moves = 0;
   for (size_t i = 1; i < handles.size(); ++i) {
@@ -241,6 +244,10 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
   EXPECT_TRUE(stages.contains("RE Forward")) << "the camera has not moved";
   for (const std::string& stage : stages)
     EXPECT_FALSE(stage.starts_with("GI ") || stage == "RE Shadow") << stage << " for a camera";
+  // A view runs no stage whose result it does not show.
+  const std::set<std::string> depth = stagesBetween(to, toDepth);
+  EXPECT_TRUE(depth.contains("RE Depth"));
+  for (const char* stage : {"RE Forward", "RE Specular"}) EXPECT_FALSE(depth.contains(stage)) << stage << " for depth";
   const Counters asked = after.since(before);
   EXPECT_GT(asked.draws, 0u);
   EXPECT_EQ(asked.images, 0u);

@@ -199,7 +199,13 @@ TEST_F(WindowObjectsTest, HidingIsCancelled) {
   const ScreenPart all = part();  // above the messages
   // By its box in the list.
   const std::string box = placeOf(std::string(kFloor) + "/shown");
-  cancel([&] { mouse().tap(box); });
+  const auto corner = [this] { return around(200, -400, 300, 200); };  // above the progress, beside the tooltip
+  const ScreenPart before = corner();
+  cancel([&] {
+    mouse().tap(box);
+    ASSERT_TRUE(appears("progress/cancel", true, 90));
+    EXPECT_EQ(corner(), before) << "the picture does not stay meanwhile";
+  });
   EXPECT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == all; }));
   EXPECT_TRUE(isOn(std::string(kFloor) + "/shown"));
   quit();

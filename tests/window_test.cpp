@@ -376,6 +376,12 @@ TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
   click("Open a scene/size");
   rests();
   EXPECT_GT(control("Open a scene/wrong.glb").area.y, control("Open a scene/a.glb").area.y) << "not turned around";
+  // Esc closes the list, not the dialog under it.
+  click("Open a scene/kind");
+  ASSERT_TRUE(appears("Open a scene/kind/all that can be opened"));
+  hold("Escape");
+  EXPECT_FALSE(has("Open a scene/kind/all that can be opened")) << "the list stays";
+  EXPECT_TRUE(has("Open a scene/Cancel")) << "the dialog goes with its list";
   click("Open a scene/places/Built-in scenes");
   EXPECT_TRUE(appears("Open a scene/park.glb"));
   enter("Open a scene/path", (folder_.path / "a.glb").string());

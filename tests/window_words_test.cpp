@@ -27,6 +27,15 @@ TEST_F(WindowWordsTest, SettingsAreFoundByWordsAndByChange) {
   rests();
   type("relaxation");
   EXPECT_TRUE(appears("Settings/solver.omega")) << "not found by its meaning";
+  // Where its slider stands is marked below the number, in the colour of what is chosen.
+  const Control::Area slider = control("Settings/solver.omega").area;
+  const ScreenPart pixels = screen_->grab(slider.x, slider.y, slider.width, slider.height);
+  int above = 0, below = 0;
+  for (int y = 0; y < pixels.height; ++y)
+    for (int x = 0; x < pixels.width; ++x)
+      if (pixels.at(x, y, 0) > pixels.at(x, y, 2) + 60) ++(4 * y < 3 * pixels.height ? above : below);
+  EXPECT_GT(below, 8) << "it is not marked";
+  EXPECT_EQ(above, 0) << "the mark covers the number";
   EXPECT_FALSE(has("Settings/voxel.resolution"));
   enter("Settings/search", "resolution");
   EXPECT_TRUE(appears("Settings/voxel.resolution"));

@@ -14,6 +14,7 @@
 #include "gi/shadow_needs.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/frame/pipeline_wait.h"
 #include "renderer/image_io.h"
 #include "renderer/scene/nodes.h"
 #include "renderer/scene/sky_image.h"
@@ -412,20 +413,23 @@ void Builder::giveUp(Side& side) {
 /// `pipeline` may be a new one that is not the side's yet.
 void Builder::prepare(Side& side, Pipeline& pipeline) {
   const auto began = Clock::now();
-  running_.reset();
-  if (std::exchange(timing_, false)) running_ = Running{.since = began, .part = {}};
+  const double waited = pipelineWaitMs(context_);
+  watch_.reset();
+  if (std::exchange(timing_, false)) watch_.emplace();
   pipeline.prepare([this](const char* stage, float fraction) { return progress(stage, fraction); },
                    session_.paused ? 1 : pipeline.settings().solver.sweepsPerFrame);
-  if (running_) {
+  if (watch_) {
     runs({});
-    for (size_t i = 0; i < BuildTimes::kParts; ++i)
-      if (running_->ms[i]) times_.took(static_cast<BuildTimes::Part>(i), *running_->ms[i], pipeline.settings());
-    const BuildCost took{std::chrono::duration<double, std::milli>(Clock::now() - began).count(),
-                         context_.device.memory().used()};
-    session_.lastBuild = Session::LastBuild{std::exchange(session_.forecast, std::nullopt), took};
-    if (session_.lastBuild->predicted)
-      tell("irad: predicted {}; took {}\n", costText(*session_.lastBuild->predicted), costText(took));
-    running_.reset();
+    watch_->tell(times_, pipeline.settings());
+    watch_.reset();
+    session_.lastBuild =
+        Session::LastBuild{.predicted = std::exchange(session_.forecast, std::nullopt),
+                           .took = {std::chrono::duration<double, std::milli>(Clock::now() - began).count(),
+                                    context_.device.memory().used()},
+                           .compileMs = pipelineWaitMs(context_) - waited};
+    if (const auto& [predicted, took, compileMs] = *session_.lastBuild; predicted)
+      tell("irad: predicted {}; took {}, {} of it for compiling shaders\n", costText(*predicted), costText(took),
+           durationText(compileMs));
   }
   if (&pipeline != side.pipeline.get()) side.woke();
   const FacetList& facets = pipeline.facets();
@@ -458,21 +462,14 @@ void Builder::begin(std::string what) {
   session_.work = Work{.what = std::move(what)};
 }
 
-/// From now on this part, and no longer the one before.
 void Builder::runs(std::optional<BuildTimes::Part> part) {
-  if (running_->part == part) return;
-  const auto now = Clock::now();
-  if (running_->part) {
-    std::optional<double>& ms = running_->ms[static_cast<size_t>(*running_->part)];
-    ms = ms.value_or(0) + std::chrono::duration<double, std::milli>(now - running_->since).count();
-  }
-  running_->since = now;
-  running_->part = part;
+  const std::chrono::duration<double, std::milli> now = Clock::now().time_since_epoch();
+  watch_->runs(part, now.count(), pipelineWaitMs(context_));
 }
 
 /// False: cancelled.
 bool Builder::progress(const char* stage, float fraction) {
-  if (running_) runs(BuildTimes::partOf(stage));
+  if (watch_) runs(BuildTimes::partOf(stage));
   session_.work->stage = stage;
   session_.work->fraction = std::clamp(fraction, 0.0f, 1.0f);
   breathe_();

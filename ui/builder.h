@@ -70,14 +70,9 @@ class Builder {
   std::optional<Settings> foreseen_;               ///< what session_.forecast is of
   bool timing_ = false;                            ///< the next prepare() is a rebuild's first: its stages are timed
   using Clock = std::chrono::steady_clock;
-  struct Running {
-    Clock::time_point since;
-    std::optional<BuildTimes::Part> part;  ///< that runs since then
-    std::array<std::optional<double>, BuildTimes::kParts> ms{};
-  };
-  std::optional<Running> running_;
-  bool stale_ = false;              ///< shaders that made the pipeline's products have changed
-  Redo shownNext_ = Redo::Nothing;  ///< what the last frame announced
+  std::optional<BuildWatch> watch_;  ///< of the prepare() that is timed
+  bool stale_ = false;               ///< shaders that made the pipeline's products have changed
+  Redo shownNext_ = Redo::Nothing;   ///< what the last frame announced
 };
 
 }  // namespace irad

@@ -259,10 +259,10 @@ void Session::closeTopmost() {
     stay();
   else if (found)
     answer = Offer::Later;
+  else if (closePopup(/*dialogs=*/showOpen || captures.shown ? 1 : 0))
+    return;
   else if (showOpen || captures.shown)
     showOpen = captures.shown = false;
-  else if (closePopup())
-    return;
   else if (showHelp || showGlossary)
     showHelp = showGlossary = false;
   else if (work)

@@ -142,6 +142,7 @@ struct Session : Side {
   struct LastBuild {
     std::optional<BuildCost> predicted;  ///< before it was begun
     BuildCost took;
+    double compileMs = 0;  ///< of it: for shaders that were needed for the first time
   };
   std::optional<LastBuild> lastBuild;
   bool halted = false;  ///< a rebuild failed or was cancelled: wait for an edit or for Rebuild

@@ -80,9 +80,9 @@ void fieldLabel(const char* label, std::string_view help) {
   ImGui::SetNextItemWidth(width * (1 - kLabelShare));
 }
 
-bool closePopup() {
-  if (ImGui::GetCurrentContext()->OpenPopupStack.empty()) return false;
-  ImGui::ClosePopupToLevel(0, /*restore_focus_to_window_under_popup=*/true);
+bool closePopup(int dialogs) {
+  if (ImGui::GetCurrentContext()->OpenPopupStack.Size <= dialogs) return false;
+  ImGui::ClosePopupToLevel(dialogs, /*restore_focus_to_window_under_popup=*/true);
   return true;
 }
 

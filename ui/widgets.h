@@ -28,9 +28,9 @@ void fieldLabel(const char* label, std::string_view help);
 /// Keeps in `folded` the titles of what is not open.
 void keepFolded(std::set<std::string>& folded, const std::string& title, bool open);
 
-/// Closes the list, or the menu with those that it opened (the mouse over one would open it again); false: there is
-/// none.
-bool closePopup();
+/// Closes the list, or the menu with those that it opened (the mouse over one would open it again), over so many
+/// dialogs that stay; false: there is none.
+bool closePopup(int dialogs);
 
 /// Of the last item, also where it is disabled: what it is or does.
 void helpTooltip(std::string_view text);

@@ -1,6 +1,7 @@
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/frame_impl.h"
+#include "renderer/frame/pipeline_wait.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
@@ -55,6 +56,10 @@ std::shared_ptr<PipelineCache> Context::pipelines() const {
 
 size_t Context::variantsCompiling() const {
   return impl->pipelines->compiling();
+}
+
+double pipelineWaitMs(const Context& context) {
+  return context.impl->pipelines->waitedMs();
 }
 
 const Image& Context::Impl::placeholder(bool cube) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "gi/plan.h"
 #include "ui/imgui.h"
@@ -23,13 +24,13 @@ class EffectsPanel : public Panel {
   Region region() const override { return Region::Left; }
 
   void draw(Session& session) override {
-    if (!session.built) {
+    // In the middle of a rebuild what the pipeline holds comes and goes.
+    if (session.built && !session.work && refresh_.due(session)) plan_ = session.pipeline->plan(session.viewDirty);
+    if (!session.built || !plan_) {
       ImGui::TextColored(theme::dim, "nothing built yet");
       return;
     }
     sideLine(session);
-    // In the middle of a rebuild what the pipeline holds comes and goes.
-    if (!session.work && refresh_.due(session)) plan_ = session.pipeline->plan(session.viewDirty);
     // Low rows: the column has room for them beside the settings in a window of 720 lines.
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
@@ -37,17 +38,17 @@ class EffectsPanel : public Panel {
     const auto foldsAway = [&](const EffectRow& row) {
       return row.state == EffectState::off && !isForced(session.edited, row);
     };
-    for (const EffectRow& row : plan_.rows)
+    for (const EffectRow& row : plan_->rows)
       if (!foldsAway(row)) drawRow(session.edited, row);
     if (drawOff(session.edited, session.preferences.folded))
-      for (const EffectRow& row : plan_.rows)
+      for (const EffectRow& row : plan_->rows)
         if (foldsAway(row)) drawRow(session.edited, row);
     ImGui::PopStyleVar(2);
     ImGui::Spacing();
   }
 
  private:
-  EffectPlan plan_;
+  std::optional<EffectPlan> plan_;  ///< none before the first has been built
   Refresh refresh_;
 
   static bool isForced(const Settings& settings, const EffectRow& row) {
@@ -60,7 +61,7 @@ class EffectsPanel : public Panel {
     struct {
       uint64_t count = 0, bytes = 0;
     } left, forced;
-    for (const EffectRow& row : plan_.rows)
+    for (const EffectRow& row : plan_->rows)
       if (row.state == EffectState::off) {
         auto& of = isForced(settings, row) ? forced : left;
         ++of.count;

@@ -132,7 +132,7 @@ class SettingsPanel : public Panel {
     else if (session.halted)
       line(theme::warning, "not rebuilt: the picture shows the old state");
     else
-      line(theme::dim, "up to date");
+      line(theme::dim, session.built ? "up to date" : "nothing built yet");
     drawCost(session, line);
     if (session.halted) {
       if (ImGui::Button("Rebuild", {-1, 0})) session.rebuild = true;
@@ -160,7 +160,7 @@ class SettingsPanel : public Panel {
   static void drawCost(const Session& session, const Line& line) {
     const uint64_t budget = session.context.device.memory().budget();
     const bool due = session.next < Redo::Shade;
-    std::string text;
+    std::string text, compiled;
     bool much = false;
     if (due && session.forecast) {
       much = session.forecast->bytes > budget;
@@ -168,15 +168,18 @@ class SettingsPanel : public Panel {
     } else if (due) {
       text = "no prediction: not timed yet";
     } else if (session.lastBuild) {
-      const auto& [predicted, took] = *session.lastBuild;
+      const auto& [predicted, took, compileMs] = *session.lastBuild;
       text = "took " + costText(took) + (predicted ? "; predicted " + costText(*predicted) : "");
+      compiled = fmt::format("; {} of it for compiling shaders", durationText(compileMs));
     }
     line(much ? theme::error : due ? theme::accent : theme::dim, text);
     ImGui::tellControl("cost", due);
-    helpTooltip(text +
-                "\nSeconds until the new light is seen first, and the device memory then in use (MiB of 2\u00B2\u2070 "
-                "bytes). Predicted of the stages that are redone, from what each took last, by the growth with "
-                "voxel.resolution and matrix.rays; what other settings change is not foreseen.");
+    helpTooltip(
+        text + compiled +
+        "\nSeconds until the new light is seen first, and the device memory then in use (MiB of 2\u00B2\u2070 "
+        "bytes). Predicted of the stages that are redone, from what each took last, by the growth with "
+        "voxel.resolution and matrix.rays; what other settings change is not foreseen, nor shaders that have to be "
+        "compiled first.");
   }
 };
 

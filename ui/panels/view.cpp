@@ -74,7 +74,8 @@ class ViewPanel : public Panel {
     helpTooltip("The camera's x, y and z in the world, metres");
     valueRow("speed", fmt::format("{:.3g} m/s", session.camera.unitsPerSecond()));
     helpTooltip("At which keys fly, metres a second; the wheel over the picture changes it");
-    valueRow("picture", fmt::format("{} \u00D7 {}", session.targets.size.x, session.targets.size.y));
+    const glm::uvec2 size = session.targets.size;
+    valueRow("picture", size.x > 0 ? fmt::format("{} \u00D7 {}", size.x, size.y) : "\u2014");
     helpTooltip("Width and height in pixels, which Save (F12) takes, too");
     if (ImGui::Button("Save (F12)", {-1, 0})) session.capture = true;
     helpTooltip(
