@@ -69,10 +69,10 @@ Settings defaultSettings(bool cpuDevice) {
   Settings settings;
   settings.voxel.resolution = cpuDevice ? 64 : 256;
   settings.matrix.gpu.rays = cpuDevice ? 128 : 384;
+  settings.light.shadowResolution = cpuDevice ? 2048 : 4096;
   if (cpuDevice) {
     settings.sample.emitters = EmitterLookup::facets;  // rays of pixels would take longer than all else
     settings.matrix.emitterSamples = 128;              // which the host traces
-    settings.light.shadowResolution = 2048;
   }
   return settings;
 }

@@ -111,7 +111,7 @@ struct WritebackSettings {
   bool operator==(const WritebackSettings&) const = default;
 };
 struct LightSettings {
-  uint32_t shadowResolution = 4096;  ///< texels per side; point lights use half per cube face
+  uint32_t shadowResolution = 2048;  ///< texels per side; point lights use half per cube face
   ShadowFilter shadowFilter = ShadowFilter::pcf;
   float bleedReduction = 0.3f;  ///< of ShadowFilter::vsm
   uint32_t points = 16;         ///< of a light with a size, that are looked at from a pixel or a facet
