@@ -262,7 +262,7 @@ TEST(Plan, LightsAreCalledForWhereTheyLightTheScene) {
     says({far, lights}, "on: 2 *: 2 on and with an intensity, of these 1 *");
     LightTraits soft = lights, softButFar = far;
     soft.size = softButFar.size = true;
-    says({soft, softButFar, lights}, "on: 3 *: 3 on and with an intensity, of these 2 *; penumbrae of 1, by 32 points");
+    says({soft, softButFar, lights}, "on: 3 *: 3 on and with an intensity, of these 2 *; penumbrae of 1, by 16 points");
   }
 }
 
