@@ -115,15 +115,13 @@ TEST_F(WindowMaterialsTest, UndoGivesThePictureBack) {
     // where the Box is not black.
     EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.levels(first) < 0.5; })) << "not undone";
   };
-  const auto number = [&](const std::string& material, const char* field, const char* text, double across) {
-    if (!isOn("Materials/" + material)) click("Materials/" + material);
+  const auto number = [&](const std::string& material, const char* field, double across) {
+    click("Materials/" + material);
     const std::string name = fmt::format("Materials/{}/{}", material, field);
-    isUndone(material, field, [&] { enterNumber(name, text, across); });
+    isUndone(material, field, [&] { enterNumber(name, "1", across); });
   };
-  number("green wall", "base", "1", /*across=*/0.1);  // of its three channels the first
-  number("green wall", "metalness", "1", 0.5);
-  number("polished metal", "roughness", "1", 0.5);
-  number("light panel", "emission", "0.2", 0.1);
+  number("green wall", "base", /*across=*/0.1);  // of its three channels the first
+  number("green wall", "metalness", 0.5);
   click("Materials/floor tiles");
   isUndone("floor tiles", "texture", [&] { click("Materials/floor tiles/texture: base color"); });
   // Solved from the dark, as the first was, it has the same bits.
