@@ -41,8 +41,8 @@ Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& t
 template <class MakePush>
 void dispatchByMaterial(Frame& frame, const char* stage, const char* shader, const SceneOnDevice& scene,
                         const Order& order, MakePush makePush) {
-  const bool panes = std::ranges::any_of(
-      scene.materialValues, [](const GpuMaterial& m) { return (m.flags & MATERIAL_TRANSMISSIVE) != 0; });
+  const bool panes = std::ranges::any_of(scene.materialValues,
+                                         [](const GpuMaterial& m) { return (m.flags & MATERIAL_TRANSMISSIVE) != 0; });
   for (const bool textured : {false, true}) {
     const auto takes = [=](const MaterialGroup& g) { return g.textured == textured && g.count > 0; };
     if (std::ranges::none_of(order.groups, takes)) continue;

@@ -515,8 +515,8 @@ TEST_F(SceneLoading, HardConesAndOddPlanesAreTaken) {
     return nlohmann::json{
         {"type", "spot"}, {"name", name}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}};
   };
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-      spot("hard", .5, .5), {{"type", "spot"}, {"name", "bare"}}};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {spot("hard", .5, .5),
+                                                              {{"type", "spot"}, {"name", "bare"}}};
   file.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = -3;
   file.json["cameras"] = {
       {{"type", "perspective"},
@@ -541,11 +541,11 @@ TEST_F(SceneLoading, HardConesAndOddPlanesAreTaken) {
   EXPECT_EQ(s.cameras[1].znear, 0.0f);
   EXPECT_EQ(unsound(s), "");
   for (const char* said :
-       {"lights[0].intensity: -3 is clamped to 0",
-        "lights[1]: a spot light without \"spot\"",
-        "cameras[0] \"near\".perspective.aspectRatio: 0 is not from", "cameras[0] \"near\".perspective.znear: 0 is not above 0",
-        "cameras[0] \"near\".perspective.zfar: -1 is not beyond znear", "cameras[1].orthographic.znear: -5 is not 0 or more",
-        "cameras[1].orthographic.zfar: 0 is not beyond znear"})
+       {"lights[0].intensity: -3 is clamped to 0", "lights[1]: a spot light without \"spot\"",
+        "cameras[0] \"near\".perspective.aspectRatio: 0 is not from",
+        "cameras[0] \"near\".perspective.znear: 0 is not above 0",
+        "cameras[0] \"near\".perspective.zfar: -1 is not beyond znear",
+        "cameras[1].orthographic.znear: -5 is not 0 or more", "cameras[1].orthographic.zfar: 0 is not beyond znear"})
     EXPECT_TRUE(warns(s, said)) << said << "\n" << fmt::format("{}", fmt::join(s.warnings, "\n"));
   // three.js writes both angles the same by default, and Blender for a blend of 0: nothing to speak of.
   EXPECT_FALSE(warns(s, "lights[0].spot"));

@@ -731,7 +731,8 @@ TEST(Layers, AreComparedBounceByBounce) {
 TEST(Layers, OfIntegersAreDecodedAsReferencesAre) {
   TemporaryFolder folder;
   const fs::path linear = layered(folder.path / "linear", {{"", .5f}}),
-                 shown = writeDisplay(folder.path / "shown", {16, 8}, std::vector<glm::u8vec4>(128, {188, 188, 188, 255}));
+                 shown =
+                     writeDisplay(folder.path / "shown", {16, 8}, std::vector<glm::u8vec4>(128, {188, 188, 188, 255}));
   const RunResult run = runIrad({"study", "compare", linear.string(), shown.string()});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.err, "shown.png holds integers and is decoded from sRGB")) << run.err;

@@ -166,8 +166,8 @@ void readContainer(Document& doc) {
   const uint64_t members = checkJson(doc);
   try {
     doc.root = std::make_unique<Json>(Json::parse(doc.json.begin(), doc.json.end()));
-    // Duplicate keys would make two readers see two scenes; the specification forbids them. The document has kept one of
-    // them, and so fewer members than the text has. Which key it is takes a pass of its own.
+    // Duplicate keys would make two readers see two scenes; the specification forbids them. The document has kept one
+    // of them, and so fewer members than the text has. Which key it is takes a pass of its own.
     if (membersOf(*doc.root) != members) {
       KeyWatch watch;
       Json::sax_parse(doc.json.begin(), doc.json.end(), &watch);

@@ -216,8 +216,8 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
   doc.take(uint64_t{count} * 2 * sizeof(SceneNode), "nodes");
   scene.nodes.reserve(count);
   std::vector<uint32_t> number(shown.size());
-  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones (their texts are the nodes'), with
-  // the next number to try, so that a thousand of one name do not ask a thousand times each.
+  // Of one parent's nodes each gets a name of its own: "leg", "leg 2". The taken ones (their texts are the nodes'),
+  // with the next number to try, so that a thousand of one name do not ask a thousand times each.
   std::unordered_map<NameUnder, int, NameUnder::Hash> taken;
   taken.reserve(count);
   for (size_t i = 0; i < shown.size(); ++i) {
@@ -268,7 +268,8 @@ Flattened flattenNodes(Document& doc, Scene& scene) {
   }
   std::vector<Shown> shown;  // in the order in which they are met: what lies under a node comes right behind it
   shown.reserve(doc.nodes.size());
-  out.instances.reserve(static_cast<size_t>(std::ranges::count_if(doc.nodes, [](const Node& n) { return n.mesh >= 0; })));
+  out.instances.reserve(
+      static_cast<size_t>(std::ranges::count_if(doc.nodes, [](const Node& n) { return n.mesh >= 0; })));
   std::vector<std::pair<int, uint32_t>> open;  // nodes, and their parents in that order
   const std::vector<int> roots = rootNodes(doc);
   for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.emplace_back(*it, SceneNode::kNoParent);

@@ -55,8 +55,8 @@ class Checker {
  private:
   Document& doc_;
   Json& root_;
-  std::vector<std::string> segments_;  ///< of the rule's path
-  size_t targets_ = 0;                 ///< elements of the array that the rule's indices point into
+  std::vector<std::string> segments_;                     ///< of the rule's path
+  size_t targets_ = 0;                                    ///< elements of the array that the rule's indices point into
   std::map<std::string, std::set<std::string>> members_;  ///< of the root's arrays: what their elements have
 
   /// Whether any element of the root's array `name` has this member: a rule about what none of 300,000 nodes has need
@@ -301,13 +301,12 @@ void checkVersion(const Document& doc) {
 }
 
 void checkExtensions(Document& doc) {
-  static const std::set<std::string> kSupported = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
-                                                   "KHR_texture_transform",      "KHR_mesh_quantization",
-                                                   "EXT_texture_webp",           "EXT_mesh_gpu_instancing",
-                                                   "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                   "KHR_meshopt_compression",    "KHR_materials_transmission",
-                                                   // Which gltf_materials.cpp warns of.
-                                                   "KHR_materials_pbrSpecularGlossiness"};
+  static const std::set<std::string> kSupported = {
+      "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
+      "EXT_texture_webp", "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+      "KHR_meshopt_compression", "KHR_materials_transmission",
+      // Which gltf_materials.cpp warns of.
+      "KHR_materials_pbrSpecularGlossiness"};
   // Effects the renderer has no term for: without them, the material stands in, and a warning says so.
   static const std::set<std::string> kApproximated = {
       "KHR_materials_unlit",     "KHR_materials_variants", "KHR_materials_ior",         "KHR_materials_specular",
@@ -450,12 +449,14 @@ void mendPlanes(Document& doc, const std::string& where, Json& lens, bool perspe
   const double far = perspective ? 0.0 : value("znear") + double{kMaxCoordinate};
   doc.warn(fmt::format("{}.zfar: {} is not beyond znear, {}; there is no limit then", where, lens.at("zfar").dump(),
                        lens.at("znear").dump()));
-  if (perspective) lens.erase("zfar");
-  else lens["zfar"] = far;
+  if (perspective)
+    lens.erase("zfar");
+  else
+    lens["zfar"] = far;
 }
 
-/// Equal angles, which the specification forbids, are what three.js writes of a spot by default, and Blender of one with
-/// a blend of 0: a hard edge.
+/// Equal angles, which the specification forbids, are what three.js writes of a spot by default, and Blender of one
+/// with a blend of 0: a hard edge.
 void checkCone(Document& doc, const std::string& where, Json& light) {
   if (!light.contains("spot")) {
     doc.warn(fmt::format("{}: a spot light without \"spot\"; its cone is the default one", where));
