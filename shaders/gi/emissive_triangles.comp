@@ -35,7 +35,7 @@ void main() {
     MaterialPoint p = materialPoint(push.scene, t, triangle, point);
     p.area = 0.25 * float(SAMPLES);  // filtered over four times what a point stands for
     if ((flags & MATERIAL_BLEND) != 0u)
-      sum += emittedRadianceAt(push.scene, p) * clamp(coverAt(push.scene, t, triangle, point, 1.0), 0.0, 1.0);
+      sum += emittedRadianceAt(push.scene, p) * clamp(coverAt(push.scene, t, triangle, point), 0.0, 1.0);
     else if (!masked(push.scene, t, triangle, flags, point)) sum += emittedRadianceAt(push.scene, p);
   }
   vec3 exitance = exitanceOf(sum / float(samples));

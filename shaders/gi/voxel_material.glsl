@@ -151,22 +151,14 @@ vec3 exitanceOf(vec3 radiance) {
   return exitance;
 }
 
-/// Alpha of a blended material, filtered over one of so many squares of a voxel's face.
-float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point, float squares) {
-  MaterialPoint p = materialPoint(scenes, t, triangle, point);
-  p.area *= squares;
-  return baseColorAt(scenes, p).a;
+/// Alpha of a blended material.
+float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point) {
+  return baseColorAt(scenes, materialPoint(scenes, t, triangle, point)).a;
 }
 
-/// Whether the material's alpha mask cuts the triangle away at `point`, filtered over one of so many squares of a
-/// voxel's face.
-bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point, float squares) {
+/// Whether the material's alpha mask cuts the triangle away at `point`.
+bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
   if (SAMPLES_TEXTURES == 0u || (flags & MATERIAL_ALPHA_MASK) == 0u) return false;
   MaterialPoint p = materialPoint(scenes, t, triangle, point);
-  p.area *= squares;
   return baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
-}
-
-bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
-  return masked(scenes, t, triangle, flags, point, 1.0);
 }
