@@ -131,7 +131,7 @@ void Acceleration::recordSums(Frame& frame, const char* stage, bool mixing, Swee
   Pass pass = frame.pass(stage);
   SolveSumsPush push{};
   const auto x = vectors();
-  uint64_t* const to[] = {&push.x0, &push.x1, &push.x2, &push.x3, &push.x4};
+  Vec4Array* const to[] = {&push.x0, &push.x1, &push.x2, &push.x3, &push.x4};
   for (size_t j = 0; mixing && j < x.size(); ++j) *to[j] = pass.in(*x[j]);
   push.indirect = pass.in(light_.indirect);
   push.area = pass.in(facets_.area);

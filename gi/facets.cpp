@@ -99,7 +99,8 @@ FacetArrays FacetList::arrays(const std::function<uint64_t(const Buffer&)>& addr
 FacetList makeFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
                      const std::function<void()>& watch) {
   requireMatching(settings);
-  if (settings.matrix.gpu.hitRule == HitRule::triangles) return listFacets(context, scene, shape, settings, watch);
+  if (settings.matrix.gpu.hitRule == HitRule::triangles)
+    return listFacets(context, scene, shape, settings, listsFaster(context.device), watch);
   Voxels voxels = voxelize(context, scene, settings);
   if (watch) watch();
   return compactFacets(context, voxels, settings);

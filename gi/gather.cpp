@@ -3,6 +3,9 @@
 
 #include "gi/facets.h"
 #include "gi/field.h"
+#include "gi/hits_on_host.h"
+#include "gi/host_pass.h"
+#include "gi/host_trace.h"
 #include "gi/lighting.h"
 #include "gi/ray_kernel.h"
 #include "gi/settings.h"
@@ -35,6 +38,16 @@ void gatherSurfels(Frame& frame, const SceneOnDevice& scene, const FacetList& fa
   pass.push(push).dispatch(uint64_t{facets.count} * FACET_SURFELS);
 }
 
+/// By the host's rays.
+void gatherOnHost(Context& context, const SceneOnDevice& scene, const FacetList& facets, const HostTrace& host,
+                  Lighting& light) {
+  timedOnHost(context, kGatherStage, [&] {
+    std::vector<glm::vec4> direct(facets.count);
+    host.direct(scene.shining, direct);
+    upload(context, light.direct, std::as_bytes(std::span(direct)));
+  });
+}
+
 /// Through the shadow maps.
 void gatherPlanes(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
                   Lighting& light, const Settings& settings) {
@@ -56,9 +69,13 @@ void gatherPlanes(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sh
 }  // namespace
 
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
-            const Field& field, Lighting& light, const Settings& settings) {
+            const Field& field, Lighting& light, const Settings& settings, bool onHost) {
   if (facets.count == 0) return;
-  if (facets.surface)
+  const HostTrace* host =
+      onHost ? hostTraceIfAny(frame.context(), facets, settings.matrix.gpu, kGatherStage) : nullptr;
+  if (host != nullptr)
+    gatherOnHost(frame.context(), scene, facets, *host, light);
+  else if (facets.surface)
     gatherSurfels(frame, scene, facets, field, light);
   else
     gatherPlanes(frame, scene, shadows, facets, light, settings);

@@ -12,7 +12,9 @@ struct Lighting;
 struct Settings;
 struct ShadowMaps;
 
+/// `onHost`: on CPU devices the host traces the rays, where this build can. At once, then: before what the frame has
+/// recorded.
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
-            const Field& field, Lighting& light, const Settings& settings);
+            const Field& field, Lighting& light, const Settings& settings, bool onHost = true);
 
 }  // namespace irad

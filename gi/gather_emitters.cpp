@@ -8,6 +8,7 @@
 #include "gi/facets.h"
 #include "gi/gather_emitters.h"
 #include "gi/hits_on_host.h"
+#include "gi/host_pass.h"
 #include "gi/host_trace.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"

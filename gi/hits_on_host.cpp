@@ -3,18 +3,13 @@
 #include <span>
 
 #include "gi/facets.h"
+#include "gi/host_pass.h"
 #include "gi/host_trace.h"
 #include "gi/ray_kernel.h"
 #include "renderer/frame/frame.h"
 #include "renderer/resources.h"
 
 namespace irad {
-
-void timedOnHost(Context& context, const char* stage, const std::function<void()>& work) {
-  const double began = context.timings.now();
-  work();
-  context.timings.add(stage, context.timings.now() - began);
-}
 
 const HostTrace* hostTraceIfAny(Context& context, const FacetList& facets, const MatrixParams& params,
                                 const char* stage) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 namespace irad {
 
@@ -12,9 +11,6 @@ class HostTrace;
 struct FacetList;
 struct MatrixParams;
 struct RayKernel;
-
-/// Work of the host, as the time of a stage.
-void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
 
 /// The host's own rays, for devices that are CPUs, where the hit rule and this build allow them; else null. They are
 /// kept with the list, since they go by its geometry alone: the first that asks makes them, and its `stage` has that

@@ -11,7 +11,7 @@
 namespace irad {
 namespace {
 
-/// surfelAt of gi/surface_point.glsl for all surfels.
+/// surfelAt of gi/surface_point.h for all surfels.
 std::vector<Surfel> hostSurfels(const oracle::Facets& facets, uint32_t count, const std::vector<uint32_t>& words,
                                 const std::vector<uint32_t>& wideSides) {
   std::vector<Surfel> surfels;

@@ -13,6 +13,7 @@
 #include "renderer/base/parallel.h"
 #include "renderer/frame/context.h"
 #include "renderer/resources.h"
+#include "shaders/forward/light.h"
 #include "shaders/shared/sky.h"
 #include "shaders/shared/solve.h"
 #include "shaders/shared/trace.h"
@@ -168,6 +169,12 @@ class EmbreeTrace : public HostTrace {
     parallelFor(facets_.voxel.size(), gather, threads, kBlock);
   }
 
+  void direct(std::span<const GpuLight> lights, std::span<glm::vec4> light, uint32_t threads) const override {
+    IRAD_CHECK_OP(light.size(), >=, facets_.voxel.size());
+    const auto gather = [&](size_t f) { light[f] = {directOf(lights, static_cast<uint32_t>(f)), 0}; };
+    parallelFor(facets_.voxel.size(), gather, threads, kBlock);
+  }
+
   void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const override {
     IRAD_CHECK_OP(hits.size(), >=, rays.size());
     for (size_t first = 0; first < rays.size(); first += kPacket)
@@ -216,6 +223,69 @@ class EmbreeTrace : public HostTrace {
     }
   }
 
+  /// Rays towards light, which wait until a packet is full. `arrives` is called with what each brings, less what panes
+  /// keep off, if nothing is in its way: in turn.
+  template <class Arrives>
+  class LightRays {
+   public:
+    LightRays(const EmbreeTrace& trace, Arrives arrives) : trace_(trace), arrives_(std::move(arrives)) {}
+    /// `reach`: how far away the light is, voxels.
+    void add(const HostRay& ray, float reach, const glm::vec3& brings) {
+      rays_[waiting_] = ray;
+      before_[waiting_] = shortOf(reach);
+      brings_[waiting_++] = brings;
+      if (waiting_ == kPacket) send();
+    }
+    void send() {
+      if (waiting_ == 0) return;
+      Closed closed{};
+      const uint32_t open = trace_.reaching(std::span(rays_).first(waiting_), before_.data(), closed);
+      for (uint32_t i = 0; i < waiting_; ++i)
+        if ((open >> i & 1) != 0) arrives_(brings_[i] * openChannels(closed[i]));
+      waiting_ = 0;
+    }
+
+   private:
+    const EmbreeTrace& trace_;
+    Arrives arrives_;
+    std::array<HostRay, kPacket> rays_;
+    std::array<float, kPacket> before_;
+    std::array<glm::vec3, kPacket> brings_;
+    uint32_t waiting_ = 0;
+  };
+
+  /// gi/gather_surfels.comp.
+  glm::vec3 directOf(std::span<const GpuLight> lights, uint32_t facet) const {
+    const glm::uvec2 shift(hashUint(facet), hashUint(~facet));
+    const float edge = facets_.grid.edge;
+    glm::vec3 sum(0);
+    LightRays rays(*this, [&](const glm::vec3& brought) { sum += brought; });
+    for (uint32_t surfel = 0; surfel < FACET_SURFELS; ++surfel) {
+      const SurfelPoint from = liftedSurfel(facet, surfel);
+      const glm::vec3 position = facets_.grid.origin + edge * from.position;
+      const auto send = [&](const glm::vec3& direction, float reach, const glm::vec3& brings) {
+        rays.add({from.position, direction, from.triangle}, inVoxels(reach, edge), brings);
+      };
+      for (const GpuLight& light : lights) {
+        const glm::vec3 irradiance = lightIrradiance(light, position, from.facing);
+        if (irradiance == glm::vec3(0)) continue;
+        if (!hasSize(light)) {
+          send(lightDirection(light, position), lightReach(light, position), irradiance);
+          continue;
+        }
+        const uint32_t points = pointsForSurfels(light);
+        for (uint32_t k = surfel; k < points; k += FACET_SURFELS) {
+          float reach;
+          const glm::vec3 direction = lightPoint(light, position, k, points, shift, reach);
+          if (glm::dot(direction, from.facing) <= 0) continue;
+          send(direction, reach, irradiance * (float{FACET_SURFELS} / static_cast<float>(points)));
+        }
+      }
+    }
+    rays.send();
+    return sum / float{FACET_SURFELS};
+  }
+
   /// gi/sample_emitters.comp.
   glm::vec4 lightOf(const EmitterSamples& emitters, uint32_t facet) const {
     const uint32_t voxel = facets_.voxel[facet];
@@ -224,22 +294,10 @@ class EmbreeTrace : public HostTrace {
     const float each = 1.0f / static_cast<float>(emitters.samples);
     glm::vec3 sum(0);
     float squares = 0;
-    // Samples wait until a packet is full.
-    std::array<HostRay, kPacket> rays;
-    std::array<float, kPacket> before;
-    std::array<glm::vec3, kPacket> brings;
-    uint32_t waiting = 0;
-    const auto send = [&] {
-      Closed closed{};
-      const uint32_t open = reaching(std::span(rays).first(waiting), before.data(), closed);
-      for (uint32_t i = 0; i < waiting; ++i) {
-        if ((open >> i & 1) == 0) continue;
-        const glm::vec3 brought = brings[i] * openChannels(closed[i]);
-        sum += brought;
-        squares += glm::dot(brought, brought);
-      }
-      waiting = 0;
-    };
+    LightRays rays(*this, [&](const glm::vec3& brought) {
+      sum += brought;
+      squares += glm::dot(brought, brought);
+    });
     for (uint32_t k = 0; k < emitters.samples; ++k) {
       float x;
       const uint32_t emitter =
@@ -254,12 +312,10 @@ class EmbreeTrace : public HostTrace {
           std::max(glm::dot(start.facing, direction), 0.0f) * std::max(-glm::dot(to.facing, direction), 0.0f);
       if (cosines == 0) continue;
       const glm::vec3 exitance = emitters.exitance[emitter];
-      rays[waiting] = {start.position, direction, start.triangle};
-      before[waiting] = shortOf(reach);
-      brings[waiting++] = exitance * (cosines * emitters.power / (luminance(exitance) * IRAD_PI * reach * reach));
-      if (waiting == kPacket) send();
+      rays.add({start.position, direction, start.triangle}, reach,
+               exitance * (cosines * emitters.power / (luminance(exitance) * IRAD_PI * reach * reach)));
     }
-    if (waiting > 0) send();
+    rays.send();
     const glm::vec3 mean = sum * each;
     return {mean, each * std::max(squares * each - glm::dot(mean, mean), 0.0f)};
   }

@@ -11,6 +11,7 @@
 
 #include "shaders/shared/emitters.h"
 #include "shaders/shared/gi_params.h"
+#include "shaders/shared/scene_gpu.h"
 
 namespace irad {
 
@@ -42,6 +43,8 @@ class HostTrace {
   /// Per facet: the light that samples of the emitters bring, W/m^2, and (w) its variance, as the kernel without near
   /// emitters (shaders/gi/sample_emitters.comp). `threads`: as above.
   virtual void emitters(const EmitterSamples& from, std::span<glm::vec4> light, uint32_t threads = 0) const = 0;
+  /// Per facet: what lights bring it straight, W/m^2, averaged over its surfels (shaders/gi/gather_surfels.comp).
+  virtual void direct(std::span<const GpuLight> lights, std::span<glm::vec4> light, uint32_t threads = 0) const = 0;
   /// What rays from anywhere meet, one after the other: a facet or TRACE_*. For several threads at once.
   virtual void rays(std::span<const HostRay> rays, std::span<uint32_t> hits) const = 0;
 };

@@ -80,7 +80,9 @@ void lightByEmitters(Frame& frame, const ViewInputs& inputs, const Settings& set
       .push(push)
       .dispatch(targets.size);
   Pass light = frame.pass("RE Emitters");
-  push.facets = push.surface = push.chebyshev = 0;
+  push.facets = 0;
+  push.surface = 0;
+  push.chebyshev = 0;
   push.triangles = light.in(emissive.triangles);
   light.shader("gi/emitters_light.comp")
       .read(targets.linear, targets.normal, targets.geometric, targets.seen)

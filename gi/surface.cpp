@@ -9,10 +9,12 @@
 #include "gi/facets.h"
 #include "gi/grid.h"
 #include "gi/group_by_material.h"
+#include "gi/host_pass.h"
 #include "gi/scan.h"
 #include "gi/scene_shape.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
+#include "gi/surface_on_host.h"
 #include "gi/voxel_pass.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/record.h"
@@ -53,6 +55,40 @@ struct Points {
   Buffer wideStart;   ///< likewise, of the facets whose surfels' sides take more than a byte
   uint32_t wide = 0;  ///< of these
 };
+
+/// As far as the surface has got. `addressOf`: a RecordMaker's of(), or a HostPass's in().
+SurfaceArrays surfaceArrays(const FacetList& list, const auto& addressOf) {
+  const Surface& s = list.surface;
+  SurfaceArrays arrays{};
+  arrays.corners = addressOf(s.corners);
+  if (s.pieces) {
+    arrays.pieces = addressOf(s.pieces);
+    arrays.boxes = addressOf(s.boxes);
+    arrays.groups = addressOf(s.groups);
+    arrays.sides = addressOf(s.sides);
+    arrays.cuts = addressOf(s.cuts);
+  }
+  if (s.surfels) {
+    arrays.firstPiece = addressOf(s.firstPiece);
+    arrays.voxel = addressOf(list.voxel);
+    arrays.surfels = addressOf(s.surfels);
+    arrays.wideSides = addressOf(s.wideSides);
+    arrays.area = addressOf(list.area);
+  }
+  if (s.links) {
+    arrays.linkMasks = addressOf(s.linkMasks);
+    arrays.firstLinks = addressOf(s.firstLinks);
+    arrays.links = addressOf(s.links);
+  }
+  return arrays;
+}
+
+void makeRecord(Context& context, FacetList& list) {
+  RecordMaker record(context, "surface record", Subsystem::Facets, sizeof(SurfaceArrays));
+  SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& buffer) { return record.of(buffer); });
+  if (list.outer) arrays.outer = record.of(list.outer.record);
+  list.surface.record = record.make(arrays);
+}
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
 void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, const Buffer& corners,
@@ -231,15 +267,62 @@ void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid,
   frame.submitAndWait();
 }
 
-constexpr uint32_t kListWorkgroup = 64;
-/// Invocations that share the work of a crowd with few points.
-uint32_t listWorkgroup(const Device& device) {
-  return device.isCpu ? std::max(8u, device.subgroupSize) : kListWorkgroup;
+/// What the kernels that find classes take, or the host in their place; `pass`: a Pass or a HostPass.
+ClassPointsPush classPoints(auto& pass, const Pieces& pieces, const Points& p) {
+  ClassPointsPush push{};
+  push.solid = pass.in(pieces.voxel);
+  push.firstPiece = pass.in(pieces.first);
+  push.area = pass.in(pieces.area);
+  push.facings = pass.in(pieces.facings);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.points = pass.in(p.at);
+  push.classes = pass.accumulate(p.classes);
+  push.facets = pass.accumulate(p.facetStart);
+  push.wide = pass.accumulate(p.wideStart);
+  push.count = pieces.solid;
+  return push;
 }
 
-/// The points of all pieces, in `surface` the cuts of those that others stand on, and each point's facet.
-Points classifyPoints(Context& context, const Pieces& pieces, const Surface& surface, uint32_t& facets) {
+/// Each point's facet among those of its voxel, and how many facets each voxel has.
+void findClasses(Context& context, ListedBy by, const Pieces& pieces, const FacetList& list, const Points& p) {
+  if (by == ListedBy::host) {
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      classPointsOnHost(classPoints(pass, pieces, p), surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
+      pass.finish();
+    });
+    return;
+  }
+  const Buffer crowds = words(context.device, "voxels with many points", pieces.solid);
+  const Buffer crowdCount = words(context.device, "number of these", 1);
+  const auto push = [&](Pass& pass) {
+    ClassPointsPush push = classPoints(pass, pieces, p);
+    push.surface = pass.in(list.surface.record);
+    push.crowds = pass.accumulate(crowds);
+    push.crowdCount = pass.accumulate(crowdCount);
+    return push;
+  };
+  {
+    Frame frame = context.begin();
+    frame.pass(kListStage).fill(crowdCount, 0);
+    Pass pass = frame.pass(kListStage);
+    pass.shader("gi/class_points.comp").push(push(pass)).dispatch(pieces.solid);
+    frame.submit();
+  }
+  const uint32_t found = downloadAs<uint32_t>(context, crowdCount).at(0);
+  if (found == 0) return;
+  Frame frame = context.begin();
+  Pass pass = frame.pass(kListStage);
+  ClassPointsPush ofCrowds = push(pass);
+  ofCrowds.count = found;
+  pass.shader("gi/class_crowd.comp").push(ofCrowds).dispatchWorkgroups(found);
+  frame.submit();
+}
+
+/// The points of all pieces, in the list's surface the cuts of those that others stand on, and each point's facet.
+Points classifyPoints(Context& context, ListedBy by, const Pieces& pieces, const FacetList& list, uint32_t& facets) {
   const Device& device = context.device;
+  const Surface& surface = list.surface;
   Points p;
   p.at = Buffer(device, "pieces' points", Subsystem::Facets, sizeof(PiecePoint) * uint64_t{pieces.points});
   p.classes = words(device, "points' facets", pieces.points);
@@ -247,32 +330,8 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
   p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
   p.wideStart = words(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
   const Buffer total = words(device, "facets", 1), wide = words(device, "wide facets", 1);
-  const Buffer crowds = words(device, "voxels with many points", pieces.solid);
-  const Buffer crowdCounts = words(device, "numbers of these", 2);
-  // Few points leave most of a workgroup without work, which the CPU driver goes through all the same; how many rounds
-  // it allows the loops of an invocation sets an end to how many points each may have.
-  const uint32_t width = listWorkgroup(device),
-                 few = width < kListWorkgroup ? MOST_COMPARED / kListWorkgroup * width : 0;
-  ClassPointsPush push{};
-  const auto classify = [&](Frame& frame) {
-    Pass pass = frame.pass(kListStage);
-    push.solid = pass.in(pieces.voxel);
-    push.firstPiece = pass.in(pieces.first);
-    push.surface = pass.in(surface.record);
-    push.area = pass.in(pieces.area);
-    push.facings = pass.in(pieces.facings);
-    push.firstPoint = pass.in(pieces.firstPoint);
-    push.points = pass.in(p.at);
-    push.classes = pass.accumulate(p.classes);
-    push.facets = pass.accumulate(p.facetStart);
-    push.wide = pass.accumulate(p.wideStart);
-    push.crowds = pass.accumulate(crowds);
-    push.crowdCounts = pass.accumulate(crowdCounts);
-    return pass;
-  };
   {
     Frame frame = context.begin();
-    frame.pass(kListStage).fill(crowdCounts, 0);
     Pass pass = frame.pass(kListStage);
     PiecePointsPush points{};
     points.pieceVoxel = pass.in(pieces.pieceVoxel);
@@ -291,25 +350,10 @@ Points classifyPoints(Context& context, const Pieces& pieces, const Surface& sur
         .constant(CONSTANT_CLIPS_SHARED, device.isCpu)
         .push(points)
         .dispatch(pieces.count);
-    push.few = few;
-    push.count = pieces.solid;
-    classify(frame).shader("gi/class_points.comp").push(push).dispatch(pieces.solid);
-    frame.submitAndWait();
+    frame.submit();
   }
-  const std::vector<uint32_t> found = downloadAs<uint32_t>(context, crowdCounts);
+  findClasses(context, by, pieces, list, p);
   Frame frame = context.begin();
-  const auto classifyCrowds = [&](uint32_t first, uint32_t count, uint32_t workgroup) {
-    if (count == 0) return;
-    push.first = first;
-    push.count = count;
-    classify(frame)
-        .shader("gi/class_crowd.comp")
-        .constant(CONSTANT_LIST_WORKGROUP, workgroup)
-        .push(push)
-        .dispatchWorkgroups(count);
-  };
-  classifyCrowds(0, found[0], width);
-  classifyCrowds(pieces.solid - found[1], found[1], kListWorkgroup);
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
   scanToEnd(frame, p.wideStart, pieces.solid, wide, p.wide);
   frame.submitAndWait();
@@ -370,37 +414,62 @@ void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces
   frame.submitAndWait();
 }
 
+/// What the kernel that finds links takes, or the host in its place; `pass`: a Pass or a HostPass.
+LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& facings, const Buffer& found) {
+  LinkFacetsPush push{};
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.facings = pass.in(facings);
+  push.found = pass.accumulate(found);
+  push.masks = pass.accumulate(list.surface.linkMasks);
+  push.counts = pass.accumulate(list.surface.firstLinks);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  return push;
+}
+
+/// Which facets of the voxels around each facet continue its surface, and how many. `at`: room for its surfels.
+void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& at,
+               const Buffer& found) {
+  const Surface& surface = list.surface;
+  if (by == ListedBy::host) {
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      LinkFacetsPush push = facetsToLink(pass, list, facings, found);
+      push.points = pass.in(at);
+      linkFacetsOnHost(push, surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
+      pass.finish();
+    });
+    return;
+  }
+  Frame frame = context.begin();
+  Pass surfels = frame.pass(kListStage);
+  LinkPointsPush points{};
+  points.surface = surfels.in(surface.record);
+  points.reverse = surfels.in(list.reverse);
+  points.points = surfels.out(at);
+  points.dims = list.grid.dims;
+  points.count = list.count;
+  surfels.shader("gi/link_points.comp").push(points).dispatch(uint64_t{FACET_SURFELS} * list.count);
+  Pass pass = frame.pass(kListStage);
+  LinkFacetsPush push = facetsToLink(pass, list, facings, found);
+  push.surface = pass.in(surface.record);
+  push.points = pass.in(at);
+  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
+  frame.submit();
+}
+
 /// Which facets continue the surface of which: masks and, where `list` says that each facet's begin, links.
-void linkFacets(Context& context, FacetList& list, const Buffer& facings) {
+void linkFacets(Context& context, ListedBy by, FacetList& list, const Buffer& facings) {
   Surface& surface = list.surface;
   const Device& device = context.device;
   const Buffer found(device, "links as found", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
   const Buffer at(device, "surfels to link", Subsystem::Facets, sizeof(glm::vec4) * FACET_SURFELS * list.count);
   const Buffer total = words(device, "links", 1);
+  findLinks(context, by, list, facings, at, found);
   uint32_t links = 0;
   {
     Frame frame = context.begin();
-    Pass surfels = frame.pass(kListStage);
-    LinkPointsPush points{};
-    points.surface = surfels.in(surface.record);
-    points.reverse = surfels.in(list.reverse);
-    points.points = surfels.out(at);
-    points.dims = list.grid.dims;
-    points.count = list.count;
-    surfels.shader("gi/link_points.comp").push(points).dispatch(uint64_t{FACET_SURFELS} * list.count);
-    Pass pass = frame.pass(kListStage);
-    LinkFacetsPush push{};
-    push.surface = pass.in(surface.record);
-    push.voxel = pass.in(list.voxel);
-    push.reverse = pass.in(list.reverse);
-    push.facings = pass.in(facings);
-    push.points = pass.in(at);
-    push.found = pass.out(found);
-    push.masks = pass.out(surface.linkMasks);
-    push.counts = pass.out(surface.firstLinks);
-    push.dims = list.grid.dims;
-    push.count = list.count;
-    pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
     scanToEnd(frame, surface.firstLinks, list.count, total, links);
     frame.submitAndWait();
   }
@@ -417,35 +486,6 @@ void linkFacets(Context& context, FacetList& list, const Buffer& facings) {
   frame.submitAndWait();
 }
 
-void makeRecord(Context& context, FacetList& list) {
-  Surface& s = list.surface;
-  RecordMaker record(context, "surface record", Subsystem::Facets, sizeof(SurfaceArrays));
-  SurfaceArrays arrays{};
-  arrays.corners = record.of(s.corners);
-  // As far as the surface has got.
-  if (s.pieces) {
-    arrays.pieces = record.of(s.pieces);
-    arrays.boxes = record.of(s.boxes);
-    arrays.groups = record.of(s.groups);
-    arrays.sides = record.of(s.sides);
-    arrays.cuts = record.of(s.cuts);
-  }
-  if (s.surfels) {
-    arrays.firstPiece = record.of(s.firstPiece);
-    arrays.voxel = record.of(list.voxel);
-    arrays.surfels = record.of(s.surfels);
-    arrays.wideSides = record.of(s.wideSides);
-    arrays.area = record.of(list.area);
-  }
-  if (s.links) {
-    arrays.linkMasks = record.of(s.linkMasks);
-    arrays.firstLinks = record.of(s.firstLinks);
-    arrays.links = record.of(s.links);
-  }
-  if (list.outer) arrays.outer = record.of(list.outer.record);
-  s.record = record.make(arrays);
-}
-
 /// A list that is still to be shaded, and its parts.
 struct Listed {
   FacetList list;
@@ -454,7 +494,7 @@ struct Listed {
 };
 
 Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
-                   const std::function<void()>& watch = {}) {
+                   ListedBy by, const std::function<void()>& watch = {}) {
   const auto look = [&] {
     if (watch) watch();
   };
@@ -506,7 +546,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
   Points points;
   findMasks(context, scene, grid, pieces, surface);
   look();
-  if (pieces.solid > 0) points = classifyPoints(context, pieces, surface, list.count);
+  if (pieces.solid > 0) points = classifyPoints(context, by, pieces, list, list.count);
   look();
   pieces.facings = Buffer();
   allocateFacets(device, list);
@@ -525,7 +565,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
     const Buffer facings = words(device, "facings of facets", 3ull * list.count);
     fillFacets(context, grid, pieces, points, list, facings);
     look();
-    linkFacets(context, list, facings);
+    linkFacets(context, by, list, facings);
     makeRecord(context, list);
   }
   listed.parts = {.pieces = pieces.count,
@@ -591,9 +631,13 @@ uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& sc
   return downloadAs<uint32_t>(context, clamped).at(0);
 }
 
+ListedBy listsFaster(const Device& device) {
+  return device.isCpu ? ListedBy::host : ListedBy::kernels;
+}
+
 FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
-                     const std::function<void()>& watch) {
-  Listed listed = listSurface(context, scene, shape, settings, watch);
+                     ListedBy by, const std::function<void()>& watch) {
+  Listed listed = listSurface(context, scene, shape, settings, by, watch);
   if (watch) watch();
   FacetList& facets = listed.list;
   if (facets.count > 0)
@@ -603,7 +647,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneSh
 }
 
 FacetParts listParts(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings) {
-  return std::move(listSurface(context, scene, shape, settings).parts);
+  return std::move(listSurface(context, scene, shape, settings, listsFaster(context.device)).parts);
 }
 
 }  // namespace irad

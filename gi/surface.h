@@ -8,6 +8,7 @@
 namespace irad {
 
 class Context;
+class Device;
 class SceneOnDevice;
 struct FacetList;
 struct SceneShape;
@@ -32,10 +33,15 @@ struct FacetParts {
   explicit operator bool() const { return static_cast<bool>(solid); }
 };
 
+/// Who finds which points make up a facet, and links: kernels, or the host in their place (gi/surface_on_host.h), which
+/// finds the same.
+enum class ListedBy { kernels, host };
+/// By whom it takes less time.
+ListedBy listsFaster(const Device& device);
 /// The list of facets by classes of surfels: as many in a voxel as its surface has sides. `watch`: as makeFacets has
 /// it.
 FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings,
-                     const std::function<void()>& watch = {});
+                     ListedBy by, const std::function<void()>& watch = {});
 /// The parts of the list that listFacets() makes: it does not keep them, since they are larger than itself and only
 /// edits of materials ask for them again.
 FacetParts listParts(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings);

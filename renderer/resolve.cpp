@@ -28,7 +28,8 @@ void listPixels(Frame& frame, const SceneOnDevice& scene, Targets& targets) {
   frame.pass("RE Forward").fill(targets.pixelLists, 0);
   overPicture(/*write*/ false);
   Pass place = frame.pass("RE Forward");
-  push.scene = push.visible = 0;
+  push.scene = 0;
+  push.visible = 0;
   push.lists = place.out(targets.pixelLists);
   place.shader("forward/place_lists.comp").push(push).dispatch(materials);
   overPicture(/*write*/ true);

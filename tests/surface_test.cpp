@@ -59,6 +59,26 @@ class SurfaceTest : public GiTest {
     for (auto& [k, sum] : sums) sum.first /= sum.second;
     return sums;
   }
+  FacetList listedBy(ListedBy by, const World& w) {
+    return listFacets(context(), *w.device, shapeOf(*w.scene, w.settings), w.settings, by);
+  }
+  /// To the bit.
+  void expectSame(const FacetList& a, const FacetList& b) {
+    const auto bytes = [&](const Buffer& buffer) { return download(context(), buffer); };
+    ASSERT_EQ(a.count, b.count);
+    const Surface &s = a.surface, &t = b.surface;
+    EXPECT_EQ(bytes(a.voxel), bytes(b.voxel));
+    EXPECT_EQ(bytes(a.shape), bytes(b.shape));
+    EXPECT_EQ(bytes(a.albedo), bytes(b.albedo));
+    EXPECT_EQ(bytes(a.area), bytes(b.area));
+    EXPECT_EQ(bytes(s.sides), bytes(t.sides));
+    EXPECT_EQ(bytes(s.cuts), bytes(t.cuts));
+    EXPECT_EQ(bytes(s.surfels), bytes(t.surfels));
+    EXPECT_EQ(bytes(s.wideSides), bytes(t.wideSides));
+    EXPECT_EQ(bytes(s.linkMasks), bytes(t.linkMasks));
+    EXPECT_EQ(bytes(s.firstLinks), bytes(t.firstLinks));
+    EXPECT_EQ(bytes(s.links), bytes(t.links));
+  }
   static constexpr uint32_t kPixels = 64;
   std::vector<glm::vec4> draw(Pipeline& pipeline, const glm::vec3& from, const glm::vec3& to, View view) {
     Camera camera;
@@ -463,19 +483,41 @@ TEST_F(SurfaceTest, TheSameListInRowsOfWorkgroups) {
   // As on a device whose dimension does not hold all groups of a long list; the last row has some too many.
   const Scene scene = furnishedRoom();
   const auto bytes = [&](const Buffer& b) { return download(context(), b); };
-  const World a = world(scene, triangles(24));
-  const uint32_t groups = (a.facets.count + LINK_FACETS - 1) / LINK_FACETS;
+  const World w = world(scene, triangles(24));
+  const FacetList& a = w.facets;
+  const uint32_t groups = (a.count + LINK_FACETS - 1) / LINK_FACETS;
   uint32_t limit = 5;
   while (foldedWorkgroups(groups, limit).x * foldedWorkgroups(groups, limit).y == groups) ++limit;
   uint32_t& most = const_cast<Device&>(context().device).limits.maxComputeWorkGroupCount[0];
   const uint32_t real = std::exchange(most, limit);
-  const World b = world(scene, triangles(24));
+  const FacetList b = listedBy(ListedBy::kernels, w);
   most = real;
-  EXPECT_EQ(bytes(a.facets.albedo), bytes(b.facets.albedo));
-  EXPECT_EQ(bytes(a.facets.surface.surfels), bytes(b.facets.surface.surfels));
-  EXPECT_EQ(bytes(a.facets.surface.linkMasks), bytes(b.facets.surface.linkMasks));
-  EXPECT_EQ(bytes(a.facets.surface.firstLinks), bytes(b.facets.surface.firstLinks));
-  EXPECT_EQ(bytes(a.facets.surface.links), bytes(b.facets.surface.links));
+  expectSame(a, b);
+}
+
+TEST_F(SurfaceTest, TheHostFindsWhatTheKernelsFind) {
+  // Voxels of a few pieces; balls of many, some of which are not compared; more sheets in a voxel than it may have facets;
+  // a pane.
+  const auto crowds = [] {
+    SceneBuilder b;
+    const uint32_t wall = b.material(glm::vec3(0.5f)),
+                   sheet = b.material(glm::vec3(0.7f), glm::vec3(0), /*doubleSided=*/true);
+    b.box({wall, wall, wall, wall, wall, wall}, glm::vec3(-1), glm::vec3(1), /*inward=*/true);
+    b.sphere(sheet, {0.1f, 0.1f, 0.1f}, 0.03f, /*inward=*/false, 48);
+    b.sphere(sheet, {-0.5f, 0.2f, 0.3f}, 0.08f, /*inward=*/false, 16);
+    for (int k = 0; k < 40; ++k) {
+      const float y = -0.6f + 0.004f * static_cast<float>(k), lean = 0.05f * static_cast<float>(k % 3);
+      b.quad(sheet, {-0.6, y, 0.5}, {0.2, y + lean, 0.5}, {0.2, y, -0.6}, {-0.6, y + lean, -0.6});
+    }
+    return b.finish("crowds");
+  };
+  const Scene scenes[] = {furnishedRoom(), crowds(), underAPane(/*mirror=*/false, /*glazed=*/true, /*tints=*/true)};
+  for (const Scene& scene : scenes)
+    for (const uint32_t resolution : {8u, 21u}) {
+      SCOPED_TRACE(fmt::format("{} at {}", scene.path.string(), resolution));
+      const World w = world(scene, triangles(resolution));
+      expectSame(listedBy(ListedBy::kernels, w), listedBy(ListedBy::host, w));
+    }
 }
 
 TEST_F(SurfaceTest, SurfelsLieOnTrianglesOfTheirVoxelThatFaceAsTheFacetDoes) {

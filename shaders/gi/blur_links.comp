@@ -3,7 +3,7 @@
 // each as much as it has area; by how much of what they differ by the noise of their rays accounts for.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/surface_point.glsl"
+#include "gi/surface_point.h"
 #include "shared/constants.h"
 layout(local_size_x = 64) in;
 layout(constant_id = CONSTANT_EMITTED) const bool EMITTED = true;        ///< F M too
@@ -24,7 +24,7 @@ void main() {
   for (uint i = 0u; i < 27u; ++i) {
     uint other = linkedFacet(surface, p.reverse, p.dims, links, i);
     if (other == NO_FACET) continue;
-    ivec3 step_ = ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
+    ivec3 step_ = stepTo(i);
     float weight = (step_.x == 0 ? 2.0 : 1.0) * (step_.y == 0 ? 2.0 : 1.0) * (step_.z == 0 ? 2.0 : 1.0) *
                    max(surface.area.at[other], 1e-6);
     vec3 h = p.indirect.at[other].xyz;

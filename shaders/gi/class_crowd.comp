@@ -1,9 +1,9 @@
 // As gi/class_points.comp, for voxels with many points: one workgroup each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/class_points.glsl"
-#include "shared/constants.h"
-layout(local_size_x = 64, local_size_x_id = CONSTANT_LIST_WORKGROUP) in;
+#include "gi/class_point.h"
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ClassPointsPush push; };
 
 shared uint next;
 shared uint leaders[LAST_CLASS + 1u];
@@ -15,12 +15,10 @@ shared uint opened, likelies;
 
 void main() {
   if (irad_workgroup() >= push.count) return;
-  uint voxel = push.crowds.at[push.first + irad_workgroup()];
+  uint voxel = push.crowds.at[irad_workgroup()];
   uint me = gl_LocalInvocationID.x;
   SurfaceArrays surface = push.surface.at[0];
-  vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
-  VoxelPieces pieces =
-      voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+  VoxelPieces pieces = piecesOfSolid(push, surface, voxel);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
   uint stride = (end - first + MOST_COMPARED - 1u) / MOST_COMPARED;
   uint step_ = stride * gl_WorkGroupSize.x;
@@ -32,7 +30,7 @@ void main() {
     barrier();
     bool any = false;
     for (uint i = from + me * stride; i < end && !any; i += step_) {
-      any = push.classes.at[i] == NO_CLASS && classPoint(surface, i).area >= least;
+      any = push.classes.at[i] == NO_CLASS && classPoint(push, surface, i).area >= least;
       if (any) atomicMin(next, i);
     }
     barrier();
@@ -47,7 +45,7 @@ void main() {
     }
     from = lead;  // none before it may lead
     if (me == 0u) leaders[classes] = lead;
-    SidePoint leader = classPoint(surface, lead).point;
+    SidePoint leader = classPoint(push, surface, lead).point;
     for (uint block = first; block < end; block += BLOCK * stride) {
       if (me == 0u) opened = likelies = 0u;
       barrier();
@@ -56,10 +54,10 @@ void main() {
         if (push.classes.at[i] == NO_CLASS && i != lead) open[atomicAdd(opened, 1u)] = i;
       barrier();
       for (uint q = me; q < opened; q += gl_WorkGroupSize.x)
-        if (mayContinue(leader.at, classPoint(surface, open[q]).point.at)) likely[atomicAdd(likelies, 1u)] = open[q];
+        if (mayContinue(leader.at, classPoint(push, surface, open[q]).point.at)) likely[atomicAdd(likelies, 1u)] = open[q];
       barrier();
       for (uint q = me; q < likelies; q += gl_WorkGroupSize.x)
-        if (sameSide(pieces, leader, classPoint(surface, likely[q]).point)) push.classes.at[likely[q]] = classes;
+        if (sameSide(pieces, leader, classPoint(push, surface, likely[q]).point)) push.classes.at[likely[q]] = classes;
       barrier();
     }
     if (me == 0u) push.classes.at[lead] = classes | CLASS_LEADER;
@@ -78,14 +76,14 @@ void main() {
   // Neighbours in the list are neighbours in the mesh: the others go with the next one that faces their way.
   for (uint i = first + me; stride > 1u && i < end; i += gl_WorkGroupSize.x) {
     if ((i - first) % stride == 0u || push.classes.at[i] != NO_CLASS) continue;
-    vec3 facing = classPoint(surface, i).point.at.facing;
+    vec3 facing = classPoint(push, surface, i).point.at.facing;
     uint compared = i - (i - first) % stride;
     for (uint k = 0u; k < 8u; ++k) {
       uint near = compared + (k % 2u == 0u ? -(k / 2u) * stride : (k / 2u + 1u) * stride);
       if (near < first || near >= end) continue;
       uint found = push.classes.at[near];
       if (found == NO_CLASS || isOfPart(found)) continue;
-      if (dot(classPoint(surface, near).point.at.facing, facing) < SAME_SIDE_COSINE) continue;
+      if (dot(classPoint(push, surface, near).point.at.facing, facing) < SAME_SIDE_COSINE) continue;
       push.classes.at[i] = found & ~CLASS_LEADER;
       break;
     }
@@ -95,10 +93,10 @@ void main() {
   if (classes <= LAST_CLASS || pieces.endLarge == pieces.end) return;
   for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) {
     if (push.classes.at[i] != NO_CLASS) continue;
-    vec3 facing = classPoint(surface, i).point.at.facing;
+    vec3 facing = classPoint(push, surface, i).point.at.facing;
     float most = 0.0;
     for (uint k = 0u; k < classes; ++k) {
-      float alike = dot(classPoint(surface, leaders[k]).point.at.facing, facing);
+      float alike = dot(classPoint(push, surface, leaders[k]).point.at.facing, facing);
       if (alike <= most) continue;
       most = alike;
       push.classes.at[i] = k;

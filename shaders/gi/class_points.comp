@@ -2,21 +2,18 @@
 // (docs/method.md 4). One invocation per voxel; gi/class_crowd.comp takes voxels with many points.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/class_points.glsl"
+#include "gi/class_point.h"
 layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ClassPointsPush push; };
 
 void main() {
   uint voxel = irad_index();
   if (voxel >= push.count) return;
   SurfaceArrays surface = push.surface.at[0];
-  vec3 cell = vec3(unpackVoxel(push.solid.at[voxel]));
-  VoxelPieces pieces =
-      voxelPieces(surface.corners, surface.pieces, surface.boxes, cell, push.firstPiece.at[voxel], push.firstPiece.at[voxel + 1u]);
+  VoxelPieces pieces = piecesOfSolid(push, surface, voxel);
   uint first = push.firstPoint.at[pieces.first], end = push.firstPoint.at[pieces.end];
   if (end - first > CROWD) {
-    bool few = end - first <= push.few;
-    uint place = atomicAdd(push.crowdCounts.at[few ? 0u : 1u], 1u);
-    push.crowds.at[few ? place : push.count - 1u - place] = voxel;
+    push.crowds.at[atomicAdd(push.crowdCount.at[0], 1u)] = voxel;
     return;
   }
   uint classes = 0u;
@@ -24,12 +21,12 @@ void main() {
   for (uint small = 0u; small < 2u; ++small) {
     for (uint i = first; i < end; ++i) {
       if (push.classes.at[i] != NO_CLASS) continue;
-      ClassPoint p = classPoint(surface, i);
+      ClassPoint p = classPoint(push, surface, i);
       if ((p.area < LEAST_FACET) != (small == 1u)) continue;
       uint found = NO_CLASS;
       for (uint j = first; j < end && found == NO_CLASS; ++j) {
         uint other = push.classes.at[j];
-        if ((other & CLASS_LEADER) != 0u && sameSide(pieces, classPoint(surface, j).point, p.point)) found = other & ~CLASS_LEADER;
+        if ((other & CLASS_LEADER) != 0u && sameSide(pieces, classPoint(push, surface, j).point, p.point)) found = other & ~CLASS_LEADER;
       }
       if (found == NO_CLASS && (small == 0u ? classes <= LAST_CLASS : classes == 0u)) found = CLASS_LEADER | classes++;
       push.classes.at[i] = found;

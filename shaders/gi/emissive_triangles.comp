@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
 #include "voxel_material.glsl"
-#include "gi/triangle_hit.glsl"
+#include "gi/triangle_hit.h"
 #include "shared/pixel_emitters.h"
 #include "shared/sampling.h"
 layout(local_size_x = 64) in;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/facet_points.glsl"
-#include "gi/surface_point.glsl"
+#include "gi/surface_point.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FacetMeanPush push; };
 

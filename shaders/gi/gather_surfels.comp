@@ -27,8 +27,7 @@ vec3 gathered(uint facet, uint surfel) {
     GpuLight light = scene.lights.at[i];
     vec3 irradiance = lightIrradiance(light, position, from.facing);
     if (irradiance == vec3(0.0f)) continue;
-    uint points = (light.points + FACET_SURFELS - 1u) / FACET_SURFELS * FACET_SURFELS;
-    vec3 share = lightShare(world, surface, from, light, position, p.edge, surfel, FACET_SURFELS, points, shift);
+    vec3 share = lightShare(world, surface, from, light, position, p.edge, surfel, FACET_SURFELS, pointsForSurfels(light), shift);
     if (share != vec3(0.0f)) sum += irradiance * share;
   }
   return sum;

@@ -3,7 +3,7 @@
 // the nearest one of the other nothing is in between.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/beside.glsl"
+#include "gi/links.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 
@@ -11,7 +11,6 @@ layout(push_constant, scalar) uniform Push { LinkFacetsPush push; };
 // has to be looked at, so that all invocations take turns at those that do: one facet of each place a round. What is kept
 // of a place is packed: the fewer bytes a workgroup has, the more of them there are at a time.
 const uint PLACES = 27u * LINK_FACETS;
-const uint NOTHING_STANDS = 0xFFFFu;
 shared uint sides[LINK_FACETS];                        ///< triangle | SURFEL_BACK of each facet
 shared vec3 facings[LINK_FACETS];
 shared vec3 surfels[LINK_FACETS][FACET_SURFELS];       ///< their positions
@@ -34,31 +33,11 @@ uint pairOf(uint place) { return (state[place] >> 8) & 0xFFu; }
 void setPair(uint place, uint pair) { state[place] = (state[place] & ~0xFF00u) | (pair << 8); }
 float apartOf(uint place) { return uintBitsToFloat(wholeOrApart[place]); }
 
-/// The facet of a side of a triangle in a voxel, counted from the first; NO_LINK where others stand on it, or it is too
-/// small to have one; NOTHING_STANDS where the triangle has no piece.
-uint wholePiece(SurfaceArrays surface, uint entry, uint side) {
-  if (entry == NO_FACET) return NOTHING_STANDS;
-  uint piece = pieceIn(piecesOf(surface, entry), side & ~SURFEL_BACK);
-  if (piece == NO_PIECE) return NOTHING_STANDS;
-  uint of = surface.sides.at[piece];
-  if ((of & PIECE_CUT) != 0u) return NO_LINK;
-  uint found = ((side & SURFEL_BACK) != 0u ? of >> 8 : of) & 0xFFu;
-  return found < PIECE_UNKNOWN ? found : NO_LINK;
-}
-
-ivec3 stepOf(uint place) {
-  uint i = place % 27u;
-  return ivec3(i % 3u, (i / 3u) % 3u, i / 9u) - 1;
-}
-
 /// Whether the facet's triangle goes on into the voxel at `step_`: nothing stands on it in any voxel of the block between
 /// them, which is convex.
 bool goesOn(uint own, ivec3 step_) {
-  for (int corner = 0; corner < 8; ++corner) {
-    ivec3 part = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-    ivec3 at = part * step_ + 1;
-    if (all(equal(part * abs(step_), part)) && wholeOrApart[27u * own + at.x + 3 * at.y + 9 * at.z] == NO_LINK) return false;
-  }
+  for (uint corner = 0u; corner < 8u; ++corner)
+    if (wholeOrApart[27u * own + blockPlace(corner, step_)] == NO_LINK) return false;
   return true;
 }
 
@@ -66,7 +45,7 @@ bool goesOn(uint own, ivec3 step_) {
 uint nextAlike(uint place, uint k) {
   uint entry = entries[place];
   for (; k < facetsOf(entry); ++k) {
-    if (dot(facings[place / 27u], push.facings.at[firstFacet(entry) + k]) >= SAME_SIDE_COSINE) break;
+    if (facesAlike(facings[place / 27u], push.facings.at[firstFacet(entry) + k])) break;
   }
   return k;
 }
@@ -103,8 +82,7 @@ uint otherFacet(uint place) { return firstFacet(entries[place]) + nextOf(place);
 /// Finds the surfels between which the way is to be, and whether there may be one that is nearer than the best.
 bool findPair(SurfaceArrays surface, uint place) {
   uint own = place / 27u, facet = LINK_FACETS * irad_workgroup() + own;
-  vec3 border = vec3(unpackVoxel(push.voxel.at[facet])) + 0.5 + 0.5 * vec3(stepOf(place));
-  uint nearest = ownSurfel(own, border);
+  uint nearest = ownSurfel(own, borderTo(push.voxel.at[facet], stepTo(place % 27u)));
   float apart;
   uint other = nearestOf(otherFacet(place), surfels[own][nearest], apart);
   setPair(place, nearest + FACET_SURFELS * other);
@@ -141,7 +119,7 @@ void main() {
   barrier();
   for (uint i = lane; i < places; i += gl_WorkGroupSize.x) {
     ivec3 voxel = ivec3(unpackVoxel(push.voxel.at[firstFacet_ + i / 27u]));
-    entries[i] = entryOf(push.reverse, push.dims, voxel + stepOf(i));
+    entries[i] = entryOf(push.reverse, push.dims, voxel + stepTo(i % 27u));
     wholeOrApart[i] = wholePiece(surface, entries[i], sides[i / 27u]);
   }
   barrier();
@@ -153,7 +131,7 @@ void main() {
     best[i] = 1e30;
     if (i == middle) setLink(i, inVoxel);
     else if (entries[i] != NO_FACET) {
-      if (wholeOrApart[middle] == inVoxel && goesOn(own, stepOf(i))) setLink(i, min(wholeOrApart[i], NO_LINK));
+      if (wholeOrApart[middle] == inVoxel && goesOn(own, stepTo(i % 27u))) setLink(i, min(wholeOrApart[i], NO_LINK));
       if (linkOf(i) == NO_LINK) setNext(i, nextAlike(i, 0u));
     }
   }

@@ -1,7 +1,7 @@
 // Where each surfel lies and how far above it ways begin, for gi/link_facets.comp: every facet around asks for them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/beside.glsl"
+#include "gi/beside.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { LinkPointsPush push; };
 

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_clip.glsl"
-#include "gi/triangle_hit.glsl"
+#include "gi/triangle_hit.h"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ListPiecesPush push; };

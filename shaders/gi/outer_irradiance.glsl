@@ -1,5 +1,5 @@
 // Indirect light outside the grid (docs/method.md 7): from the points of the triangle that is seen, linearly between them.
-#include "gi/surface_point.glsl"
+#include "gi/surface_point.h"
 
 /// Whether a point has no voxel, and light by points.
 bool beyondGrid(SurfaceArrays surface, uvec3 dims, vec3 p) {

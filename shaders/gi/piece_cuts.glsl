@@ -2,7 +2,7 @@
 // stand on it cut a piece into parts, and nothing stands between two points of one part (docs/method.md 4).
 #ifndef IRAD_PIECE_CUTS_GLSL
 #define IRAD_PIECE_CUTS_GLSL
-#include "gi/triangle_hit.glsl"
+#include "gi/triangle_hit.h"
 #include "shared/surface.h"
 
 const uint NO_PART = 0xFFFFu;

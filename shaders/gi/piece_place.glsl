@@ -1,7 +1,7 @@
 // Points of the part of a triangle in a voxel, uniform over its area.
 #ifndef IRAD_PIECE_PLACE_GLSL
 #define IRAD_PIECE_PLACE_GLSL
-#include "gi/triangle_hit.glsl"
+#include "gi/triangle_hit.h"
 #include "gi/voxel_clip.glsl"
 #include "shared/sampling.h"
 

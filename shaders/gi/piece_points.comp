@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gi/piece_cuts.glsl"
 #include "gi/piece_place.glsl"
-#include "gi/seen_in_voxel.glsl"
+#include "gi/seen_in_voxel.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PiecePointsPush push; };
 

@@ -1,7 +1,7 @@
 // The area and box of every piece, how many others stand on it, and how many points it needs to tell facets apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/seen_in_voxel.glsl"
+#include "gi/seen_in_voxel.h"
 #include "gi/voxel_clip.glsl"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;

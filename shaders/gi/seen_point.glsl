@@ -22,8 +22,7 @@ bool reaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, vec3 dir
 #ifdef IRAD_FORWARD_LIGHT_GLSL
 /// Whether a light reaches a lifted point, `position` in local space; `edge`: of a voxel.
 bool lightReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from, GpuLight light, vec3 position, float edge) {
-  float reach = lightHas(light, LIGHT_DISTANT) ? 1e30 : length(light.position - position) / edge;
-  return reaches(world, surface, from, lightDirection(light, position), reach);
+  return reaches(world, surface, from, lightDirection(light, position), inVoxels(lightReach(light, position), edge));
 }
 
 /// Whether point k of n of a light with a size reaches a lifted point. What lies below the surface's horizon does not.
@@ -32,7 +31,7 @@ bool lightPointReaches(TraceWorld world, SurfaceArrays surface, SurfelPoint from
   float reach;
   vec3 direction = lightPoint(light, position, k, n, shift, reach);
   return dot(direction, from.facing) > 0.0 &&
-         reaches(world, surface, from, direction, reach < 1e30 ? reach / edge : reach);
+         reaches(world, surface, from, direction, inVoxels(reach, edge));
 }
 
 /// The share of points first, first + step ... of n of a light with a size that reach a lifted point, of all that it has.

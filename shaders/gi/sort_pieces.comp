@@ -1,7 +1,7 @@
 // Sorts the pieces of each solid voxel: one workgroup per voxel. Where there are many, the small ones come last.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/seen_in_voxel.glsl"
+#include "gi/seen_in_voxel.h"
 #include "gi/voxel_clip.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { SortPiecesPush push; };

@@ -2,7 +2,7 @@
 // continue it in the voxels around, trilinearly, each as much as it has area. No light comes in from another side.
 #ifndef IRAD_SURFACE_LOOKUP_GLSL
 #define IRAD_SURFACE_LOOKUP_GLSL
-#include "gi/beside.glsl"
+#include "gi/beside.h"
 #include "gi/piece_cuts.glsl"
 #include "shared/gi_params.h"
 

@@ -1,8 +1,8 @@
 // Hit rule `triangles` (docs/method.md 5): a ray is met by the first triangle of the scene. Cells that hold none are
 // stepped over; in a solid cell its pieces' triangles are asked. Included by gi/trace.glsl.
 #include "gi/piece_cuts.glsl"
-#include "gi/triangle_hit.glsl"
-#include "gi/surface_point.glsl"
+#include "gi/triangle_hit.h"
+#include "gi/surface_point.h"
 #include "shared/surface.h"
 
 /// Ray k of a facet: from one of its surfels, lifted off the triangle.

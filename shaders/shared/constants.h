@@ -20,7 +20,6 @@ IRAD_CONST uint CONSTANT_FEW_RAYS = 26u;        ///< gi/waiting_rays.glsl
 IRAD_CONST uint CONSTANT_RESUMES = 27u;         ///< gi/trace_triangle_rays.comp
 IRAD_CONST uint CONSTANT_TINTED = 25u;          ///< rows tell what panes on the way have let through (openChannels)
 IRAD_CONST uint CONSTANT_OUTER = 56u;          ///< there are triangles outside the grid
-IRAD_CONST uint CONSTANT_LIST_WORKGROUP = 57u;   ///< gi/class_crowd.comp: its size
 IRAD_CONST uint CONSTANT_SKY = 24u;             ///< there is a sky: of whatever knows one
 
 // The matrix and what is made of it.

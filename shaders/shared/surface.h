@@ -367,10 +367,8 @@ struct ClassPointsPush {
   UintArray classes;     ///< per point
   UintArray facets;      ///< per solid voxel: how many
   UintArray wide;        ///< the same where there are more than MOST_NARROW pieces; else 0
-  UintArray crowds;      ///< voxels that have more points than CROWD: those with `few` at most from the first place on,
-                         ///< the others from the last one back
-  UintArray crowdCounts; ///< how many of either
-  uint few, first;       ///< class_crowd: of the crowds that it takes
+  UintArray crowds;      ///< voxels that have more points than CROWD
+  UintArray crowdCount;  ///< [0]: how many
   uint count, pad;       ///< solid voxels; class_crowd: crowds
 };
 /// Voxels with more points have a workgroup each, which compares about MOST_COMPARED of them; the others go with those.

@@ -9,12 +9,21 @@
 #include <glm/glm.hpp>
 
 namespace irad {
-using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
+using glm::bvec3, glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4;
 // GLSL's functions by GLSL's names: an unqualified abs(float) would be the C library's abs(int).
-using glm::abs, glm::acos, glm::atan, glm::clamp, glm::cos, glm::floor, glm::log, glm::max, glm::min, glm::pow, glm::sign, glm::sin, glm::sqrt,
+using glm::abs, glm::acos, glm::atan, glm::bitCount, glm::clamp, glm::cos, glm::findLSB, glm::floor, glm::log, glm::max, glm::min, glm::pow, glm::sign, glm::sin, glm::sqrt,
     glm::uintBitsToFloat;
 using uint = uint32_t;
+/// What GLSL knows as a pointer: the address of an array in the device's memory, for shaders alone; or in the host's, for
+/// functions of these headers that the host calls, which read and write p.at[i] as shaders do.
+template <class T>
+struct SharedArray {
+  T* at = nullptr;
+  SharedArray() = default;
+  SharedArray(uint64_t deviceAddress) : at(reinterpret_cast<T*>(deviceAddress)) {}
+  explicit SharedArray(T* hostArray) : at(hostArray) {}
+};
 }  // namespace irad
 
 #define IRAD_BEGIN namespace irad {
@@ -22,10 +31,11 @@ using uint = uint32_t;
 #define IRAD_FN inline
 #define IRAD_CONST inline constexpr
 #define IRAD_INOUT(type) type&
+/// No product may be fused into a sum. C++ is compiled for machines that cannot.
+#define IRAD_PRECISE
 /// A struct's members compare with ==.
 #define IRAD_EQUALITY(type) bool operator==(const type&) const = default;
-/// A device address of an array of `type`.
-#define IRAD_ARRAY(name, type, align) using name = uint64_t;
+#define IRAD_ARRAY(name, type, align) using name = SharedArray<type>;
 
 #else
 
@@ -44,6 +54,7 @@ using uint = uint32_t;
 #define IRAD_FN
 #define IRAD_CONST const
 #define IRAD_INOUT(type) inout type
+#define IRAD_PRECISE precise
 #define IRAD_EQUALITY(type)
 /// `name` is a pointer: name p; p.at[i] reads or writes element i. Addresses are multiples of `align`.
 #define IRAD_ARRAY(name, type, align) \

@@ -1,22 +1,23 @@
-// Which points of different voxels lie on the same side of the surface (gi/seen_in_voxel.glsl says it of one voxel).
-#ifndef IRAD_BESIDE_GLSL
-#define IRAD_BESIDE_GLSL
-#include "gi/seen_in_voxel.glsl"
-#include "gi/surface_point.glsl"
+// Which points of different voxels lie on the same side of the surface (gi/seen_in_voxel.h says it of one voxel).
+#ifndef IRAD_BESIDE_H
+#define IRAD_BESIDE_H
+#include "gi/seen_in_voxel.h"
+#include "gi/surface_point.h"
+IRAD_BEGIN
 
-VoxelPieces piecesOf(SurfaceArrays surface, uint entry) {
+IRAD_FN VoxelPieces piecesOf(SurfaceArrays surface, uint entry) {
   uint first = firstFacet(entry);
   return voxelPieces(surface.corners, surface.pieces, surface.boxes, vec3(unpackVoxel(surface.voxel.at[first])),
                      surface.firstPiece.at[first], surface.firstPiece.at[first + facetsOf(entry)]);
 }
 
-uint entryOf(UintArray reverse, uvec3 dims, ivec3 v) {
+IRAD_FN uint entryOf(UintArray reverse, uvec3 dims, ivec3 v) {
   if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(dims)))) return NO_FACET;
   return reverse.at[voxelIndex(uvec3(v), dims)];
 }
 
 /// Whether the segment crosses no triangle but two, in any of the voxels that it may pass.
-bool clearBetween(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 a, vec3 b, uint except1, uint except2) {
+IRAD_FN bool clearBetween(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 a, vec3 b, uint except1, uint except2) {
   ivec3 lo = ivec3(floor(min(a, b))), hi = ivec3(floor(max(a, b)));
   for (int z = lo.z; z <= hi.z; ++z)
     for (int y = lo.y; y <= hi.y; ++y)
@@ -28,14 +29,14 @@ bool clearBetween(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 a, 
 }
 
 /// How far above a surfel ways from it begin, in the voxel that holds it.
-float liftOf(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p) {
+IRAD_FN float liftOf(SurfaceArrays surface, UintArray reverse, uvec3 dims, SurfelPoint p) {
   uint entry = entryOf(reverse, dims, ivec3(floor(p.position)));
   return entry == NO_FACET ? ABOVE_SURFACE : clearAbove(piecesOf(surface, entry), p.position, p.facing, p.triangle);
 }
 
-bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from, SidePoint to) {
+IRAD_FN bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint from, SidePoint to) {
   SurfelPoint a = from.at, b = to.at;
-  vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0;
+  vec3 low = floor(min(a.position, b.position)), high = floor(max(a.position, b.position)) + 1.0f;
   SideWay way = wayBetween(surface.corners, low - AROUND_CELL, high + AROUND_CELL, a, b);
   if (!way.open) return false;
   SidePath path = pathOf(way, from, to);
@@ -48,9 +49,9 @@ bool continues(SurfaceArrays surface, UintArray reverse, uvec3 dims, SidePoint f
 }
 
 /// The surfel of a facet that is nearest to a point.
-SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out float distance2) {
+IRAD_FN SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, IRAD_INOUT(float) distance2) {
   FacetSurfels surfels = surfelsOf(surface, facet);
-  distance2 = 1e30;
+  distance2 = 1e30f;
   uint nearest = 0u;
   for (uint k = 0u; k < FACET_SURFELS; ++k) {
     vec3 d = surfelOf(surface, surfels, k).position - point;
@@ -61,4 +62,5 @@ SurfelPoint nearestSurfel(SurfaceArrays surface, uint facet, vec3 point, out flo
   return surfelOf(surface, surfels, nearest);
 }
 
+IRAD_END
 #endif

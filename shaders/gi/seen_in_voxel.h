@@ -1,9 +1,10 @@
 // Whether two points of surfaces in a voxel lie on the same side of them, so that one facet may stand for both
 // (docs/method.md 4): their normals are alike, and a way from one to the other crosses no piece of a triangle.
-#ifndef IRAD_SEEN_IN_VOXEL_GLSL
-#define IRAD_SEEN_IN_VOXEL_GLSL
-#include "gi/triangle_hit.glsl"
+#ifndef IRAD_SEEN_IN_VOXEL_H
+#define IRAD_SEEN_IN_VOXEL_H
+#include "gi/triangle_hit.h"
 #include "shared/surface.h"
+IRAD_BEGIN
 
 struct VoxelPieces {
   Vec4Array corners;
@@ -14,7 +15,7 @@ struct VoxelPieces {
 };
 
 /// The first of some of a voxel's pieces that is not before `piece`.
-uint pieceFrom(UintArray pieces, uint first, uint end, uint piece) {
+IRAD_FN uint pieceFrom(UintArray pieces, uint first, uint end, uint piece) {
   while (first < end) {
     uint middle = (first + end) / 2u;
     if (pieces.at[middle] < piece) first = middle + 1u;
@@ -23,25 +24,26 @@ uint pieceFrom(UintArray pieces, uint first, uint end, uint piece) {
   return first;
 }
 
-VoxelPieces voxelPieces(Vec4Array corners, UintArray pieces, UintArray boxes, vec3 cell, uint first, uint end) {
-  return VoxelPieces(corners, pieces, boxes, cell, first, end,
-                     end - first <= MOST_LARGE ? end : pieceFrom(pieces, first, end, PIECE_SMALL));
+IRAD_FN VoxelPieces voxelPieces(Vec4Array corners, UintArray pieces, UintArray boxes, vec3 cell, uint first, uint end) {
+  VoxelPieces voxel = {corners, pieces, boxes, cell, first, end,
+                       end - first <= MOST_LARGE ? end : pieceFrom(pieces, first, end, PIECE_SMALL)};
+  return voxel;
 }
 
-const uint NO_PIECE = 0xFFFFFFFFu;
+IRAD_CONST uint NO_PIECE = 0xFFFFFFFFu;
 
 /// The piece of a triangle, or NO_PIECE.
-uint pieceIn(VoxelPieces voxel, uint triangle) {
+IRAD_FN uint pieceIn(VoxelPieces voxel, uint triangle) {
   uint place = pieceFrom(voxel.pieces, voxel.first, voxel.endLarge, triangle);
   if (place < voxel.endLarge && voxel.pieces.at[place] == triangle) return place;
   place = pieceFrom(voxel.pieces, voxel.endLarge, voxel.end, triangle | PIECE_SMALL);
   return place < voxel.end && voxel.pieces.at[place] == (triangle | PIECE_SMALL) ? place : NO_PIECE;
 }
 
-const float SAME_SIDE_COSINE = 0.7;             ///< least between normals
-const float SAME_SIDE_LEVEL = 0.02;             ///< voxels: a face this far above another is another
-const float ABOVE_SURFACE = 1.0 / 256.0;        ///< voxels: ways are at most this far above the surface
-const float AROUND_CELL = 2.0 * ABOVE_SURFACE;  ///< ways from points on a cell's border pass outside it
+IRAD_CONST float SAME_SIDE_COSINE = 0.7f;            ///< least between normals
+IRAD_CONST float SAME_SIDE_LEVEL = 0.02f;            ///< voxels: a face this far above another is another
+IRAD_CONST float ABOVE_SURFACE = 1.0f / 256.0f;        ///< voxels: ways are at most this far above the surface
+IRAD_CONST float AROUND_CELL = 2.0f * ABOVE_SURFACE;  ///< ways from points on a cell's border pass outside it
 
 /// The boxes that a segment comes near, nearer than ways are above the surface: by the largest of each of their numbers
 /// from 0 to 31, where those of upper corners are counted from 31 down. The six are in two words, ten bits apart, so that
@@ -49,20 +51,21 @@ const float AROUND_CELL = 2.0 * ABOVE_SURFACE;  ///< ways from points on a cell'
 struct NearBoxes {
   uint even, odd;
 };
-const uint BOX_UPPER = 0x3FFF8000u;  ///< bits of a packed box's upper corner
-const uint BOX_EVEN = 0x01F07C1Fu;   ///< of its numbers 0, 2 and 4
-const uint BOX_ABOVE = 0x02008020u;  ///< the bits above these
+IRAD_CONST uint BOX_UPPER = 0x3FFF8000u;  ///< bits of a packed box's upper corner
+IRAD_CONST uint BOX_EVEN = 0x01F07C1Fu;   ///< of its numbers 0, 2 and 4
+IRAD_CONST uint BOX_ABOVE = 0x02008020u;  ///< the bits above these
 
 /// What is cut off at the voxel's faces goes on beyond, and so may the segment.
-NearBoxes boxesNear(VoxelPieces voxel, vec3 a, vec3 b) {
-  vec3 low = min(min(a, b) - voxel.cell, vec3(1.0)) - AROUND_CELL;
-  vec3 high = max(max(a, b) - voxel.cell, vec3(0.0)) + AROUND_CELL;
-  uvec3 lower = uvec3(min(floor(high * BOX_STEPS), vec3(BOX_STEPS - 1.0)));
-  uvec3 upper = uvec3(BOX_STEPS - max(ceil(low * BOX_STEPS), vec3(1.0)));
-  return NearBoxes(lower.x | (lower.z << 10) | (upper.y << 20), lower.y | (upper.x << 10) | (upper.z << 20));
+IRAD_FN NearBoxes boxesNear(VoxelPieces voxel, vec3 a, vec3 b) {
+  vec3 low = min(min(a, b) - voxel.cell, vec3(1.0f)) - AROUND_CELL;
+  vec3 high = max(max(a, b) - voxel.cell, vec3(0.0f)) + AROUND_CELL;
+  uvec3 lower = uvec3(min(floor(high * BOX_STEPS), vec3(BOX_STEPS - 1.0f)));
+  uvec3 upper = uvec3(BOX_STEPS - max(ceil(low * BOX_STEPS), vec3(1.0f)));
+  NearBoxes near = {lower.x | (lower.z << 10) | (upper.y << 20), lower.y | (upper.x << 10) | (upper.z << 20)};
+  return near;
 }
 
-bool isNear(NearBoxes near, uint box) {
+IRAD_FN bool isNear(NearBoxes near, uint box) {
   box ^= BOX_UPPER;
   uint even = (near.even | BOX_ABOVE) - (box & BOX_EVEN), odd = (near.odd | BOX_ABOVE) - ((box >> 5) & BOX_EVEN);
   return (even & odd & BOX_ABOVE) == BOX_ABOVE;
@@ -70,7 +73,7 @@ bool isNear(NearBoxes near, uint box) {
 
 /// The large pieces whose boxes a segment comes near, a bit for each from the voxel's first on. Boxes are all asked
 /// before any triangle, which costs much more: what runs side by side then takes turns at triangles alone.
-uint piecesNear(VoxelPieces voxel, vec3 a, vec3 b) {
+IRAD_FN uint piecesNear(VoxelPieces voxel, vec3 a, vec3 b) {
   NearBoxes near = boxesNear(voxel, a, b);
   uint pieces = 0u;
   for (uint i = voxel.first; i < voxel.endLarge; ++i)
@@ -79,14 +82,14 @@ uint piecesNear(VoxelPieces voxel, vec3 a, vec3 b) {
 }
 
 /// Whether the segment from `a` to `b` (voxel units) crosses no large piece but those of two triangles.
-bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
+IRAD_FN bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2) {
   ShearedRay ray = shearedRay(a, b - a);
   for (uint near = piecesNear(voxel, a, b); near != 0u; near &= near - 1u) {
-    uint triangle = voxel.pieces.at[voxel.first + findLSB(near)];
+    uint triangle = voxel.pieces.at[voxel.first + uint(findLSB(near))];
     float t;
     bool front;
     if (triangle != except1 && triangle != except2 &&
-        meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0 && t < 1.0)
+        meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0f && t < 1.0f)
       return false;
   }
   return true;
@@ -94,37 +97,37 @@ bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint except2)
 
 /// Whether a triangle crosses the plane `above` another one's side, over that triangle, away from its edges and in a
 /// box. `facing`: the side's unit normal.
-bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing, float above) {
-  vec3 other[3] = vec3[3](standing.a, standing.b, standing.c);
+IRAD_FN bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing, float above) {
+  vec3 other[3] = {standing.a, standing.b, standing.c};
   vec3 height = vec3(dot(facing, other[0] - t.a), dot(facing, other[1] - t.a), dot(facing, other[2] - t.a)) - above;
-  bvec3 over = greaterThan(height, vec3(0.0));
+  bvec3 over = greaterThan(height, vec3(0.0f));
   if (all(over) || !any(over)) return false;
   // The corner that is alone on its side of the plane, and the segment in which the plane cuts the triangle.
   uint i = over.x != over.y ? (over.x != over.z ? 0u : 1u) : 2u;
   uint j = (i + 1u) % 3u, k = (i + 2u) % 3u;
   vec3 from = mix(other[i], other[j], height[i] / (height[i] - height[j]));
   vec3 along = mix(other[i], other[k], height[i] / (height[i] - height[k])) - from;
-  float first = 0.0, last = 1.0;
-  vec3 corner[3] = vec3[3](t.a, t.b, t.c);
+  float first = 0.0f, last = 1.0f;
+  vec3 corner[3] = {t.a, t.b, t.c};
   for (uint e = 0u; e < 9u; ++e) {
     // Inside: of the triangle's three edges, and of the box's six faces.
     vec3 inward, base;
-    float least = 0.5 * above + 1e-4;  // what stands on the edge, and leans over it, is no cut
+    float least = 0.5f * above + 1e-4f;  // what stands on the edge, and leans over it, is no cut
     if (e < 3u) {
       base = corner[e];
       inward = normalize(cross(facing, corner[(e + 1u) % 3u] - base));
-      if (dot(inward, corner[(e + 2u) % 3u] - base) < 0.0) inward = -inward;
+      if (dot(inward, corner[(e + 2u) % 3u] - base) < 0.0f) inward = -inward;
     } else {
       uint axis = (e - 3u) / 2u;
       bool upper = (e & 1u) == 0u;
-      inward = vec3(axis == 0u ? 1.0 : 0.0, axis == 1u ? 1.0 : 0.0, axis == 2u ? 1.0 : 0.0) * (upper ? -1.0 : 1.0);
+      inward = vec3(axis == 0u ? 1.0f : 0.0f, axis == 1u ? 1.0f : 0.0f, axis == 2u ? 1.0f : 0.0f) * (upper ? -1.0f : 1.0f);
       base = upper ? high : low;
-      least = 0.0;
+      least = 0.0f;
     }
     float at = dot(inward, from - base) - least, rate = dot(inward, along);
-    if (rate == 0.0) {
-      if (at < 0.0) return false;
-    } else if (rate > 0.0) {
+    if (rate == 0.0f) {
+      if (at < 0.0f) return false;
+    } else if (rate > 0.0f) {
       first = max(first, -at / rate);
     } else {
       last = min(last, -at / rate);
@@ -135,28 +138,28 @@ bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facin
 
 /// Whether a triangle stands on another one's side in a box: it comes up to the surface, to what rounding leaves of
 /// that, or to where ways pass over it.
-bool standsOn(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing) {
-  return crossesAbove(low, high, standing, t, facing, ABOVE_SURFACE / 64.0) ||
+IRAD_FN bool standsOn(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing) {
+  return crossesAbove(low, high, standing, t, facing, ABOVE_SURFACE / 64.0f) ||
          crossesAbove(low, high, standing, t, facing, ABOVE_SURFACE);
 }
 
 /// The same in a cell and around it, for the front of a triangle and, where it shows, the back.
-bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
-  vec3 facing = facingOf(t, false), low = cell - AROUND_CELL, high = cell + (1.0 + AROUND_CELL);
+IRAD_FN bool standsOnSides(vec3 cell, Triangle standing, Triangle t, bool back) {
+  vec3 facing = facingOf(t, false), low = cell - AROUND_CELL, high = cell + (1.0f + AROUND_CELL);
   return standsOn(low, high, standing, t, facing) || (back && standsOn(low, high, standing, t, -facing));
 }
 
 /// Of the large pieces but `own` those that may stand on a triangle's sides, a bit for each (they are MOST_LARGE = 32 at
 /// most) from the voxel's first on: by the heights of their corners alone, which is little beside standsOnSides().
-uint mayStandOn(VoxelPieces voxel, uint own, Triangle t, bool back) {
+IRAD_FN uint mayStandOn(VoxelPieces voxel, uint own, Triangle t, bool back) {
   vec3 facing = facingOf(t, false);
   uint pieces = 0u;
   for (uint i = voxel.first; i < voxel.endLarge; ++i) {
     Triangle other = triangleAt(voxel.corners, triangleOf(voxel.pieces, i));
     vec3 height = vec3(dot(facing, other.a - t.a), dot(facing, other.b - t.a), dot(facing, other.c - t.a));
     float low = min(height.x, min(height.y, height.z)), high = max(height.x, max(height.y, height.z));
-    bool may = (high > ABOVE_SURFACE / 64.0 && low <= ABOVE_SURFACE) ||
-               (back && -low > ABOVE_SURFACE / 64.0 && -high <= ABOVE_SURFACE);
+    bool may = (high > ABOVE_SURFACE / 64.0f && low <= ABOVE_SURFACE) ||
+               (back && -low > ABOVE_SURFACE / 64.0f && -high <= ABOVE_SURFACE);
     pieces |= may && i != own ? 1u << (i - voxel.first) : 0u;
   }
   return pieces;
@@ -164,18 +167,18 @@ uint mayStandOn(VoxelPieces voxel, uint own, Triangle t, bool back) {
 
 /// How far above a point of a surface ways from it begin: nothing is on the way there. Where a triangle leans over the
 /// point that is less than ABOVE_SURFACE.
-float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
+IRAD_FN float clearAbove(VoxelPieces voxel, vec3 point, vec3 facing, uint own) {
   ShearedRay ray = shearedRay(point, facing);
-  float clear = 2.0 * ABOVE_SURFACE;
+  float clear = 2.0f * ABOVE_SURFACE;
   for (uint near = piecesNear(voxel, point, point + facing * clear); near != 0u; near &= near - 1u) {
-    uint piece = voxel.first + findLSB(near), triangle = voxel.pieces.at[piece];
+    uint piece = voxel.first + uint(findLSB(near)), triangle = voxel.pieces.at[piece];
     float t;
     bool front;
     if (triangle != own && isNear(boxesNear(voxel, point, point + facing * clear), voxel.boxes.at[piece]) &&
-        meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0)
+        meetsTriangle(ray, triangleAt(voxel.corners, triangle), t, front) && t > 0.0f)
       clear = min(clear, t);
   }
-  return 0.5 * clear;
+  return 0.5f * clear;
 }
 
 /// What a way from one point of a side to another has to do, by what the two say alone.
@@ -187,7 +190,7 @@ struct SideWay {
 
 /// Whether two points may lie on one side, by what they say alone: their normals are alike, and neither stands above the
 /// other's plane while that one lies below its own.
-bool mayContinue(SurfelPoint a, SurfelPoint b) {
+IRAD_FN bool mayContinue(SurfelPoint a, SurfelPoint b) {
   vec3 chord = b.position - a.position;
   float above = dot(a.facing, chord), below = -dot(b.facing, chord);
   return dot(a.facing, b.facing) >= SAME_SIDE_COSINE &&
@@ -195,17 +198,17 @@ bool mayContinue(SurfelPoint a, SurfelPoint b) {
 }
 
 /// In a box. Points are no nearer than CUT_WIDTH to what passes through their triangle.
-SideWay wayBetween(Vec4Array corners, vec3 low, vec3 high, SurfelPoint a, SurfelPoint b) {
-  SideWay way = SideWay(false, 0.0, a.triangle, b.triangle);
+IRAD_FN SideWay wayBetween(Vec4Array corners, vec3 low, vec3 high, SurfelPoint a, SurfelPoint b) {
+  SideWay way = {false, 0.0f, a.triangle, b.triangle};
   if (!mayContinue(a, b)) return way;
   float alike = dot(a.facing, b.facing);
   vec3 chord = b.position - a.position;
   float above = dot(a.facing, chord), below = -dot(b.facing, chord);
   float most = max(above, below), least = min(above, below);
-  if (least < 0.0) way.bulge = 0.3 * length(chord) * sqrt(max(0.0, 0.5 - 0.5 * alike));
+  if (least < 0.0f) way.bulge = 0.3f * length(chord) * sqrt(max(0.0f, 0.5f - 0.5f * alike));
   way.open = true;
-  if (least > -0.5 * CUT_WIDTH) return way;
-  if (most > 0.0) {
+  if (least > -0.5f * CUT_WIDTH) return way;
+  if (most > 0.0f) {
     // One is behind the other: it is seen past that triangle's end.
     way.pass1 = way.pass2 = NO_PIECE;
   } else {
@@ -230,7 +233,7 @@ struct SidePath {
   bool raised;
 };
 
-SidePath pathOf(SideWay way, SidePoint from, SidePoint to) {
+IRAD_FN SidePath pathOf(SideWay way, SidePoint from, SidePoint to) {
   SidePath path;
   path.begin = from.at.position + from.at.facing * from.lift;
   path.end = to.at.position + to.at.facing * to.lift;
@@ -240,20 +243,20 @@ SidePath pathOf(SideWay way, SidePoint from, SidePoint to) {
   return path;
 }
 
-uint segmentsOf(SidePath path) { return path.raised ? 3u : 1u; }
+IRAD_FN uint segmentsOf(SidePath path) { return path.raised ? 3u : 1u; }
 
-void segmentAt(SidePath path, uint i, out vec3 a, out vec3 b) {
+IRAD_FN void segmentAt(SidePath path, uint i, IRAD_INOUT(vec3) a, IRAD_INOUT(vec3) b) {
   a = i == 0u ? path.begin : (i == 1u ? path.end : path.beginHigh);
   b = i == 0u ? (path.raised ? path.beginHigh : path.end) : path.endHigh;
 }
 
 /// Points of triangles in one voxel.
-bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
+IRAD_FN bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
   SurfelPoint a = from.at, b = to.at;
-  SideWay way = wayBetween(voxel.corners, voxel.cell - AROUND_CELL, voxel.cell + (1.0 + AROUND_CELL), a, b);
+  SideWay way = wayBetween(voxel.corners, voxel.cell - AROUND_CELL, voxel.cell + (1.0f + AROUND_CELL), a, b);
   if (!way.open) return false;
   vec3 chord = b.position - a.position;
-  if (dot(chord, chord) < 1e-10) return true;
+  if (dot(chord, chord) < 1e-10f) return true;
   SidePath path = pathOf(way, from, to);
   for (uint i = 0u; i < segmentsOf(path); ++i) {
     vec3 p, q;
@@ -263,4 +266,5 @@ bool sameSide(VoxelPieces voxel, SidePoint from, SidePoint to) {
   return true;
 }
 
+IRAD_END
 #endif

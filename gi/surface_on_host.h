@@ -1,0 +1,16 @@
+// Kernels of the surface's list whose work differs from invocation to invocation, run by the host on all cores: for CPU
+// devices, whose driver goes through all branches of eight invocations at a time. They take the kernels' push constants,
+// whose addresses are of host memory (gi/host_pass.h), and share the kernels' functions (shaders/gi).
+#pragma once
+
+#include "shaders/shared/surface.h"
+
+namespace irad {
+
+/// gi/class_points.comp and gi/class_crowd.comp, which between them take every voxel; `surface`: in place of the push
+/// constants' record. `push.count`: solid voxels; its crowds are not read.
+void classPointsOnHost(const ClassPointsPush& push, const SurfaceArrays& surface);
+/// gi/link_points.comp, which makes push.points, and gi/link_facets.comp.
+void linkFacetsOnHost(const LinkFacetsPush& push, const SurfaceArrays& surface);
+
+}  // namespace irad
