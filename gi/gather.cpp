@@ -71,8 +71,7 @@ void gatherPlanes(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& sh
 void gather(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shadows, const FacetList& facets,
             const Field& field, Lighting& light, const Settings& settings, bool onHost) {
   if (facets.count == 0) return;
-  const HostTrace* host =
-      onHost ? hostTraceIfAny(frame.context(), facets, settings.matrix.gpu, kGatherStage) : nullptr;
+  const HostTrace* host = onHost ? hostTraceIfAny(frame.context(), facets, settings.matrix.gpu, kGatherStage) : nullptr;
   if (host != nullptr)
     gatherOnHost(frame.context(), scene, facets, *host, light);
   else if (facets.surface)

@@ -16,8 +16,8 @@ class Context;
 /// Work of the host, as the time of a stage.
 void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
 
-/// As a Pass (renderer/frame/pass.h) gives out addresses, of copies that live as long as it does. Blocking: nothing that
-/// uses the buffers may be recorded and not submitted.
+/// As a Pass (renderer/frame/pass.h) gives out addresses, of copies that live as long as it does. Blocking: nothing
+/// that uses the buffers may be recorded and not submitted.
 class HostPass {
  public:
   explicit HostPass(Context& context) : context_(context) {}

@@ -1,6 +1,6 @@
 // Kernels of the surface's list whose work differs from invocation to invocation, run by the host on all cores: for CPU
-// devices, whose driver goes through all branches of eight invocations at a time. They take the kernels' push constants,
-// whose addresses are of host memory (gi/host_pass.h), and share the kernels' functions (shaders/gi).
+// devices, whose driver goes through all branches of eight invocations at a time. They take the kernels' push
+// constants, whose addresses are of host memory (gi/host_pass.h), and share the kernels' functions (shaders/gi).
 #pragma once
 
 #include "shaders/shared/surface.h"

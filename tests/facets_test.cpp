@@ -122,8 +122,8 @@ TEST_F(Facets, UploadedListHasItsReverseMap) {
   EXPECT_EQ(downloadAs<uint32_t>(context(), list.reverse), expected);
   const FacetArrays record = downloadAs<FacetArrays>(context(), list.record).at(0);
   Frame frame = context().begin();
-  EXPECT_EQ(record.voxel, frame.pass("Look").in(list.voxel));
-  EXPECT_EQ(record.reverse, frame.pass("Look").in(list.reverse));
+  EXPECT_EQ(record.voxel.at, UintArray(frame.pass("Look").in(list.voxel)).at);
+  EXPECT_EQ(record.reverse.at, UintArray(frame.pass("Look").in(list.reverse)).at);
   EXPECT_EQ(record.count, 3u);
   EXPECT_EQ(record.hasEmission, 1u);
 }
