@@ -25,7 +25,8 @@ class HostPass {
   HostPass& operator=(const HostPass&) = delete;
   uint64_t in(const Buffer& buffer) { return copyOf(buffer, /*written=*/false).address(); }
   /// Read, and written: finish() gives the device what is there then.
-  uint64_t accumulate(const Buffer& buffer) { return copyOf(buffer, /*written=*/true).address(); }
+  uint64_t out(const Buffer& buffer) { return copyOf(buffer, /*written=*/true).address(); }
+  uint64_t accumulate(const Buffer& buffer) { return out(buffer); }
   void finish();
 
  private:

@@ -83,7 +83,7 @@ std::optional<Piece> pieceAt(const oracle::Facets& facets, const glm::vec3& at, 
   return std::nullopt;
 }
 
-/// gi/piece_cuts.glsl.
+/// gi/piece_cuts.h.
 uint32_t classAt(const oracle::Facets& facets, uint32_t piece, bool back, const glm::vec3& at) {
   const uint32_t sides = facets.sides[piece], shift = back ? 8 : 0;
   if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;

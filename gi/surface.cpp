@@ -125,7 +125,62 @@ void scanToEnd(Frame& frame, const Buffer& values, uint32_t count, const Buffer&
   frame.readback(total, 0, 4, [&sum](std::span<const uint8_t> b) { std::memcpy(&sum, b.data(), b.size()); });
 }
 
-Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid, const Buffer& gridRecord,
+// What kernels take, or the host in their place; `pass`: a Pass or a HostPass.
+
+SortPiecesPush piecesToSort(auto& pass, const Buffer& corners, const Buffer& unsorted, const Pieces& p) {
+  SortPiecesPush push{};
+  push.solid = pass.in(p.voxel);
+  push.firstPiece = pass.in(p.first);
+  push.pieces = pass.out(unsorted);
+  push.sorted = pass.out(p.triangle);
+  push.pieceVoxel = pass.out(p.pieceVoxel);
+  push.corners = pass.in(corners);
+  push.count = p.solid;
+  return push;
+}
+
+PieceShapePush piecesToShape(auto& pass, const Buffer& corners, const Pieces& p) {
+  PieceShapePush push{};
+  push.pieceVoxel = pass.in(p.pieceVoxel);
+  push.pieces = pass.in(p.triangle);
+  push.solid = pass.in(p.voxel);
+  push.firstPiece = pass.in(p.first);
+  push.corners = pass.in(corners);
+  push.area = pass.out(p.area);
+  push.facings = pass.out(p.facings);
+  push.boxes = pass.out(p.boxes);
+  push.points = pass.out(p.firstPoint);
+  push.cuts = pass.out(p.firstCut);
+  push.count = p.count;
+  return push;
+}
+
+/// Puts the pieces of each voxel in order, and finds area and box of each, and how many points and cuts it has.
+void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Buffer& unsorted, const Pieces& p) {
+  if (by == ListedBy::host) {
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      sortPiecesOnHost(piecesToSort(pass, corners, unsorted, p));
+      shapePiecesOnHost(piecesToShape(pass, corners, p));
+      pass.finish();
+    });
+    return;
+  }
+  Frame frame = context.begin();
+  Pass sort = frame.pass(kListStage);
+  sort.shader("gi/sort_pieces.comp")
+      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+      .push(piecesToSort(sort, corners, unsorted, p))
+      .dispatchWorkgroups(p.solid);
+  Pass shape = frame.pass(kListStage);
+  shape.shader("gi/piece_shape.comp")
+      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+      .push(piecesToShape(shape, corners, p))
+      .dispatch(p.count);
+  frame.submit();
+}
+
+Pieces listPieces(Context& context, ListedBy by, const SceneOnDevice& scene, const Grid& grid, const Buffer& gridRecord,
                   const Buffer& corners, const std::function<void()>& look) {
   const Device& device = context.device;
   Pieces p;
@@ -170,10 +225,12 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
   p.facings = words(device, "pieces' facings", 3ull * p.count);
   p.boxes = words(device, "pieces' boxes", p.count);
   p.groups = words(device, "boxes of groups", groupPlaces(p.count));
-  Buffer unsorted = words(device, "unsorted pieces", p.count);
-  Frame frame = context.begin();
-  frame.pass(kListStage).copy(pieces, p.first, 4, 0, 4ull * p.solid);
+  p.firstPoint = words(device, "pieces' points", uint64_t{p.count} + 1);
+  p.firstCut = words(device, "pieces' cuts", uint64_t{p.count} + 1);
+  const Buffer unsorted = words(device, "unsorted pieces", p.count);
   {
+    Frame frame = context.begin();
+    frame.pass(kListStage).copy(pieces, p.first, 4, 0, 4ull * p.solid);
     Pass pass = frame.pass(kListStage);
     push.grid = pass.in(gridRecord);
     push.most = 0;
@@ -183,50 +240,19 @@ Pieces listPieces(Context& context, const SceneOnDevice& scene, const Grid& grid
     push.solid = pass.out(p.voxel);
     push.firstPiece = pass.out(p.first);
     pass.shader("gi/solid_emit.comp").push(push).dispatch(push.blocks);
+    listOrCount(frame, scene, gridRecord, corners, tiles, ranges, counts, &unsorted);
+    frame.submit();
   }
-  listOrCount(frame, scene, gridRecord, corners, tiles, ranges, counts, &unsorted);
-  p.firstPoint = words(device, "pieces' points", uint64_t{p.count} + 1);
-  p.firstCut = words(device, "pieces' cuts", uint64_t{p.count} + 1);
+  if (p.count > 0) sortAndShape(context, by, corners, unsorted, p);
+  Frame frame = context.begin();
   if (p.count > 0) {
-    {
-      Pass pass = frame.pass(kListStage);
-      SortPiecesPush sort{};
-      sort.solid = pass.in(p.voxel);
-      sort.firstPiece = pass.in(p.first);
-      sort.pieces = pass.out(unsorted);
-      sort.sorted = pass.out(p.triangle);
-      sort.pieceVoxel = pass.out(p.pieceVoxel);
-      sort.corners = pass.in(corners);
-      sort.count = p.solid;
-      pass.shader("gi/sort_pieces.comp")
-          .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-          .push(sort)
-          .dispatchWorkgroups(p.solid);
-    }
     Pass pass = frame.pass(kListStage);
-    PieceShapePush shape{};
-    shape.pieceVoxel = pass.in(p.pieceVoxel);
-    shape.pieces = pass.in(p.triangle);
-    shape.solid = pass.in(p.voxel);
-    shape.firstPiece = pass.in(p.first);
-    shape.corners = pass.in(corners);
-    shape.area = pass.out(p.area);
-    shape.facings = pass.out(p.facings);
-    shape.boxes = pass.out(p.boxes);
-    shape.points = pass.out(p.firstPoint);
-    shape.cuts = pass.out(p.firstCut);
-    shape.count = p.count;
-    pass.shader("gi/piece_shape.comp")
-        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-        .push(shape)
-        .dispatch(p.count);
-    Pass around = frame.pass(kListStage);
     PieceGroupsPush groups{};
-    groups.firstPiece = around.in(p.first);
-    groups.boxes = around.in(p.boxes);
-    groups.groups = around.out(p.groups);
+    groups.firstPiece = pass.in(p.first);
+    groups.boxes = pass.in(p.boxes);
+    groups.groups = pass.out(p.groups);
     groups.count = p.solid;
-    around.shader("gi/piece_groups.comp").push(groups).dispatch(p.solid);
+    pass.shader("gi/piece_groups.comp").push(groups).dispatch(p.solid);
   }
   scanToEnd(frame, p.firstPoint, p.count, solid, p.points);
   scanToEnd(frame, p.firstCut, p.count, pieces, p.cuts);
@@ -267,7 +293,24 @@ void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid,
   frame.submitAndWait();
 }
 
-/// What the kernels that find classes take, or the host in their place; `pass`: a Pass or a HostPass.
+// As above.
+
+PiecePointsPush piecesWithPoints(auto& pass, const Pieces& pieces, const Surface& surface, const Points& p) {
+  PiecePointsPush push{};
+  push.pieceVoxel = pass.in(pieces.pieceVoxel);
+  push.solid = pass.in(pieces.voxel);
+  push.firstPiece = pass.in(pieces.first);
+  push.area = pass.in(pieces.area);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.firstCut = pass.in(pieces.firstCut);
+  push.points = pass.out(p.at);
+  push.classes = pass.out(p.classes);
+  push.sides = pass.out(surface.sides);
+  push.cuts = pass.out(surface.cuts);
+  push.count = pieces.count;
+  return push;
+}
+
 ClassPointsPush classPoints(auto& pass, const Pieces& pieces, const Points& p) {
   ClassPointsPush push{};
   push.solid = pass.in(pieces.voxel);
@@ -283,12 +326,14 @@ ClassPointsPush classPoints(auto& pass, const Pieces& pieces, const Points& p) {
   return push;
 }
 
-/// Each point's facet among those of its voxel, and how many facets each voxel has.
+/// The points, each one's facet among those of its voxel, and how many facets each voxel has.
 void findClasses(Context& context, ListedBy by, const Pieces& pieces, const FacetList& list, const Points& p) {
   if (by == ListedBy::host) {
     timedOnHost(context, kListStage, [&] {
       HostPass pass(context);
-      classPointsOnHost(classPoints(pass, pieces, p), surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
+      const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+      findPointsOnHost(piecesWithPoints(pass, pieces, list.surface, p), surface);
+      classPointsOnHost(classPoints(pass, pieces, p), surface);
       pass.finish();
     });
     return;
@@ -304,6 +349,13 @@ void findClasses(Context& context, ListedBy by, const Pieces& pieces, const Face
   };
   {
     Frame frame = context.begin();
+    Pass points = frame.pass(kListStage);
+    PiecePointsPush toFind = piecesWithPoints(points, pieces, list.surface, p);
+    toFind.surface = points.in(list.surface.record);
+    points.shader("gi/piece_points.comp")
+        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+        .push(toFind)
+        .dispatch(pieces.count);
     frame.pass(kListStage).fill(crowdCount, 0);
     Pass pass = frame.pass(kListStage);
     pass.shader("gi/class_points.comp").push(push(pass)).dispatch(pieces.solid);
@@ -322,7 +374,6 @@ void findClasses(Context& context, ListedBy by, const Pieces& pieces, const Face
 /// The points of all pieces, in the list's surface the cuts of those that others stand on, and each point's facet.
 Points classifyPoints(Context& context, ListedBy by, const Pieces& pieces, const FacetList& list, uint32_t& facets) {
   const Device& device = context.device;
-  const Surface& surface = list.surface;
   Points p;
   p.at = Buffer(device, "pieces' points", Subsystem::Facets, sizeof(PiecePoint) * uint64_t{pieces.points});
   p.classes = words(device, "points' facets", pieces.points);
@@ -330,28 +381,6 @@ Points classifyPoints(Context& context, ListedBy by, const Pieces& pieces, const
   p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
   p.wideStart = words(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
   const Buffer total = words(device, "facets", 1), wide = words(device, "wide facets", 1);
-  {
-    Frame frame = context.begin();
-    Pass pass = frame.pass(kListStage);
-    PiecePointsPush points{};
-    points.pieceVoxel = pass.in(pieces.pieceVoxel);
-    points.solid = pass.in(pieces.voxel);
-    points.firstPiece = pass.in(pieces.first);
-    points.surface = pass.in(surface.record);
-    points.area = pass.in(pieces.area);
-    points.firstPoint = pass.in(pieces.firstPoint);
-    points.firstCut = pass.in(pieces.firstCut);
-    points.points = pass.out(p.at);
-    points.classes = pass.out(p.classes);
-    points.sides = pass.out(surface.sides);
-    points.cuts = pass.out(surface.cuts);
-    points.count = pieces.count;
-    pass.shader("gi/piece_points.comp")
-        .constant(CONSTANT_CLIPS_SHARED, device.isCpu)
-        .push(points)
-        .dispatch(pieces.count);
-    frame.submit();
-  }
   findClasses(context, by, pieces, list, p);
   Frame frame = context.begin();
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
@@ -414,7 +443,7 @@ void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces
   frame.submitAndWait();
 }
 
-/// What the kernel that finds links takes, or the host in its place; `pass`: a Pass or a HostPass.
+/// As above.
 LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& facings, const Buffer& found) {
   LinkFacetsPush push{};
   push.voxel = pass.in(list.voxel);
@@ -533,7 +562,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
     pass.shader("gi/surface_corners.comp").push(push).dispatch(triangles);
     frame.submit();
   }
-  Pieces pieces = listPieces(context, scene, list.grid, grid, surface.corners, look);
+  Pieces pieces = listPieces(context, by, scene, list.grid, grid, surface.corners, look);
   look();
 
   list.solidVoxels = pieces.solid;

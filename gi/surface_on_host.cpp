@@ -1,17 +1,32 @@
 #include "gi/surface_on_host.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 
 #include "renderer/base/parallel.h"
 #include "shaders/gi/class_point.h"
 #include "shaders/gi/links.h"
+#include "shaders/gi/piece_points.h"
+#include "shaders/gi/piece_shape.h"
+#include "shaders/gi/piece_size.h"
 
 namespace irad {
 namespace {
 
-/// Voxels or facets that a thread takes at once.
+/// Voxels, pieces or facets that a thread takes at once.
 constexpr size_t kVoxelBlock = 64;
+
+/// Marks all but the largest pieces of a voxel, of which at most MOST_LARGE are not.
+void markSmall(Vec4Array corners, const glm::vec3& cell, std::span<uint32_t> pieces) {
+  std::array<uint32_t, PIECE_SIZES> ofSize{};
+  for (const uint32_t piece : pieces) ++ofSize[pieceSize(corners, cell, piece)];
+  uint32_t large = 0, count = 0;
+  while (large < PIECE_SIZES && count + ofSize[large] <= MOST_LARGE) count += ofSize[large++];
+  for (uint32_t& piece : pieces)
+    if (pieceSize(corners, cell, piece) >= large) piece |= PIECE_SMALL;
+}
 
 /// The classes of one voxel's points.
 class VoxelClasses {
@@ -195,6 +210,31 @@ class FacetLinker {
 };
 
 }  // namespace
+
+void sortPiecesOnHost(const SortPiecesPush& push) {
+  const auto sort = [&](size_t voxel) {
+    const uint32_t first = push.firstPiece.at[voxel], count = push.firstPiece.at[voxel + 1] - first;
+    const std::span<uint32_t> pieces(push.pieces.at + first, count);
+    if (count > MOST_COUNTED)
+      for (uint32_t& piece : pieces) piece |= PIECE_SMALL;
+    else if (count > MOST_LARGE)
+      markSmall(push.corners, glm::vec3(unpackVoxel(push.solid.at[voxel])), pieces);
+    std::ranges::sort(pieces);
+    std::ranges::copy(pieces, push.sorted.at + first);
+    std::fill_n(push.pieceVoxel.at + first, count, static_cast<uint32_t>(voxel));
+  };
+  parallelFor(push.count, sort, /*threads=*/0, kVoxelBlock);
+}
+
+void shapePiecesOnHost(const PieceShapePush& push) {
+  const auto shape = [&](size_t piece) { shapePiece(push, static_cast<uint32_t>(piece)); };
+  parallelFor(push.count, shape, /*threads=*/0, kVoxelBlock);
+}
+
+void findPointsOnHost(const PiecePointsPush& push, const SurfaceArrays& surface) {
+  const auto find = [&](size_t piece) { findPoints(push, surface, static_cast<uint32_t>(piece)); };
+  parallelFor(push.count, find, /*threads=*/0, kVoxelBlock);
+}
 
 void classPointsOnHost(const ClassPointsPush& push, const SurfaceArrays& surface) {
   const auto find = [&](size_t voxel) { VoxelClasses(push, surface, static_cast<uint32_t>(voxel)).find(); };

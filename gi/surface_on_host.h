@@ -7,8 +7,13 @@
 
 namespace irad {
 
-/// gi/class_points.comp and gi/class_crowd.comp, which between them take every voxel; `surface`: in place of the push
-/// constants' record. `push.count`: solid voxels; its crowds are not read.
+/// gi/sort_pieces.comp.
+void sortPiecesOnHost(const SortPiecesPush& push);
+/// gi/piece_shape.comp.
+void shapePiecesOnHost(const PieceShapePush& push);
+/// gi/piece_points.comp.
+void findPointsOnHost(const PiecePointsPush& push, const SurfaceArrays& surface);
+/// gi/class_points.comp and gi/class_crowd.comp, which between them take every voxel; its crowds are not read.
 void classPointsOnHost(const ClassPointsPush& push, const SurfaceArrays& surface);
 /// gi/link_points.comp, which makes push.points, and gi/link_facets.comp.
 void linkFacetsOnHost(const LinkFacetsPush& push, const SurfaceArrays& surface);

@@ -35,7 +35,7 @@ std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& 
   return Meeting{t, front, t + double{backDelay(facets.grid.dims, cosine)}, least};
 }
 
-/// gi/piece_cuts.glsl.
+/// gi/piece_cuts.h.
 uint32_t classAt(const Facets& facets, uint32_t piece, bool back, const dvec3& at, double& margin) {
   const uint32_t sides = facets.sides.at(piece), shift = back ? 8 : 0;
   if ((sides & PIECE_CUT) == 0) return (sides >> shift) & 0xFFu;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "facet_shade.glsl"
-#include "voxel_clip.glsl"
+#include "voxel_clip.h"
 
 vec3 sampledAt(VoxelTriangle t, uint triangle, vec3 cell) {
   vec3 centre;

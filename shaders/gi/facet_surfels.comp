@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "gi/facet_points.glsl"
-#include "gi/piece_place.glsl"
+#include "gi/piece_place.h"
 #include "shared/grid.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FacetSurfelsPush push; };

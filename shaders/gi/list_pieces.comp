@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
-#include "gi/voxel_clip.glsl"
+#include "gi/voxel_clip.h"
 #include "gi/triangle_hit.h"
 #include "shared/surface.h"
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
 // What the bumps of a normal map leave of an even sky on a piece (docs/method.md 9). After gi/voxel_material.glsl, in
 // whose set 1 the map is.
-#include "gi/piece_place.glsl"
+#include "gi/piece_place.h"
 #include "shared/normal_maps.h"
 layout(set = 1, binding = 2) uniform sampler2D normalTexture;
 

@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_material.glsl"
-#include "gi/piece_cuts.glsl"
+#include "gi/piece_cuts.h"
 #include "gi/piece_bumps.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };

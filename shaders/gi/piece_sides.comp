@@ -1,7 +1,7 @@
 // Which facet each side of a piece belongs to, and where facets are: of the first point of each class.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/piece_cuts.glsl"
+#include "gi/piece_cuts.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceSidesPush push; };
 

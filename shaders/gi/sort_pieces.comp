@@ -1,34 +1,25 @@
 // Sorts the pieces of each solid voxel: one workgroup per voxel. Where there are many, the small ones come last.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "gi/piece_size.h"
 #include "gi/seen_in_voxel.h"
-#include "gi/voxel_clip.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { SortPiecesPush push; };
 
-/// Sizes by halves of powers of two, the largest first.
-const uint SIZES = 64u;
 const uint SHORT_RUN = 16u;
-shared uint ofSize[SIZES];
-
-uint sizeOf(vec3 cell, uint triangle) {
-  Triangle t = triangleAt(push.corners, triangle);
-  vec3 centre;
-  float area = clipToCell(t.a - cell, t.b - cell, t.c - cell, centre);
-  return area > 0.0 ? uint(clamp(2.0 - 2.0 * log2(area), 0.0, float(SIZES - 1u))) : SIZES - 1u;
-}
+shared uint ofSize[PIECE_SIZES];
 
 /// Marks all but the largest pieces, of which at most MOST_LARGE are not.
 void markSmall(vec3 cell, uint first, uint end) {
   uint me = gl_LocalInvocationID.x;
-  for (uint i = me; i < SIZES; i += gl_WorkGroupSize.x) ofSize[i] = 0u;
+  for (uint i = me; i < PIECE_SIZES; i += gl_WorkGroupSize.x) ofSize[i] = 0u;
   barrier();
-  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) atomicAdd(ofSize[sizeOf(cell, push.pieces.at[i])], 1u);
+  for (uint i = first + me; i < end; i += gl_WorkGroupSize.x) atomicAdd(ofSize[pieceSize(push.corners, cell, push.pieces.at[i])], 1u);
   barrier();
   uint large = 0u, count = 0u;
-  while (large < SIZES && count + ofSize[large] <= MOST_LARGE) count += ofSize[large++];
+  while (large < PIECE_SIZES && count + ofSize[large] <= MOST_LARGE) count += ofSize[large++];
   for (uint i = first + me; i < end; i += gl_WorkGroupSize.x)
-    if (sizeOf(cell, push.pieces.at[i]) >= large) push.pieces.at[i] |= PIECE_SMALL;
+    if (pieceSize(push.corners, cell, push.pieces.at[i]) >= large) push.pieces.at[i] |= PIECE_SMALL;
 }
 
 /// Makes invocations see what the others have written.

@@ -3,7 +3,7 @@
 #ifndef IRAD_SURFACE_LOOKUP_GLSL
 #define IRAD_SURFACE_LOOKUP_GLSL
 #include "gi/beside.h"
-#include "gi/piece_cuts.glsl"
+#include "gi/piece_cuts.h"
 #include "shared/gi_params.h"
 
 /// Facets around a point, and their weights, which sum to 1.

@@ -1,6 +1,6 @@
 // Hit rule `triangles` (docs/method.md 5): a ray is met by the first triangle of the scene. Cells that hold none are
 // stepped over; in a solid cell its pieces' triangles are asked. Included by gi/trace.glsl.
-#include "gi/piece_cuts.glsl"
+#include "gi/piece_cuts.h"
 #include "gi/triangle_hit.h"
 #include "gi/surface_point.h"
 #include "shared/surface.h"

@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxel_triangle.glsl"
-#include "voxel_clip.glsl"
+#include "voxel_clip.h"
 #include "voxel_material.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { VoxelizePush push; };

@@ -9,7 +9,7 @@ IRAD_BEGIN
 // Facets.
 IRAD_CONST uint CONSTANT_NORMALS = 18u;           ///< how their normals are encoded
 IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 19u;  ///< gi/voxel_material.glsl
-IRAD_CONST uint CONSTANT_CLIPS_SHARED = 22u;      ///< gi/voxel_clip.glsl
+IRAD_CONST uint CONSTANT_CLIPS_SHARED = 22u;      ///< gi/voxel_clip.h
 
 // Rays through the voxels (gi/trace.glsl).
 IRAD_CONST uint CONSTANT_TRACE_METHOD = 20u;

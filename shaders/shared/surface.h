@@ -150,7 +150,7 @@ IRAD_CONST uint PIECE_UNKNOWN = 0xFEu;  ///< too small, or too close to where an
 /// Or, where others stand on it or it has an alpha mask, PIECE_CUT | the place in SurfaceArrays::cuts of: how many stand
 /// on it (to MOST_CUTS), how many of its parts are known (cutCounts), | CUT_MASKED; with a mask two words, a bit for each
 /// of MASK_EDGE x MASK_EDGE squares of the piece (maskBit) that is there; the triangles that stand on it; and its parts,
-/// each with the sides of these triangles' planes on which it lies in bits 16-31 (gi/piece_cuts.glsl) above the facets
+/// each with the sides of these triangles' planes on which it lies in bits 16-31 (gi/piece_cuts.h) above the facets
 /// as for a whole piece. Parts are found by CUT_POINTS points of the piece. | CUT_SCREEN: the mask is the screen of a
 /// blended surface, whose points stand for all of it, each with the share that is there.
 IRAD_CONST uint PIECE_CUT = 0x80000000u;
