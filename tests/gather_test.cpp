@@ -1,8 +1,10 @@
 // Direct light on the facets against closed forms (docs/method.md 6, T 5.7).
 #include "gi/gather.h"
 #include "gi/host_facets.h"
+#include "gi/host_trace.h"
 #include "gi/lighting.h"
 #include "gi/oracle/rays.h"
+#include "gi/shadow_needs.h"
 #include "renderer/shadow.h"
 #include "tests/gi_fixture.h"
 
@@ -17,17 +19,20 @@ class Gather : public GiTest {
     std::vector<glm::dvec3> position, normal;
     std::vector<glm::dvec3> surfels;  ///< FACET_SURFELS of each
   };
-  Result run(Scene scene, uint32_t resolution) {
-    Settings settings = defaults();
-    settings.voxel.resolution = resolution;
-    World w = world(std::move(scene), settings);
-    const ShadowMaps shadows = drawShadows(context(), *w.device, settings.light.shadowResolution);
-    Lighting light = makeLighting(context(), w.facets, settings);
+  std::vector<glm::vec4> directOf(const World& w, bool onHost = true) {
+    // The lights' points are filled in with the maps.
+    const ShadowMaps shadows =
+        drawShadows(context(), *w.device, w.settings.light.shadowResolution, shadowNeeds(w.settings));
+    Lighting light = makeLighting(context(), w.facets, w.settings);
     Frame frame = context().begin();
-    gather(frame, *w.device, shadows, w.facets, w.field, light, settings);
+    gather(frame, *w.device, shadows, w.facets, w.field, light, w.settings, onHost);
     frame.submitAndWait();
+    return downloadAs<glm::vec4>(context(), light.direct);
+  }
+  Result run(Scene scene, uint32_t resolution) {
+    const World w = world(std::move(scene), at(resolution, 64));
     Result r;
-    r.direct = downloadAs<glm::vec4>(context(), light.direct);
+    r.direct = directOf(w);
     const HostFacets host = hostFacets(context(), w.facets);
     r.position = host.position;
     r.normal = host.normal;
@@ -98,6 +103,50 @@ TEST_F(Gather, BacksAndShadowsStayDark) {
   EXPECT_GT(lit, 3000);
   EXPECT_GT(shaded, 700);
   EXPECT_GT(backs, 700);
+}
+
+TEST_F(Gather, TheHostFindsWhatTheKernelFinds) {
+  if (!canTraceOnHost()) GTEST_SKIP() << "built without IRAD_EMBREE";
+  if (!context().device.isCpu) GTEST_SKIP() << "the kernel gathers on GPUs";
+  // Lights of every kind, with a size and without, past a ball, a veil and a pane that tints.
+  SceneBuilder b;
+  const uint32_t m = b.material(glm::vec3(0.7f)), pane = b.material(glm::vec3(0.9f, 0.5f, 0.2f)),
+                 veil = b.material(glm::vec3(0.6f));
+  floor(b, 1);
+  b.sphere(m, glm::vec3(-0.4f, 0.3f, -0.2f), 0.25f, /*inward=*/false, 12);
+  b.quad(pane, {-1, 0.62f, 1}, {0.2f, 0.63f, 1}, {0.2f, 0.65f, -1}, {-1, 0.64f, -1});
+  b.quad(veil, {0, 0.31f, 1}, {1, 0.32f, 1}, {1, 0.35f, -1}, {0, 0.34f, -1});
+  b.edit(pane).transmission = 0.9f;
+  b.edit(veil).alpha = AlphaMode::Blend;
+  b.edit(veil).baseColor.a = 0.4f;
+  b.sun({1, -1, 0.3f}, 3);
+  b.sun({1, -2, 0.3f}, 3);
+  for (int k = 0; k < 4; ++k) b.point({0.2 - 0.3 * k, 0.9, 0.1 * k}, 1);
+  Scene scene = b.finish("lights");
+  scene.lights[1].angle = 4;
+  scene.lights[3].radius = 0.1f;
+  for (int k = 4; k < 6; ++k) {
+    scene.lights[k].type = LightType::Spot;
+    scene.lights[k].innerCos = 0.9f;
+    scene.lights[k].range = 3;
+  }
+  scene.lights[5].radius = 0.2f;
+  const World w = world(std::move(scene), at(24, 64));
+  const std::vector<glm::vec4> host = directOf(w), kernel = directOf(w, /*onHost=*/false);
+  EXPECT_EQ(host, directOf(w)) << "the same bits twice";
+  size_t differ = 0;
+  glm::dvec3 byHost(0), byKernel(0);
+  for (size_t i = 0; i < host.size(); ++i) {
+    byHost += glm::dvec3(host[i]);
+    byKernel += glm::dvec3(kernel[i]);
+    // One point of a light more or less changes more than this.
+    differ += glm::length(glm::vec3(host[i] - kernel[i])) > 1e-4f * glm::length(glm::vec3(kernel[i])) + 1e-6f;
+  }
+  fmt::print("D of {} of {} facets differs between host and kernel; sums {:.6f} {:.6f} {:.6f} times\n", differ,
+             host.size(), byHost.x / byKernel.x, byHost.y / byKernel.y, byHost.z / byKernel.z);
+  EXPECT_LT(differ, host.size() / 50) << "ties alone";
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(byHost[c] / byKernel[c], 1, 1e-4) << c;
+  EXPECT_LT(byHost.z / byHost.x, 0.95) << "the pane tints";
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ using uint = uint32_t;
 /// What GLSL knows as a pointer: the address of an array in the device's memory, for shaders alone; or in the host's, for
 /// functions of these headers that the host calls, which read and write p.at[i] as shaders do.
 template <class T>
-struct SharedArray {
+class SharedArray {
+ public:
   T* at = nullptr;
   SharedArray() = default;
   SharedArray(uint64_t deviceAddress) : at(reinterpret_cast<T*>(deviceAddress)) {}
