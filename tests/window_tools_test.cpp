@@ -14,7 +14,10 @@ namespace {
 
 class WindowToolsTest : public WindowTest {
  protected:
-  WindowToolsTest() { detail_ = "32"; }
+  void SetUp() override {
+    WindowTest::SetUp();
+    if (!IsSkipped()) foldPanels();
+  }
 };
 
 TEST_F(WindowToolsTest, CapturesReplayToTheSameBits) {
