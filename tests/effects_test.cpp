@@ -225,17 +225,17 @@ TEST_F(Effects, RelightThatIsOffLeavesTheLight) {
 }
 
 /// What the program says of small pictures.
-std::string irad(std::vector<std::string> arguments, bool started = false) {
-  for (const char* small : {"--size", "48x36", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"})
+std::string irad(std::vector<std::string> arguments) {
+  for (const char* small : {"--size", "48x36", "--set", "voxel.resolution=16", "--set", "matrix.rays=16", "--set",
+                            "light.shadow_resolution=64"})
     arguments.push_back(small);
-  const RunResult run = started ? startIrad(arguments) : runIrad(arguments);
+  const RunResult run = runIrad(arguments);
   EXPECT_EQ(run.status, 0) << run.err;
   return run.out;
 }
 
 TEST(IradPlan, PrintsTheTableWithWhatEachEffectThatIsOffWouldTake) {
-  const auto rows =
-      nlohmann::json::parse(irad({"plan", "box", "--json", "--measure", "--frames", "1"}, /*started=*/true))["effects"];
+  const auto rows = nlohmann::json::parse(irad({"plan", "box", "--json", "--measure", "--frames", "1"}))["effects"];
   ASSERT_EQ(rows.size(), kEffects);
   EXPECT_EQ(rows[0]["effect"], "emission");
   EXPECT_EQ(rows[0]["state"], "on");

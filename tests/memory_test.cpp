@@ -139,7 +139,15 @@ uint64_t number(const std::string& text) {
 }
 
 std::vector<std::string> boxOptions(const std::string& preset) {
-  return {"box", "--preset", preset, "--set", "voxel.resolution=24", "--set", "matrix.rays=32"};
+  return {"box",
+          "--preset",
+          preset,
+          "--set",
+          "voxel.resolution=16",
+          "--set",
+          "matrix.rays=32",
+          "--set",
+          "light.shadow_resolution=64"};
 }
 
 /// `irad memory` of a small Box, and `irad render`'s memory.csv.

@@ -64,6 +64,7 @@ TEST_F(Poison, ChangesNoBit) {
       if (preset != std::string("default")) applyPreset(settings, preset, /*cpuDevice=*/true);
       settings.voxel.resolution = 16;
       settings.matrix.gpu.rays = 32;
+      settings.light.shadowResolution = 128;
       const auto plain = results(*gpu().context, settings), filled = results(poisoned, settings);
       ASSERT_EQ(plain.size(), filled.size());
       for (size_t i = 0; i < plain.size(); ++i) EXPECT_TRUE(plain[i] == filled[i]) << "product " << i;

@@ -56,20 +56,26 @@ void expectWhole(const std::map<std::string, std::string>& files, const std::map
 TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
   TemporaryFolder folder;
   const fs::path whole = folder.path / "whole";
-  ASSERT_EQ(startIrad(smallRender(whole, {"--frames", "100"})).status, 0);
+  const auto render = [](const fs::path& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = quickRender(out);
+    arguments.insert(arguments.end(), {"--frames", "50"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  ASSERT_EQ(startIrad(render(whole)).status, 0);
   const auto reference = contents(whole);
   struct Case {
     std::string fault;
     int status;
     std::string message;
   };
-  // In the load, in the building, and (of 200 frames) in those of the second picture.
+  // In the load, in the building, and (of 100 frames) in those of the second picture.
   const std::vector<Case> cases{{"oom=1", 4, "(scene) needs"},          {"oom=60", 4, ") needs "},
                                 {"lost=1", 1, "the device was lost"},   {"lost=60", 1, "the device was lost"},
-                                {"lost=420", 1, "the device was lost"}, {"oom=100000", 0, ""}};
+                                {"lost=260", 1, "the device was lost"}, {"oom=100000", 0, ""}};
   for (const Case& c : cases) {
     const fs::path out = folder.path / c.fault;
-    const RunResult result = startIrad(smallRender(out, {"--inject", c.fault, "--validate", "--frames", "100"}), 120);
+    const RunResult result = startIrad(render(out, {"--inject", c.fault, "--validate"}), 120);
     EXPECT_EQ(result.status, c.status) << c.fault << "\n" << result.err;
     EXPECT_TRUE(contains(result.err, c.message)) << result.err;
     const size_t first = result.err.find("irad: ");
@@ -78,7 +84,7 @@ TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
     const auto files = contents(out);
     expectWhole(files, reference);
     EXPECT_EQ(files.contains("manifest.json"), c.status == 0) << c.fault;
-    EXPECT_EQ(files.empty(), c.status != 0 && c.fault != "lost=420") << c.fault;
+    EXPECT_EQ(files.empty(), c.status != 0 && c.fault != "lost=260") << c.fault;
     EXPECT_TRUE(std::none_of(files.begin(), files.end(), [](const auto& f) { return isTemporary(f.first); }))
         << c.fault;
   }

@@ -665,7 +665,7 @@ TEST(SkyCommands, RefuseWhatIsNoSkyAndTakeWhatIs) {
   const auto render = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"render", "box", "--size", "16x12", "--out", (folder.path / "out").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    for (const char* setting : {"voxel.resolution=10", "matrix.rays=16"})
+    for (const char* setting : {"voxel.resolution=10", "matrix.rays=16", "light.shadow_resolution=64"})
       arguments.insert(arguments.end(), {"--set", setting});
     return runIrad(arguments);
   };

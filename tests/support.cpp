@@ -87,7 +87,10 @@ std::set<pid_t>& lastingProcesses() {
 
 std::string slurp(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string out;
+  for (char block[1 << 14]; in.read(block, sizeof block), in.gcount() > 0;)
+    out.append(block, static_cast<size_t>(in.gcount()));
+  return out;
 }
 
 std::map<std::string, std::string> contents(const std::filesystem::path& folder) {

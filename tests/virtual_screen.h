@@ -206,19 +206,29 @@ class VirtualScreen {
 
   /// The framebuffer is in the XWD format: big-endian header, then rows of BGRX.
   ScreenPart grab(int x, int y, int width, int height) const {
-    const std::string file = slurp(folder_.path / "Xvfb_screen0");
+    std::ifstream file(folder_.path / "Xvfb_screen0", std::ios::binary);
+    const auto read = [&](size_t from, std::string& into) {
+      file.seekg(static_cast<std::streamoff>(from));
+      if (!file.read(into.data(), static_cast<std::streamsize>(into.size())))
+        throw std::runtime_error("beyond the screen");
+    };
+    std::string header(80, 0);
+    read(0, header);
     const auto word = [&](size_t i) {
       uint32_t value = 0;
-      for (size_t b = 0; b < 4; ++b) value = value << 8 | static_cast<uint8_t>(file.at(4 * i + b));
+      for (size_t b = 0; b < 4; ++b) value = value << 8 | static_cast<uint8_t>(header.at(4 * i + b));
       return value;
     };
     const size_t pixels = word(0) + 12 * size_t{word(19)}, row = word(12), depth = word(11) / 8;
     ScreenPart picture{width, height, {}};
-    for (int j = y; j < y + height; ++j)
-      for (int i = x; i < x + width; ++i)
-        for (int c = 2; c >= 0; --c)
-          picture.rgb.push_back(static_cast<uint8_t>(file.at(pixels + row * static_cast<size_t>(j) +
-                                                             depth * static_cast<size_t>(i) + static_cast<size_t>(c))));
+    if (width <= 0 || height <= 0) return picture;
+    picture.rgb.reserve(3 * static_cast<size_t>(width) * static_cast<size_t>(height));
+    std::string line(depth * static_cast<size_t>(width), 0);
+    for (int j = y; j < y + height; ++j) {
+      read(pixels + row * static_cast<size_t>(j) + depth * static_cast<size_t>(x), line);
+      for (size_t i = 0; i < line.size(); i += depth)
+        for (size_t c = 3; c-- > 0;) picture.rgb.push_back(static_cast<uint8_t>(line[i + c]));
+    }
     return picture;
   }
 

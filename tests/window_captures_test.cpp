@@ -41,7 +41,6 @@ class WindowCapturesTest : public WindowTest {
   std::filesystem::path out_ = folder_.path / "out";
 
   void begin(std::vector<std::string> more = {}) {
-    detail_ = "32";
     fold(R"(["Scene", "Lights", "Effects", "Materials", "Objects", "Cameras", "View", "Compare", "Solver", "Memory"])");
     more.insert(more.end(), {"--out", out_.string()});
     start(more);
@@ -204,7 +203,7 @@ TEST_F(WindowCapturesTest, AReplayOfAnotherSceneAsksFirstAndAMissingFileManagerI
   environment_["PATH"] = (folder_.path / "none").string();
   const std::filesystem::path other = folder_.path / "other.glb";
   std::filesystem::copy(assets() / "box.glb", other);
-  const std::vector<std::string> small{"--size", "64x48", "--set", "voxel.resolution=16", "--set", "matrix.rays=16"};
+  const std::vector<std::string> small{"--size", "64x48", "--set", "voxel.resolution=12", "--set", "matrix.rays=12"};
   std::vector<std::string> render{"render", other.string(), "--out", (out_ / "made").string()};
   render.insert(render.end(), small.begin(), small.end());
   const RunResult made = runIrad(render);

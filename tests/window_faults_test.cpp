@@ -10,7 +10,10 @@ namespace {
 
 class WindowFaultsTest : public WindowTest {
  protected:
-  WindowFaultsTest() { detail_ = "32"; }
+  void SetUp() override {
+    WindowTest::SetUp();
+    if (!IsSkipped()) foldPanels();
+  }
 };
 
 TEST_F(WindowFaultsTest, TakesDroppedScenesAndRefusesOthersInWords) {
@@ -193,8 +196,10 @@ TEST_F(WindowFaultsTest, ALostDeviceEndsItWithAMessage) {
     start({"--inject", fault});
     // Something to draw until it happens: on a busy machine several moves make one frame.
     const auto given = std::chrono::steady_clock::now();
-    for (int i = 0; window_->running() && std::chrono::steady_clock::now() - given < std::chrono::minutes(2); ++i)
+    for (int i = 0; window_->running() && std::chrono::steady_clock::now() - given < std::chrono::minutes(2); ++i) {
       screen_->xdotool(fmt::format("mousemove {} 500", 400 + i % 2));
+      pause(0.05);  // a move makes some frames, and takes processes
+    }
     EXPECT_EQ(window_->wait(60), 1) << fault;
     EXPECT_TRUE(says("irad: error: ")) << fault;
     EXPECT_TRUE(says("the device was lost")) << fault;

@@ -16,9 +16,13 @@ namespace irad::test {
 
 class WindowTest : public ::testing::Test {
  protected:
+  static constexpr const char* kWidePanels = R"("left": 370, "right": 320, "bottom": 288, )";
   bool exposesFiles_ = false;  ///< as the window does where no exposure is given
   std::string windowSize_ = "1280x720";
   std::string detail_ = "16";  ///< voxels along the Box, and rays of a facet
+  /// Panels at the sizes of a first start. Otherwise fold() makes them wide: most of what a window takes on a CPU
+  /// rasterizer goes by the picture's pixels.
+  bool firstSizes_ = false;
   /// Where the process is what is tested. Other windows come one after another in the same one, whose device they find
   /// with the pipelines that those before have made.
   bool startsProgram_ = false;
@@ -42,6 +46,7 @@ class WindowTest : public ::testing::Test {
                                      "--set",        "matrix.rays=" + detail_,
                                      "--set",        "solver.sweeps_per_frame=100",
                                      "--set",        "specular.mode=off",
+                                     "--set",        "light.shadow_resolution=256",
                                      "--controls",   controlsFile().string()};
     if (!exposesFiles_) command.insert(command.end(), {"--set", "camera.exposure=0"});
     command.insert(command.end(), more.begin(), more.end());
@@ -59,7 +64,14 @@ class WindowTest : public ::testing::Test {
   void fold(const char* panels) {
     const std::filesystem::path folder = std::filesystem::path(screen_->environment().at("XDG_CONFIG_HOME")) / "irad";
     std::filesystem::create_directories(folder);
-    std::ofstream(folder / "window.json") << fmt::format(R"({{"format": 1, "folded": {}}})", panels);
+    // The picture keeps its shape.
+    std::ofstream(folder / "window.json")
+        << fmt::format(R"({{"format": 1, {}"folded": {}}})", firstSizes_ ? "" : kWidePanels, panels);
+  }
+  /// For tests of the picture, of menus and of messages: no panel is open but the strip's.
+  void foldPanels() {
+    fold(R"(["Accuracy", "Scene", "Lights", "Effects", "Materials", "Objects", "Cameras", "View", "Compare", "Solver",
+             "Memory", "Settings", "Inspector", "History"])");
   }
   void xdotool(const std::string& arguments) { screen_->xdotool(arguments); }
   void key(const std::string& name) { screen_->key(name); }

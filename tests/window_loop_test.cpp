@@ -60,8 +60,9 @@ class WindowLoop : public ::testing::Test {
     context_.emplace(*device_, shaders_, timings_);
     options_.scene = assets() / "box.glb";
     options_.settings = options_.defaults = defaultSettings(/*cpuDevice=*/true);
-    options_.settings.voxel.resolution = 24;
+    options_.settings.voxel.resolution = 16;
     options_.settings.matrix.gpu.rays = 16;
+    options_.settings.light.shadowResolution = 256;
     options_.preferences = folder_.path / "window.json";
     options_.controls = folder_.path / "controls";
     std::ofstream(options_.preferences) << R"({"format": 1, "folded": ["Accuracy"]})";
@@ -222,7 +223,7 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
     from = timings_.now();
     // By a key, by the mouse, and by a panel, which is drawn after the handles.
     screen_->xdotool("keydown w sleep 0.5 keyup w");
-    mouse().dragThrough({at(168, 270), at(208, 280)}, /*button=*/3);
+    mouse().dragThrough({at(168, 270), at(188, 275), at(208, 280)}, /*button=*/3);
     click("Cameras/0");
     screen_->xdotool("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));

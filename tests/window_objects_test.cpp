@@ -49,6 +49,7 @@ class WindowObjectsTest : public WindowTest {
 
 /// The pixels around those that the object covers, and no others; in the window alone.
 TEST_F(WindowObjectsTest, OutlinesToThePixel) {
+  firstSizes_ = true;  // pixels are counted
   begin({"--view", "albedo"});
   const ScreenPart plain = sphere();
   find("metal", kSphere);
@@ -98,6 +99,7 @@ TEST_F(WindowObjectsTest, OutlinesToThePixel) {
 
 /// Of all of the object the outline is drawn; where something is before it, with less of the colour.
 TEST_F(WindowObjectsTest, TheOutlineIsFaintBehindOtherThings) {
+  firstSizes_ = true;  // pixels are counted
   begin({"--view", "albedo"});
   enter("Objects/search", "pedestal");
   away();

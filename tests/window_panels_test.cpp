@@ -35,6 +35,7 @@ class WindowPanelsTest : public WindowTest {
   int margin_ = 5;                            ///< by which rows of lists are wider than their text, pixels
 
   void begin(const std::string& size, const std::string& scale) {
+    firstSizes_ = true;
     fold("[]");
     windowSize_ = size;
     width_ = std::stoi(size);

@@ -10,7 +10,6 @@ class WindowPointingTest : public WindowTest {
  protected:
   void begin(std::vector<std::string> more = {}) {
     fold(R"(["Accuracy", "Scene", "Effects", "Inspector", "Compare", "Solver", "Memory", "Lights", "Materials"])");
-    detail_ = "32";
     start(std::move(more));
     away();
     ASSERT_TRUE(viewportSettles(lit));
@@ -179,7 +178,7 @@ TEST_F(WindowPointingTest, TablesKeepWhatRanAndOneTimeWorkByResolution) {
   click("Timings/Table");
   EXPECT_TRUE(appears("Timings/RE Forward=frames"));
   click("Timings/One-time");
-  EXPECT_TRUE(appears("Timings/box, 32 voxels"));
+  EXPECT_TRUE(appears("Timings/box, 16 voxels"));
   EXPECT_TRUE(has("Timings/GI BuildMatrix=1"));
   click("Timings/Plot");
   away();

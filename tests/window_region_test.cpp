@@ -95,8 +95,8 @@ TEST_F(WindowRegionTest, TheBoxIsSavedAndComesBack) {
   quit();
   // A run without the window takes it, too, and its manifest repeats it without the sidecar.
   const std::string first = (folder_.path / "first").string(), again = (folder_.path / "again").string();
-  ASSERT_EQ(runIrad({"render", scene.string(), "--set", "voxel.resolution=16", "--set", "matrix.rays=16", "--size",
-                     "32x24", "--out", first})
+  ASSERT_EQ(runIrad({"render", scene.string(), "--set", "voxel.resolution=16", "--set", "matrix.rays=16", "--set",
+                     "light.shadow_resolution=64", "--size", "32x24", "--out", first})
                 .status,
             0);
   const std::string manifest = first + "/manifest.json";

@@ -48,9 +48,11 @@ constexpr int kRounding = 1;  ///< of 255
 
 class WindowWalk : public WindowTest {
  protected:
+  WindowWalk() { firstSizes_ = true; }
   static std::vector<std::string> settings(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words{"--set", "voxel.resolution=16", "--set", "matrix.rays=32",
-                                   "--set", "specular.mode=off",   "--set", "solver.tolerance=1e-6"};
+    std::vector<std::string> words{"--set", "voxel.resolution=16",         "--set", "matrix.rays=32",
+                                   "--set", "specular.mode=off",           "--set", "solver.tolerance=1e-6",
+                                   "--set", "light.shadow_resolution=2048"};  // the default
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
