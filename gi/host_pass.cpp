@@ -16,7 +16,8 @@ HostPass::Copy& HostPass::copyOf(const Buffer& buffer, bool written) {
     copy.written = copy.written || written;
     return copy;
   }
-  return copies_.emplace_back(&buffer, download(context_, buffer), written);
+  copies_.push_back({&buffer, download(context_, buffer), written});
+  return copies_.back();
 }
 
 void HostPass::finish() {
