@@ -9,12 +9,11 @@
 #include "gi/facets.h"
 #include "gi/grid.h"
 #include "gi/group_by_material.h"
-#include "gi/host_pass.h"
 #include "gi/scan.h"
 #include "gi/scene_shape.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
-#include "gi/surface_on_host.h"
+#include "gi/surface_steps.h"
 #include "gi/voxel_pass.h"
 #include "renderer/base/error.h"
 #include "renderer/frame/record.h"
@@ -25,63 +24,6 @@
 
 namespace irad {
 namespace {
-
-constexpr const char* kListStage = "GI CompactList";
-
-Buffer words(const Device& device, const char* name, uint64_t count) {
-  return Buffer(device, name, Subsystem::Facets, 4 * count);
-}
-
-/// Which triangles have a piece in which voxel.
-struct Pieces {
-  uint32_t solid = 0, count = 0;  ///< voxels; pieces
-  Buffer voxel;                   ///< packVoxel of each solid voxel, in Morton order
-  Buffer first;                   ///< of each solid voxel; and the end
-  Buffer triangle;                ///< per piece, ascending within a voxel
-  Buffer pieceVoxel;              ///< which solid voxel
-  Buffer area;                    ///< float, voxel faces
-  Buffer facings;                 ///< the triangles' unit normals, until points have their facets
-  Buffer boxes, groups;           ///< packBox; and around groups of them
-  Buffer firstPoint, firstCut;    ///< per piece, and the end: its PiecePoints, and its words of SurfaceArrays::cuts
-  uint32_t points = 0, cuts = 0;
-};
-
-/// Points by which facets are told apart, and what was found of them.
-struct Points {
-  Buffer at;          ///< PiecePoint
-  Buffer classes;     ///< per point
-  Buffer area;        ///< per point: for how much it stands, voxel faces
-  Buffer facetStart;  ///< per solid voxel, and the end
-  Buffer wideStart;   ///< likewise, of the facets whose surfels' sides take more than a byte
-  uint32_t wide = 0;  ///< of these
-};
-
-/// As far as the surface has got. `addressOf`: a RecordMaker's of(), or a HostPass's in().
-SurfaceArrays surfaceArrays(const FacetList& list, const auto& addressOf) {
-  const Surface& s = list.surface;
-  SurfaceArrays arrays{};
-  arrays.corners = addressOf(s.corners);
-  if (s.pieces) {
-    arrays.pieces = addressOf(s.pieces);
-    arrays.boxes = addressOf(s.boxes);
-    arrays.groups = addressOf(s.groups);
-    arrays.sides = addressOf(s.sides);
-    arrays.cuts = addressOf(s.cuts);
-  }
-  if (s.surfels) {
-    arrays.firstPiece = addressOf(s.firstPiece);
-    arrays.voxel = addressOf(list.voxel);
-    arrays.surfels = addressOf(s.surfels);
-    arrays.wideSides = addressOf(s.wideSides);
-    arrays.area = addressOf(list.area);
-  }
-  if (s.links) {
-    arrays.linkMasks = addressOf(s.linkMasks);
-    arrays.firstLinks = addressOf(s.firstLinks);
-    arrays.links = addressOf(s.links);
-  }
-  return arrays;
-}
 
 void makeRecord(Context& context, FacetList& list) {
   RecordMaker record(context, "surface record", Subsystem::Facets, sizeof(SurfaceArrays));
@@ -125,73 +67,19 @@ void scanToEnd(Frame& frame, const Buffer& values, uint32_t count, const Buffer&
   frame.readback(total, 0, 4, [&sum](std::span<const uint8_t> b) { std::memcpy(&sum, b.data(), b.size()); });
 }
 
-// What kernels take, or the host in their place; `pass`: a Pass or a HostPass.
-
-SortPiecesPush piecesToSort(auto& pass, const Buffer& corners, const Buffer& unsorted, const Pieces& p) {
-  SortPiecesPush push{};
-  push.solid = pass.in(p.voxel);
-  push.firstPiece = pass.in(p.first);
-  push.pieces = pass.out(unsorted);
-  push.sorted = pass.out(p.triangle);
-  push.pieceVoxel = pass.out(p.pieceVoxel);
-  push.corners = pass.in(corners);
-  push.count = p.solid;
-  return push;
-}
-
-PieceShapePush piecesToShape(auto& pass, const Buffer& corners, const Pieces& p) {
-  PieceShapePush push{};
-  push.pieceVoxel = pass.in(p.pieceVoxel);
-  push.pieces = pass.in(p.triangle);
-  push.solid = pass.in(p.voxel);
-  push.firstPiece = pass.in(p.first);
-  push.corners = pass.in(corners);
-  push.area = pass.out(p.area);
-  push.facings = pass.out(p.facings);
-  push.boxes = pass.out(p.boxes);
-  push.points = pass.out(p.firstPoint);
-  push.cuts = pass.out(p.firstCut);
-  push.count = p.count;
-  return push;
-}
-
-/// Puts the pieces of each voxel in order, and finds area and box of each, and how many points and cuts it has.
-void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Buffer& unsorted, const Pieces& p) {
-  if (by == ListedBy::host) {
-    timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      sortPiecesOnHost(piecesToSort(pass, corners, unsorted, p));
-      shapePiecesOnHost(piecesToShape(pass, corners, p));
-      pass.finish();
-    });
-    return;
-  }
-  Frame frame = context.begin();
-  Pass sort = frame.pass(kListStage);
-  sort.shader("gi/sort_pieces.comp")
-      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-      .push(piecesToSort(sort, corners, unsorted, p))
-      .dispatchWorkgroups(p.solid);
-  Pass shape = frame.pass(kListStage);
-  shape.shader("gi/piece_shape.comp")
-      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-      .push(piecesToShape(shape, corners, p))
-      .dispatch(p.count);
-  frame.submit();
-}
-
-Pieces listPieces(Context& context, ListedBy by, const SceneOnDevice& scene, const Grid& grid, const Buffer& gridRecord,
-                  const Buffer& corners, const std::function<void()>& look) {
+SurfacePieces listPieces(Context& context, ListedBy by, const SceneOnDevice& scene, const Grid& grid,
+                         const Buffer& gridRecord, const Buffer& corners, const std::function<void()>& look) {
   const Device& device = context.device;
-  Pieces p;
+  SurfacePieces p;
   const auto ranges = scene.scene.triangleCount() > 0 ? triangleRanges(scene) : std::vector<TriangleRange>{};
   const Tiles tiles = ranges.empty() ? Tiles{} : countTiles(context, scene, gridRecord, ranges);
-  Buffer counts = words(device, "pieces of voxels", grid.voxels);
+  Buffer counts = facetWords(device, "pieces of voxels", grid.voxels);
   SolidPush push{};
   push.blocks = 1u << (grid.mortonBits.x + grid.mortonBits.y + grid.mortonBits.z - 6);
-  Buffer blockSolid = words(device, "solid voxels of blocks", push.blocks),
-         blockPieces = words(device, "pieces of blocks", push.blocks), solid = words(device, "solid voxels", 1),
-         pieces = words(device, "pieces", 1), most = words(device, "most pieces of a voxel", 1);
+  Buffer blockSolid = facetWords(device, "solid voxels of blocks", push.blocks),
+         blockPieces = facetWords(device, "pieces of blocks", push.blocks),
+         solid = facetWords(device, "solid voxels", 1), pieces = facetWords(device, "pieces", 1),
+         most = facetWords(device, "most pieces of a voxel", 1);
   {
     Frame frame = context.begin();
     frame.pass(kVoxelizeStage).fill(counts, 0);
@@ -217,17 +105,17 @@ Pieces listPieces(Context& context, ListedBy by, const SceneOnDevice& scene, con
         "{}: a voxel holds pieces of {} triangles, more than {}: raise voxel.resolution, or simplify the mesh",
         scene.scene.path.string(), n, MOST_PIECES));
 
-  p.voxel = words(device, "solid voxels", p.solid);
-  p.first = words(device, "first pieces of voxels", uint64_t{p.solid} + 1);
-  p.triangle = words(device, "pieces' triangles", p.count);
-  p.pieceVoxel = words(device, "pieces' voxels", p.count);
-  p.area = words(device, "pieces' areas", p.count);
-  p.facings = words(device, "pieces' facings", 3ull * p.count);
-  p.boxes = words(device, "pieces' boxes", p.count);
-  p.groups = words(device, "boxes of groups", groupPlaces(p.count));
-  p.firstPoint = words(device, "pieces' points", uint64_t{p.count} + 1);
-  p.firstCut = words(device, "pieces' cuts", uint64_t{p.count} + 1);
-  const Buffer unsorted = words(device, "unsorted pieces", p.count);
+  p.voxel = facetWords(device, "solid voxels", p.solid);
+  p.first = facetWords(device, "first pieces of voxels", uint64_t{p.solid} + 1);
+  p.triangle = facetWords(device, "pieces' triangles", p.count);
+  p.pieceVoxel = facetWords(device, "pieces' voxels", p.count);
+  p.area = facetWords(device, "pieces' areas", p.count);
+  p.facings = facetWords(device, "pieces' facings", 3ull * p.count);
+  p.boxes = facetWords(device, "pieces' boxes", p.count);
+  p.groups = facetWords(device, "boxes of groups", groupPlaces(p.count));
+  p.firstPoint = facetWords(device, "pieces' points", uint64_t{p.count} + 1);
+  p.firstCut = facetWords(device, "pieces' cuts", uint64_t{p.count} + 1);
+  const Buffer unsorted = facetWords(device, "unsorted pieces", p.count);
   {
     Frame frame = context.begin();
     frame.pass(kListStage).copy(pieces, p.first, 4, 0, 4ull * p.solid);
@@ -261,7 +149,7 @@ Pieces listPieces(Context& context, ListedBy by, const SceneOnDevice& scene, con
 }
 
 /// What alpha masks leave of the pieces, in `surface`.
-void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid, const Pieces& pieces,
+void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid, const SurfacePieces& pieces,
                const Surface& surface) {
   const auto hasMask = [](uint32_t flags) { return (flags & MATERIAL_ALPHA_MASK) != 0; };
   const std::vector<uint32_t> flags = flagsOfTriangles(scene);
@@ -293,94 +181,17 @@ void findMasks(Context& context, const SceneOnDevice& scene, const Buffer& grid,
   frame.submitAndWait();
 }
 
-// As above.
-
-PiecePointsPush piecesWithPoints(auto& pass, const Pieces& pieces, const Surface& surface, const Points& p) {
-  PiecePointsPush push{};
-  push.pieceVoxel = pass.in(pieces.pieceVoxel);
-  push.solid = pass.in(pieces.voxel);
-  push.firstPiece = pass.in(pieces.first);
-  push.area = pass.in(pieces.area);
-  push.firstPoint = pass.in(pieces.firstPoint);
-  push.firstCut = pass.in(pieces.firstCut);
-  push.points = pass.out(p.at);
-  push.classes = pass.out(p.classes);
-  push.sides = pass.out(surface.sides);
-  push.cuts = pass.out(surface.cuts);
-  push.count = pieces.count;
-  return push;
-}
-
-ClassPointsPush classPoints(auto& pass, const Pieces& pieces, const Points& p) {
-  ClassPointsPush push{};
-  push.solid = pass.in(pieces.voxel);
-  push.firstPiece = pass.in(pieces.first);
-  push.area = pass.in(pieces.area);
-  push.facings = pass.in(pieces.facings);
-  push.firstPoint = pass.in(pieces.firstPoint);
-  push.points = pass.in(p.at);
-  push.classes = pass.accumulate(p.classes);
-  push.facets = pass.accumulate(p.facetStart);
-  push.wide = pass.accumulate(p.wideStart);
-  push.count = pieces.solid;
-  return push;
-}
-
-/// The points, each one's facet among those of its voxel, and how many facets each voxel has.
-void findClasses(Context& context, ListedBy by, const Pieces& pieces, const FacetList& list, const Points& p) {
-  if (by == ListedBy::host) {
-    timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
-      findPointsOnHost(piecesWithPoints(pass, pieces, list.surface, p), surface);
-      classPointsOnHost(classPoints(pass, pieces, p), surface);
-      pass.finish();
-    });
-    return;
-  }
-  const Buffer crowds = words(context.device, "voxels with many points", pieces.solid);
-  const Buffer crowdCount = words(context.device, "number of these", 1);
-  const auto push = [&](Pass& pass) {
-    ClassPointsPush push = classPoints(pass, pieces, p);
-    push.surface = pass.in(list.surface.record);
-    push.crowds = pass.accumulate(crowds);
-    push.crowdCount = pass.accumulate(crowdCount);
-    return push;
-  };
-  {
-    Frame frame = context.begin();
-    Pass points = frame.pass(kListStage);
-    PiecePointsPush toFind = piecesWithPoints(points, pieces, list.surface, p);
-    toFind.surface = points.in(list.surface.record);
-    points.shader("gi/piece_points.comp")
-        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-        .push(toFind)
-        .dispatch(pieces.count);
-    frame.pass(kListStage).fill(crowdCount, 0);
-    Pass pass = frame.pass(kListStage);
-    pass.shader("gi/class_points.comp").push(push(pass)).dispatch(pieces.solid);
-    frame.submit();
-  }
-  const uint32_t found = downloadAs<uint32_t>(context, crowdCount).at(0);
-  if (found == 0) return;
-  Frame frame = context.begin();
-  Pass pass = frame.pass(kListStage);
-  ClassPointsPush ofCrowds = push(pass);
-  ofCrowds.count = found;
-  pass.shader("gi/class_crowd.comp").push(ofCrowds).dispatchWorkgroups(found);
-  frame.submit();
-}
-
 /// The points of all pieces, in the list's surface the cuts of those that others stand on, and each point's facet.
-Points classifyPoints(Context& context, ListedBy by, const Pieces& pieces, const FacetList& list, uint32_t& facets) {
+SurfacePoints classifyPoints(Context& context, ListedBy by, const SurfacePieces& pieces, const FacetList& list,
+                             uint32_t& facets) {
   const Device& device = context.device;
-  Points p;
+  SurfacePoints p;
   p.at = Buffer(device, "pieces' points", Subsystem::Facets, sizeof(PiecePoint) * uint64_t{pieces.points});
-  p.classes = words(device, "points' facets", pieces.points);
-  p.area = words(device, "points' areas", pieces.points);
-  p.facetStart = words(device, "facets of voxels", uint64_t{pieces.solid} + 1);
-  p.wideStart = words(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
-  const Buffer total = words(device, "facets", 1), wide = words(device, "wide facets", 1);
+  p.classes = facetWords(device, "points' facets", pieces.points);
+  p.area = facetWords(device, "points' areas", pieces.points);
+  p.facetStart = facetWords(device, "facets of voxels", uint64_t{pieces.solid} + 1);
+  p.wideStart = facetWords(device, "wide facets of voxels", uint64_t{pieces.solid} + 1);
+  const Buffer total = facetWords(device, "facets", 1), wide = facetWords(device, "wide facets", 1);
   findClasses(context, by, pieces, list, p);
   Frame frame = context.begin();
   scanToEnd(frame, p.facetStart, pieces.solid, total, facets);
@@ -390,7 +201,7 @@ Points classifyPoints(Context& context, ListedBy by, const Pieces& pieces, const
 }
 
 /// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels.
-void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces, const Points& points,
+void fillFacets(Context& context, const Buffer& gridRecord, const SurfacePieces& pieces, const SurfacePoints& points,
                 const FacetList& list, const Buffer& facings) {
   const Surface& surface = list.surface;
   Frame frame = context.begin();
@@ -443,58 +254,13 @@ void fillFacets(Context& context, const Buffer& gridRecord, const Pieces& pieces
   frame.submitAndWait();
 }
 
-/// As above.
-LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& facings, const Buffer& found) {
-  LinkFacetsPush push{};
-  push.voxel = pass.in(list.voxel);
-  push.reverse = pass.in(list.reverse);
-  push.facings = pass.in(facings);
-  push.found = pass.accumulate(found);
-  push.masks = pass.accumulate(list.surface.linkMasks);
-  push.counts = pass.accumulate(list.surface.firstLinks);
-  push.dims = list.grid.dims;
-  push.count = list.count;
-  return push;
-}
-
-/// Which facets of the voxels around each facet continue its surface, and how many. `at`: room for its surfels.
-void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& at,
-               const Buffer& found) {
-  const Surface& surface = list.surface;
-  if (by == ListedBy::host) {
-    timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      LinkFacetsPush push = facetsToLink(pass, list, facings, found);
-      push.points = pass.in(at);
-      linkFacetsOnHost(push, surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
-      pass.finish();
-    });
-    return;
-  }
-  Frame frame = context.begin();
-  Pass surfels = frame.pass(kListStage);
-  LinkPointsPush points{};
-  points.surface = surfels.in(surface.record);
-  points.reverse = surfels.in(list.reverse);
-  points.points = surfels.out(at);
-  points.dims = list.grid.dims;
-  points.count = list.count;
-  surfels.shader("gi/link_points.comp").push(points).dispatch(uint64_t{FACET_SURFELS} * list.count);
-  Pass pass = frame.pass(kListStage);
-  LinkFacetsPush push = facetsToLink(pass, list, facings, found);
-  push.surface = pass.in(surface.record);
-  push.points = pass.in(at);
-  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
-  frame.submit();
-}
-
 /// Which facets continue the surface of which: masks and, where `list` says that each facet's begin, links.
 void linkFacets(Context& context, ListedBy by, FacetList& list, const Buffer& facings) {
   Surface& surface = list.surface;
   const Device& device = context.device;
   const Buffer found(device, "links as found", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
   const Buffer at(device, "surfels to link", Subsystem::Facets, sizeof(glm::vec4) * FACET_SURFELS * list.count);
-  const Buffer total = words(device, "links", 1);
+  const Buffer total = facetWords(device, "links", 1);
   findLinks(context, by, list, facings, at, found);
   uint32_t links = 0;
   {
@@ -540,7 +306,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
   Surface& surface = list.surface;
   const std::vector<uint32_t> flags = flagsOfTriangles(scene);
   surface.tinted = std::ranges::any_of(flags, [](uint32_t f) { return (f & MATERIAL_TRANSMISSIVE) != 0; });
-  surface.corners = words(device, "triangles' corners", 12ull * triangles);
+  surface.corners = facetWords(device, "triangles' corners", 12ull * triangles);
   const std::vector<uint32_t> repeated = repeatedTriangles(shape.samePlaces, flags);
   list.outer = makeOuter(context, scene, region, list.grid, repeated);
   if (surface.tinted && list.outer.count > (1u << TINT_SHIFT_SKY) - SKY_BINS)
@@ -562,28 +328,28 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
     pass.shader("gi/surface_corners.comp").push(push).dispatch(triangles);
     frame.submit();
   }
-  Pieces pieces = listPieces(context, by, scene, list.grid, grid, surface.corners, look);
+  SurfacePieces pieces = listPieces(context, by, scene, list.grid, grid, surface.corners, look);
   look();
 
   list.solidVoxels = pieces.solid;
   surface.pieces = std::move(pieces.triangle);
   surface.boxes = std::move(pieces.boxes);
   surface.groups = std::move(pieces.groups);
-  surface.sides = words(device, "pieces' sides", pieces.count);
-  surface.cuts = words(device, "pieces' cuts", pieces.cuts);
+  surface.sides = facetWords(device, "pieces' sides", pieces.count);
+  surface.cuts = facetWords(device, "pieces' cuts", pieces.cuts);
   makeRecord(context, list);
-  Points points;
+  SurfacePoints points;
   findMasks(context, scene, grid, pieces, surface);
   look();
   if (pieces.solid > 0) points = classifyPoints(context, by, pieces, list, list.count);
   look();
   pieces.facings = Buffer();
   allocateFacets(device, list);
-  surface.firstPiece = words(device, "first pieces of facets", uint64_t{list.count} + 1);
-  surface.surfels = words(device, "surfels", uint64_t{SURFEL_WORDS} * list.count);
-  surface.wideSides = words(device, "wide sides of surfels", uint64_t{WIDE_WORDS} * points.wide);
-  surface.linkMasks = words(device, "masks of links", list.count);
-  surface.firstLinks = words(device, "first links of facets", uint64_t{list.count} + 1);
+  surface.firstPiece = facetWords(device, "first pieces of facets", uint64_t{list.count} + 1);
+  surface.surfels = facetWords(device, "surfels", uint64_t{SURFEL_WORDS} * list.count);
+  surface.wideSides = facetWords(device, "wide sides of surfels", uint64_t{WIDE_WORDS} * points.wide);
+  surface.linkMasks = facetWords(device, "masks of links", list.count);
+  surface.firstLinks = facetWords(device, "first links of facets", uint64_t{list.count} + 1);
   makeRecord(context, list);
   {
     Frame frame = context.begin();
@@ -591,7 +357,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
     frame.submit();
   }
   if (list.count > 0) {
-    const Buffer facings = words(device, "facings of facets", 3ull * list.count);
+    const Buffer facings = facetWords(device, "facings of facets", 3ull * list.count);
     fillFacets(context, grid, pieces, points, list, facings);
     look();
     linkFacets(context, by, list, facings);
@@ -618,9 +384,9 @@ uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& sc
       groupByMaterial(scene, downloadAs<uint32_t>(context, surface.pieces), kColorTextures | MATERIAL_NORMAL_TEXTURE);
   const Buffer ordered =
       makeBuffer<uint32_t>(context, "pieces by material", Subsystem::Facets, std::span<const uint32_t>(order.items));
-  const Buffer clamped = words(device, "clamped albedo", 1);
-  const Buffer albedo = words(device, "pieces' albedo", 3ull * parts.pieces),
-               emission = words(device, "pieces' exitance", list.hasEmission ? 3ull * parts.pieces : 0);
+  const Buffer clamped = facetWords(device, "clamped albedo", 1);
+  const Buffer albedo = facetWords(device, "pieces' albedo", 3ull * parts.pieces),
+               emission = facetWords(device, "pieces' exitance", list.hasEmission ? 3ull * parts.pieces : 0);
   Frame frame = context.begin();
   frame.pass(stage).fill(clamped, 0);
   dispatchByMaterial(frame, stage, "gi/piece_shade.comp", scene, order, [&](Pass& pass) {

@@ -60,7 +60,7 @@ TEST_F(Portable, RendersTheFullBuildsPictureFromItsCache) {
   ASSERT_EQ(exported.status, 0) << exported.err;
   for (const auto& [which, scene, out] :
        {std::tuple{iradProgram(), cache.string(), full}, std::tuple{program.string(), std::string("kept"), small}}) {
-    // Samples of the emitters would differ in their last bits: on CPU devices the full build's host sums them.
+    // Samples of the emitters would differ more: on CPU devices the full build's host draws them.
     const RunResult run =
         runProgram(which, {"render", scene, "--view", "lit", "--size", "48x48", "--set", "voxel.resolution=24", "--set",
                            "matrix.rays=32", "--set", "matrix.emitter_sampling=off", "--out", out});
@@ -68,7 +68,13 @@ TEST_F(Portable, RendersTheFullBuildsPictureFromItsCache) {
   }
   const ExrPicture a = readExr(fs::path(full) / "lit.exr"), b = readPfm(fs::path(small) / "lit.pfm");
   ASSERT_EQ(a.pixels.size(), b.pixels.size());
-  EXPECT_EQ(a.pixels, b.pixels) << "same device, same shaders, same bits";
+  // But for the last bits: on CPU devices the full build's host sums up direct light, which this one leaves to a
+  // kernel.
+  float apart = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i)
+    apart = std::max(apart, glm::length(a.pixels[i] - b.pixels[i]) / std::max(glm::length(a.pixels[i]), 1e-3f));
+  std::printf("pictures are apart by %.2g of a pixel at most\n", double{apart});
+  EXPECT_LT(apart, 1e-5f) << "same device, same shaders";
   EXPECT_GT(a.mean().x, 0.01);
 }
 

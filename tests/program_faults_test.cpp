@@ -295,7 +295,8 @@ TEST(ProgramFaults, AFailedRunTakesTheOldManifestAway) {
   // The manifest vouched for files that now partly belong to another run.
   TemporaryFolder folder;
   ASSERT_EQ(runIrad(quickRender(folder.path)).status, 0);
-  const RunResult failed = startIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=250"}));
+  // Among the frames of the second picture.
+  const RunResult failed = startIrad(smallRender(folder.path, {"--frames", "100", "--inject", "lost=610"}));
   ASSERT_EQ(failed.status, 1) << failed.err;
   EXPECT_FALSE(fs::exists(folder.path / "manifest.json"));
 }

@@ -1,0 +1,188 @@
+#include "gi/surface_steps.h"
+
+#include "gi/host_pass.h"
+#include "gi/surface_on_host.h"
+#include "renderer/frame/frame.h"
+#include "shaders/shared/constants.h"
+
+namespace irad {
+namespace {
+
+// What kernels take, or the host in their place; `pass`: a Pass or a HostPass.
+
+SortPiecesPush piecesToSort(auto& pass, const Buffer& corners, const Buffer& unsorted, const SurfacePieces& p) {
+  SortPiecesPush push{};
+  push.solid = pass.in(p.voxel);
+  push.firstPiece = pass.in(p.first);
+  push.pieces = pass.out(unsorted);
+  push.sorted = pass.out(p.triangle);
+  push.pieceVoxel = pass.out(p.pieceVoxel);
+  push.corners = pass.in(corners);
+  push.count = p.solid;
+  return push;
+}
+
+PieceShapePush piecesToShape(auto& pass, const Buffer& corners, const SurfacePieces& p) {
+  PieceShapePush push{};
+  push.pieceVoxel = pass.in(p.pieceVoxel);
+  push.pieces = pass.in(p.triangle);
+  push.solid = pass.in(p.voxel);
+  push.firstPiece = pass.in(p.first);
+  push.corners = pass.in(corners);
+  push.area = pass.out(p.area);
+  push.facings = pass.out(p.facings);
+  push.boxes = pass.out(p.boxes);
+  push.points = pass.out(p.firstPoint);
+  push.cuts = pass.out(p.firstCut);
+  push.count = p.count;
+  return push;
+}
+
+PiecePointsPush piecesWithPoints(auto& pass, const SurfacePieces& pieces, const Surface& surface,
+                                 const SurfacePoints& p) {
+  PiecePointsPush push{};
+  push.pieceVoxel = pass.in(pieces.pieceVoxel);
+  push.solid = pass.in(pieces.voxel);
+  push.firstPiece = pass.in(pieces.first);
+  push.area = pass.in(pieces.area);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.firstCut = pass.in(pieces.firstCut);
+  push.points = pass.out(p.at);
+  push.classes = pass.out(p.classes);
+  push.sides = pass.out(surface.sides);
+  push.cuts = pass.out(surface.cuts);
+  push.count = pieces.count;
+  return push;
+}
+
+ClassPointsPush classPoints(auto& pass, const SurfacePieces& pieces, const SurfacePoints& p) {
+  ClassPointsPush push{};
+  push.solid = pass.in(pieces.voxel);
+  push.firstPiece = pass.in(pieces.first);
+  push.area = pass.in(pieces.area);
+  push.facings = pass.in(pieces.facings);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.points = pass.in(p.at);
+  push.classes = pass.accumulate(p.classes);
+  push.facets = pass.accumulate(p.facetStart);
+  push.wide = pass.accumulate(p.wideStart);
+  push.count = pieces.solid;
+  return push;
+}
+
+LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& facings, const Buffer& found) {
+  LinkFacetsPush push{};
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.facings = pass.in(facings);
+  push.found = pass.accumulate(found);
+  push.masks = pass.accumulate(list.surface.linkMasks);
+  push.counts = pass.accumulate(list.surface.firstLinks);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  return push;
+}
+
+}  // namespace
+
+void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Buffer& unsorted,
+                  const SurfacePieces& p) {
+  if (by == ListedBy::host) {
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      sortPiecesOnHost(piecesToSort(pass, corners, unsorted, p));
+      shapePiecesOnHost(piecesToShape(pass, corners, p));
+      pass.finish();
+    });
+    return;
+  }
+  Frame frame = context.begin();
+  Pass sort = frame.pass(kListStage);
+  sort.shader("gi/sort_pieces.comp")
+      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+      .push(piecesToSort(sort, corners, unsorted, p))
+      .dispatchWorkgroups(p.solid);
+  Pass shape = frame.pass(kListStage);
+  shape.shader("gi/piece_shape.comp")
+      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+      .push(piecesToShape(shape, corners, p))
+      .dispatch(p.count);
+  frame.submit();
+}
+
+void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, const FacetList& list,
+                 const SurfacePoints& p) {
+  if (by == ListedBy::host) {
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+      findPointsOnHost(piecesWithPoints(pass, pieces, list.surface, p), surface);
+      classPointsOnHost(classPoints(pass, pieces, p), surface);
+      pass.finish();
+    });
+    return;
+  }
+  const Buffer crowds = facetWords(context.device, "voxels with many points", pieces.solid);
+  const Buffer crowdCount = facetWords(context.device, "number of these", 1);
+  const auto push = [&](Pass& pass) {
+    ClassPointsPush push = classPoints(pass, pieces, p);
+    push.surface = pass.in(list.surface.record);
+    push.crowds = pass.accumulate(crowds);
+    push.crowdCount = pass.accumulate(crowdCount);
+    return push;
+  };
+  {
+    Frame frame = context.begin();
+    Pass points = frame.pass(kListStage);
+    PiecePointsPush toFind = piecesWithPoints(points, pieces, list.surface, p);
+    toFind.surface = points.in(list.surface.record);
+    points.shader("gi/piece_points.comp")
+        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+        .push(toFind)
+        .dispatch(pieces.count);
+    frame.pass(kListStage).fill(crowdCount, 0);
+    Pass pass = frame.pass(kListStage);
+    pass.shader("gi/class_points.comp").push(push(pass)).dispatch(pieces.solid);
+    frame.submit();
+  }
+  const uint32_t found = downloadAs<uint32_t>(context, crowdCount).at(0);
+  if (found == 0) return;
+  Frame frame = context.begin();
+  Pass pass = frame.pass(kListStage);
+  ClassPointsPush ofCrowds = push(pass);
+  ofCrowds.count = found;
+  pass.shader("gi/class_crowd.comp").push(ofCrowds).dispatchWorkgroups(found);
+  frame.submit();
+}
+
+void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& at,
+               const Buffer& found) {
+  const Surface& surface = list.surface;
+  if (by == ListedBy::host) {
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      LinkFacetsPush push = facetsToLink(pass, list, facings, found);
+      push.points = pass.in(at);
+      linkFacetsOnHost(push, surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
+      pass.finish();
+    });
+    return;
+  }
+  Frame frame = context.begin();
+  Pass surfels = frame.pass(kListStage);
+  LinkPointsPush points{};
+  points.surface = surfels.in(surface.record);
+  points.reverse = surfels.in(list.reverse);
+  points.points = surfels.out(at);
+  points.dims = list.grid.dims;
+  points.count = list.count;
+  surfels.shader("gi/link_points.comp").push(points).dispatch(uint64_t{FACET_SURFELS} * list.count);
+  Pass pass = frame.pass(kListStage);
+  LinkFacetsPush push = facetsToLink(pass, list, facings, found);
+  push.surface = pass.in(surface.record);
+  push.points = pass.in(at);
+  pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
+  frame.submit();
+}
+
+}  // namespace irad
