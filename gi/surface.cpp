@@ -259,9 +259,8 @@ void linkFacets(Context& context, ListedBy by, FacetList& list, const Buffer& fa
   Surface& surface = list.surface;
   const Device& device = context.device;
   const Buffer found(device, "links as found", Subsystem::Facets, uint64_t{FACET_LINKS} * list.count);
-  const Buffer at(device, "surfels to link", Subsystem::Facets, sizeof(glm::vec4) * FACET_SURFELS * list.count);
   const Buffer total = facetWords(device, "links", 1);
-  findLinks(context, by, list, facings, at, found);
+  findLinks(context, by, list, facings, found);
   uint32_t links = 0;
   {
     Frame frame = context.begin();

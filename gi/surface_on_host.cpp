@@ -178,7 +178,7 @@ class FacetLinker {
       const Nearest nearest = nearestOf(other, glm::vec3(pointOf(facet_, own)));
       if (nearest.distance2 >= best) continue;
       const SidePoint from = sidePoint(facet_, own), to = sidePoint(other, nearest.surfel);
-      if (!mayContinue(from.at, to.at) || !continues(surface_, push_.reverse, push_.dims, from, to)) continue;
+      if (!continues(surface_, push_.reverse, push_.dims, from, to)) continue;
       best = nearest.distance2;
       link = k;
     }

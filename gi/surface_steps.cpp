@@ -1,5 +1,7 @@
 #include "gi/surface_steps.h"
 
+#include <vector>
+
 #include "gi/host_pass.h"
 #include "gi/surface_on_host.h"
 #include "renderer/frame/frame.h"
@@ -155,28 +157,30 @@ void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, con
   frame.submit();
 }
 
-void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& at,
-               const Buffer& found) {
+void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& found) {
   const Surface& surface = list.surface;
+  const uint64_t surfels = uint64_t{FACET_SURFELS} * list.count;
   if (by == ListedBy::host) {
     timedOnHost(context, kListStage, [&] {
       HostPass pass(context);
+      std::vector<glm::vec4> points(surfels);
       LinkFacetsPush push = facetsToLink(pass, list, facings, found);
-      push.points = pass.in(at);
+      push.points = Vec4Array(points.data());
       linkFacetsOnHost(push, surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
       pass.finish();
     });
     return;
   }
+  const Buffer at(context.device, "surfels to link", Subsystem::Facets, sizeof(glm::vec4) * surfels);
   Frame frame = context.begin();
-  Pass surfels = frame.pass(kListStage);
+  Pass place = frame.pass(kListStage);
   LinkPointsPush points{};
-  points.surface = surfels.in(surface.record);
-  points.reverse = surfels.in(list.reverse);
-  points.points = surfels.out(at);
+  points.surface = place.in(surface.record);
+  points.reverse = place.in(list.reverse);
+  points.points = place.out(at);
   points.dims = list.grid.dims;
   points.count = list.count;
-  surfels.shader("gi/link_points.comp").push(points).dispatch(uint64_t{FACET_SURFELS} * list.count);
+  place.shader("gi/link_points.comp").push(points).dispatch(surfels);
   Pass pass = frame.pass(kListStage);
   LinkFacetsPush push = facetsToLink(pass, list, facings, found);
   push.surface = pass.in(surface.record);

@@ -70,8 +70,7 @@ void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Bu
 /// The points, each one's facet among those of its voxel, and how many facets each voxel has.
 void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, const FacetList& list,
                  const SurfacePoints& p);
-/// Which facets of the voxels around each facet continue its surface, and how many. `at`: room for its surfels.
-void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& at,
-               const Buffer& found);
+/// Which facets of the voxels around each facet continue its surface, and how many.
+void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& found);
 
 }  // namespace irad
