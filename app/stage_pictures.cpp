@@ -20,6 +20,7 @@
 #include "gi/sky.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
 #include "renderer/image_io.h"
@@ -42,6 +43,31 @@ LinearPixels asVec4(const std::vector<glm::dvec3>& values) {
   return out;
 }
 
+/// What PictureTime is made of, by name.
+template <class Visit>
+void visitTime(PictureTime& time, const Visit& visit) {
+  constexpr const char* kParts[] = {"voxels", "field", "matrix", "materials", "gather", "solve", "scatter"};
+  static_assert(std::size(kParts) == BuildTimes::kParts);
+  for (size_t i = 0; i < time.build.size(); ++i) visit(kParts[i], time.build[i]);
+  visit("exact", time.exact);
+  visit("draw", time.draw);
+  visit("pixel-gather", time.gather);
+}
+void writeTime(const fs::path& path, PictureTime time) {
+  OrderedJson json;
+  visitTime(time, [&](const char* name, double& seconds) { json[name] = seconds; });
+  writeFile(path, jsonText(json) + "\n");
+}
+PictureTime readTime(const fs::path& path) {
+  PictureTime time;
+  std::vector<std::string> names;
+  visitTime(time, [&](const char* name, double&) { names.emplace_back(name); });
+  const OrderedJson json = readJsonFile(path);
+  const JsonObject object(json, path.string(), names);
+  visitTime(time, [&](const char* name, double& seconds) { seconds = object.number(name); });
+  return time;
+}
+
 }  // namespace
 
 StagePictures::StagePictures(DeviceSession& session, StudyRun& run, const AttributionTask& task)
@@ -58,6 +84,9 @@ StagePictures::StagePictures(DeviceSession& session, StudyRun& run, const Attrib
   many.matrix.gpu.rays = manyRays();
   many.solver.frames = settingsFor({ErrorStage::rays}).solver.frames;
   times_.emplace(asGiven(), many);
+  for (const Ideals& ideals : neededPictures(presence_))
+    for (const uint32_t seed : seedsOf(ideals))
+      if (fs::exists(timeFileOf(ideals, seed))) times_->took(ideals, readTime(timeFileOf(ideals, seed)));
 }
 
 uint32_t StagePictures::fewOf(uint32_t seeds) {
@@ -212,6 +241,10 @@ fs::path StagePictures::fileOf(const Ideals& ideals, uint32_t seed) const {
   return stemOf(ideals, seed).string() + linearExtension();
 }
 
+fs::path StagePictures::timeFileOf(const Ideals& ideals, uint32_t seed) const {
+  return stemOf(ideals, seed).string() + ".json";
+}
+
 std::map<uint32_t, LinearPixels> StagePictures::read(const Ideals& ideals) const {
   std::map<uint32_t, LinearPixels> out;
   for (const uint32_t seed : seedsOf(ideals)) out[seed] = readLinear(fileOf(ideals, seed)).pixels;
@@ -244,13 +277,12 @@ WorkAhead StagePictures::tryFew() {
   bool all = false;
   while (!all) {
     all = true;
-    std::vector<Ideals> kinds;
     const std::vector<Due> before = due();
-    for (const Due& d : before)
-      if (std::ranges::find(kinds, d.ideals) == kinds.end()) kinds.push_back(d.ideals);
-    for (const Ideals& ideals : AttributionTimes::toBeTried(kinds)) {
+    for (const Ideals& ideals : AttributionTimes::toBeTried(neededPictures(presence_))) {
+      const auto next = std::ranges::find(before, ideals, &Due::ideals);
+      if (next == before.end() || times_->knows(ideals)) continue;
       session_.progress("trial", 0);
-      all = all && make(*std::ranges::find(before, ideals, &Due::ideals), /*fromVoxelsOn=*/true);
+      all = all && make(*next, /*fromVoxelsOn=*/true);
       if (!all) break;  // a stage fell out
     }
   }
@@ -313,6 +345,7 @@ bool StagePictures::make(const Due& due, bool fromVoxelsOn) {
     if (fromVoxelsOn) run_.bench().pipeline().invalidate(Redo::Voxels);
     PictureTime time;
     const LinearPixels pixels = picture(ideals, seed, time);
+    writeTime(timeFileOf(ideals, seed), time);
     writeLinear(stemOf(ideals, seed), run_.task().size, pixels);
     times_->took(ideals, time);
     return true;

@@ -64,6 +64,8 @@ class StagePictures {
   std::vector<uint32_t> seedsOf(const Ideals& ideals) const;
   std::filesystem::path stemOf(const Ideals& ideals, uint32_t seed) const;
   std::filesystem::path fileOf(const Ideals& ideals, uint32_t seed) const;
+  /// What it took, by which a study that goes on tells how long it will take.
+  std::filesystem::path timeFileOf(const Ideals& ideals, uint32_t seed) const;
   std::vector<Due> due() const;
   std::vector<double> secondsOf(const std::vector<Due>& due) const;
   bool measureAll();

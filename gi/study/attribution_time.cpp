@@ -53,6 +53,10 @@ void AttributionTimes::took(const Ideals& ideals, const PictureTime& time) {
   seen_.push_back({time, ideals});
 }
 
+bool AttributionTimes::knows(const Ideals& ideals) const {
+  return std::ranges::find(seen_, ideals, &Seen::ideals) != seen_.end();
+}
+
 double AttributionTimes::growth(Part part, const Ideals& from, const Ideals& to) const {
   if (sameRays(from, to)) return 1;
   const auto settings = [&](const Ideals& ideals) -> const Settings& {

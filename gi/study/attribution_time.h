@@ -31,6 +31,8 @@ class AttributionTimes {
   /// Whether pictures of one seed have the same facets, matrix and light before it is solved, and are solved alike.
   static bool sameLight(const Ideals& a, const Ideals& b);
   void took(const Ideals& ideals, const PictureTime& time);
+  /// Whether a picture like that has been seen.
+  bool knows(const Ideals& ideals) const;
   /// Of a picture after another one: what both share is there. None where no picture has been seen yet.
   std::optional<double> predict(const Ideals& ideals, bool sameSeed, const std::optional<Ideals>& before) const;
 
