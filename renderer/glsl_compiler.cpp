@@ -103,6 +103,8 @@ std::vector<uint32_t> compileGlsl(const std::filesystem::path& sources, const st
   spv::SpvBuildLogger logger;
   glslang::SpvOptions options;
   options.generateDebugInfo = true;
+  options.optimizeSize = source->find("\n#pragma optimize(on)\n") != std::string::npos;
+  options.disableOptimizer = !options.optimizeSize;
   glslang::GlslangToSpv(*program.getIntermediate(stage), spirv, &logger, &options);
   if (spirv.empty()) fail("code generation", logger.getAllMessages().c_str());
   return spirv;

@@ -1,5 +1,6 @@
 // "RE Forward", fragment stage. Runs once per visible pixel, thanks to the depth prepass and the EQUAL test.
 #version 460
+#pragma optimize(on)
 #extension GL_GOOGLE_include_directive : require
 #include "forward/shade.glsl"
 

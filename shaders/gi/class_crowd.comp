@@ -83,7 +83,7 @@ void main() {
       if (near < first || near >= end) continue;
       uint found = push.classes.at[near];
       if (found == NO_CLASS || isOfPart(found)) continue;
-      if (dot(classPoint(push, surface, near).point.at.facing, facing) < SAME_SIDE_COSINE) continue;
+      if (!facesAlike(classPoint(push, surface, near).point.at.facing, facing)) continue;
       push.classes.at[i] = found & ~CLASS_LEADER;
       break;
     }
@@ -96,7 +96,7 @@ void main() {
     vec3 facing = classPoint(push, surface, i).point.at.facing;
     float most = 0.0;
     for (uint k = 0u; k < classes; ++k) {
-      float alike = dot(classPoint(push, surface, leaders[k]).point.at.facing, facing);
+      float alike = likeness(classPoint(push, surface, leaders[k]).point.at.facing, facing);
       if (alike <= most) continue;
       most = alike;
       push.classes.at[i] = k;

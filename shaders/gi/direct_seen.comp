@@ -2,6 +2,7 @@
 // direct light and the pixel has, rays past the triangles decide (docs/method.md 7). gi/indirect_links.comp has listed
 // these pixels.
 #version 460
+#pragma optimize(on)
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
 #include "shared/indirect.h"

@@ -3,6 +3,7 @@
 // triangle and that share in the targets (forward/shade.glsl). Run twice: pixels whose facet is not found at once are
 // listed and left to a kernel that searches for it.
 #version 460
+#pragma optimize(on)
 #extension GL_GOOGLE_include_directive : require
 #include "forward/camera_view.glsl"
 #include "forward/tile_pixel.glsl"

@@ -29,8 +29,5 @@ IRAD_FN uint blockPlace(uint corner, ivec3 step_) {
 /// Where a way from a facet's voxel to that at `step_` crosses their common border, about: surfels near it are compared.
 IRAD_FN vec3 borderTo(uint voxel, ivec3 step_) { return vec3(unpackVoxel(voxel)) + 0.5f + 0.5f * vec3(step_); }
 
-/// Whether another facet faces a facet's way, so that its surface may go on there.
-IRAD_FN bool facesAlike(vec3 facing, vec3 other) { return dot(facing, other) >= SAME_SIDE_COSINE; }
-
 IRAD_END
 #endif

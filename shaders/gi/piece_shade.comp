@@ -3,6 +3,7 @@
 // what the surface gives back of an even sky: the bumps of a normal map take their share of it (docs/method.md 9). One
 // dispatch per textured material, whose set 1 is bound, and one for all pieces that sample no texture.
 #version 460
+#pragma optimize(on)
 #extension GL_GOOGLE_include_directive : require
 #include "gi/voxel_triangle.glsl"
 #include "gi/voxel_material.glsl"

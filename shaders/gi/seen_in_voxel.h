@@ -2,6 +2,7 @@
 // (docs/method.md 4): their normals are alike, and a way from one to the other crosses no piece of a triangle.
 #ifndef IRAD_SEEN_IN_VOXEL_H
 #define IRAD_SEEN_IN_VOXEL_H
+#include "forward/precise.h"
 #include "gi/triangle_hit.h"
 #include "shared/surface.h"
 IRAD_BEGIN
@@ -188,12 +189,16 @@ struct SideWay {
   uint pass1, pass2;  ///< triangles that it may pass through
 };
 
+/// Between normals. Many are as like to one another as the next ones, so that a rounding would choose.
+IRAD_FN float likeness(vec3 facing, vec3 other) { return preciseDot(facing, other); }
+IRAD_FN bool facesAlike(vec3 facing, vec3 other) { return likeness(facing, other) >= SAME_SIDE_COSINE; }
+
 /// Whether two points may lie on one side, by what they say alone: their normals are alike, and neither stands above the
 /// other's plane while that one lies below its own.
 IRAD_FN bool mayContinue(SurfelPoint a, SurfelPoint b) {
   vec3 chord = b.position - a.position;
   float above = dot(a.facing, chord), below = -dot(b.facing, chord);
-  return dot(a.facing, b.facing) >= SAME_SIDE_COSINE &&
+  return facesAlike(a.facing, b.facing) &&
          (max(above, below) <= SAME_SIDE_LEVEL || min(above, below) >= -SAME_SIDE_LEVEL);
 }
 
