@@ -445,7 +445,7 @@ double threadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A file of `count` root nodes with a triangle each, as text.
+/// A file of `count` root nodes that stand somewhere, a triangle in every fifth, as text.
 std::string manyNodes(size_t count) {
   GltfFile file = triangleFile();
   file.json.erase("nodes");
@@ -454,8 +454,9 @@ std::string manyNodes(size_t count) {
       {{"byteLength", file.buffer.size()}, {"uri", "data:application/octet-stream;base64," + base64(file.buffer)}}};
   std::string nodes, roots;
   for (size_t i = 0; i < count; ++i) {
-    nodes +=
-        fmt::format(R"({}{{"mesh":0,"name":"n{}","translation":[{},0,{}]}})", i == 0 ? "" : ",", i, i % 1000, i / 1000);
+    nodes += fmt::format(
+        R"({}{{{}"name":"n{}","translation":[{},0.125,{}],"rotation":[0,0.6,0,0.8],"scale":[1.5,1.5,1.5]}})",
+        i == 0 ? "" : ",", i % 5 == 0 ? R"("mesh":0,)" : "", i, i % 1000, i / 1000);
     roots += fmt::format("{}{}", i == 0 ? "" : ",", i);
   }
   const std::string rest = file.json.dump();
@@ -463,9 +464,9 @@ std::string manyNodes(size_t count) {
 }
 
 /// 300,000 nodes, in time that goes with their number: a reader that walks all nodes at the end of each takes sixteen
-/// times as long for four times as many. They are to take 2 s of a processor; the JSON library alone takes .6 s to make
-/// values of the same text, and other work on the machine lengthens both. As seconds that would be a mark that a slow
-/// machine misses and a fast one cannot: it is one of that time.
+/// times as long for four times as many. They are to take 2 s of a processor. As seconds that would be a mark that a
+/// slow machine misses, and a fast one meets whatever we do: so it is one of the time in which the JSON library makes
+/// values of the same text, which other work on the machine lengthens alike.
 TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
   double parsed = 0;
   const auto load = [&](size_t count) {
@@ -476,14 +477,13 @@ TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
     EXPECT_EQ(nlohmann::json::parse(text)["nodes"].size(), count);
     const double before = threadSeconds();
     parsed = before - begun;
-    EXPECT_EQ(loadScene(path).triangleCount(), count);
+    EXPECT_EQ(loadScene(path).triangleCount(), count / 5);
     return threadSeconds() - before;
   };
-  // As many elements of JSON as a file of 300,000 such nodes has.
   const double few = load(75'000), many = load(300'000);
-  fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s, of which JSON alone takes {:.2f} s\n", few, many, parsed);
+  fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s; JSON by its library takes {:.2f} s\n", few, many, parsed);
   EXPECT_LT(many, 6 * few) << few << " s and " << many << " s";
-  EXPECT_LT(many, 2.2 * parsed) << many << " s, and JSON alone " << parsed << " s";
+  EXPECT_LT(many, 1.4 * parsed) << many << " s, and JSON alone " << parsed << " s";
 }
 
 TEST_F(SceneLoading, NodesThatAreListedTwiceAreTakenOnce) {
