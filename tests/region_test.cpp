@@ -399,7 +399,9 @@ TEST(RegionRule, AutoTakesTheScenesBox) {
   Scene scene = boxUnderDome();
   scene.region = RegionBox{glm::vec3(-3), glm::vec3(4)};
   Settings s;
-  EXPECT_EQ(regionOf(scene, s), (SceneRegion{glm::vec3(-3), glm::vec3(4), false}));
+  SceneRegion box{glm::vec3(-3), glm::vec3(4), false};
+  box.line = describe(scene, box);
+  EXPECT_EQ(regionOf(scene, s), box);
   const Settings said = withRegionOf(scene, s);
   EXPECT_EQ(said.scene.region, (RegionSettings{RegionMode::box, -3, -3, -3, 4, 4, 4}));
   s.scene.region.mode = RegionMode::whole;
