@@ -14,6 +14,7 @@
 #include "gi/facets.h"
 #include "gi/manifest.h"
 #include "gi/matrix.h"
+#include "gi/traits.h"
 #include "renderer/base/compare_timings.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
@@ -186,6 +187,8 @@ void run(const BenchArguments& arguments, Machine& machine) {
     sets.push_back(
         std::make_unique<Bench>(*session.context, std::move(scene), session.settings, size, view.view, camera));
   }
+
+  session.tell(sets.front()->pipeline().traits().region);
 
   // Every kind of work, the settings sets in turn.
   const Progress progress = [&](const char* stage, float fraction) { return session.progress(stage, fraction); };

@@ -6,8 +6,8 @@
 #include "app/progress.h"
 #include "app/version.h"
 #include "gi/check/check.h"
-#include "gi/region_line.h"
 #include "gi/sizes.h"
+#include "gi/traits.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/sidecar.h"
@@ -45,7 +45,6 @@ Scene loadForRun(const std::filesystem::path& path, const SceneArguments& argume
   Scene scene = openScene(path, options);
   if (!scene.sidecar.empty()) progress.note(sidecarNote(scene));
   for (const std::string& warning : scene.warnings) progress.note("warning: " + warning);
-  if (const std::string line = regionLine(scene, settings); !line.empty()) progress.note(line);
   warnIfOther(progress, config, path, scene.sha256, config.sceneSha256);
   if (scene.sky && !arguments.sky) warnIfOther(progress, config, scene.sky->path, scene.sky->sha256, config.skySha256);
   if (!config.shaders.empty())
@@ -55,7 +54,13 @@ Scene loadForRun(const std::filesystem::path& path, const SceneArguments& argume
   return scene;
 }
 
+void DeviceSession::tell(const SceneRegion& region) {
+  if (!region.line.empty() && region.line != told_) progress.note(region.line);
+  told_ = region.line;
+}
+
 void DeviceSession::prepare(Pipeline& pipeline) {
+  tell(pipeline.traits().region);
   while (true) {
     try {
       pipeline.prepare([this](const char* stage, float fraction) { return progress(stage, fraction); });

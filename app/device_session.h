@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "gi/manifest.h"
 #include "gi/pipeline.h"
+#include "gi/region.h"
 #include "renderer/frame/context.h"
 #include "renderer/scene/scene.h"
 
@@ -38,8 +39,10 @@ struct DeviceSession {
 
   /// loadForRun
   Scene load(const std::filesystem::path& path, const SceneArguments& arguments);
-  /// Runs the pipeline up to the picture. Where memory does not suffice for the default sizes: says so, and takes the
-  /// next smaller ones, in `settings` too.
+  /// Says what of the scene has no voxels, or why none is left out; the same line once.
+  void tell(const SceneRegion& region);
+  /// Runs the pipeline up to the picture, and tells its region. Where memory does not suffice for the default sizes:
+  /// says so, and takes the next smaller ones, in `settings` too.
   void prepare(Pipeline& pipeline);
   /// A manifest of this program, device, scene and settings; the subcommand adds what it made.
   Manifest manifest(std::string subcommand, const Pipeline& pipeline) const;
@@ -50,6 +53,7 @@ struct DeviceSession {
 
  private:
   bool sizesAreDefault_;
+  std::string told_;  ///< of the region
 };
 
 }  // namespace irad::app

@@ -148,6 +148,7 @@ void run(const PlanArguments& arguments, Machine& machine) {
       show(subject, arguments);
       continue;
     }
+    session.tell(regionOrWhole(subject.scene, session.settings));
     std::ranges::copy(prove(subject), std::back_inserter(proof));
     session.progress.finish();
   }

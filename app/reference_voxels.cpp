@@ -12,6 +12,7 @@
 #include "gi/host_facets.h"
 #include "gi/lighting.h"
 #include "gi/pipeline.h"
+#include "gi/traits.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
 #include "renderer/base/json_reader.h"
@@ -82,6 +83,7 @@ void traceVoxels(const Arguments& arguments, const Task& task, DeviceSession& se
   const auto folder = beginFiles(task);  // goes again where the work fails
 
   Pipeline pipeline(*session.context, std::move(scene), settings);
+  session.tell(pipeline.traits().region);
   const StopOnSignal interrupts;
   const Goal goal(task, frames, before);
   double saved = 0;

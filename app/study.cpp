@@ -100,6 +100,7 @@ std::pair<Scene, StudyTask> MeasureArguments::open(DeviceSession& session, const
         fmt::format("--view {}: a study compares what the program draws with the reference", task.view.name));
   if (task.truth.samples) requirePathTracer(task.view, session.settings);
   Scene loaded = session.load(findScene(scene, session.config, std::nullopt), sceneOptions);
+  session.tell(regionOrWhole(loaded, session.settings));
   task.camera = picture.resolveCameras(session.config, loaded).at(0);
   task.size = picture.resolveSize(session.config);
   if (task.truth.file && !picture.size && !session.config.size) task.size = task.truth.file->picture.size;

@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 
-#include "gi/region_line.h"
 #include "gi/settings.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/material_edits.h"
@@ -231,15 +230,10 @@ std::string whyWhole(const Scene& scene, const Detail& detail) {
       100 * detail.share, part, 100 * kShared, part);
 }
 
-bool looksForDetail(const Scene& scene, const Settings& settings) {
-  return settings.scene.region.mode == RegionMode::automatic && !scene.region && scene.triangleCount() > 0 &&
-         settings.matrix.gpu.hitRule != HitRule::thesis;
-}
-
 }  // namespace
 
 SceneRegion regionOf(const Scene& scene, const Settings& settings) {
-  const SceneRegion whole{scene.boundsMin, scene.boundsMax, true};
+  SceneRegion whole{scene.boundsMin, scene.boundsMax};
   const RegionSettings& wanted = settings.scene.region;
   if (wanted.mode == RegionMode::whole || scene.triangleCount() == 0) return whole;
   const auto boxed = [&](const glm::dvec3& lo, const glm::dvec3& hi, const std::string& what) {
@@ -250,15 +244,20 @@ SceneRegion regionOf(const Scene& scene, const Settings& settings) {
           "{}={},{},{},{},{},{}: holds nothing of the scene, which lies in {}", what, lo.x, lo.y, lo.z, hi.x, hi.y,
           hi.z, corners(scene.origin + glm::dvec3(scene.boundsMin), scene.origin + glm::dvec3(scene.boundsMax))));
     region.whole = region.lo == scene.boundsMin && region.hi == scene.boundsMax;
+    region.line = describe(scene, region);
     return region;
   };
   if (wanted.mode == RegionMode::box)
     return boxed({wanted.x0, wanted.y0, wanted.z0}, {wanted.x1, wanted.y1, wanted.z1}, "scene.region");
-  if (scene.region && settings.matrix.gpu.hitRule != HitRule::thesis)
-    return boxed(scene.region->least, scene.region->largest, scene.sidecar.string() + ": region");
-  if (!looksForDetail(scene, settings)) return whole;
-  const std::optional<Detail> detail = detailOf(scene);
-  return detail && detail->kept == Detail::Kept::No ? detail->part : whole;
+  if (settings.matrix.gpu.hitRule == HitRule::thesis) return whole;
+  if (scene.region) return boxed(scene.region->least, scene.region->largest, scene.sidecar.string() + ": region");
+  std::optional<Detail> detail = detailOf(scene);
+  if (detail && detail->kept == Detail::Kept::No) {
+    detail->part.line = describe(scene, detail->part);
+    return detail->part;
+  }
+  if (detail) whole.line = whyWhole(scene, *detail);
+  return whole;
 }
 
 SceneRegion regionOrWhole(const Scene& scene, const Settings& settings) {
@@ -300,13 +299,6 @@ std::string describe(const Scene& scene, const SceneRegion& region) {
       "scene.region: voxels are made of {} alone; {} of {} triangles lie outside of it, at least in part: there they "
       "are lit directly, and give light, but pass none on",
       cornersOf(scene, region), outside, scene.triangleCount());
-}
-
-std::string regionLine(const Scene& scene, const Settings& settings) {
-  if (!looksForDetail(scene, settings)) return describe(scene, regionOf(scene, settings));
-  const std::optional<Detail> detail = detailOf(scene);
-  if (!detail) return {};
-  return detail->kept == Detail::Kept::No ? describe(scene, detail->part) : whyWhole(scene, *detail);
 }
 
 }  // namespace irad

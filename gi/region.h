@@ -15,6 +15,9 @@ struct Settings;
 struct SceneRegion {
   glm::vec3 lo{0}, hi{0};  ///< local; the scene's bounds where it is the whole
   bool whole = true;
+  /// What is said of it: what is left out; where scene.region=auto found a part that holds the detail and takes the
+  /// whole all the same, why. Else nothing.
+  std::string line;
   bool operator==(const SceneRegion&) const = default;
 };
 

@@ -15,7 +15,6 @@
 #include "gi/outer.h"
 #include "gi/pipeline.h"
 #include "gi/ray_kernel.h"
-#include "gi/region_line.h"
 #include "gi/subsystems.h"
 #include "gi/traits.h"
 #include "renderer/base/error.h"
@@ -326,7 +325,7 @@ TEST(RegionRule, WhyTheWholeIsKeptIsSaid) {
     b.sphere(ship, glm::vec3(0), 1, /*inward=*/false, 16);
     const Scene scene = b.finish("ship");
     Settings s;
-    const std::string line = regionLine(scene, s);
+    const std::string line = regionOf(scene, s).line;
     EXPECT_EQ(regionOf(scene, s).whole, albedo > 0.02f) << albedo;
     EXPECT_TRUE(line.starts_with(albedo > 0.02f ? "scene.region: whole, since 50 % of the light outside of "
                                                 : "scene.region: voxels are made of "))
@@ -335,13 +334,13 @@ TEST(RegionRule, WhyTheWholeIsKeptIsSaid) {
     EXPECT_EQ(offered != std::string::npos, albedo > 0.02f) << line;
     if (offered == std::string::npos) continue;
     applySetting(s, line.substr(offered, line.find(' ', offered) - offered));
-    EXPECT_TRUE(regionLine(scene, s).starts_with("scene.region: voxels are made of -3,-3,-3,3,3,3 alone"))
-        << regionLine(scene, s);
+    EXPECT_TRUE(regionOf(scene, s).line.starts_with("scene.region: voxels are made of -3,-3,-3,3,3,3 alone"))
+        << regionOf(scene, s).line;
     s.scene.region.mode = RegionMode::whole;
-    EXPECT_EQ(regionLine(scene, s), "");
+    EXPECT_EQ(regionOf(scene, s).line, "");
     applyPreset(s, "thesis", true);
     s.scene.region = {};
-    EXPECT_EQ(regionLine(scene, s), "");
+    EXPECT_EQ(regionOf(scene, s).line, "");
   }
   // Something on a plane: from a tenth of it on the whole has voxels enough, and where the part would be three quarters
   // of it nobody waits for one.
@@ -351,7 +350,7 @@ TEST(RegionRule, WhyTheWholeIsKeptIsSaid) {
     b.quad(grey, {-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, -100});
     b.sphere(grey, glm::vec3(0, radius, 0), radius, /*inward=*/false, 16);
     const Scene scene = b.finish("ball");
-    const std::string line = regionLine(scene, Settings());
+    const std::string line = regionOf(scene, Settings()).line;
     EXPECT_EQ(regionOf(scene, Settings()).whole, radius > 10) << radius;
     EXPECT_TRUE(line.starts_with(radius < 10   ? "scene.region: voxels are made of "
                                  : radius < 20 ? "scene.region: whole, since its detail is 0.11 of it, more than 0.1"
@@ -400,7 +399,9 @@ TEST(RegionRule, AutoTakesTheScenesBox) {
   Scene scene = boxUnderDome();
   scene.region = RegionBox{glm::vec3(-3), glm::vec3(4)};
   Settings s;
-  EXPECT_EQ(regionOf(scene, s), (SceneRegion{glm::vec3(-3), glm::vec3(4), false}));
+  SceneRegion box{glm::vec3(-3), glm::vec3(4), false};
+  box.line = describe(scene, box);
+  EXPECT_EQ(regionOf(scene, s), box);
   const Settings said = withRegionOf(scene, s);
   EXPECT_EQ(said.scene.region, (RegionSettings{RegionMode::box, -3, -3, -3, 4, 4, 4}));
   s.scene.region.mode = RegionMode::whole;

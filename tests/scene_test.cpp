@@ -381,7 +381,12 @@ TEST_F(SceneLoading, MalformedFilesAreNamed) {
   text("", "empty");
   text(std::string(200000, '['), "nested deeper");
   text("{\"asset\":{\"version\":\"2.0\"},\"extras\":\"\xff\"}", "JSON");
-  text("{\"asset\":{\"version\":\"2.0\"},\"asset\":{}}", "duplicate key");
+  text("{\"asset\":{\"version\":\"2.0\"},\"asset\":{}}", "duplicate key \"asset\"");
+  for (const char* twice :
+       {R"("mesh":0,"mesh":0)", R"("extras":{"mesh":0},"mesh":0,"extras":1)", R"("extras":[{"mesh":0,"mesh":1}])"})
+    text(fmt::format(R"({{"asset":{{"version":"2.0"}},"nodes":[{{}},{{{}}}]}})", twice), "JSON: duplicate key");
+  text(R"({"asset":{"version":"2.0"},"nodes":[],"nodes":[]})", "duplicate key \"nodes\"");
+  text(R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0)", "JSON: parse error");
   expectRefused(folder.path / "missing.gltf", "no such file");
   GltfFile file = triangleFile();
   const json good = file.json;
@@ -392,6 +397,28 @@ TEST_F(SceneLoading, MalformedFilesAreNamed) {
   };
   broken("/asset/version", "3.0", "asset.version");
   broken("/nodes/0/mesh", 7, "nodes[0].mesh: 7 points past");
+  broken("/nodes/0/mesh", -1, "nodes[0].mesh: -1 is not an integer from 0");
+  broken("/nodes/0/mesh", 0.5, "nodes[0].mesh: 0.5 is not an integer from 0");
+  broken("/nodes/0/mesh", "x", "nodes[0].mesh: is not an integer (\"x\")");
+  broken("/nodes/0/camera", json::object(), "nodes[0].camera: is not an integer ({})");
+  broken("/nodes/0/skin", 3, "nodes[0].skin: 3 points past \"skins\", which has 0");
+  broken("/nodes/0/name", 5, "nodes[0].name: is not a string");
+  broken("/nodes/0/scale", {1, 2}, "nodes[0].scale: is not an array of 3 numbers");
+  broken("/nodes/0/rotation", 1, "nodes[0].rotation: is not an array of 4 numbers");
+  broken("/nodes/0/translation", {1, nullptr, 2}, "nodes[0].translation[1]: is not a number (null)");
+  broken("/nodes/0/translation", {1, 2e30, 2}, "nodes[0].translation[1]: 2e+30 is out of range");
+  broken("/nodes/0/weights", json::array(), "nodes[0].weights: is not an array of numbers");
+  broken("/nodes/0/children", json::array({json::array()}), "nodes[0].children[0]: is not an integer ([])");
+  broken("/nodes/0/children", json::array({7}), "nodes[0].children: 7 points past \"nodes\", which has 1");
+  broken("/nodes/0/extensions", 1, "nodes[0].extensions: is not an object");
+  broken("/nodes/0/extensions", {{"KHR_lights_punctual", json::object()}}, "KHR_lights_punctual.light: is missing");
+  broken("/nodes/0/extensions", {{"KHR_lights_punctual", {{"light", 0}}}}, "KHR_lights_punctual.light: 0 points past");
+  broken("/nodes/0/extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"SCALE", 99}}}}}},
+         "EXT_mesh_gpu_instancing.attributes.SCALE: 99 points past");
+  broken("/nodes/0/extensions", {{"KHR_node_visibility", {{"visible", 0}}}}, "visible: is neither true nor false");
+  broken("/nodes/0", 7, "nodes[0]: is not an object");
+  broken("/nodes", {{"a", 1}}, "nodes: is not an array");
+  broken("/nodes/0", {{"matrix", std::vector<int>(16, 1)}, {"scale", {1, 1, 1}}}, "nodes[0]: has both a matrix and");
   broken("/nodes/0/children", json::array({0}), "its own child");
   broken("/accessors/0/count", 4, "accessors[0]: 4 elements end at byte 48");
   broken("/accessors/0/count", 4000000000u, "4000000000");
@@ -418,7 +445,7 @@ double threadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A file of `count` root nodes with a triangle each, as text.
+/// A file of `count` root nodes that stand somewhere, a triangle in every fifth, as text.
 std::string manyNodes(size_t count) {
   GltfFile file = triangleFile();
   file.json.erase("nodes");
@@ -427,8 +454,9 @@ std::string manyNodes(size_t count) {
       {{"byteLength", file.buffer.size()}, {"uri", "data:application/octet-stream;base64," + base64(file.buffer)}}};
   std::string nodes, roots;
   for (size_t i = 0; i < count; ++i) {
-    nodes +=
-        fmt::format(R"({}{{"mesh":0,"name":"n{}","translation":[{},0,{}]}})", i == 0 ? "" : ",", i, i % 1000, i / 1000);
+    nodes += fmt::format(
+        R"({}{{{}"name":"n{}","translation":[{},0.125,{}],"rotation":[0,0.6,0,0.8],"scale":[1.5,1.5,1.5]}})",
+        i == 0 ? "" : ",", i % 5 == 0 ? R"("mesh":0,)" : "", i, i % 1000, i / 1000);
     roots += fmt::format("{}{}", i == 0 ? "" : ",", i);
   }
   const std::string rest = file.json.dump();
@@ -436,8 +464,9 @@ std::string manyNodes(size_t count) {
 }
 
 /// 300,000 nodes, in time that goes with their number: a reader that walks all nodes at the end of each takes sixteen
-/// times as long for four times as many. They are to take 2 s, where the JSON library alone takes half a second for the
-/// same text, on a slow machine; other work on the machine lengthens the processor time of both.
+/// times as long for four times as many. They are to take 2 s of a processor. As seconds that would be a mark that a
+/// slow machine misses, and a fast one meets whatever we do: so it is one of the time in which the JSON library makes
+/// values of the same text, which other work on the machine lengthens alike.
 TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
   double parsed = 0;
   const auto load = [&](size_t count) {
@@ -448,14 +477,13 @@ TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
     EXPECT_EQ(nlohmann::json::parse(text)["nodes"].size(), count);
     const double before = threadSeconds();
     parsed = before - begun;
-    EXPECT_EQ(loadScene(path).triangleCount(), count);
+    EXPECT_EQ(loadScene(path).triangleCount(), count / 5);
     return threadSeconds() - before;
   };
-  // As many elements of JSON as a file of 300,000 such nodes has.
   const double few = load(75'000), many = load(300'000);
-  fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s, of which JSON alone takes {:.2f} s\n", few, many, parsed);
+  fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s; JSON by its library takes {:.2f} s\n", few, many, parsed);
   EXPECT_LT(many, 6 * few) << few << " s and " << many << " s";
-  EXPECT_LT(many, 4 * parsed) << many << " s, and JSON alone " << parsed << " s";
+  EXPECT_LT(many, 1.4 * parsed) << many << " s, and JSON alone " << parsed << " s";
 }
 
 TEST_F(SceneLoading, NodesThatAreListedTwiceAreTakenOnce) {
@@ -473,6 +501,29 @@ TEST_F(SceneLoading, NodesThatAreListedTwiceAreTakenOnce) {
   EXPECT_FALSE(warns(child, "lists node"));
   file.json["scenes"][0]["nodes"] = {0, 0};
   EXPECT_TRUE(warns(load(file), "scenes[0]: lists node 0 twice"));
+}
+
+TEST_F(SceneLoading, WhatIsInvisibleIsLeftOut) {
+  GltfFile file = triangleFile();
+  const json hidden = {{"KHR_node_visibility", {{"visible", false}}}},
+             shown = {{"KHR_node_visibility", {{"visible", true}}}};
+  file.json["extensionsRequired"] = file.json["extensionsUsed"] = {"KHR_node_visibility"};
+  // One that is not seen hides what is under it, whatever that says; what says nothing is seen.
+  file.json["nodes"] = {
+      {{"mesh", 0}, {"extensions", hidden}, {"children", {1}}},
+      {{"mesh", 0}, {"extensions", shown}, {"children", {2}}},
+      {{"camera", 0}},
+      {{"mesh", 0}, {"extensions", shown}, {"translation", {0, 5, 0}}},
+      {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", json::object()}}}, {"translation", {9, 0, 0}}}};
+  file.json["scenes"][0]["nodes"] = {0, 3, 4};
+  file.json["cameras"] = {{{"type", "perspective"}, {"name", "own"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  const Scene s = load(file);
+  expectCorners(s, {{0, 5, 0}, {1, 5, 0}, {0, 6, 0}, {9, 0, 0}, {10, 0, 0}, {9, 1, 0}});
+  EXPECT_TRUE(warns(s, "KHR_node_visibility: 2 nodes with meshes are invisible and left out"));
+  ASSERT_EQ(s.cameras.size(), 1u);
+  EXPECT_EQ(s.cameras[0].name, "own") << "cameras stay, whatever they lie under";
+  file.json["scenes"][0]["nodes"] = {0};
+  EXPECT_TRUE(warns(load(file), "none of the file's 1 meshes is shown: its nodes are invisible"));
 }
 
 TEST_F(SceneLoading, OddLensesLightsAndRotationsAreMendedAndNamed) {
@@ -585,6 +636,15 @@ TEST_F(SceneLoading, WhatIsTheMatterWhereNothingIsDrawnIsSaid) {
   EXPECT_TRUE(warns(load(file), "is shown: it has no nodes"));
   file.json.erase("meshes");
   EXPECT_TRUE(warns(load(file), "the scene has no triangles: the file has no meshes"));
+}
+
+TEST_F(SceneLoading, APlaceOnTheGlobeIsLeftAside) {
+  GltfFile file = triangleFile();
+  file.json["extensionsRequired"] = file.json["extensionsUsed"] = {"CESIUM_RTC"};
+  file.json["extensions"]["CESIUM_RTC"] = {{"center", {6378137, 0, 0}}};
+  const Scene s = load(file);
+  expectCorners(s, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_TRUE(warns(s, "CESIUM_RTC is left aside"));
 }
 
 TEST_F(SceneLoading, CompressedTexturesAreRefusedInWords) {

@@ -10,7 +10,6 @@
 #include "gi/facets.h"
 #include "gi/lighting.h"
 #include "gi/plan.h"
-#include "gi/region_line.h"
 #include "gi/shadow_needs.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
@@ -435,7 +434,7 @@ void Builder::prepare(Side& side, Pipeline& pipeline) {
   const FacetList& facets = pipeline.facets();
   const SolveReport& report = pipeline.lighting().report;
   if (!(side.built && side.built->region == facets.region))
-    if (const std::string line = regionLine(pipeline.scene(), pipeline.settings()); !line.empty()) session_.note(line);
+    if (!facets.region.line.empty()) session_.note(facets.region.line);
   std::vector<uint32_t> withoutShadow = pipeline.lightsWithoutShadow();
   if (!withoutShadow.empty() && !(side.built && side.built->withoutShadow == withoutShadow))
     session_.note(describeWithoutShadow(pipeline.scene().lights, withoutShadow));

@@ -18,7 +18,6 @@ JsonExtent jsonExtent(std::string_view text) {
     if (c == '{' || c == '[') extent.depth = std::max(extent.depth, ++depth);
     if ((c == '}' || c == ']') && depth > 0) --depth;
     extent.elements += c == ',' || c == ':' || c == '{' || c == '[';
-    extent.members += c == ':';
   }
   return extent;
 }

@@ -14,7 +14,6 @@ constexpr uint64_t kMaxJsonDepth = 128;  ///< deeper texts are refused by all re
 struct JsonExtent {
   uint64_t depth = 0;     ///< brackets and braces inside one another
   uint64_t elements = 0;  ///< members, elements and containers, at most
-  uint64_t members = 0;   ///< of all objects together, in a text that is JSON
 };
 /// Takes any text; brackets inside strings do not count.
 JsonExtent jsonExtent(std::string_view text);

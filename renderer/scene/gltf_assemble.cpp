@@ -55,13 +55,15 @@ bool zeroArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
 }
 
 /// What is the matter where nothing is drawn: ": …", as far as the file's structure says it.
-std::string whyNone(const Document& doc, const Flattened& flat, uint64_t triangles) {
+std::string whyNone(const Document& doc, const std::vector<Instance>& instances, uint64_t triangles) {
   const tinygltf::Model& model = doc.model;
   const size_t meshes = model.meshes.size(), scene = static_cast<size_t>(std::max(model.defaultScene, 0));
   if (meshes == 0) return ": the file has no meshes";
-  if (!flat.instances.empty()) return triangles == 0 ? ": its meshes have none" : "";
+  if (!instances.empty()) return triangles == 0 ? ": its meshes have none" : "";
   const std::string none = fmt::format(": none of the file's {} meshes is shown: ", meshes);
   if (doc.nodes.empty()) return none + "it has no nodes";
+  if (std::ranges::any_of(doc.nodes, [](const Node& n) { return n.mesh >= 0 && !n.visible; }))
+    return none + "its nodes are invisible";
   if (!model.scenes.empty() && model.scenes[scene].nodes.empty())
     return none + fmt::format("scenes[{}] lists no nodes", scene);
   return none + (model.scenes.empty() ? "no node names one" : fmt::format("no node of scenes[{}] names one", scene));
@@ -140,16 +142,16 @@ void append(const Document& doc, const Placed& placed, Scene& scene) {
 
 }  // namespace
 
-void assemble(Document& doc, const Flattened& flat, Scene& scene) {
+void assemble(Document& doc, const std::vector<Instance>& instances, Scene& scene) {
   // Each mesh is read once per set of morph weights.
   using Key = std::pair<int, std::vector<double>>;
   std::map<Key, std::vector<std::unique_ptr<Primitive>>> meshes;
   std::map<int, std::vector<glm::dmat4>> joints;
   std::vector<Placed> placed;
-  placed.reserve(flat.instances.size());
+  placed.reserve(instances.size());
   Counts counts;
   uint64_t triangles = 0;
-  for (const Instance& instance : flat.instances) {
+  for (const Instance& instance : instances) {
     const tinygltf::Mesh& mesh = doc.model.meshes[static_cast<size_t>(instance.mesh)];
     const Node& node = doc.nodes[static_cast<size_t>(instance.node)];
     const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
@@ -167,7 +169,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
       Placed place{primitive.get(), &instance, nullptr, {}, 0};
       if (instance.skin >= 0 && primitive->influences > 0) {
         doc.warn("skins are shown in their rest pose; they are not animated");
-        if (!joints.contains(instance.skin)) joints[instance.skin] = jointMatrices(doc, instance.skin, flat.nodeWorld);
+        if (!joints.contains(instance.skin)) joints[instance.skin] = jointMatrices(doc, instance.skin);
         place.joints = &joints[instance.skin];
       }
       counts.nonFinite += primitive->nonFinite, counts.degenerate += primitive->degenerate,
@@ -190,7 +192,7 @@ void assemble(Document& doc, const Flattened& flat, Scene& scene) {
     doc.warn(fmt::format("{} normals of length 0 are replaced by those of the faces", counts.zeroNormals));
   std::erase_if(placed, [](const Placed& p) { return p.kept == 0; });
   if (placed.empty()) {
-    doc.warn("the scene has no triangles" + whyNone(doc, flat, triangles));
+    doc.warn("the scene has no triangles" + whyNone(doc, instances, triangles));
     return;
   }
   scene.origin = 0.5 * (lo + hi);

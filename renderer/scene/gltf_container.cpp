@@ -2,8 +2,6 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 
 #include "renderer/base/json_extent.h"
 #include "renderer/scene/gltf_document.h"
@@ -53,41 +51,8 @@ void readGlb(Document& doc) {
   }
 }
 
-/// Stops at the first key that its object has already.
-struct KeyWatch : nlohmann::json::json_sax_t {
-  std::optional<std::string> duplicate;
-
-  bool key(string_t& name) override {
-    if (!keys_.back().insert(name).second) duplicate = name;
-    return !duplicate;
-  }
-  bool start_object(size_t) override { return keys_.emplace_back(), true; }
-  bool end_object() override { return keys_.pop_back(), true; }
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_array(size_t) override { return true; }
-  bool end_array() override { return true; }
-  bool parse_error(size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
-
- private:
-  std::vector<std::set<std::string>> keys_;  ///< of each object that is open
-};
-
-/// Of all objects in it, together.
-uint64_t membersOf(const Json& value) {
-  uint64_t members = value.is_object() ? value.size() : 0;
-  if (value.is_structured())
-    for (const Json& element : value) members += membersOf(element);
-  return members;
-}
-
-/// Depth and size of the JSON before any parser sees it; its members, as the text has them.
-uint64_t checkJson(Document& doc) {
+/// Depth and size of the JSON before any parser sees it.
+void checkJson(Document& doc) {
   if (doc.json.size() > kMaxJsonBytes)
     doc.fail("JSON", fmt::format("{} bytes, at most {} are accepted", doc.json.size(), kMaxJsonBytes));
   const JsonExtent extent = jsonExtent({reinterpret_cast<const char*>(doc.json.data()), doc.json.size()});
@@ -95,7 +60,6 @@ uint64_t checkJson(Document& doc) {
     doc.fail("JSON", fmt::format("nested deeper than {} levels ({})", kMaxJsonDepth, extent.depth));
   if (extent.elements > kMaxJsonElements) doc.fail("JSON", fmt::format("more than {} elements", kMaxJsonElements));
   doc.take(extent.elements * kJsonElementBytes, "JSON");
-  return extent.members;
 }
 
 }  // namespace
@@ -163,19 +127,8 @@ void readContainer(Document& doc) {
   } else {
     doc.json = doc.file;
   }
-  const uint64_t members = checkJson(doc);
-  try {
-    doc.root = std::make_unique<Json>(Json::parse(doc.json.begin(), doc.json.end()));
-    // Duplicate keys would make two readers see two scenes; the specification forbids them. The document has kept one
-    // of them, and so fewer members than the text has. Which key it is takes a pass of its own.
-    if (membersOf(*doc.root) != members) {
-      KeyWatch watch;
-      Json::sax_parse(doc.json.begin(), doc.json.end(), &watch);
-      doc.fail("JSON", fmt::format("duplicate key \"{}\"", watch.duplicate.value_or("")));
-    }
-  } catch (const nlohmann::json::exception& error) {
-    doc.fail("JSON", jsonProblem(error));
-  }
+  checkJson(doc);
+  readJson(doc);
   if (!doc.root->is_object()) doc.fail("JSON", "the root is not an object");
 }
 

@@ -41,12 +41,14 @@ struct View {
   bool present = false;
 };
 
-/// A node as the file has it, but for its transform and its instances' (gltf_nodes.cpp); there may be very many.
+/// A node; there may be very many.
 struct Node {
   std::string name;
   int mesh = -1, skin = -1, camera = -1, light = -1;
+  bool visible = true;  ///< KHR_node_visibility; what lies under one that is not is not either
   std::vector<int> children;
   std::vector<double> weights;
+  glm::dmat4 transform{1.0};  ///< its own, until flattenNodes() makes it the world's
 };
 
 struct Document {
@@ -59,9 +61,10 @@ struct Document {
   ByteSpan bin;   ///< the BIN chunk of a .glb
   bool hasBin = false;
 
-  std::unique_ptr<Json> root;
-  tinygltf::Model model;  ///< without nodes, buffers, images and animations
+  std::unique_ptr<Json> root;  ///< with an array "nodes" that is empty
   std::vector<Node> nodes;
+  std::map<size_t, std::map<std::string, int>> instancing;  ///< of few nodes: EXT_mesh_gpu_instancing's accessors
+  tinygltf::Model model;                                    ///< without nodes, buffers, images and animations
   std::vector<Bytes> owned;
   std::vector<ByteSpan> buffers;
   std::vector<bool> bufferPresent;
@@ -83,6 +86,9 @@ struct Document {
 // gltf_container.cpp: the file, its GLB chunks, and JSON with bounded depth and size, valid UTF-8 and no duplicate
 // keys.
 void readContainer(Document&);
+// gltf_json.cpp: Document::root and Document::nodes, whose types are then right, but indices may point past their
+// arrays.
+void readJson(Document&);
 // gltf_precheck.cpp
 void precheck(Document&);
 // gltf_model.cpp: runs tinygltf over what the precheck has approved.
@@ -155,15 +161,14 @@ struct Instance {
   uint32_t sceneNode = 0;  ///< of Scene::nodes
   glm::dmat4 world{1.0};
 };
-struct Flattened {
-  std::vector<Instance> instances;
-  std::vector<glm::dmat4> nodeWorld;
-};
-Flattened flattenNodes(Document&, Scene&);
-std::vector<glm::dmat4> jointMatrices(Document&, int skin, const std::vector<glm::dmat4>& nodeWorld);
+std::vector<Instance> flattenNodes(Document&, Scene&);
+std::vector<glm::dmat4> jointMatrices(Document&, int skin);
+/// Warns of a rotation (x, y, z, w) that is none.
+glm::dmat4 transformOf(Document&, size_t node, const glm::dvec3& translation, const glm::dvec4& rotation,
+                       const glm::dvec3& scale);
 
 // gltf_assemble.cpp: primitives and instances into the scene's arrays.
-void assemble(Document&, const Flattened&, Scene&);
+void assemble(Document&, const std::vector<Instance>&, Scene&);
 
 }  // namespace irad::gltf
 

@@ -1,6 +1,6 @@
-// tinygltf, header-only, in this one translation unit. It gets the approved JSON without buffers, images, animations,
-// extras and extensions that nobody reads, so that it touches no file and copies no data.
-// Before tinygltf, which would include it with hidden visibility.
+// tinygltf, header-only, in this one translation unit. It gets the approved JSON without nodes, buffers, images,
+// animations, extras and extensions that nobody reads, so that it touches no file and copies no data. Before tinygltf,
+// which would include it with hidden visibility.
 #include <nlohmann/json.hpp>
 
 #define TINYGLTF_IMPLEMENTATION
@@ -23,13 +23,9 @@ namespace irad::gltf {
 namespace {
 
 const std::set<std::string>& readExtensions() {
-  static const std::set<std::string> names = {"KHR_lights_punctual",
-                                              "KHR_materials_emissive_strength",
-                                              "KHR_texture_transform",
-                                              "EXT_mesh_gpu_instancing",
-                                              "EXT_texture_webp",
-                                              "KHR_draco_mesh_compression",
-                                              "KHR_materials_pbrSpecularGlossiness",
+  static const std::set<std::string> names = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
+                                              "KHR_texture_transform",      "EXT_texture_webp",
+                                              "KHR_draco_mesh_compression", "KHR_materials_pbrSpecularGlossiness",
                                               "KHR_materials_transmission"};
   return names;
 }
@@ -46,28 +42,12 @@ void strip(Json& value) {
   }
 }
 
-Node nodeOf(const Json& json) {
-  Node node;
-  for (const auto& [name, value] : json.get_ref<const Json::object_t&>()) {
-    if (name == "name") value.get_to(node.name);
-    if (name == "mesh") value.get_to(node.mesh);
-    if (name == "skin") value.get_to(node.skin);
-    if (name == "camera") value.get_to(node.camera);
-    if (name == "children") value.get_to(node.children);
-    if (name == "weights") value.get_to(node.weights);
-    if (name == "extensions")
-      if (const auto light = value.find("KHR_lights_punctual"); light != value.end())
-        light->at("light").get_to(node.light);
-  }
-  return node;
-}
-
 /// A few bytes of JSON are a few hundred of a model.
 void takeModel(Document& doc) {
   const auto take = [&](const char* name, uint64_t each) {
     if (doc.root->contains(name)) doc.take(doc.root->at(name).size() * each, name);
   };
-  take("nodes", sizeof(Node)), take("materials", sizeof(tinygltf::Material));
+  take("materials", sizeof(tinygltf::Material));
   take("meshes", sizeof(tinygltf::Mesh)), take("accessors", sizeof(tinygltf::Accessor));
   take("bufferViews", sizeof(tinygltf::BufferView)), take("textures", sizeof(tinygltf::Texture));
   take("samplers", sizeof(tinygltf::Sampler)), take("skins", sizeof(tinygltf::Skin));
@@ -81,12 +61,9 @@ void takeModel(Document& doc) {
 
 void parseModel(Document& doc) {
   takeModel(doc);
-  // Nodes, of which there may be very many, are read here, the rest by tinygltf, which wants a text of its own.
-  Json nodes;
-  if (const auto found = doc.root->find("nodes"); found != doc.root->end()) nodes.swap(*found);
+  // Nodes have been read; the rest is tinygltf's, which wants a text of its own.
   Json json = *doc.root;
-  if (!nodes.is_null()) nodes.swap(doc.root->at("nodes")), json.erase("nodes");
-  for (const char* name : {"buffers", "images", "animations"}) json.erase(name);
+  for (const char* name : {"nodes", "buffers", "images", "animations"}) json.erase(name);
   strip(json);
   // The file's bounds may be wrong or infinite; the data itself is measured.
   if (json.contains("accessors"))
@@ -133,10 +110,6 @@ void parseModel(Document& doc) {
     const size_t want = doc.root->contains(name) ? doc.root->at(name).size() : 0;
     if (want != size) doc.fail(name, fmt::format("{} objects in the file, {} understood", want, size));
   };
-  if (doc.root->contains("nodes")) {
-    doc.nodes.reserve(doc.root->at("nodes").size());
-    for (const Json& node : doc.root->at("nodes")) doc.nodes.push_back(nodeOf(node));
-  }
   same("scenes", doc.model.scenes.size()), same("meshes", doc.model.meshes.size());
   same("accessors", doc.model.accessors.size()), same("bufferViews", doc.model.bufferViews.size());
   same("materials", doc.model.materials.size()), same("textures", doc.model.textures.size());

@@ -31,26 +31,6 @@ std::string nameOf(const Document& doc, size_t node) {
   return name.empty() ? fmt::format("nodes[{}]", node) : fmt::format("nodes[{}] \"{}\"", node, name.substr(0, 40));
 }
 
-glm::dmat4 localTransform(Document& doc, const Json& node, size_t index) {
-  glm::dmat4 m;
-  glm::dvec3 translation(0.0), scale(1.0);
-  glm::dquat turn(1, 0, 0, 0);
-  for (const auto& [name, value] : node.get_ref<const Json::object_t&>()) {
-    if (name == "matrix") {
-      for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r) m[c][r] = value[static_cast<size_t>(c * 4 + r)].get<double>();
-      return m;
-    }
-    const auto number = [&value = value](size_t i) { return value[i].get<double>(); };
-    if (name == "translation") translation = {number(0), number(1), number(2)};
-    if (name == "scale") scale = {number(0), number(1), number(2)};
-    if (name == "rotation")
-      turn = rotation(
-          doc, [&] { return nameOf(doc, index) + ".rotation"; }, number(0), number(1), number(2), number(3));
-  }
-  return compose(translation, turn, scale);
-}
-
 bool finite(const glm::dmat4& m) {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
@@ -140,11 +120,10 @@ void addCamera(Document& doc, const Node& node, const glm::dmat4& world, Scene& 
 }
 
 /// EXT_mesh_gpu_instancing: one transform per instance, relative to the node.
-std::vector<glm::dmat4> instanceTransforms(Document& doc, const Json& many, size_t index) {
+std::vector<glm::dmat4> instanceTransforms(Document& doc, const std::map<std::string, int>& attributes, size_t index) {
   const std::string where = fmt::format("nodes[{}].EXT_mesh_gpu_instancing", index);
   Elements t, r, s;
-  for (const auto& [name, of] : many.at("attributes").items()) {
-    const int accessor = of.get<int>();
+  for (const auto& [name, accessor] : attributes) {
     if (name == "TRANSLATION") t = readFloats(doc, accessor, 3, where);
     if (name == "ROTATION") r = readFloats(doc, accessor, 4, where);
     if (name == "SCALE") s = readFloats(doc, accessor, 3, where);
@@ -206,7 +185,7 @@ struct NameUnder {
 };
 
 /// Those that have meshes, and those above them, as Scene::nodes, which the instances name from then on.
-void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Flattened& flat) {
+void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, std::vector<Instance>& instances) {
   std::vector<bool> wanted(shown.size());
   for (size_t i = shown.size(); i-- > 0;) {
     if (shown[i].instances > 0) wanted[i] = true;
@@ -243,17 +222,20 @@ void listNodes(Document& doc, const std::vector<Shown>& shown, Scene& scene, Fla
     SceneNode& parent = scene.nodes[node.parent];
     parent.end = std::max(parent.end, node.end);
   }
-  for (Instance& instance : flat.instances) instance.sceneNode = number[instance.sceneNode];
+  for (Instance& instance : instances) instance.sceneNode = number[instance.sceneNode];
 }
 
 }  // namespace
 
-Flattened flattenNodes(Document& doc, Scene& scene) {
-  Flattened out;
+glm::dmat4 transformOf(Document& doc, size_t node, const glm::dvec3& translation, const glm::dvec4& turn,
+                       const glm::dvec3& scale) {
+  const auto where = [&] { return nameOf(doc, node) + ".rotation"; };
+  return compose(translation, rotation(doc, where, turn.x, turn.y, turn.z, turn.w), scale);
+}
+
+std::vector<Instance> flattenNodes(Document& doc, Scene& scene) {
+  std::vector<Instance> out;
   // World transforms of all nodes (skins may use joints outside the scene); the tree was checked, the stack is ours.
-  out.nodeWorld.reserve(doc.nodes.size());
-  for (size_t i = 0; i < doc.nodes.size(); ++i)
-    out.nodeWorld.push_back(localTransform(doc, doc.root->at("nodes")[i], i));
   std::vector<int> stack;
   const std::vector<bool> child = isChild(doc);
   for (size_t i = child.size(); i-- > 0;)
@@ -262,14 +244,16 @@ Flattened flattenNodes(Document& doc, Scene& scene) {
     const size_t n = static_cast<size_t>(stack.back());
     stack.pop_back();
     for (const int c : doc.nodes[n].children) {
-      out.nodeWorld[static_cast<size_t>(c)] = out.nodeWorld[n] * out.nodeWorld[static_cast<size_t>(c)];
+      Node& under = doc.nodes[static_cast<size_t>(c)];
+      under.transform = doc.nodes[n].transform * under.transform;
+      under.visible = under.visible && doc.nodes[n].visible;
       stack.push_back(c);
     }
   }
   std::vector<Shown> shown;  // in the order in which they are met: what lies under a node comes right behind it
   shown.reserve(doc.nodes.size());
-  out.instances.reserve(
-      static_cast<size_t>(std::ranges::count_if(doc.nodes, [](const Node& n) { return n.mesh >= 0; })));
+  out.reserve(static_cast<size_t>(std::ranges::count_if(doc.nodes, [](const Node& n) { return n.mesh >= 0; })));
+  size_t invisible = 0;
   std::vector<std::pair<int, uint32_t>> open;  // nodes, and their parents in that order
   const std::vector<int> roots = rootNodes(doc);
   for (auto it = roots.rbegin(); it != roots.rend(); ++it) open.emplace_back(*it, SceneNode::kNoParent);
@@ -279,31 +263,32 @@ Flattened flattenNodes(Document& doc, Scene& scene) {
     shown.push_back({.node = n, .parent = open.back().second});
     open.pop_back();
     const Node& node = doc.nodes[n];
-    const glm::dmat4& world = out.nodeWorld[n];
+    const glm::dmat4& world = node.transform;
     if (!finite(world)) doc.fail(fmt::format("nodes[{}]", n), "its world transform is not finite");
     const auto addInstance = [&](const glm::dmat4& transform) {
-      out.instances.push_back({node.mesh, static_cast<int>(n), node.skin, own, transform});
+      out.push_back({node.mesh, static_cast<int>(n), node.skin, own, transform});
       ++shown[own].instances;
     };
-    if (node.mesh >= 0) {
-      const Json& source = doc.root->at("nodes")[n];
-      const auto extensions = source.find("extensions");
-      if (extensions != source.end() && extensions->contains("EXT_mesh_gpu_instancing")) {
-        for (const glm::dmat4& instance : instanceTransforms(doc, extensions->at("EXT_mesh_gpu_instancing"), n))
-          addInstance(world * instance);
-      } else {
+    if (node.mesh >= 0 && !node.visible) {
+      ++invisible;
+    } else if (node.mesh >= 0) {
+      const auto instancing = doc.instancing.find(n);
+      if (instancing == doc.instancing.end())
         addInstance(world);
-      }
+      else
+        for (const glm::dmat4& instance : instanceTransforms(doc, instancing->second, n)) addInstance(world * instance);
     }
     addLight(doc, node, world, scene);
     addCamera(doc, node, world, scene);
     for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) open.emplace_back(*it, own);
   }
+  if (invisible > 0)
+    doc.warn(fmt::format("KHR_node_visibility: {} nodes with meshes are invisible and left out", invisible));
   listNodes(doc, shown, scene, out);
   return out;
 }
 
-std::vector<glm::dmat4> jointMatrices(Document& doc, int index, const std::vector<glm::dmat4>& nodeWorld) {
+std::vector<glm::dmat4> jointMatrices(Document& doc, int index) {
   const tinygltf::Skin& skin = doc.model.skins[static_cast<size_t>(index)];
   const std::string where = fmt::format("skins[{}].inverseBindMatrices", index);
   Elements inverse;
@@ -317,7 +302,7 @@ std::vector<glm::dmat4> jointMatrices(Document& doc, int index, const std::vecto
     glm::dmat4 bind(1.0);
     if (inverse.count != 0)
       for (int c = 0; c < 16; ++c) bind[c / 4][c % 4] = inverse.values[j * 16 + static_cast<size_t>(c)];
-    out.push_back(nodeWorld[static_cast<size_t>(skin.joints[j])] * bind);
+    out.push_back(doc.nodes[static_cast<size_t>(skin.joints[j])].transform * bind);
     if (!finite(out.back())) doc.fail(where, fmt::format("joint {} has no finite transform", j));
   }
   return out;

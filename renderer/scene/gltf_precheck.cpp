@@ -36,6 +36,14 @@ struct Where {
   }
 };
 
+/// Elements of the array of this path ("meshes"); 0 where there is none.
+size_t countOf(const Document& doc, const std::string& path) {
+  if (path == "nodes") return doc.nodes.size();
+  const auto pointer = Json::json_pointer("/" + path);
+  return !path.empty() && doc.root->contains(pointer) && doc.root->at(pointer).is_array() ? doc.root->at(pointer).size()
+                                                                                          : 0;
+}
+
 class Checker {
  public:
   explicit Checker(Document& doc) : doc_(doc), root_(*doc.root) {}
@@ -46,9 +54,7 @@ class Checker {
       segments_.push_back(rule.path.substr(at, end - at));
       at = end + 1;
     }
-    const auto pointer = Json::json_pointer("/" + rule.target);
-    targets_ =
-        !rule.target.empty() && root_.contains(pointer) && root_.at(pointer).is_array() ? root_.at(pointer).size() : 0;
+    targets_ = countOf(doc_, rule.target);
     walk(root_, rule, 0, {});
   }
 
@@ -59,7 +65,7 @@ class Checker {
   size_t targets_ = 0;                                    ///< elements of the array that the rule's indices point into
   std::map<std::string, std::set<std::string>> members_;  ///< of the root's arrays: what their elements have
 
-  /// Whether any element of the root's array `name` has this member: a rule about what none of 300,000 nodes has need
+  /// Whether any element of the root's array `name` has this member: a rule about what none of 300,000 meshes has need
   /// not look at each.
   bool anyHas(const Json& array, const std::string& name, const std::string& member) {
     const auto [of, isNew] = members_.try_emplace(name);
@@ -163,14 +169,6 @@ std::vector<Rule> rules() {
   add("asset", Object, 0, 0, true), add("asset/version", String, 0, 0, true), add("asset/minVersion", String);
   add("extensionsUsed/[]", String), add("extensionsRequired/[]", String), add("extensions", Object);
   ref("scene", "scenes"), add("scenes/[]", Object), ref("scenes/[]/nodes", "nodes", Indices);
-
-  add("nodes/[]", Object), add("nodes/[]/name", String), add("nodes/[]/extensions", Object);
-  ref("nodes/[]/children", "nodes", Indices), ref("nodes/[]/mesh", "meshes"), ref("nodes/[]/skin", "skins");
-  ref("nodes/[]/camera", "cameras"), add("nodes/[]/matrix", Numbers, 16, 16), add("nodes/[]/rotation", Numbers, 4, 4);
-  add("nodes/[]/scale", Numbers, 3, 3), add("nodes/[]/translation", Numbers, 3, 3),
-      add("nodes/[]/weights", Numbers, 1, 1e6);
-  ref("nodes/[]/extensions/KHR_lights_punctual/light", "extensions/KHR_lights_punctual/lights", Index, true);
-  ref("nodes/[]/extensions/EXT_mesh_gpu_instancing/attributes", "accessors", IndexMap, true);
 
   add("meshes/[]", Object), add("meshes/[]/name", String), add("meshes/[]/primitives", Array, 0, 0, true);
   add("meshes/[]/weights", Numbers, 1, 1e6), add("meshes/[]/primitives/[]", Object);
@@ -304,7 +302,7 @@ void checkExtensions(Document& doc) {
   static const std::set<std::string> kSupported = {
       "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
       "EXT_texture_webp", "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-      "KHR_meshopt_compression", "KHR_materials_transmission",
+      "KHR_meshopt_compression", "KHR_materials_transmission", "KHR_node_visibility",
       // Which gltf_materials.cpp warns of.
       "KHR_materials_pbrSpecularGlossiness"};
   // Effects the renderer has no term for: without them, the material stands in, and a warning says so.
@@ -326,6 +324,8 @@ void checkExtensions(Document& doc) {
         doc.warn(fmt::format("{} is not rendered: what transmits light is a thin pane, which does not bend it", name));
       } else if (kApproximated.contains(name)) {
         doc.warn(fmt::format("{} is not rendered: the plain material stands in for it", name));
+      } else if (name == "CESIUM_RTC") {
+        doc.warn(name + " is left aside: it says where on the globe the scene lies, which no picture shows");
       } else if (std::string_view(list) == "extensionsRequired") {
         doc.fail(list, fmt::format("\"{}\" is not supported{}", name, name == kKtx ? kNoKtx : ""));
       } else if (name == kKtx) {
@@ -386,24 +386,41 @@ void takeOnce(Document& doc, const std::vector<int64_t>& parent) {
                        more > 0 ? fmt::format(", and {} more like it", more) : ""));
 }
 
+constexpr const char* kLightsPath = "extensions/KHR_lights_punctual/lights";
+
+/// What nodes name is there.
+void checkNodeIndices(const Document& doc) {
+  const auto check = [&](size_t node, const char* member, const char* target, size_t count, int64_t index) {
+    if (index >= static_cast<int64_t>(count))
+      doc.fail(fmt::format("nodes[{}].{}", node, member),
+               fmt::format("{} points past \"{}\", which has {}", index, target, count));
+  };
+  const size_t meshes = countOf(doc, "meshes"), skins = countOf(doc, "skins"), cameras = countOf(doc, "cameras"),
+               lights = countOf(doc, kLightsPath), accessors = countOf(doc, "accessors");
+  for (size_t i = 0; i < doc.nodes.size(); ++i) {
+    const Node& node = doc.nodes[i];
+    check(i, "mesh", "meshes", meshes, node.mesh), check(i, "skin", "skins", skins, node.skin);
+    check(i, "camera", "cameras", cameras, node.camera);
+    check(i, "extensions.KHR_lights_punctual.light", kLightsPath, lights, node.light);
+    for (const int child : node.children) check(i, "children", "nodes", doc.nodes.size(), child);
+  }
+  for (const auto& [node, attributes] : doc.instancing)
+    for (const auto& [name, accessor] : attributes)
+      check(node, ("extensions.EXT_mesh_gpu_instancing.attributes." + name).c_str(), "accessors", accessors, accessor);
+}
+
 /// Every node has one parent and no node is its own ancestor: then the nodes are trees and can be walked.
 void checkNodeTree(Document& doc) {
-  if (!doc.root->contains("nodes")) return;
-  const Json& nodes = doc.root->at("nodes");
+  const std::vector<Node>& nodes = doc.nodes;
   std::vector<int64_t> parent(nodes.size(), -1);
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].contains("matrix") &&
-        (nodes[i].contains("translation") || nodes[i].contains("rotation") || nodes[i].contains("scale")))
-      doc.fail(fmt::format("nodes[{}]", i), "has both a matrix and translation, rotation or scale");
-    if (!nodes[i].contains("children")) continue;
-    for (const Json& child : nodes[i].at("children")) {
-      const size_t c = child.get<size_t>();
+  for (size_t i = 0; i < nodes.size(); ++i)
+    for (const int child : nodes[i].children) {
+      const auto c = static_cast<size_t>(child);
       if (parent[c] >= 0 || c == i)
         doc.fail(fmt::format("nodes[{}]", c),
                  c == i ? "is its own child" : fmt::format("is a child of nodes {} and {}", parent[c], i));
       parent[c] = static_cast<int64_t>(i);
     }
-  }
   // Mark the path to the root: a node met again on the path being walked closes a cycle.
   std::vector<uint32_t> visited(nodes.size(), 0);
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -536,6 +553,7 @@ void precheck(Document& doc) {
   for (const Rule& rule : rules()) checker.apply(rule);
   checkVersion(doc);
   checkExtensions(doc);
+  checkNodeIndices(doc);
   checkNodeTree(doc);
   checkLightsAndCameras(doc);
 }

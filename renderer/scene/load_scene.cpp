@@ -31,8 +31,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
   step(0.2f, "images");
   gltf::loadMaterials(doc, options, scene);
   step(0.8f, "geometry");
-  const gltf::Flattened flat = gltf::flattenNodes(doc, scene);
-  gltf::assemble(doc, flat, scene);
+  gltf::assemble(doc, gltf::flattenNodes(doc, scene), scene);
   scene.sha256 = hash.get();
   scene.warnings = std::move(doc.warnings);
   return scene;

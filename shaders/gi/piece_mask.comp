@@ -34,9 +34,8 @@ void main() {
       if (bit < 32u) closedLeft |= set;
       else closedRight |= set;
       if (!all(closed)) continue;
-    } else {
-      float cover = baseColorAt(push.scene, p).a, cutoff = push.scene.at[0].materials.at[p.material].alphaCutoff;
-      if (screen ? cover <= screenThreshold(bit, seed) : SAMPLES_TEXTURES != 0u && cover < cutoff) continue;
+    } else if (screen ? baseColorAt(push.scene, p).a <= screenThreshold(bit, seed) : cutAway(push.scene, p)) {
+      continue;
     }
     if (bit < 32u) left |= 1u << bit;
     else right |= 1u << (bit - 32u);

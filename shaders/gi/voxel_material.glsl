@@ -156,9 +156,13 @@ float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point) {
   return baseColorAt(scenes, materialPoint(scenes, t, triangle, point)).a;
 }
 
-/// Whether the material's alpha mask cuts the triangle away at `point`.
+/// Whether an alpha mask, which the material has, cuts away what is there.
+bool cutAway(SceneArray scenes, MaterialPoint p) {
+  return SAMPLES_TEXTURES != 0u && baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
+}
+
+/// Whether the material's alpha mask, if it has one, cuts the triangle away at `point`.
 bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
-  if (SAMPLES_TEXTURES == 0u || (flags & MATERIAL_ALPHA_MASK) == 0u) return false;
-  MaterialPoint p = materialPoint(scenes, t, triangle, point);
-  return baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
+  return SAMPLES_TEXTURES != 0u && (flags & MATERIAL_ALPHA_MASK) != 0u &&
+         cutAway(scenes, materialPoint(scenes, t, triangle, point));
 }

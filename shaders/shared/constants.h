@@ -18,7 +18,9 @@ IRAD_CONST uint CONSTANT_TRACE_EMITTERS = 23u;  ///< specular/trace.glsl
 IRAD_CONST uint CONSTANT_JITTER = 17u;          ///< each facet has a ray set of its own (matrix.jitter)
 IRAD_CONST uint CONSTANT_FEW_RAYS = 26u;        ///< gi/waiting_rays.glsl
 IRAD_CONST uint CONSTANT_RESUMES = 27u;         ///< gi/trace_triangle_rays.comp
-IRAD_CONST uint CONSTANT_TINTED = 25u;          ///< rows tell what panes on the way have let through (openChannels)
+/// There are panes that tint: rows tell what those on the way have let through (openChannels), and what looks up
+/// materials of pieces has code for them (gi/voxel_material.glsl).
+IRAD_CONST uint CONSTANT_TINTED = 25u;
 IRAD_CONST uint CONSTANT_OUTER = 56u;          ///< there are triangles outside the grid
 IRAD_CONST uint CONSTANT_SKY = 24u;             ///< there is a sky: of whatever knows one
 
