@@ -116,6 +116,12 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   away();
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
   EXPECT_TRUE(has("Settings/side B") && has("Effects/side B")) << "panels do not say whose settings they edit";
+  // The status line is above, where the mouse is low in the picture: the sides' names are below it.
+  const std::vector<Control> all = controls();
+  const auto status = std::ranges::find_if(all, [](const Control& c) { return c.name.starts_with("Pointing/pixel="); });
+  ASSERT_NE(status, all.end());
+  EXPECT_LT(status->area.y, picture().y + 50);
+  EXPECT_GE(control("side=A").area.y, status->area.bottom()) << "the status line covers them";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
   // Both are saved, each with the manifest that draws it again.
@@ -185,6 +191,7 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
   ASSERT_TRUE(changes(empty)) << "nothing is picked";
   const ScreenPart picked = part(), row = panel();
   EXPECT_GT(picked.difference(first), 0.005) << "no links are drawn";
+  EXPECT_TRUE(has("Inspector/F") && has("Inspector/F B"));
   // Its column; a filter that no voxel passes; and off again.
   click("Inspector/Column");
   away();
@@ -262,6 +269,12 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   EXPECT_NEAR(moved.x / moved.y, -100.0 / 80.0, 0.02);
   const double pixel = 2 * -moved.z * std::tan(own.cameras[0].yfov / 2) / p.height;
   EXPECT_NEAR(moved.x / pixel, -100, 2);
+  // The camera stands before the open side of the Box; the light is in it.
+  const glm::dvec3 inside = point.position - own.origin;
+  EXPECT_TRUE(glm::all(glm::greaterThan(inside, glm::dvec3(own.boundsMin))) &&
+              glm::all(glm::lessThan(inside, glm::dvec3(own.boundsMax))))
+      << "a new light is outside of the scene";
+  EXPECT_GT(own.cameras[0].position.z - own.origin.z, own.boundsMax.z);
 
   // Where it cannot be saved: said, and nothing is lost.
   std::filesystem::remove(sidecar);

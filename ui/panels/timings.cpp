@@ -237,8 +237,10 @@ class TimingsPanel : public Panel {
     list.AddText({at.x + 1.1f * box, at.y}, color, clipped(stage.name, width - number - 1.1f * box).c_str());
     // Where it did not run, what it took the last time, in grey.
     const std::string ms = milliseconds(ran ? stage.ms[frame] : stage.last);
-    list.AddText({at.x + width - ImGui::CalcTextSize(ms.c_str()).x, at.y}, ran ? color : ImGui::GetColorU32(theme::dim),
-                 ms.c_str());
+    const float left = at.x + width - ImGui::CalcTextSize(ms.c_str()).x;
+    list.AddText({left, at.y}, ran ? color : ImGui::GetColorU32(theme::dim), ms.c_str());
+    if (Controls::current())
+      ImGui::tellPlace(fmt::format("{}={}", stage.name, ms).c_str(), {left, at.y}, {at.x + width, at.y + box}, ran);
   }
 
   // ---- Tables ----
