@@ -104,8 +104,9 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   start();
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
-  const auto left = [this] { return around(-528, -361, 477, 706); };
-  const auto right = [this] { return around(50, -361, 477, 706); };
+  // Below the sides' names.
+  const auto left = [this] { return around(-528, -300, 477, 645); };
+  const auto right = [this] { return around(50, -300, 477, 645); };
   const ScreenPart a = left(), alsoA = right();
   // Compare; then no emission on side B: the lamp's light is gone there, and only there.
   click("Compare/Compare with these settings");
