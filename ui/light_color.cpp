@@ -56,8 +56,6 @@ bool colorField(const char* id, glm::vec3& linear) {
   ImGui::SameLine(0, gap);
   ImGui::PushID(id);
   if (ImGui::ColorButton("pick", swatch(shown), ImGuiColorEditFlags_Float)) ImGui::OpenPopup("picker");
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  ImGui::SetNextWindowPos({low.x - 1, high.y + ImGui::GetStyle().ItemSpacing.y});
   if (ImGui::BeginPopup("picker")) {
     edited |= drawPicker(shown);
     ImGui::EndPopup();
