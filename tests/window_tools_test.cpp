@@ -186,8 +186,17 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
     return settles(panel, [&](const ScreenPart& p) { return p.difference(before) > 0.003; });
   };
 
-  // A click on the floor draws the links of the facet there and fills the panel.
+  const auto legend = [this] {
+    for (const Control& c : controls())
+      if (c.name.starts_with("links=")) return c.name;
+    return std::string();
+  };
+
+  // A click on the floor draws the links of the facet there and fills the panel. Where their light spans decades, as
+  // where one of them is a lamp, they are coloured by its logarithm.
   const ScreenPart empty = panel();
+  pick(at(-300, 420));
+  EXPECT_TRUE(legend().ends_with(" (log)")) << legend();
   pick(at(0, 415));
   ASSERT_TRUE(changes(empty)) << "nothing is picked";
   const ScreenPart picked = part(), row = panel();
@@ -197,6 +206,7 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
   click("Inspector/Column");
   away();
   ASSERT_TRUE(changes(row)) << "no column is shown";
+  EXPECT_TRUE(legend().ends_with(" links")) << legend();
   const ScreenPart column = panel(), lines = part();
   enter("Inspector/filter", "none");
   away();
