@@ -143,13 +143,27 @@ TEST_F(WindowLampsTest, UnitsChangeNoLightAndTemperaturesColorIt) {
   click("Lights/point");
   ASSERT_TRUE(differs(first));
   const ScreenPart candela = viewport();
+  // The rule of each unit is said.
+  EXPECT_TRUE(contains(helpOf("Lights/1/intensity"), "1 cd = 1 W/sr")) << helpOf("Lights/1/intensity");
+  choose("Lights/1/unit", "lx");
+  EXPECT_TRUE(contains(helpOf("Lights/1/intensity"), "1 lx = 1 W/m\u00B2")) << helpOf("Lights/1/intensity");
   choose("Lights/1/unit", "W");
+  EXPECT_TRUE(contains(helpOf("Lights/1/intensity"), "4\u03C0 sr of a point")) << helpOf("Lights/1/intensity");
   EXPECT_TRUE(shows(candela)) << "the unit shown is no edit";
   enterNumber("Lights/1/intensity", "100");
   EXPECT_TRUE(differs(candela));
   const ScreenPart white = viewport();
   enterNumber("Lights/1/temperature", "2000");
   EXPECT_TRUE(differs(white)) << "no other colour";
+  strike("ctrl+z");
+  EXPECT_TRUE(shows(white));
+  // Its colour in the picker: full, of a hue.
+  click("Lights/1/color/pick");
+  drag("Lights/1/color/picker/square", 80, 0);
+  click("Lights/1/color/picker/hue");
+  hold("Escape");
+  EXPECT_TRUE(differs(white)) << "the picker edits nothing";
+  strike("ctrl+z");
   strike("ctrl+z");
   EXPECT_TRUE(shows(white));
   quitDiscarding();

@@ -319,6 +319,14 @@ TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
     const ScreenPart whole = viewport();
     const Counters before = context_->counters();
     const uint64_t frames = timings_.recorded();
+    // Of the list beside the plot.
+    const auto lastForward = [this] {
+      for (const Control& c : readControls(options_.controls))
+        if (c.name.starts_with("Timings/RE Forward=")) return c.name;
+      return std::string();
+    };
+    const std::string forward = lastForward();
+    EXPECT_NE(forward, "");
     const auto rendersNothing = [&](const char* when) {
       EXPECT_EQ(context_->counters().since(before).dispatches, 0u) << when;
     };
@@ -350,6 +358,34 @@ TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
     EXPECT_EQ(asked.dispatches, 0u);
     EXPECT_GT(asked.draws, 0u) << "panels";
     EXPECT_EQ(timings_.recorded(), frames) << "frames that only draw panels are in the timings";
+    EXPECT_EQ(lastForward(), forward) << "a row does not keep its time";
+    // Nor does a view without it take it away.
+    screen_->key("9");
+    EXPECT_TRUE(until([&] { return rests() && timings_.recorded() > frames; }));
+    EXPECT_EQ(lastForward(), forward) << "a row does not keep its time";
+    // A frame of an hour among others, which leaves no room for them: it is cut, and the plot says so.
+    const auto cut = [this] {
+      const std::vector<Control> all = readControls(options_.controls);
+      return std::ranges::any_of(all,
+                                 [](const Control& c) { return c.name == "Timings/one peak of 3600000 ms is cut"; });
+    };
+    eachFrame = [this, told = false]() mutable {
+      for (int frame = 0; !told && frame < 9; ++frame) {
+        timings_.add("RE Forward", frame == 4 ? 3.6e6 : 5);
+        timings_.endFrame(0, /*setup=*/false, 1);
+      }
+      told = true;
+    };
+    EXPECT_FALSE(cut());
+    driversPresent = std::exchange(vkQueuePresentKHR, [](VkQueue queue, const VkPresentInfoKHR* info) {
+      eachFrame();
+      return driversPresent(queue, info);
+    });
+    screen_->xdotool("mousemove 10 400");  // so that a frame is drawn, and another one
+    EXPECT_TRUE(until([&] { return rests(); }));
+    vkQueuePresentKHR = driversPresent;
+    screen_->xdotool("mousemove " + aside());
+    EXPECT_TRUE(until(cut)) << "the plot is scaled to one peak, or does not say so";
   });
 }
 

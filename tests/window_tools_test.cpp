@@ -104,8 +104,9 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   start();
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
-  const auto left = [this] { return around(-528, -361, 477, 706); };
-  const auto right = [this] { return around(50, -361, 477, 706); };
+  // Below the sides' names.
+  const auto left = [this] { return around(-528, -300, 477, 645); };
+  const auto right = [this] { return around(50, -300, 477, 645); };
   const ScreenPart a = left(), alsoA = right();
   // Compare; then no emission on side B: the lamp's light is gone there, and only there.
   click("Compare/Compare with these settings");
@@ -116,6 +117,12 @@ TEST_F(WindowToolsTest, ComparesTwoSetsOfSettings) {
   away();
   ASSERT_TRUE(settles(right, [&](const ScreenPart& p) { return p.difference(alsoA) > 0.3; })) << "B is not rebuilt";
   EXPECT_TRUE(has("Settings/side B") && has("Effects/side B")) << "panels do not say whose settings they edit";
+  // The status line is above, where the mouse is low in the picture: the sides' names are below it.
+  const std::vector<Control> all = controls();
+  const auto status = std::ranges::find_if(all, [](const Control& c) { return c.name.starts_with("Pointing/pixel="); });
+  ASSERT_NE(status, all.end());
+  EXPECT_LT(status->area.y, picture().y + 50);
+  EXPECT_GE(control("side=A").area.y, status->area.bottom()) << "the status line covers them";
   EXPECT_EQ(left(), a) << "A is B's";
   const ScreenPart b = right();
   // Both are saved, each with the manifest that draws it again.
@@ -179,16 +186,27 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
     return settles(panel, [&](const ScreenPart& p) { return p.difference(before) > 0.003; });
   };
 
-  // A click on the floor draws the links of the facet there and fills the panel.
+  const auto legend = [this] {
+    for (const Control& c : controls())
+      if (c.name.starts_with("links=")) return c.name;
+    return std::string();
+  };
+
+  // A click on the floor draws the links of the facet there and fills the panel. Where their light spans decades, as
+  // where one of them is a lamp, they are coloured by its logarithm.
   const ScreenPart empty = panel();
+  pick(at(-300, 420));
+  EXPECT_TRUE(legend().ends_with(" (log)")) << legend();
   pick(at(0, 415));
   ASSERT_TRUE(changes(empty)) << "nothing is picked";
   const ScreenPart picked = part(), row = panel();
   EXPECT_GT(picked.difference(first), 0.005) << "no links are drawn";
+  EXPECT_TRUE(has("Inspector/F") && has("Inspector/F B"));
   // Its column; a filter that no voxel passes; and off again.
   click("Inspector/Column");
   away();
   ASSERT_TRUE(changes(row)) << "no column is shown";
+  EXPECT_TRUE(legend().ends_with(" links")) << legend();
   const ScreenPart column = panel(), lines = part();
   enter("Inspector/filter", "none");
   away();
@@ -262,6 +280,12 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
   EXPECT_NEAR(moved.x / moved.y, -100.0 / 80.0, 0.02);
   const double pixel = 2 * -moved.z * std::tan(own.cameras[0].yfov / 2) / p.height;
   EXPECT_NEAR(moved.x / pixel, -100, 2);
+  // The camera stands before the open side of the Box; the light is in it.
+  const glm::dvec3 inside = point.position - own.origin;
+  EXPECT_TRUE(glm::all(glm::greaterThan(inside, glm::dvec3(own.boundsMin))) &&
+              glm::all(glm::lessThan(inside, glm::dvec3(own.boundsMax))))
+      << "a new light is outside of the scene";
+  EXPECT_GT(own.cameras[0].position.z - own.origin.z, own.boundsMax.z);
 
   // Where it cannot be saved: said, and nothing is lost.
   std::filesystem::remove(sidecar);

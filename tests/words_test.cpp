@@ -7,8 +7,10 @@
 #include <string>
 
 #include "gi/setting_words.h"
+#include "tests/support.h"
 #include "ui/glossary.h"
 #include "ui/setting_rows.h"
+#include "ui/theme.h"
 #include "ui/words.h"
 
 namespace irad::words_suite {
@@ -20,6 +22,21 @@ TEST(Words, CountsAreSingularAndPlural) {
   EXPECT_EQ(counted(12000, "sweep"), "12,000 sweeps");
   EXPECT_EQ(counted(1, "penumbra", "penumbrae"), "1 penumbra");
   EXPECT_EQ(counted(2, "penumbra", "penumbrae"), "2 penumbrae");
+}
+
+/// Letters are written as escapes where the window's texts are.
+TEST(Words, TheFontsHoldEveryLetter) {
+  size_t found = 0;
+  for (const char* room : {"ui", "gi"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::sourceFolder() / room)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string text = test::slurp(entry.path());
+      for (size_t at = 0; (at = text.find("\\u", at)) != std::string::npos; ++at, ++found) {
+        const std::string code = text.substr(at + 2, 4);
+        EXPECT_TRUE(fontsHold(static_cast<uint32_t>(std::stoul(code, nullptr, 16)))) << entry.path() << ": " << code;
+      }
+    }
+  EXPECT_GT(found, 100u);
 }
 
 TEST(Words, WhatRoundsToZeroHasNoSign) {

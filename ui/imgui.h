@@ -115,6 +115,7 @@ inline bool SliderInt(const char* label, int* value, int low, int high, const ch
     tellControl(label);                                                                  \
     return edited;                                                                       \
   }
+IRAD_CONTROL(ColorButton)
 IRAD_CONTROL(ColorEdit3)
 IRAD_CONTROL(DragFloat)
 IRAD_CONTROL(DragFloat3)
@@ -124,6 +125,8 @@ IRAD_CONTROL(InputScalar)
 IRAD_CONTROL(InputText)
 IRAD_CONTROL(InputTextWithHint)
 #undef IRAD_CONTROL
+/// A square of saturations and values, and beside it a bar of hues, which have names of their own.
+bool ColorPicker(const char* label, glm::vec3& color);
 
 // ---- Controls that open: what they open has their names in front ----
 

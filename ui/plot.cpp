@@ -167,7 +167,9 @@ std::optional<size_t> plot(glm::vec2 size, std::span<const PlotLine> lines, cons
   if (beyond) {
     const std::string said = fmt::format("one peak of {} is cut", axes.yText(*beyond));
     const float x = scale.high.x - pad - ImGui::CalcTextSize(said.c_str()).x;
-    list.AddText({std::max(x, scale.low.x + pad), scale.low.y}, ImGui::GetColorU32(theme::warning), said.c_str());
+    const glm::vec2 at{std::max(x, scale.low.x + pad), scale.low.y};
+    list.AddText({at.x, at.y}, ImGui::GetColorU32(theme::warning), said.c_str());
+    ImGui::tellPlace(said.c_str(), at, {scale.high.x - pad, at.y + text});
   }
 
   const ImVec2 mouse = ImGui::GetMousePos();

@@ -46,7 +46,8 @@ void RecordingComparison::draw(Recorder& recorder) {
   for (size_t i = 0; i < folders_.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::SetNextItemWidth(width);
-    ImGui::InputTextWithHint("##folder", hints[i], folders_[i].data(), folders_[i].size());
+    ImGui::InputTextWithHint("##folder", clipped(hints[i], width - 2 * ImGui::GetStyle().FramePadding.x).c_str(),
+                             folders_[i].data(), folders_[i].size());
     helpTooltip("Folder of a recording, as Record or irad bench --record makes it");
     ImGui::SameLine();
     const bool known = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);

@@ -25,6 +25,7 @@ constexpr ImWchar kGlyphs[] = {0x0020, 0x00FF,  // Latin-1: superscripts, degree
                                0x2190, 0x2199,  // arrows
                                0x21BA, 0x21BA,  // reset
                                0x2212, 0x2212,  // minus
+                               0x221A, 0x221A,  // root
                                0x2260, 0x2265,  // comparisons
                                0};
 
@@ -57,6 +58,12 @@ void addFonts(ImFontAtlas& fonts, float scale) {
 void pushHeadingFont() {
   const ImVector<ImFont*>& fonts = ImGui::GetIO().Fonts->Fonts;
   ImGui::PushFont(fonts[fonts.Size > 1 ? 1 : 0]);
+}
+
+bool fontsHold(uint32_t codePoint) {
+  for (const ImWchar* range = kGlyphs; *range != 0; range += 2)
+    if (codePoint >= range[0] && codePoint <= range[1]) return true;
+  return false;
 }
 
 const char* arrowGlyph() {

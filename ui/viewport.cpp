@@ -1,5 +1,7 @@
 #include "ui/viewport.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,6 +76,9 @@ float statusLine() {
 float statusHeight(float width) {
   return statusLine() * (width < 44 * ImGui::GetFontSize() ? 2.0f : 1.0f);
 }
+bool statusAbove(const Rect& window, float mouseY) {
+  return mouseY >= window.position.y + window.size.y - statusHeight(window.size.x);
+}
 
 Viewport::Viewport() {
 #define IRAD_MAKE_OVERLAY(name) overlays_.push_back(make##name##Overlay());
@@ -144,12 +149,16 @@ bool drawSplit(Session& session, const Rect& picture, const Rect& where, const P
   if ((!session.comparison && !reference) || !session.targets.display) return false;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = ImGui::GetFontSize();
+  // Below the status line where that is above.
+  const float status = mouse.hovered && statusAbove(where, mouse.position.y) ? statusHeight(where.size.x) : 0;
   const auto letter = [&](const char* text, float x, bool edited) {
-    const ImVec2 at{x, where.position.y + em * 0.5f}, half = ImGui::CalcTextSize(text);
+    const ImVec2 at{x, where.position.y + status + em * 0.5f}, half = ImGui::CalcTextSize(text);
     const float wide = std::max(em * 0.7f, half.x / 2 + em * 0.3f);
     list.AddRectFilled({at.x - wide, at.y}, {at.x + wide, at.y + em * 1.5f}, IM_COL32(0, 0, 0, 150), em * 0.2f);
     list.AddText({at.x - half.x / 2, at.y + em * 0.25f}, ImGui::GetColorU32(edited ? theme::accent : theme::text),
                  text);
+    if (Controls::current())
+      ImGui::tellPlace(fmt::format("side={}", text).c_str(), {at.x - wide, at.y}, {at.x + wide, at.y + em * 1.5f});
   };
   float& split = reference ? session.split->share : session.comparison->split;
   const auto line = [&](const char* left, bool leftEdited, const char* right, bool rightEdited) {

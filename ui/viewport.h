@@ -78,6 +78,8 @@ IRAD_OVERLAYS(IRAD_DECLARE_OVERLAY)
 /// Height of the status line (ui/overlays/pointing.cpp), of a viewport of this width, pixels: one or two lines.
 float statusLine();
 float statusHeight(float width);
+/// Whether it is at the picture's upper edge, since the mouse is at the lower one.
+bool statusAbove(const Rect& window, float mouseY);
 
 class Viewport {
  public:

@@ -58,8 +58,7 @@ class PointingOverlay : public Overlay {
       places.push_back(next);
       next.x += width + 1.2f * em;
     }
-    const ImVec2 mouse = ImGui::GetMousePos();
-    const bool above = session.pointing.over && mouse.y >= bottom - most;
+    const bool above = session.pointing.over && statusAbove(window, ImGui::GetMousePos().y);
     const glm::vec2 corner{window.position.x, above ? window.position.y : bottom - height};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({corner.x, corner.y}, {corner.x + window.size.x, corner.y + height}, IM_COL32(20, 20, 22, 225));

@@ -137,6 +137,8 @@ class RowOverlay : public Overlay {
       const glm::vec2 at = where.position + glm::vec2(0, where.size.y) + glm::vec2(em, -5 * em);
       legends.push_back({at, {width + em, 4 * em}});
       list.AddRectFilled({at.x, at.y}, {at.x + width + em, at.y + 4 * em}, IM_COL32(20, 20, 22, 215), 0.3f * em);
+      if (Controls::current())
+        ImGui::tellPlace(fmt::format("links={}", title).c_str(), at, at + glm::vec2(width + em, 4 * em));
       const glm::vec2 inside = at + glm::vec2(0.5f * em, 0.3f * em);
       list.AddText({inside.x, inside.y}, ImGui::GetColorU32(theme::text), title.c_str());
       drawColorBar(list, inside + glm::vec2(0, 1.4f * em), {width, 0.7f * em}, map);

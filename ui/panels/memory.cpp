@@ -34,8 +34,7 @@ class MemoryPanel : public Panel {
         static_cast<double>(memory.used()) / static_cast<double>(std::max<uint64_t>(memory.budget(), 1));
     ImGui::ProgressBar(static_cast<float>(share), {-1, ImGui::GetFontSize() * 0.5f}, "");
     valueRow("used", fmt::format("{} of {}", mebibytes(memory.used()), mebibytes(memory.budget())));
-    helpTooltip(
-        "Device memory in use, of what this process may take of the device's heap (MiB of 2\u00B2\u2070 bytes)");
+    helpTooltip("Device memory in use, of what this process may take of the device's heap (MiB of 1,048,576 bytes)");
     valueRow("peak", mebibytes(memory.peak()));
     helpTooltip("The most device memory that was in use at any time since the program began");
     if (ImGui::Button("Save CSV", {-1, 0})) session.recorder.memory = true;
@@ -53,7 +52,7 @@ class MemoryPanel : public Panel {
     ImGui::TableNextColumn();
     ImGui::TableNextColumn();
     rightText("measured");
-    helpTooltip("What the allocator gave, MiB of 2\u00B2\u2070 bytes");
+    helpTooltip("What the allocator gave, MiB of 1,048,576 bytes");
     ImGui::TableNextColumn();
     rightText("predicted");
     helpTooltip("By the formulas from the numbers of voxels, facets and rays; empty where there is none");

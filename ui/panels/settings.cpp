@@ -176,7 +176,7 @@ class SettingsPanel : public Panel {
     ImGui::tellControl("cost", due);
     helpTooltip(
         text + compiled +
-        "\nSeconds until the new light is seen first, and the device memory then in use (MiB of 2\u00B2\u2070 "
+        "\nSeconds until the new light is seen first, and the device memory then in use (MiB of 1,048,576 "
         "bytes). Predicted of the stages that are redone, from what each took last, by the growth with "
         "voxel.resolution and matrix.rays; what other settings change is not foreseen, nor shaders that have to be "
         "compiled first.");

@@ -106,7 +106,10 @@ class TimingsPanel : public Panel {
     if (ImGui::Button(paused_ ? "Resume###pause" : "Pause###pause", {button("Resume"), 0})) paused_ = !paused_;
     helpTooltip("Holds plot and tables; the program goes on");
     ImGui::SameLine();
-    if (ImGui::Button((record + "###record").c_str(), {button("Stop 000.0 s"), 0})) session.recorder.toggle = true;
+    // In a narrow window as wide as there is room.
+    const float wide = std::min(button("Stop 000.0 s"), ImGui::GetContentRegionAvail().x);
+    if (ImGui::Button((clipped(record, wide - 2 * style.FramePadding.x) + "###record").c_str(), {wide, 0}))
+      session.recorder.toggle = true;
     helpTooltip(
         "Draws pictures without pause until it is stopped, and writes frames.csv, summary.csv and trace.json "
         "(for Perfetto) into a new folder");
@@ -237,8 +240,10 @@ class TimingsPanel : public Panel {
     list.AddText({at.x + 1.1f * box, at.y}, color, clipped(stage.name, width - number - 1.1f * box).c_str());
     // Where it did not run, what it took the last time, in grey.
     const std::string ms = milliseconds(ran ? stage.ms[frame] : stage.last);
-    list.AddText({at.x + width - ImGui::CalcTextSize(ms.c_str()).x, at.y}, ran ? color : ImGui::GetColorU32(theme::dim),
-                 ms.c_str());
+    const float left = at.x + width - ImGui::CalcTextSize(ms.c_str()).x;
+    list.AddText({left, at.y}, ran ? color : ImGui::GetColorU32(theme::dim), ms.c_str());
+    if (Controls::current())
+      ImGui::tellPlace(fmt::format("{}={}", stage.name, ms).c_str(), {left, at.y}, {at.x + width, at.y + box}, ran);
   }
 
   // ---- Tables ----

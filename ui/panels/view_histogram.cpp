@@ -178,12 +178,13 @@ void drawHistogram(Session& session, const ViewInfo& info) {
   if (hovered && !ends) readBin(plot, one, luminance);
 
   ImGui::SetCursorScreenPos(below);
+  const float start = ImGui::GetCursorPosX();
   const std::string low = fmt::format("{:.4g}", plot.histogram.low), high = fmt::format("{:.4g}", plot.histogram.high);
   ImGui::TextColored(theme::dim, "%s", low.c_str());
   helpTooltip(
       "Values from left to right in bins of one width; how often they occur from bottom to top, on a logarithmic "
       "scale.");
-  ImGui::SameLine(std::max(width - ImGui::CalcTextSize(high.c_str()).x, 0.0f));
+  ImGui::SameLine(start + std::max(width - ImGui::CalcTextSize(high.c_str()).x, 0.0f));
   ImGui::TextColored(theme::dim, "%s", high.c_str());
   if (plot.histogram.below + plot.histogram.above > 0)
     ImGui::TextColored(
