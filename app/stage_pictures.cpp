@@ -73,6 +73,7 @@ PictureTime readTime(const fs::path& path) {
 StagePictures::StagePictures(DeviceSession& session, StudyRun& run, const AttributionTask& task)
     : session_(session), run_(run), task_(task), folder_(run.task().out / "linear") {
   makeFolder(folder_);
+  makeFolder(run_.task().out / "seconds");
   Pipeline& pipeline = run_.bench().pipeline();
   pipeline.set(asGiven());
   run_.bench().prepare();
@@ -242,7 +243,7 @@ fs::path StagePictures::fileOf(const Ideals& ideals, uint32_t seed) const {
 }
 
 fs::path StagePictures::timeFileOf(const Ideals& ideals, uint32_t seed) const {
-  return stemOf(ideals, seed).string() + ".json";
+  return run_.task().out / "seconds" / fmt::format("{}.{}.json", ideals.name(), seed);
 }
 
 std::map<uint32_t, LinearPixels> StagePictures::read(const Ideals& ideals) const {
@@ -345,8 +346,8 @@ bool StagePictures::make(const Due& due, bool fromVoxelsOn) {
     if (fromVoxelsOn) run_.bench().pipeline().invalidate(Redo::Voxels);
     PictureTime time;
     const LinearPixels pixels = picture(ideals, seed, time);
-    writeTime(timeFileOf(ideals, seed), time);
     writeLinear(stemOf(ideals, seed), run_.task().size, pixels);
+    writeTime(timeFileOf(ideals, seed), time);
     times_->took(ideals, time);
     return true;
   } catch (const DeviceError& error) {

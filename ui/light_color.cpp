@@ -52,7 +52,8 @@ bool colorField(const char* id, glm::vec3& linear) {
   glm::vec3 shown = before;
   const float box = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - box - gap);
-  bool edited = ImGui::ColorEdit3(id, &shown.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoSmallPreview);
+  bool edited = ImGui::ColorEdit3(
+      id, &shown.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoSmallPreview | ImGuiColorEditFlags_NoOptions);
   ImGui::SameLine(0, gap);
   ImGui::PushID(id);
   if (ImGui::ColorButton("pick", swatch(shown), ImGuiColorEditFlags_Float)) ImGui::OpenPopup("picker");

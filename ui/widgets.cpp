@@ -33,9 +33,10 @@ bool ImGui::ColorPicker(const char* label, glm::vec3& color) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float bar = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float side = std::max(ImGui::CalcItemWidth() - bar - gap, bar);
-  const bool edited = ImGui::ColorPicker3(label, &color.x,
-                                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs |
-                                              ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel);
+  const bool edited =
+      ImGui::ColorPicker3(label, &color.x,
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoSidePreview |
+                              ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoOptions);
   ImGui::enterControls(label);
   ImGui::tellPlace("square", {at.x, at.y}, {at.x + side, at.y + side});
   ImGui::tellPlace("hue", {at.x + side + gap, at.y}, {at.x + side + gap + bar, at.y + side});
