@@ -1,4 +1,5 @@
 // SPIR-V reflection, run-time compilation and reload.
+#include <algorithm>
 #include <fstream>
 
 #include "renderer/base/error.h"
@@ -180,6 +181,9 @@ TEST(Variants, AreTheirSourceWithADefinitionMore) {
     const std::vector<uint32_t> compiled = compileGlsl(kRoot / "shaders", shader.source, shader.definition);
     EXPECT_EQ(withoutDebugInfo(compiled), withoutDebugInfo(shader.spirv)) << shader.name;
     EXPECT_NE(withoutDebugInfo(shader.spirv), withoutDebugInfo(library.get(shader.source).spirv)) << shader.name;
+    // Passes bind it whether or not a shader comes to read it: no optimizer may drop it.
+    const auto volumes = std::ranges::count(library.get(shader.name).bindings, "jfaDistance", &ShaderBinding::name);
+    EXPECT_EQ(volumes, contains(std::string(shader.definition), "TRACE_JFA_BINDING") ? 1 : 0) << shader.name;
   }
   EXPECT_GT(variants, 0u);
 }

@@ -3,7 +3,6 @@
 // hundred; samples drawn in proportion to power all go there. Only the first gather is replaced: the solver adds the
 // difference to F B, in which M cancels.
 #version 460
-#pragma optimize(on)
 #extension GL_GOOGLE_include_directive : require
 #include "shared/constants.h"
 #include "shared/sampling.h"
