@@ -73,7 +73,7 @@ PictureTime readTime(const fs::path& path) {
 StagePictures::StagePictures(DeviceSession& session, StudyRun& run, const AttributionTask& task)
     : session_(session), run_(run), task_(task), folder_(run.task().out / "linear") {
   makeFolder(folder_);
-  makeFolder(run_.task().out / "seconds");
+  makeFolder(secondsFolder());
   Pipeline& pipeline = run_.bench().pipeline();
   pipeline.set(asGiven());
   run_.bench().prepare();
@@ -243,7 +243,7 @@ fs::path StagePictures::fileOf(const Ideals& ideals, uint32_t seed) const {
 }
 
 fs::path StagePictures::timeFileOf(const Ideals& ideals, uint32_t seed) const {
-  return run_.task().out / "seconds" / fmt::format("{}.{}.json", ideals.name(), seed);
+  return secondsFolder() / fmt::format("{}.{}.json", ideals.name(), seed);
 }
 
 std::map<uint32_t, LinearPixels> StagePictures::read(const Ideals& ideals) const {

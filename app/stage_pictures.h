@@ -64,6 +64,7 @@ class StagePictures {
   std::vector<uint32_t> seedsOf(const Ideals& ideals) const;
   std::filesystem::path stemOf(const Ideals& ideals, uint32_t seed) const;
   std::filesystem::path fileOf(const Ideals& ideals, uint32_t seed) const;
+  std::filesystem::path secondsFolder() const { return run_.task().out / "seconds"; }
   /// What it took, by which a study that goes on tells how long it will take.
   std::filesystem::path timeFileOf(const Ideals& ideals, uint32_t seed) const;
   std::vector<Due> due() const;

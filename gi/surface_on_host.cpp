@@ -109,7 +109,7 @@ class VoxelClasses {
       const glm::vec3 facing_ = facing(i);
       float most = 0;
       for (uint32_t k = 0; k < leaders_; ++k) {
-        const float alike = likeness(facing(leader_[k]), facing_);
+        const float alike = preciseDot(facing(leader_[k]), facing_);
         if (alike <= most) continue;
         most = alike;
         classOf(i) = k;

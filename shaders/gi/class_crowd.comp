@@ -96,7 +96,7 @@ void main() {
     vec3 facing = classPoint(push, surface, i).point.at.facing;
     float most = 0.0;
     for (uint k = 0u; k < classes; ++k) {
-      float alike = likeness(classPoint(push, surface, leaders[k]).point.at.facing, facing);
+      float alike = preciseDot(classPoint(push, surface, leaders[k]).point.at.facing, facing);
       if (alike <= most) continue;
       most = alike;
       push.classes.at[i] = k;

@@ -189,9 +189,8 @@ struct SideWay {
   uint pass1, pass2;  ///< triangles that it may pass through
 };
 
-/// Between normals. Many are as like to one another as the next ones, so that a rounding would choose.
-IRAD_FN float likeness(vec3 facing, vec3 other) { return preciseDot(facing, other); }
-IRAD_FN bool facesAlike(vec3 facing, vec3 other) { return likeness(facing, other) >= SAME_SIDE_COSINE; }
+/// Of normals. Many are as like to one another as the next ones, so that a rounding would choose.
+IRAD_FN bool facesAlike(vec3 facing, vec3 other) { return preciseDot(facing, other) >= SAME_SIDE_COSINE; }
 
 /// Whether two points may lie on one side, by what they say alone: their normals are alike, and neither stands above the
 /// other's plane while that one lies below its own.
