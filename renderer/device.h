@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct DeviceOptions {
   bool presentable = false;   ///< enable the surface and swapchain extensions (GLFW names them)
   bool poison = false;        ///< fill all fresh device memory with NaN bit patterns
   uint64_t memoryBudget = 0;  ///< bytes that may be taken of the device's own heap; 0: what the heap allows
+  /// Bytes of freed memory that wait for what is made next; none: a share of the budget, on a CPU device 0.
+  std::optional<uint64_t> keptMemory;
   // Failures to provoke, to see what follows. They are compared with `counters`; set again, they strike again.
   uint64_t failResource = 0;  ///< the buffer or image of this number finds no memory, from 1; 0: none
   uint64_t loseDevice = 0;    ///< the device is lost at the submission or wait of this number, from 1; 0: never

@@ -420,6 +420,30 @@ TEST_F(Core, MemoryRowsAndBudget) {
   EXPECT_THROW(Image(device(), {.name = "wide", .format = VK_FORMAT_R8_UNORM, .width = 1u << 20}), DeviceError);
 }
 
+TEST_F(Core, FreedMemoryWaitsForWhatIsMadeNext) {
+  // Blocks of 4 MiB, so what is larger than 2 MiB has one to itself.
+  const auto device = Device::create({.validate = true, .memoryBudget = 64 << 20, .keptMemory = 24 << 20});
+  const auto allocations = [&] { return device->counters.allocations.load(); };
+  const auto buffer = [&](uint64_t mib) { return Buffer(*device, "of a moment", Subsystem::Staging, mib << 20); };
+  const auto costs = [&](const std::function<void()>& make) {
+    const uint64_t before = allocations();
+    make();
+    return allocations() - before;
+  };
+  EXPECT_EQ(costs([&] { buffer(10); }), 1u);
+  for (const uint64_t mib : {10, 5, 8}) EXPECT_EQ(costs([&] { buffer(mib); }), 0u) << mib;
+  EXPECT_EQ(costs([&] { buffer(4); }), 1u) << "half of the memory would be wasted";
+  EXPECT_EQ(costs([&] { buffer(11); }), 1u) << "does not fit";
+  // 10 + 4 + 11 MiB are more than 24: the oldest has gone.
+  EXPECT_EQ(costs([&] { const Buffer a = buffer(11), b = buffer(4); }), 0u);
+  EXPECT_EQ(costs([&] { const Buffer a = buffer(11), b = buffer(10); }), 1u);
+  EXPECT_EQ(device->memory().used(), 0u);
+  // What waits is nothing that is missing.
+  EXPECT_NO_THROW(buffer(60));
+  EXPECT_NO_THROW(buffer(60));
+  EXPECT_TRUE(device->validationMessages().empty());
+}
+
 TEST_F(Core, ConfusedBindingsAreReportedWithBothSides) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const Image image(device(), {.name = "target", .format = VK_FORMAT_R32_SFLOAT, .width = 8, .height = 8});

@@ -15,6 +15,9 @@ constexpr uint64_t kMiB = 1024 * 1024;
 constexpr uint64_t kLeastBlock = kMiB, kMostBlock = 64 * kMiB;
 /// Share of a heap left to the driver and to others; a CPU device shares its memory with the whole machine.
 constexpr double kUsableHeap = 0.95, kUsableRam = 0.6;
+/// The share of the budget that is kept as empty blocks. On a CPU device none: memory costs little there, and what is
+/// kept is missing to the rest of the machine.
+constexpr uint64_t kKeptShare = 16;
 
 std::string amount(uint64_t bytes) {
   const auto value = static_cast<double>(bytes);
@@ -37,6 +40,7 @@ Allocator::Impl::Impl(const Device& device) : device(device) {
     }
   physicalBytes = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGE_SIZE));
   blockSize = std::clamp(std::bit_floor(budget() / 16), kLeastBlock, kMostBlock);
+  mostKept = device.options.keptMemory.value_or(device.isCpu ? 0 : budget() / kKeptShare);
   const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                          .queueFamilyIndex = device.queueFamily};
@@ -87,9 +91,13 @@ Allocator::Impl::Block* Allocator::Impl::newBlock(uint32_t type, uint64_t size, 
                                   .memoryTypeIndex = type};
   auto block = std::make_unique<Block>();
   const bool own = memory.memoryTypes[type].heapIndex == deviceHeap;
-  if (own && deviceTaken + size > budget()) return nullptr;
-  const VkResult result = vkAllocateMemory(device.handle, &info, nullptr, &block->memory);
-  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) return nullptr;
+  while (own && deviceTaken + size > budget())
+    if (!dropOldest()) return nullptr;
+  VkResult result;
+  while ((result = vkAllocateMemory(device.handle, &info, nullptr, &block->memory)) != VK_SUCCESS) {
+    if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY && result != VK_ERROR_OUT_OF_HOST_MEMORY) break;
+    if (!dropOldest()) return nullptr;
+  }
   vkCheck(result, fmt::format("allocating {} for {}", amount(size), name));
   ++device.counters.allocations;
   if (own) deviceTaken += size;
@@ -107,6 +115,35 @@ Allocator::Impl::Block* Allocator::Impl::newBlock(uint32_t type, uint64_t size, 
               dedicated ? name : std::string(images ? "images" : "buffers"));
   blocks.push_back(std::move(block));
   return blocks.back().get();
+}
+
+Allocator::Impl::Block* Allocator::Impl::keptBlock(uint32_t type, uint64_t bytes, bool images,
+                                                   const std::string& name) {
+  Block* best = nullptr;
+  for (const auto& b : blocks)
+    if (b->emptied > 0 && b->type == type && b->images == images && b->size >= bytes && b->size / 2 <= bytes &&
+        (!best || b->size < best->size))
+      best = b.get();
+  if (!best) return nullptr;
+  best->emptied = 0;
+  kept -= best->size;
+  device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(best->memory), name);
+  return best;
+}
+
+bool Allocator::Impl::dropOldest() {
+  Block* oldest = nullptr;
+  for (const auto& b : blocks)
+    if (b->emptied > 0 && (!oldest || b->emptied < oldest->emptied)) oldest = b.get();
+  if (oldest) giveBack(*oldest);
+  return oldest != nullptr;
+}
+
+void Allocator::Impl::giveBack(Block& block) {
+  if (block.emptied > 0) kept -= block.size;
+  if (memory.memoryTypes[block.type].heapIndex == deviceHeap) deviceTaken -= block.size;
+  vkFreeMemory(device.handle, block.memory, nullptr);
+  std::erase_if(blocks, [&](const auto& b) { return b.get() == &block; });
 }
 
 bool Allocator::Impl::fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset) {
@@ -149,7 +186,8 @@ Allocator::Impl::Place Allocator::Impl::allocate(const VkMemoryRequirements& nee
       IRAD_CHECK(fit(*block, needs.size, needs.alignment, offset), "{} bytes in a fresh block", needs.size);
   }
   if (!block) {
-    if (!refused) block = newBlock(type, needs.size, image, true, row.name);
+    if (!refused && dedicated) block = keptBlock(type, needs.size, image, row.name);
+    if (!block && !refused) block = newBlock(type, needs.size, image, true, row.name);
     if (!block && !refused && deviceLocal) checkRoom(row.subsystem, row.name, needs.size, deviceTaken);
     if (!block)
       throw DeviceError(fmt::format("{} ({}) needs {}: the device is out of memory ({} are in use)", row.name,
@@ -190,13 +228,16 @@ void Allocator::Impl::free(uint64_t id) {
       here = previous;
     }
   }
-  // An empty block goes back, except the last shared one of its kind.
   if (here->second != block.size) return;
+  if (block.dedicated) {
+    block.emptied = ++emptyings;
+    kept += block.size;
+    while (kept > mostKept) dropOldest();
+    return;
+  }
+  // An empty shared block goes back, except the last one of its kind.
   const auto alike = [&](const auto& b) { return !b->dedicated && b->type == block.type && b->images == block.images; };
-  if (!block.dedicated && std::count_if(blocks.begin(), blocks.end(), alike) < 2) return;
-  if (allocation.deviceLocal) deviceTaken -= block.size;
-  vkFreeMemory(device.handle, block.memory, nullptr);
-  std::erase_if(blocks, [&](const auto& b) { return b.get() == &block; });
+  if (std::count_if(blocks.begin(), blocks.end(), alike) > 1) giveBack(block);
 }
 
 uint64_t Allocator::Impl::bytes(uint64_t id) const {
