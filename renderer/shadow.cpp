@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "renderer/base/error.h"
-#include "renderer/base/parallel.h"
 #include "renderer/depth_pass.h"
 #include "renderer/raster.h"
 #include "shaders/shared/raster.h"
@@ -86,19 +85,6 @@ void fitPlanes(const Scene& scene, GpuLight& light) {
   light.shadowNear = std::min(static_cast<float>(std::max(farthest / 256.0, outside * 0.5)), 0.5f * light.shadowFar);
 }
 
-/// Vertices or triangles that a thread looks at at once.
-constexpr size_t kFitBlock = size_t{1} << 14;
-
-/// look(found, i) for every i below `count`, on all cores: what each block of them found, in order.
-template <class Found>
-std::vector<Found> lookAtAll(size_t count, const auto& look) {
-  std::vector<Found> found((count + kFitBlock - 1) / kFitBlock);
-  parallelFor(found.size(), [&](size_t block) {
-    for (size_t i = block * kFitBlock; i < std::min(count, (block + 1) * kFitBlock); ++i) look(found[block], i);
-  });
-  return found;
-}
-
 /// Across a parallel light's way.
 struct Box2 {
   glm::dvec2 lo{std::numeric_limits<double>::max()}, hi{std::numeric_limits<double>::lowest()};
@@ -136,27 +122,19 @@ Box2 whereShadowsFall(const Scene& scene, const std::vector<glm::dvec2>& across,
     Outline outline;
     Box2 box;
   };
-  struct Found {
-    std::vector<Large> large;
-    Box2 rest;
-  };
-  std::vector<Found> found = lookAtAll<Found>(scene.triangleCount(), [&](Found& in, size_t triangle) {
+  std::vector<Large> large;
+  Box2 rest;
+  for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
     Outline outline;
     Box2 box;
     for (size_t k = 0; k < 3; ++k) {
-      outline[k] = across[scene.indices[3 * triangle + k]];
+      outline[k] = across[scene.indices[i + k]];
       box.add({outline[k], outline[k]});
     }
     if (box.longest() > whole.longest() / 16.0)
-      in.large.push_back({box.longest(), outline, box});
+      large.push_back({box.longest(), outline, box});
     else
-      in.rest.add(box);
-  });
-  std::vector<Large> large;
-  Box2 rest;
-  for (const Found& f : found) {
-    large.insert(large.end(), f.large.begin(), f.large.end());
-    rest.add(f.rest);
+      rest.add(box);
   }
   std::ranges::stable_sort(large, std::ranges::greater(), &Large::size);
   size_t left = 0;
@@ -174,21 +152,15 @@ Box2 whereShadowsFall(const Scene& scene, const std::vector<glm::dvec2>& across,
 /// lit (shaders/forward/shadow.glsl).
 void fitParallel(const Scene& scene, GpuLight& light, uint32_t resolution) {
   const Basis basis = basisAbout(light.direction);
-  struct Extent {
-    glm::dvec3 lo{std::numeric_limits<double>::max()}, hi{std::numeric_limits<double>::lowest()};
-  };
-  std::vector<glm::dvec2> across(scene.positions.size());
-  const auto place = [&](Extent& in, size_t vertex) {
-    const glm::dvec3 p(scene.positions[vertex]);
-    const glm::dvec3 q(glm::dot(basis[0], p), glm::dot(basis[1], p), glm::dot(basis[2], p));
-    across[vertex] = glm::dvec2(q);
-    in.lo = glm::min(in.lo, q);
-    in.hi = glm::max(in.hi, q);
-  };
-  auto [lo, hi] = Extent{};
-  for (const Extent& e : lookAtAll<Extent>(scene.positions.size(), place)) {
-    lo = glm::min(lo, e.lo);
-    hi = glm::max(hi, e.hi);
+  glm::dvec3 lo(std::numeric_limits<double>::max()), hi(std::numeric_limits<double>::lowest());
+  std::vector<glm::dvec2> across;
+  across.reserve(scene.positions.size());
+  for (const glm::vec3& p : scene.positions) {
+    const glm::dvec3 q(glm::dot(basis[0], glm::dvec3(p)), glm::dot(basis[1], glm::dvec3(p)),
+                       glm::dot(basis[2], glm::dvec3(p)));
+    across.emplace_back(q);
+    lo = glm::min(lo, q);
+    hi = glm::max(hi, q);
   }
   if (scene.positions.empty()) lo = hi = glm::dvec3(0.0);
   const Box2 whole{lo, hi}, fall = whereShadowsFall(scene, across, whole);
