@@ -72,6 +72,48 @@ ClassPointsPush classPoints(auto& pass, const SurfacePieces& pieces, const Surfa
   return push;
 }
 
+PieceSidesPush sidesToFind(auto& pass, const Buffer& gridRecord, const SurfacePieces& pieces,
+                           const SurfacePoints& points, const FacetList& list) {
+  PieceSidesPush push{};
+  push.grid = pass.in(gridRecord);
+  push.pieceVoxel = pass.in(pieces.pieceVoxel);
+  push.solid = pass.in(pieces.voxel);
+  push.firstPiece = pass.in(pieces.first);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.classes = pass.out(points.classes);
+  push.points = pass.in(points.at);
+  push.pieceArea = pass.in(pieces.area);
+  push.pointArea = pass.out(points.area);
+  push.facetStart = pass.in(points.facetStart);
+  pass.out(list.surface.sides);
+  pass.out(list.surface.cuts);
+  push.voxel = pass.out(list.voxel);
+  push.reverse = pass.out(list.reverse);
+  push.facetPiece = pass.out(list.surface.firstPiece);
+  push.count = pieces.count;
+  return push;
+}
+
+FacetSurfelsPush surfelsToPlace(auto& pass, const SurfacePieces& pieces, const SurfacePoints& points,
+                                const FacetList& list, const Buffer& facings) {
+  FacetSurfelsPush push{};
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.classes = pass.in(points.classes);
+  push.points = pass.in(points.at);
+  push.pointArea = pass.in(points.area);
+  push.pieceVoxel = pass.in(pieces.pieceVoxel);
+  push.wideStart = pass.in(points.wideStart);
+  push.surfels = pass.out(list.surface.surfels);
+  push.wideSides = pass.out(list.surface.wideSides);
+  push.facings = pass.out(facings);
+  push.area = pass.out(list.area);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  return push;
+}
+
 LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& facings, const Buffer& found) {
   LinkFacetsPush push{};
   push.voxel = pass.in(list.voxel);
@@ -155,6 +197,38 @@ void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, con
   ofCrowds.count = found;
   pass.shader("gi/class_crowd.comp").push(ofCrowds).dispatchWorkgroups(found);
   frame.submit();
+}
+
+void fillFacets(Context& context, ListedBy by, const Buffer& gridRecord, const SurfacePieces& pieces,
+                const SurfacePoints& points, const FacetList& list, const Buffer& facings) {
+  const Surface& surface = list.surface;
+  Frame frame = context.begin();
+  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
+  if (by == ListedBy::host) {
+    frame.submit();
+    timedOnHost(context, kListStage, [&] {
+      HostPass pass(context);
+      const PieceSidesPush sides = sidesToFind(pass, gridRecord, pieces, points, list);
+      const FacetSurfelsPush surfels = surfelsToPlace(pass, pieces, points, list, facings);
+      const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+      findSidesOnHost(sides, arrays);
+      placeSurfelsOnHost(surfels, arrays);
+      pass.finish();
+    });
+    return;
+  }
+  Pass sides = frame.pass(kListStage);
+  PieceSidesPush toFind = sidesToFind(sides, gridRecord, pieces, points, list);
+  toFind.surface = sides.in(surface.record);
+  sides.shader("gi/piece_sides.comp").push(toFind).dispatch(pieces.count);
+  Pass surfels = frame.pass(kListStage);
+  FacetSurfelsPush toPlace = surfelsToPlace(surfels, pieces, points, list, facings);
+  toPlace.surface = surfels.in(surface.record);
+  surfels.shader("gi/facet_surfels.comp")
+      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+      .push(toPlace)
+      .dispatch(list.count);
+  frame.submitAndWait();
 }
 
 void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& found) {

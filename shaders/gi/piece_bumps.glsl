@@ -22,10 +22,9 @@ float keptByBumps(Bumps bumps, vec3 weight) {
   return keptOfEvenSky(tangentCosine(s, bumps.scale));
 }
 
-/// The mean over the polygon that clipPolygon has left.
-float keptByBumps(Bumps bumps, VoxelTriangle t, uint piece, vec3 cell, uint from, uint n, float area) {
+/// The mean over the points that putCutPoints() has left.
+float keptByBumps(Bumps bumps, VoxelTriangle t, vec3 cell, uint points) {
   float sum = 0.0;
-  for (uint k = 0u; k < CUT_POINTS; ++k)
-    sum += keptByBumps(bumps, barycentrics(t, cell + polygonPoint(from, n, area, cutPlace(piece, k, 0u))));
+  for (uint k = 0u; k < CUT_POINTS; ++k) sum += keptByBumps(bumps, barycentrics(t, cell + clipCorner(points, k)));
   return sum / float(CUT_POINTS);
 }

@@ -12,11 +12,10 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
 
-/// The mean over the polygon that clipPolygon has left.
-vec3 meanEmission(MaterialTriangle m, VoxelTriangle t, uint piece, vec3 cell, uint from, uint n, float area) {
+/// The mean over the points that putCutPoints() has left.
+vec3 meanEmission(MaterialTriangle m, VoxelTriangle t, vec3 cell, uint points) {
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < CUT_POINTS; ++k)
-    sum += emittedRadianceAt(m, barycentrics(t, cell + polygonPoint(from, n, area, cutPlace(piece, k, 0u))));
+  for (uint k = 0u; k < CUT_POINTS; ++k) sum += emittedRadianceAt(m, barycentrics(t, cell + clipCorner(points, k)));
   return sum / float(CUT_POINTS);
 }
 
@@ -65,9 +64,10 @@ void main() {
     if (left > 0.0) albedo = sum / left;
     if (left > 0.0 && hasBumps) kept = keptSum / left;
     if (left > 0.0 && shines) emission = emissionSum / left;
-  } else if (n != 0u) {
-    if (hasBumps) kept = keptByBumps(bumps, t, piece, cell, from, n, area);
-    if (shines) emission = meanEmission(m, t, piece, cell, from, n, area);
+  } else if (n != 0u && (hasBumps || shines)) {
+    putCutPoints(piece, from, n, area);
+    if (hasBumps) kept = keptByBumps(bumps, t, cell, 1u - from);
+    if (shines) emission = meanEmission(m, t, cell, 1u - from);
   }
   if (hasBumps) albedo *= kept;
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
