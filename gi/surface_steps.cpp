@@ -132,10 +132,12 @@ LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& fac
 void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Buffer& unsorted,
                   const SurfacePieces& p) {
   if (by == ListedBy::host) {
+    HostPass pass(context);
+    const SortPiecesPush sort = piecesToSort(pass, corners, unsorted, p);
+    const PieceShapePush shape = piecesToShape(pass, corners, p);
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      sortPiecesOnHost(piecesToSort(pass, corners, unsorted, p));
-      shapePiecesOnHost(piecesToShape(pass, corners, p));
+      sortPiecesOnHost(sort);
+      shapePiecesOnHost(shape);
       pass.finish();
     });
     return;
@@ -157,11 +159,13 @@ void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Bu
 void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, const FacetList& list,
                  const SurfacePoints& p) {
   if (by == ListedBy::host) {
+    HostPass pass(context);
+    const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+    const PiecePointsPush points = piecesWithPoints(pass, pieces, list.surface, p);
+    const ClassPointsPush classes = classPoints(pass, pieces, p);
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
-      findPointsOnHost(piecesWithPoints(pass, pieces, list.surface, p), surface);
-      classPointsOnHost(classPoints(pass, pieces, p), surface);
+      findPointsOnHost(points, surface);
+      classPointsOnHost(classes, surface);
       pass.finish();
     });
     return;
@@ -206,11 +210,11 @@ void fillFacets(Context& context, ListedBy by, const Buffer& gridRecord, const S
   frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
   if (by == ListedBy::host) {
     frame.submit();
+    HostPass pass(context);
+    const PieceSidesPush sides = sidesToFind(pass, gridRecord, pieces, points, list);
+    const FacetSurfelsPush surfels = surfelsToPlace(pass, pieces, points, list, facings);
+    const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      const PieceSidesPush sides = sidesToFind(pass, gridRecord, pieces, points, list);
-      const FacetSurfelsPush surfels = surfelsToPlace(pass, pieces, points, list, facings);
-      const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
       findSidesOnHost(sides, arrays);
       placeSurfelsOnHost(surfels, arrays);
       pass.finish();
@@ -235,12 +239,13 @@ void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffe
   const Surface& surface = list.surface;
   const uint64_t surfels = uint64_t{FACET_SURFELS} * list.count;
   if (by == ListedBy::host) {
+    HostPass pass(context);
+    LinkFacetsPush push = facetsToLink(pass, list, facings, found);
+    const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
       std::vector<glm::vec4> points(surfels);
-      LinkFacetsPush push = facetsToLink(pass, list, facings, found);
       push.points = Vec4Array(points.data());
-      linkFacetsOnHost(push, surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
+      linkFacetsOnHost(push, arrays);
       pass.finish();
     });
     return;
