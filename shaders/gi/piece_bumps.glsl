@@ -23,8 +23,8 @@ float keptByBumps(Bumps bumps, vec3 weight) {
 }
 
 /// The mean over the points that putCutPoints() has left.
-float keptByBumps(Bumps bumps, VoxelTriangle t, vec3 cell, uint points) {
+float keptByBumps(Bumps bumps, VoxelTriangle t, vec3 cell) {
   float sum = 0.0;
-  for (uint k = 0u; k < CUT_POINTS; ++k) sum += keptByBumps(bumps, barycentrics(t, cell + clipCorner(points, k)));
+  for (uint k = 0u; k < CUT_POINTS; ++k) sum += keptByBumps(bumps, barycentrics(t, cell + cutPoint(k)));
   return sum / float(CUT_POINTS);
 }

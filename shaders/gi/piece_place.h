@@ -33,8 +33,8 @@ IRAD_FN vec2 cutPlace(uint piece, uint k, uint again) {
 }
 
 #ifndef __cplusplus
-/// Points 0 to CUT_POINTS - 1 of cutPlace(piece, ., 0) at once, each as polygonPoint() has it: the corners of the other
-/// polygon.
+/// Points 0 to CUT_POINTS - 1 of cutPlace(piece, ., 0) at once, each as polygonPoint() has it, in the place of the polygons'
+/// corners, which are lost: cutPoint(k).
 void putCutPoints(uint piece, uint from, uint n, float area) {
   float left[CUT_POINTS], root[CUT_POINTS];
   vec3 first = clipCorner(from, 0u), points[CUT_POINTS];
@@ -59,8 +59,9 @@ void putCutPoints(uint piece, uint from, uint n, float area) {
       left[k] -= fan;
     }
   }
-  IRAD_UNROLL for (uint k = 0u; k < CUT_POINTS; ++k) setClipCorner(1u - from, k, points[k]);
+  IRAD_UNROLL for (uint k = 0u; k < CUT_POINTS; ++k) setClipCorner(0u, k, points[k]);  // CUT_POINTS < CLIP_CORNERS
 }
+vec3 cutPoint(uint k) { return clipCorner(0u, k); }
 #endif
 
 IRAD_END

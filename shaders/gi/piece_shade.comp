@@ -13,9 +13,9 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
 
 /// The mean over the points that putCutPoints() has left.
-vec3 meanEmission(MaterialTriangle m, VoxelTriangle t, vec3 cell, uint points) {
+vec3 meanEmission(MaterialTriangle m, VoxelTriangle t, vec3 cell) {
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < CUT_POINTS; ++k) sum += emittedRadianceAt(m, barycentrics(t, cell + clipCorner(points, k)));
+  for (uint k = 0u; k < CUT_POINTS; ++k) sum += emittedRadianceAt(m, barycentrics(t, cell + cutPoint(k)));
   return sum / float(CUT_POINTS);
 }
 
@@ -66,8 +66,8 @@ void main() {
     if (left > 0.0 && shines) emission = emissionSum / left;
   } else if (n != 0u && (hasBumps || shines)) {
     putCutPoints(piece, from, n, area);
-    if (hasBumps) kept = keptByBumps(bumps, t, cell, 1u - from);
-    if (shines) emission = meanEmission(m, t, cell, 1u - from);
+    if (hasBumps) kept = keptByBumps(bumps, t, cell);
+    if (shines) emission = meanEmission(m, t, cell);
   }
   if (hasBumps) albedo *= kept;
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
