@@ -20,10 +20,11 @@ std::vector<uint32_t> flagsOfTriangles(const SceneOnDevice& scene) {
 
 Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles, uint32_t textures) {
   Order order;
-  order.groups.push_back({0, false});
+  order.groups.push_back({0, 0});
   const std::vector<uint32_t> groupOf = ofTriangles(scene.scene, [&](const Draw& draw) -> uint32_t {
-    if ((scene.materialValues.at(draw.material).flags & textures) == 0) return 0;
-    order.groups.push_back({draw.material, true});
+    const uint32_t flags = scene.materialValues.at(draw.material).flags & (textures | MATERIAL_ALPHA_MASK);
+    if ((flags & textures) == 0) return 0;
+    order.groups.push_back({draw.material, flags});
     return order.groups.size() - 1;
   });
   for (const uint32_t t : triangles) ++order.groups[groupOf[t & ~SURFEL_BACK]].count;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "renderer/frame/frame.h"
@@ -20,8 +21,8 @@ std::vector<uint32_t> flagsOfTriangles(const SceneOnDevice& scene);
 
 /// What one dispatch takes.
 struct MaterialGroup {
-  uint32_t material;  ///< whose set is bound
-  bool textured;
+  uint32_t material;              ///< whose set is bound
+  uint32_t flags;                 ///< MATERIAL_* of its textures and mask; 0: samples no texture
   uint32_t first = 0, count = 0;  ///< within the order
 };
 struct Order {
@@ -36,25 +37,30 @@ inline constexpr uint32_t kColorTextures = MATERIAL_BASE_COLOR_TEXTURE | MATERIA
 Order groupByMaterial(const SceneOnDevice& scene, const std::vector<uint32_t>& triangles,
                       uint32_t textures = kColorTextures);
 
-/// Records a shader over every item, group after group: those that sample no texture in a pass of their own. `push`
-/// makes a pass's push constants; of these `first` and `count` are filled in here.
+/// Records a shader over every item, group after group: those for which a pipeline has the same code in a
+/// pass of their own. `push` makes a pass's push constants; of these `first` and `count` are filled in here.
 template <class MakePush>
 void dispatchByMaterial(Frame& frame, const char* stage, const char* shader, const SceneOnDevice& scene,
                         const Order& order, MakePush makePush) {
   const bool panes = std::ranges::any_of(scene.materialValues,
                                          [](const GpuMaterial& m) { return (m.flags & MATERIAL_TRANSMISSIVE) != 0; });
-  for (const bool textured : {false, true}) {
-    const auto takes = [=](const MaterialGroup& g) { return g.textured == textured && g.count > 0; };
-    if (std::ranges::none_of(order.groups, takes)) continue;
+  const bool isCpu = frame.context().device.isCpu;
+  // On GPUs one pipeline for all that sample any texture: what they look up for nothing is less than another pass.
+  const auto codeOf = [&](const MaterialGroup& group) { return group.flags == 0 || isCpu ? group.flags : ~0u; };
+  std::set<uint32_t> codes;
+  for (const MaterialGroup& group : order.groups)
+    if (group.count > 0) codes.insert(codeOf(group));
+  for (const uint32_t code : codes) {
     Pass pass = frame.pass(stage);
     auto push = makePush(pass);
     pass.shader(shader)
-        .constant(CONSTANT_SAMPLES_TEXTURES, textured)
+        .constant(CONSTANT_SAMPLES_TEXTURES, code != 0)
+        .constant(CONSTANT_MATERIAL_FLAGS, code)
         .constant(CONSTANT_TINTED, panes)
-        .constant(CONSTANT_CLIPS_SHARED, frame.context().device.isCpu)
+        .constant(CONSTANT_CLIPS_SHARED, isCpu)
         .run([&](Commands& commands) {
           for (const MaterialGroup& group : order.groups) {
-            if (!takes(group)) continue;
+            if (group.count == 0 || codeOf(group) != code) continue;
             commands.bindMaterial(scene.materialSets.at(group.material));
             push.first = group.first;
             push.count = group.count;

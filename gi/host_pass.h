@@ -1,5 +1,5 @@
-// Work of the host in the place of a kernel, for devices that are CPUs: the same push constants, with copies in host
-// memory behind their addresses.
+// Work of the host in the place of a kernel, for devices that are CPUs: the same push constants, with the host's
+// addresses of the same memory or, where the host cannot reach that, of copies.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,28 @@ class Context;
 /// Work of the host, as the time of a stage.
 void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
 
-/// As a Pass (renderer/frame/pass.h) gives out addresses, of copies that live as long as it does. Blocking: nothing
-/// that uses the buffers may be recorded and not submitted.
+/// As a Pass (renderer/frame/pass.h) gives out addresses, which hold as long as it lives. Blocking: nothing that uses
+/// the buffers may be recorded and not submitted.
 class HostPass {
  public:
   explicit HostPass(Context& context) : context_(context) {}
   HostPass(const HostPass&) = delete;
   HostPass& operator=(const HostPass&) = delete;
-  uint64_t in(const Buffer& buffer) { return copyOf(buffer, /*written=*/false).address(); }
+  uint64_t in(const Buffer& buffer) { return addressOf(buffer, /*written=*/false); }
   /// Read, and written: finish() gives the device what is there then.
-  uint64_t out(const Buffer& buffer) { return copyOf(buffer, /*written=*/true).address(); }
+  uint64_t out(const Buffer& buffer) { return addressOf(buffer, /*written=*/true); }
   uint64_t accumulate(const Buffer& buffer) { return out(buffer); }
   void finish();
 
  private:
-  struct Copy {
+  struct Used {
     const Buffer* buffer;
-    std::vector<std::byte> bytes;
-    bool written;
-    uint64_t address() const { return reinterpret_cast<uint64_t>(bytes.data()); }
+    std::vector<std::byte> copy = {};  ///< of one that is not mapped
+    bool written = false;
   };
-  Copy& copyOf(const Buffer& buffer, bool written);
+  uint64_t addressOf(const Buffer& buffer, bool written);
   Context& context_;
-  std::list<Copy> copies_;
+  std::list<Used> used_;
 };
 
 }  // namespace irad

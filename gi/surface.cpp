@@ -200,60 +200,6 @@ SurfacePoints classifyPoints(Context& context, ListedBy by, const SurfacePieces&
   return p;
 }
 
-/// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels.
-void fillFacets(Context& context, const Buffer& gridRecord, const SurfacePieces& pieces, const SurfacePoints& points,
-                const FacetList& list, const Buffer& facings) {
-  const Surface& surface = list.surface;
-  Frame frame = context.begin();
-  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
-  {
-    Pass pass = frame.pass(kListStage);
-    PieceSidesPush push{};
-    push.grid = pass.in(gridRecord);
-    push.pieceVoxel = pass.in(pieces.pieceVoxel);
-    push.solid = pass.in(pieces.voxel);
-    push.firstPiece = pass.in(pieces.first);
-    push.firstPoint = pass.in(pieces.firstPoint);
-    push.classes = pass.out(points.classes);
-    push.points = pass.in(points.at);
-    push.pieceArea = pass.in(pieces.area);
-    push.pointArea = pass.out(points.area);
-    push.facetStart = pass.in(points.facetStart);
-    push.surface = pass.in(surface.record);
-    pass.out(surface.sides);
-    pass.out(surface.cuts);
-    push.voxel = pass.out(list.voxel);
-    push.reverse = pass.out(list.reverse);
-    push.facetPiece = pass.out(surface.firstPiece);
-    push.count = pieces.count;
-    pass.shader("gi/piece_sides.comp").push(push).dispatch(pieces.count);
-  }
-  {
-    Pass pass = frame.pass(kListStage);
-    FacetSurfelsPush push{};
-    push.surface = pass.in(surface.record);
-    push.voxel = pass.in(list.voxel);
-    push.reverse = pass.in(list.reverse);
-    push.firstPoint = pass.in(pieces.firstPoint);
-    push.classes = pass.in(points.classes);
-    push.points = pass.in(points.at);
-    push.pointArea = pass.in(points.area);
-    push.pieceVoxel = pass.in(pieces.pieceVoxel);
-    push.wideStart = pass.in(points.wideStart);
-    push.surfels = pass.out(surface.surfels);
-    push.wideSides = pass.out(surface.wideSides);
-    push.facings = pass.out(facings);
-    push.area = pass.out(list.area);
-    push.dims = list.grid.dims;
-    push.count = list.count;
-    pass.shader("gi/facet_surfels.comp")
-        .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
-        .push(push)
-        .dispatch(list.count);
-  }
-  frame.submitAndWait();
-}
-
 /// Which facets continue the surface of which: masks and, where `list` says that each facet's begin, links.
 void linkFacets(Context& context, ListedBy by, FacetList& list, const Buffer& facings) {
   Surface& surface = list.surface;
@@ -357,7 +303,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
   }
   if (list.count > 0) {
     const Buffer facings = facetWords(device, "facings of facets", 3ull * list.count);
-    fillFacets(context, grid, pieces, points, list, facings);
+    fillFacets(context, by, grid, pieces, points, list, facings);
     look();
     linkFacets(context, by, list, facings);
     makeRecord(context, list);

@@ -33,7 +33,7 @@ struct FacetParts {
   explicit operator bool() const { return static_cast<bool>(solid); }
 };
 
-/// Who finds which points make up a facet, and links: kernels, or the host in their place (gi/surface_on_host.h), which
+/// Who finds what makes up a facet, and links: kernels, or the host in their place (gi/surface_on_host.h), which
 /// finds the same.
 enum class ListedBy { kernels, host };
 /// By whom it takes less time.

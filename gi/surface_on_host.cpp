@@ -7,9 +7,11 @@
 
 #include "renderer/base/parallel.h"
 #include "shaders/gi/class_point.h"
+#include "shaders/gi/facet_surfels.h"
 #include "shaders/gi/links.h"
 #include "shaders/gi/piece_points.h"
 #include "shaders/gi/piece_shape.h"
+#include "shaders/gi/piece_sides.h"
 #include "shaders/gi/piece_size.h"
 
 namespace irad {
@@ -239,6 +241,16 @@ void findPointsOnHost(const PiecePointsPush& push, const SurfaceArrays& surface)
 void classPointsOnHost(const ClassPointsPush& push, const SurfaceArrays& surface) {
   const auto find = [&](size_t voxel) { VoxelClasses(push, surface, static_cast<uint32_t>(voxel)).find(); };
   parallelFor(push.count, find, /*threads=*/0, kVoxelBlock);
+}
+
+void findSidesOnHost(const PieceSidesPush& push, const SurfaceArrays& surface) {
+  const auto find = [&](size_t piece) { findSides(push, surface, static_cast<uint32_t>(piece)); };
+  parallelFor(push.count, find, /*threads=*/0, kVoxelBlock);
+}
+
+void placeSurfelsOnHost(const FacetSurfelsPush& push, const SurfaceArrays& surface) {
+  const auto place = [&](size_t facet) { placeSurfels(push, surface, static_cast<uint32_t>(facet)); };
+  parallelFor(push.count, place, /*threads=*/0, kVoxelBlock);
 }
 
 void linkFacetsOnHost(const LinkFacetsPush& push, const SurfaceArrays& surface) {

@@ -15,6 +15,10 @@ void shapePiecesOnHost(const PieceShapePush& push);
 void findPointsOnHost(const PiecePointsPush& push, const SurfaceArrays& surface);
 /// gi/class_points.comp and gi/class_crowd.comp, which between them take every voxel; its crowds are not read.
 void classPointsOnHost(const ClassPointsPush& push, const SurfaceArrays& surface);
+/// gi/piece_sides.comp.
+void findSidesOnHost(const PieceSidesPush& push, const SurfaceArrays& surface);
+/// gi/facet_surfels.comp.
+void placeSurfelsOnHost(const FacetSurfelsPush& push, const SurfaceArrays& surface);
 /// gi/link_points.comp, which makes push.points, and gi/link_facets.comp.
 void linkFacetsOnHost(const LinkFacetsPush& push, const SurfaceArrays& surface);
 

@@ -72,6 +72,48 @@ ClassPointsPush classPoints(auto& pass, const SurfacePieces& pieces, const Surfa
   return push;
 }
 
+PieceSidesPush sidesToFind(auto& pass, const Buffer& gridRecord, const SurfacePieces& pieces,
+                           const SurfacePoints& points, const FacetList& list) {
+  PieceSidesPush push{};
+  push.grid = pass.in(gridRecord);
+  push.pieceVoxel = pass.in(pieces.pieceVoxel);
+  push.solid = pass.in(pieces.voxel);
+  push.firstPiece = pass.in(pieces.first);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.classes = pass.out(points.classes);
+  push.points = pass.in(points.at);
+  push.pieceArea = pass.in(pieces.area);
+  push.pointArea = pass.out(points.area);
+  push.facetStart = pass.in(points.facetStart);
+  pass.out(list.surface.sides);
+  pass.out(list.surface.cuts);
+  push.voxel = pass.out(list.voxel);
+  push.reverse = pass.out(list.reverse);
+  push.facetPiece = pass.out(list.surface.firstPiece);
+  push.count = pieces.count;
+  return push;
+}
+
+FacetSurfelsPush surfelsToPlace(auto& pass, const SurfacePieces& pieces, const SurfacePoints& points,
+                                const FacetList& list, const Buffer& facings) {
+  FacetSurfelsPush push{};
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.firstPoint = pass.in(pieces.firstPoint);
+  push.classes = pass.in(points.classes);
+  push.points = pass.in(points.at);
+  push.pointArea = pass.in(points.area);
+  push.pieceVoxel = pass.in(pieces.pieceVoxel);
+  push.wideStart = pass.in(points.wideStart);
+  push.surfels = pass.out(list.surface.surfels);
+  push.wideSides = pass.out(list.surface.wideSides);
+  push.facings = pass.out(facings);
+  push.area = pass.out(list.area);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  return push;
+}
+
 LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& facings, const Buffer& found) {
   LinkFacetsPush push{};
   push.voxel = pass.in(list.voxel);
@@ -90,10 +132,12 @@ LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& fac
 void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Buffer& unsorted,
                   const SurfacePieces& p) {
   if (by == ListedBy::host) {
+    HostPass pass(context);
+    const SortPiecesPush sort = piecesToSort(pass, corners, unsorted, p);
+    const PieceShapePush shape = piecesToShape(pass, corners, p);
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      sortPiecesOnHost(piecesToSort(pass, corners, unsorted, p));
-      shapePiecesOnHost(piecesToShape(pass, corners, p));
+      sortPiecesOnHost(sort);
+      shapePiecesOnHost(shape);
       pass.finish();
     });
     return;
@@ -115,11 +159,13 @@ void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Bu
 void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, const FacetList& list,
                  const SurfacePoints& p) {
   if (by == ListedBy::host) {
+    HostPass pass(context);
+    const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+    const PiecePointsPush points = piecesWithPoints(pass, pieces, list.surface, p);
+    const ClassPointsPush classes = classPoints(pass, pieces, p);
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
-      const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
-      findPointsOnHost(piecesWithPoints(pass, pieces, list.surface, p), surface);
-      classPointsOnHost(classPoints(pass, pieces, p), surface);
+      findPointsOnHost(points, surface);
+      classPointsOnHost(classes, surface);
       pass.finish();
     });
     return;
@@ -157,16 +203,49 @@ void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, con
   frame.submit();
 }
 
+void fillFacets(Context& context, ListedBy by, const Buffer& gridRecord, const SurfacePieces& pieces,
+                const SurfacePoints& points, const FacetList& list, const Buffer& facings) {
+  const Surface& surface = list.surface;
+  Frame frame = context.begin();
+  frame.pass(kListStage).copy(pieces.first, surface.firstPiece, 4, 4ull * pieces.solid, 4ull * list.count);
+  if (by == ListedBy::host) {
+    frame.submit();
+    HostPass pass(context);
+    const PieceSidesPush sides = sidesToFind(pass, gridRecord, pieces, points, list);
+    const FacetSurfelsPush surfels = surfelsToPlace(pass, pieces, points, list, facings);
+    const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+    timedOnHost(context, kListStage, [&] {
+      findSidesOnHost(sides, arrays);
+      placeSurfelsOnHost(surfels, arrays);
+      pass.finish();
+    });
+    return;
+  }
+  Pass sides = frame.pass(kListStage);
+  PieceSidesPush toFind = sidesToFind(sides, gridRecord, pieces, points, list);
+  toFind.surface = sides.in(surface.record);
+  sides.shader("gi/piece_sides.comp").push(toFind).dispatch(pieces.count);
+  Pass surfels = frame.pass(kListStage);
+  FacetSurfelsPush toPlace = surfelsToPlace(surfels, pieces, points, list, facings);
+  toPlace.surface = surfels.in(surface.record);
+  surfels.shader("gi/facet_surfels.comp")
+      .constant(CONSTANT_CLIPS_SHARED, context.device.isCpu)
+      .push(toPlace)
+      .dispatch(list.count);
+  frame.submitAndWait();
+}
+
 void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& found) {
   const Surface& surface = list.surface;
   const uint64_t surfels = uint64_t{FACET_SURFELS} * list.count;
   if (by == ListedBy::host) {
+    HostPass pass(context);
+    LinkFacetsPush push = facetsToLink(pass, list, facings, found);
+    const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
     timedOnHost(context, kListStage, [&] {
-      HostPass pass(context);
       std::vector<glm::vec4> points(surfels);
-      LinkFacetsPush push = facetsToLink(pass, list, facings, found);
       push.points = Vec4Array(points.data());
-      linkFacetsOnHost(push, surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); }));
+      linkFacetsOnHost(push, arrays);
       pass.finish();
     });
     return;

@@ -70,6 +70,10 @@ void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Bu
 /// The points, each one's facet among those of its voxel, and how many facets each voxel has.
 void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, const FacetList& list,
                  const SurfacePoints& p);
+/// The facets that the points make up: where they are, which sides of pieces belong to them, area and surfels; and
+/// `facings` of these.
+void fillFacets(Context& context, ListedBy by, const Buffer& gridRecord, const SurfacePieces& pieces,
+                const SurfacePoints& points, const FacetList& list, const Buffer& facings);
 /// Which facets of the voxels around each facet continue its surface, and how many.
 void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& found);
 

@@ -26,7 +26,8 @@ namespace Subsystem {
 inline constexpr SubsystemName Scene{"scene"}, Shadow{"shadow"}, Targets{"targets"}, Staging{"staging"};
 }
 
-enum class Access { Device, Upload, Readback };  ///< Upload / Readback buffers are persistently mapped
+/// Upload / Readback buffers are persistently mapped; on CPU devices all are.
+enum class Access { Device, Upload, Readback };
 
 /// What passes know of a buffer: where it lies and how it was last used, and likewise of all buffers whose addresses
 /// its content holds (RecordMaker). Stays where it is when the buffer is moved.

@@ -82,7 +82,7 @@ Buffer::Buffer(const Device& device, std::string resourceName, SubsystemName sub
   vkGetBufferMemoryRequirements(device.handle, handle, &needs);
   const Allocator::Impl::Place place = allocator.allocate(needs, {name, subsystem, "buffer", 0}, access, false);
   allocation_ = place.id;
-  if (access != Access::Device) mapped = place.mapped;
+  if (access != Access::Device || device.isCpu) mapped = place.mapped;
   vkCheck(vkBindBufferMemory(device.handle, handle, place.memory, place.offset), "binding buffer memory");
   const VkBufferDeviceAddressInfo addressInfo{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .buffer = handle};
   place_ = std::make_shared<BufferPlace>();

@@ -25,20 +25,20 @@ void main() {
   if (i >= push.count) return;
   uint triangle = push.first + i;
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
-  uint flags = triangleFlags(push.scene, triangle);
-  uint samples = SAMPLES_TEXTURES != 0u ? SAMPLES : 1u;
+  // Emission filtered over four times what a point stands for.
+  MaterialTriangle m = materialTriangle(push.scene, triangle, 0.25 * float(SAMPLES));
+  MaterialTriangle cover = materialTriangle(push.scene, triangle, areaOf(t));
+  uint points = SAMPLES_TEXTURES != 0u ? SAMPLES : 1u;
   vec3 sum = vec3(0.0);
   // What repeats another triangle gives nothing: no ray meets it, and no facet is made of it.
   bool shines = !degenerate(t) && (push.hasCorners == 0u || firstInPlace(push.corners, triangle) == triangle);
-  for (uint k = 0u; k < samples && shines; ++k) {
-    vec3 point = pointOf(t, hammersley(k, samples, uvec2(0u)));
-    MaterialPoint p = materialPoint(push.scene, t, triangle, point);
-    p.area = 0.25 * float(SAMPLES);  // filtered over four times what a point stands for
-    if ((flags & MATERIAL_BLEND) != 0u)
-      sum += emittedRadianceAt(push.scene, p) * clamp(coverAt(push.scene, t, triangle, point), 0.0, 1.0);
-    else if (!masked(push.scene, t, triangle, flags, point)) sum += emittedRadianceAt(push.scene, p);
+  for (uint k = 0u; k < points && shines; ++k) {
+    vec3 weight = barycentrics(t, pointOf(t, hammersley(k, points, uvec2(0u))));
+    if ((m.flags & MATERIAL_BLEND) != 0u)
+      sum += emittedRadianceAt(m, weight) * clamp(baseColorAt(cover, weight).a, 0.0, 1.0);
+    else if ((m.flags & MATERIAL_ALPHA_MASK) == 0u || !cutAway(cover, weight)) sum += emittedRadianceAt(m, weight);
   }
-  vec3 exitance = exitanceOf(sum / float(samples));
+  vec3 exitance = exitanceOf(sum / float(points));
   push.triangles.at[push.place + i] =
-      EmissiveTriangle(t.v[0], t.v[1] - t.v[0], t.v[2] - t.v[0], exitance, flags & MATERIAL_DOUBLE_SIDED);
+      EmissiveTriangle(t.v[0], t.v[1] - t.v[0], t.v[2] - t.v[0], exitance, m.flags & MATERIAL_DOUBLE_SIDED);
 }

@@ -1,7 +1,7 @@
 // Attributes of each facet, weighted by the areas of the pieces that it is made of (docs/method.md 4).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/facet_points.glsl"
+#include "gi/facet_points.h"
 #include "gi/surface_point.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FacetMeanPush push; };

@@ -23,12 +23,13 @@ void main() {
   vec3 cell = vec3(unpackVoxel(push.voxel.at[facet]));
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   vec3 at = sampledAt(t, triangle, cell);
-  MaterialPoint p = materialPoint(push.scene, t, triangle, at + cell);
+  MaterialTriangle m = materialTriangle(push.scene, triangle, areaOf(t));
+  vec3 weight = barycentrics(t, at + cell);
 
   vec3 facing = normalize(t.normal);
   Vec3Array normals = push.scene.at[0].normals;
-  vec3 normal = normals.at[p.vertex.x] * p.weight.x + normals.at[p.vertex.y] * p.weight.y +
-                normals.at[p.vertex.z] * p.weight.z;
+  vec3 normal =
+      normals.at[m.vertex.x] * weight.x + normals.at[m.vertex.y] * weight.y + normals.at[m.vertex.z] * weight.z;
   float size = dot(normal, normal);
   normal = size > 1e-12 && finite(size) ? normal * inversesqrt(size) : facing;
   if (dot(normal, facing) < 0.0) normal = -normal;
@@ -39,9 +40,9 @@ void main() {
   push.shape.at[facet] = code | packFacetOffset(offset);
 
   bool clamped;
-  vec3 albedo = albedoAt(push.scene, p, clamped);
+  vec3 albedo = albedoAt(m, weight, clamped);
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[facet] = packAlbedo(albedo);
 
-  if (push.hasEmission != 0u) push.emission.at[facet] = exitanceOf(emittedRadianceAt(push.scene, p));
+  if (push.hasEmission != 0u) push.emission.at[facet] = exitanceOf(emittedRadianceAt(m, weight));
 }

@@ -4,23 +4,27 @@
 #include "shared/normal_maps.h"
 layout(set = 1, binding = 2) uniform sampler2D normalTexture;
 
-bool hasBumps(SceneArray scenes, uint triangle) {
-  return SAMPLES_TEXTURES != 0u && (triangleFlags(scenes, triangle) & MATERIAL_NORMAL_TEXTURE) != 0u;
+/// A normal map on a triangle.
+struct Bumps {
+  TexturePlace place;
+  float scale;
+};
+
+Bumps bumpsOf(SceneArray scenes, uint triangle, MaterialTriangle m) {
+  uint material = scenes.at[0].triangleMaterials.at[triangle];
+  return Bumps(texturePlace(scenes, m.vertex, material, 1.0, TEXTURE_NORMAL, ivec2(1)),
+               scenes.at[0].materials.at[material].normalScale);
 }
 
 /// At one point. From the map's finest level: the mean of normals is flatter than they are.
-float keptByBumps(SceneArray scenes, MaterialPoint p) {
-  vec3 s = textureLod(normalTexture, textureCoordinates(scenes, p, TEXTURE_NORMAL, ivec2(1)).xy, 0.0).xyz;
-  return keptOfEvenSky(tangentCosine(s, scenes.at[0].materials.at[p.material].normalScale));
+float keptByBumps(Bumps bumps, vec3 weight) {
+  vec3 s = textureLod(normalTexture, textureCoordinates(bumps.place, weight), 0.0).xyz;
+  return keptOfEvenSky(tangentCosine(s, bumps.scale));
 }
 
-/// The mean over the polygon that clipPolygon has left.
-float keptByBumps(SceneArray scenes, VoxelTriangle t, uint triangle, uint piece, vec3 cell, uint from, uint n,
-                  float area) {
+/// The mean over the points that putCutPoints() has left.
+float keptByBumps(Bumps bumps, VoxelTriangle t, vec3 cell) {
   float sum = 0.0;
-  for (uint k = 0u; k < CUT_POINTS; ++k) {
-    vec3 at = polygonPoint(from, n, area, cutPlace(piece, k, 0u));
-    sum += keptByBumps(scenes, materialPoint(scenes, t, triangle, at + cell));
-  }
+  for (uint k = 0u; k < CUT_POINTS; ++k) sum += keptByBumps(bumps, barycentrics(t, cell + cutPoint(k)));
   return sum / float(CUT_POINTS);
 }

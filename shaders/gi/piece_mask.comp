@@ -17,24 +17,23 @@ void main() {
   VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
   uint packedVoxel = push.solid.at[push.pieceVoxel.at[piece]];
   vec3 cell = vec3(unpackVoxel(packedVoxel));
-  uint flags = triangleFlags(push.scene, triangle);
-  bool screen = (flags & MATERIAL_BLEND) != 0u, tinted = PANES && (flags & MATERIAL_TRANSMISSIVE) != 0u;
+  // Filtered over a square.
+  MaterialTriangle m = materialTriangle(push.scene, triangle, areaOf(t) * float(MASK_EDGE * MASK_EDGE));
+  bool screen = (m.flags & MATERIAL_BLEND) != 0u, tinted = isPane(m);
   uint seed = hashUint(packedVoxel ^ hashUint(triangle));
   uint left = 0u, right = 0u;
   uvec3 closedLeft = uvec3(0u), closedRight = uvec3(0u);  // squares closed to each channel
   for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
-    vec3 at = cell + maskPoint(t.normal, t.v[0] - cell, bit);
-    MaterialPoint p = materialPoint(push.scene, t, triangle, at);
-    p.area *= float(MASK_EDGE * MASK_EDGE);  // filtered over a square
+    vec3 weight = barycentrics(t, cell + maskPoint(t.normal, t.v[0] - cell, bit));
     if (tinted) {
       // Those that are there are closed to all; thresholds are the same, so that channels have squares in common.
-      vec3 kept = 1.0 - panePoint(push.scene, p).passes;
+      vec3 kept = 1.0 - panePoint(m, weight).passes;
       bvec3 closed = greaterThan(kept, vec3(screenThreshold(bit, seed)));
       uvec3 set = mix(uvec3(0u), uvec3(1u << (bit & 31u)), closed);
       if (bit < 32u) closedLeft |= set;
       else closedRight |= set;
       if (!all(closed)) continue;
-    } else if (screen ? baseColorAt(push.scene, p).a <= screenThreshold(bit, seed) : cutAway(push.scene, p)) {
+    } else if (screen ? baseColorAt(m, weight).a <= screenThreshold(bit, seed) : cutAway(m, weight)) {
       continue;
     }
     if (bit < 32u) left |= 1u << bit;

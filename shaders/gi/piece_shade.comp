@@ -12,14 +12,10 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PieceShadePush push; };
 
-/// The mean over the polygon that clipPolygon has left.
-vec3 meanEmission(VoxelTriangle t, uint triangle, uint piece, vec3 cell, uint from, uint n, float area) {
+/// The mean over the points that putCutPoints() has left.
+vec3 meanEmission(MaterialTriangle m, VoxelTriangle t, vec3 cell) {
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < CUT_POINTS; ++k) {
-    vec3 at = polygonPoint(from, n, area, cutPlace(piece, k, 0u));
-    MaterialPoint p = materialPoint(push.scene, t, triangle, at + cell);
-    sum += emittedRadianceAt(push.scene, p);
-  }
+  for (uint k = 0u; k < CUT_POINTS; ++k) sum += emittedRadianceAt(m, barycentrics(t, cell + cutPoint(k)));
   return sum / float(CUT_POINTS);
 }
 
@@ -37,38 +33,43 @@ void main() {
   vec3 centre = (a + b + c) * (1.0 / 3.0);
   float area = 0.0;
   if (n != 0u) area = polygonArea(from, n, centre);
-  MaterialPoint p = materialPoint(push.scene, t, triangle, centre + cell);
-  bool bumps = hasBumps(push.scene, triangle);
+  MaterialTriangle m = materialTriangle(push.scene, triangle, areaOf(t));
+  vec3 weight = barycentrics(t, centre + cell);
+  bool hasBumps = samples(m.flags, MATERIAL_NORMAL_TEXTURE);
+  Bumps bumps;
+  if (hasBumps) bumps = bumpsOf(push.scene, triangle, m);
   float kept = 1.0;
   bool clamped;
-  vec3 albedo = albedoAt(push.scene, p, clamped);
-  bool shines = push.hasEmission != 0u && samples(push.scene, p, MATERIAL_EMISSIVE_TEXTURE);
+  vec3 albedo = albedoAt(m, weight, clamped);
+  bool shines = push.hasEmission != 0u && samples(m.flags, MATERIAL_EMISSIVE_TEXTURE);
   vec3 emission = vec3(0.0);
-  if (push.hasEmission != 0u) emission = emittedRadianceAt(push.scene, p);
-  if (SAMPLES_TEXTURES != 0u && hasHoles(surface.corners, triangle)) {
-    // The mean of what the mask leaves.
+  if (push.hasEmission != 0u) emission = emittedRadianceAt(m, weight);
+  if (samples(m.flags, MATERIAL_ALPHA_MASK)) {
+    // The mean of what the mask leaves, filtered over squares.
+    MaterialTriangle fine = materialTriangle(push.scene, triangle, areaOf(t) * float(MASK_EDGE * MASK_EDGE));
     vec3 sum = vec3(0.0), emissionSum = vec3(0.0);
     float left = 0.0, keptSum = 0.0;
     uint mask = (surface.sides.at[piece] & ~PIECE_CUT) + 1u;
+    uvec2 squares = uvec2(surface.cuts.at[mask], surface.cuts.at[mask + 1u]);
     for (uint bit = 0u; bit < MASK_EDGE * MASK_EDGE; ++bit) {
-      if (((surface.cuts.at[mask + bit / 32u] >> (bit % 32u)) & 1u) == 0u) continue;
-      MaterialPoint q = materialPoint(push.scene, t, triangle, cell + maskPoint(t.normal, a, bit));
-      q.area *= float(MASK_EDGE * MASK_EDGE);
+      if ((((bit < 32u ? squares.x : squares.y) >> (bit % 32u)) & 1u) == 0u) continue;
+      vec3 at = barycentrics(t, cell + maskPoint(t.normal, a, bit));
       bool clampedHere;
-      sum += albedoAt(push.scene, q, clampedHere);
+      sum += albedoAt(fine, at, clampedHere);
       clamped = clamped || clampedHere;
-      if (bumps) keptSum += keptByBumps(push.scene, q);
-      if (shines) emissionSum += emittedRadianceAt(push.scene, q);
+      if (hasBumps) keptSum += keptByBumps(bumps, at);
+      if (shines) emissionSum += emittedRadianceAt(fine, at);
       left += 1.0;
     }
     if (left > 0.0) albedo = sum / left;
-    if (left > 0.0 && bumps) kept = keptSum / left;
+    if (left > 0.0 && hasBumps) kept = keptSum / left;
     if (left > 0.0 && shines) emission = emissionSum / left;
-  } else if (n != 0u) {
-    if (bumps) kept = keptByBumps(push.scene, t, triangle, piece, cell, from, n, area);
-    if (shines) emission = meanEmission(t, triangle, piece, cell, from, n, area);
+  } else if (n != 0u && (hasBumps || shines)) {
+    putCutPoints(piece, from, n, area);
+    if (hasBumps) kept = keptByBumps(bumps, t, cell);
+    if (shines) emission = meanEmission(m, t, cell);
   }
-  if (bumps) albedo *= kept;
+  if (hasBumps) albedo *= kept;
   if (clamped) atomicAdd(push.clamped.at[0], 1u);
   push.albedo.at[piece] = albedo;
   if (push.hasEmission != 0u) push.emission.at[piece] = exitanceOf(emission);

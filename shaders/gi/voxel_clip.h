@@ -9,6 +9,7 @@
 
 #ifdef __cplusplus
 #define IRAD_DONT_UNROLL
+#define IRAD_UNROLL
 namespace irad {
 inline thread_local vec3 clipCorners[2 * 9];
 IRAD_FN vec3 clipCorner(uint polygon, uint i) { return clipCorners[polygon * 9u + i]; }
@@ -16,6 +17,7 @@ IRAD_FN void setClipCorner(uint polygon, uint i, vec3 corner) { clipCorners[poly
 }  // namespace irad
 #else
 #define IRAD_DONT_UNROLL [[dont_unroll]]
+#define IRAD_UNROLL [[unroll]]
 
 /// Two polygons of up to nine corners per invocation. Of its own, on GPUs: 13.5 KiB of shared memory for a workgroup leave
 /// half of the invocations out that fit otherwise. On lavapipe arrays with computed indices become ladders of branches (2 s

@@ -4,6 +4,9 @@
 #include "shared/constants.h"
 #include "shared/glass.h"
 layout(constant_id = CONSTANT_SAMPLES_TEXTURES) const uint SAMPLES_TEXTURES = 1u;
+/// MATERIAL_* that a pipeline's materials may have. Code for a texture that none of them has is left out: Mesa's CPU driver
+/// would go through it.
+layout(constant_id = CONSTANT_MATERIAL_FLAGS) const uint MATERIAL_FLAGS = 0xFFFFFFFFu;
 /// There are panes: without, there is no code for them, which Mesa's CPU driver would go through at every point.
 layout(constant_id = CONSTANT_TINTED) const bool PANES = true;
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
@@ -21,68 +24,100 @@ vec3 barycentrics(VoxelTriangle t, vec3 point) {
   return b / (b.x + b.y + b.z);
 }
 
-struct MaterialPoint {
-  uvec3 vertex;  ///< the triangle's vertices
-  vec3 weight;   ///< their weights
-  float area;    ///< the triangle's, in voxel faces
-  uint material;
+/// A texture on a triangle.
+struct TexturePlace {
+  vec2 corner[3];  ///< coordinates of the triangle's corners
+  float level;     ///< of detail, at which a texel is about as large as a voxel
 };
 
-MaterialPoint materialPoint(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point) {
-  MaterialPoint p;
-  UintArray indices = scenes.at[0].indices;
-  p.vertex = uvec3(indices.at[3u * triangle], indices.at[3u * triangle + 1u], indices.at[3u * triangle + 2u]);
-  p.weight = barycentrics(t, point);
-  p.area = 0.5 * length(t.normal);
-  p.material = scenes.at[0].triangleMaterials.at[triangle];
-  return p;
+/// What all points of a triangle have in common: read once, since Mesa's CPU driver reads for one invocation after the other.
+struct MaterialTriangle {
+  uvec3 vertex;
+  uint flags;
+  vec4 color[3];  ///< of the vertices
+  vec4 baseColor;
+  vec3 emission;
+  float metallic, transmission, alphaCutoff;
+  TexturePlace baseColorPlace, metallicPlace, emissivePlace, transmissionPlace;  ///< of textures that it samples()
+};
+
+bool samples(uint flags, uint flag) {
+  return SAMPLES_TEXTURES != 0u && (MATERIAL_FLAGS & flag) != 0u && (flags & flag) != 0u;
 }
 
-/// Texture coordinates of texture `slot` and the level of detail at which a texel is about as large as a voxel.
-vec3 textureCoordinates(SceneArray scenes, MaterialPoint p, uint slot, ivec2 size) {
+/// `area`: of the triangle, in what a texel is to be as large as. `size`: of the texture.
+TexturePlace texturePlace(SceneArray scenes, uvec3 vertex, uint material, float area, uint slot, ivec2 size) {
   MaterialArray materials = scenes.at[0].materials;
-  bool second = ((materials.at[p.material].uvSets >> slot) & 1u) != 0u;
+  bool second = ((materials.at[material].uvSets >> slot) & 1u) != 0u;
   Vec2Array uv = scenes.at[0].uv0;
   if (second) uv = scenes.at[0].uv1;
-  vec3 rowU = materials.at[p.material].uvRow[2u * slot];
-  vec3 rowV = materials.at[p.material].uvRow[2u * slot + 1u];
-  vec2 corner[3];
-  for (int i = 0; i < 3; ++i) {
-    vec3 h = vec3(uv.at[p.vertex[i]], 1.0);
-    corner[i] = vec2(dot(rowU, h), dot(rowV, h));
-  }
-  vec2 at = corner[0] * p.weight.x + corner[1] * p.weight.y + corner[2] * p.weight.z;
-  vec2 d = (corner[1] - corner[0]) * vec2(size);
-  vec2 e = (corner[2] - corner[0]) * vec2(size);
-  float texels = 0.5 * abs(d.x * e.y - d.y * e.x) / max(p.area, 1e-20);  // texels per voxel face
-  return vec3(at, texels > 1.0 ? 0.5 * log2(texels) : 0.0);
+  vec3 rowU = materials.at[material].uvRow[2u * slot];
+  vec3 rowV = materials.at[material].uvRow[2u * slot + 1u];
+  TexturePlace place;
+  vec3 a = vec3(uv.at[vertex.x], 1.0), b = vec3(uv.at[vertex.y], 1.0), c = vec3(uv.at[vertex.z], 1.0);
+  place.corner = vec2[3](vec2(dot(rowU, a), dot(rowV, a)), vec2(dot(rowU, b), dot(rowV, b)), vec2(dot(rowU, c), dot(rowV, c)));
+  vec2 d = (place.corner[1] - place.corner[0]) * vec2(size);
+  vec2 e = (place.corner[2] - place.corner[0]) * vec2(size);
+  float texels = 0.5 * abs(d.x * e.y - d.y * e.x) / max(area, 1e-20);  // texels per voxel face
+  place.level = texels > 1.0 ? 0.5 * log2(texels) : 0.0;
+  return place;
 }
 
-bool samples(SceneArray scenes, MaterialPoint p, uint flag) {
-  return SAMPLES_TEXTURES != 0u && (scenes.at[0].materials.at[p.material].flags & flag) != 0u;
+vec2 textureCoordinates(TexturePlace place, vec3 weight) {
+  return place.corner[0] * weight.x + place.corner[1] * weight.y + place.corner[2] * weight.z;
 }
 
-vec4 vertexColor(SceneArray scenes, MaterialPoint p) {
+float areaOf(VoxelTriangle t) { return 0.5 * length(t.normal); }
+
+/// `area`: as texturePlace() has it; areaOf() for texels as large as voxels.
+MaterialTriangle materialTriangle(SceneArray scenes, uint triangle, float area) {
+  MaterialTriangle m;
+  UintArray indices = scenes.at[0].indices;
+  m.vertex = uvec3(indices.at[3u * triangle], indices.at[3u * triangle + 1u], indices.at[3u * triangle + 2u]);
   Vec4Array colors = scenes.at[0].colors;
-  vec4 first = colors.at[p.vertex.x];  // by differences: exact where the three are equal
-  return first + (colors.at[p.vertex.y] - first) * p.weight.y + (colors.at[p.vertex.z] - first) * p.weight.z;
+  m.color = vec4[3](colors.at[m.vertex.x], colors.at[m.vertex.y], colors.at[m.vertex.z]);
+  uint material = scenes.at[0].triangleMaterials.at[triangle];
+  MaterialArray materials = scenes.at[0].materials;
+  m.flags = materials.at[material].flags;
+  m.baseColor = materials.at[material].baseColor;
+  m.emission = materials.at[material].emission;
+  m.metallic = materials.at[material].metallic;
+  m.transmission = materials.at[material].transmission;
+  m.alphaCutoff = materials.at[material].alphaCutoff;
+  if (samples(m.flags, MATERIAL_BASE_COLOR_TEXTURE))
+    m.baseColorPlace =
+        texturePlace(scenes, m.vertex, material, area, TEXTURE_BASE_COLOR, textureSize(baseColorTexture, 0));
+  if (samples(m.flags, MATERIAL_METALLIC_ROUGHNESS_TEXTURE))
+    m.metallicPlace = texturePlace(scenes, m.vertex, material, area, TEXTURE_METALLIC_ROUGHNESS,
+                                   textureSize(metallicRoughnessTexture, 0));
+  if (samples(m.flags, MATERIAL_EMISSIVE_TEXTURE))
+    m.emissivePlace =
+        texturePlace(scenes, m.vertex, material, area, TEXTURE_EMISSIVE, textureSize(emissiveTexture, 0));
+  if (samples(m.flags, MATERIAL_TRANSMISSION_TEXTURE))
+    m.transmissionPlace =
+        texturePlace(scenes, m.vertex, material, area, TEXTURE_TRANSMISSION, textureSize(transmissionTexture, 0));
+  return m;
 }
 
-vec4 baseColorAt(SceneArray scenes, MaterialPoint p) {
-  vec4 color = scenes.at[0].materials.at[p.material].baseColor * vertexColor(scenes, p);
-  if (samples(scenes, p, MATERIAL_BASE_COLOR_TEXTURE)) {
-    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_BASE_COLOR, textureSize(baseColorTexture, 0));
-    color *= textureLod(baseColorTexture, uvl.xy, uvl.z);
-  }
+// At points of a triangle, `weight`: barycentrics().
+
+vec4 vertexColor(MaterialTriangle m, vec3 weight) {
+  vec4 first = m.color[0];  // by differences: exact where the three are equal
+  return first + (m.color[1] - first) * weight.y + (m.color[2] - first) * weight.z;
+}
+
+vec4 baseColorAt(MaterialTriangle m, vec3 weight) {
+  vec4 color = m.baseColor * vertexColor(m, weight);
+  if (samples(m.flags, MATERIAL_BASE_COLOR_TEXTURE))
+    color *= textureLod(baseColorTexture, textureCoordinates(m.baseColorPlace, weight), m.baseColorPlace.level);
   return color;
 }
 
-float metallicAt(SceneArray scenes, MaterialPoint p) {
-  float metallic = scenes.at[0].materials.at[p.material].metallic;
-  if (samples(scenes, p, MATERIAL_METALLIC_ROUGHNESS_TEXTURE)) {
-    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_METALLIC_ROUGHNESS, textureSize(metallicRoughnessTexture, 0));
-    metallic *= textureLod(metallicRoughnessTexture, uvl.xy, uvl.z).b;
-  }
+float metallicAt(MaterialTriangle m, vec3 weight) {
+  float metallic = m.metallic;
+  if (samples(m.flags, MATERIAL_METALLIC_ROUGHNESS_TEXTURE))
+    metallic *=
+        textureLod(metallicRoughnessTexture, textureCoordinates(m.metallicPlace, weight), m.metallicPlace.level).b;
   return metallic;
 }
 
@@ -91,23 +126,20 @@ struct PanePoint {
   float transmitted, alpha;
   vec3 passes;
 };
-PanePoint panePoint(SceneArray scenes, MaterialPoint p) {
+PanePoint panePoint(MaterialTriangle m, vec3 weight) {
   PanePoint pane;
-  pane.transmitted = scenes.at[0].materials.at[p.material].transmission;
-  if (samples(scenes, p, MATERIAL_TRANSMISSION_TEXTURE)) {
-    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_TRANSMISSION, textureSize(transmissionTexture, 0));
-    pane.transmitted *= textureLod(transmissionTexture, uvl.xy, uvl.z).r;
-  }
-  bool lambertian = (scenes.at[0].materials.at[p.material].flags & MATERIAL_LAMBERTIAN) != 0u;
-  if (!lambertian) pane.transmitted *= 1.0 - clamp(metallicAt(scenes, p), 0.0, 1.0);
-  vec4 base = baseColorAt(scenes, p);
-  pane.alpha = paneAlpha(base.a, scenes.at[0].materials.at[p.material].alphaCutoff);
+  pane.transmitted = m.transmission;
+  if (samples(m.flags, MATERIAL_TRANSMISSION_TEXTURE))
+    pane.transmitted *=
+        textureLod(transmissionTexture, textureCoordinates(m.transmissionPlace, weight), m.transmissionPlace.level).r;
+  bool lambertian = (m.flags & MATERIAL_LAMBERTIAN) != 0u;
+  if (!lambertian) pane.transmitted *= 1.0 - clamp(metallicAt(m, weight), 0.0, 1.0);
+  vec4 base = baseColorAt(m, weight);
+  pane.alpha = paneAlpha(base.a, m.alphaCutoff);
   pane.passes = panePasses(clamp(base.rgb, 0.0, 1.0), pane.alpha, pane.transmitted);
   return pane;
 }
-bool isPane(SceneArray scenes, MaterialPoint p) {
-  return PANES && (scenes.at[0].materials.at[p.material].flags & MATERIAL_TRANSMISSIVE) != 0u;
-}
+bool isPane(MaterialTriangle m) { return PANES && (m.flags & MATERIAL_TRANSMISSIVE) != 0u; }
 /// What stands for a pane in its facets is less than alpha says; what it does to light is as much more.
 float paneWeight(PanePoint pane) {
   float there = 1.0 - max(pane.passes.r, max(pane.passes.g, pane.passes.b));
@@ -115,15 +147,15 @@ float paneWeight(PanePoint pane) {
 }
 
 /// rho of a facet or a piece: clamped to [0, .98], and 0 where it is not a number.
-vec3 albedoAt(SceneArray scenes, MaterialPoint p, out bool clamped) {
+vec3 albedoAt(MaterialTriangle m, vec3 weight, out bool clamped) {
   const float MAX_ALBEDO = 0.98;
   vec3 albedo;
-  if (isPane(scenes, p)) {
-    PanePoint pane = panePoint(scenes, p);
-    float reflected = max(1.0 - metallicAt(scenes, p) - pane.transmitted, 0.0);
-    albedo = clamp(baseColorAt(scenes, p).rgb, 0.0, 1.0) * (reflected * paneWeight(pane));
+  if (isPane(m)) {
+    PanePoint pane = panePoint(m, weight);
+    float reflected = max(1.0 - metallicAt(m, weight) - pane.transmitted, 0.0);
+    albedo = clamp(baseColorAt(m, weight).rgb, 0.0, 1.0) * (reflected * paneWeight(pane));
   } else {
-    albedo = baseColorAt(scenes, p).rgb * (1.0 - metallicAt(scenes, p));
+    albedo = baseColorAt(m, weight).rgb * (1.0 - metallicAt(m, weight));
   }
   clamped = false;
   for (int i = 0; i < 3; ++i) {
@@ -134,13 +166,11 @@ vec3 albedoAt(SceneArray scenes, MaterialPoint p, out bool clamped) {
   return albedo;
 }
 
-vec3 emittedRadianceAt(SceneArray scenes, MaterialPoint p) {
-  vec3 emission = scenes.at[0].materials.at[p.material].emission;
-  if (samples(scenes, p, MATERIAL_EMISSIVE_TEXTURE)) {
-    vec3 uvl = textureCoordinates(scenes, p, TEXTURE_EMISSIVE, textureSize(emissiveTexture, 0));
-    emission *= textureLod(emissiveTexture, uvl.xy, uvl.z).rgb;
-  }
-  if (isPane(scenes, p)) emission *= paneWeight(panePoint(scenes, p));
+vec3 emittedRadianceAt(MaterialTriangle m, vec3 weight) {
+  vec3 emission = m.emission;
+  if (samples(m.flags, MATERIAL_EMISSIVE_TEXTURE))
+    emission *= textureLod(emissiveTexture, textureCoordinates(m.emissivePlace, weight), m.emissivePlace.level).rgb;
+  if (isPane(m)) emission *= paneWeight(panePoint(m, weight));
   return emission;
 }
 
@@ -151,18 +181,13 @@ vec3 exitanceOf(vec3 radiance) {
   return exitance;
 }
 
-/// Alpha of a blended material.
-float coverAt(SceneArray scenes, VoxelTriangle t, uint triangle, vec3 point) {
-  return baseColorAt(scenes, materialPoint(scenes, t, triangle, point)).a;
-}
-
 /// Whether an alpha mask, which the material has, cuts away what is there.
-bool cutAway(SceneArray scenes, MaterialPoint p) {
-  return SAMPLES_TEXTURES != 0u && baseColorAt(scenes, p).a < scenes.at[0].materials.at[p.material].alphaCutoff;
+bool cutAway(MaterialTriangle m, vec3 weight) {
+  return SAMPLES_TEXTURES != 0u && baseColorAt(m, weight).a < m.alphaCutoff;
 }
 
 /// Whether the material's alpha mask, if it has one, cuts the triangle away at `point`.
 bool masked(SceneArray scenes, VoxelTriangle t, uint triangle, uint flags, vec3 point) {
   return SAMPLES_TEXTURES != 0u && (flags & MATERIAL_ALPHA_MASK) != 0u &&
-         cutAway(scenes, materialPoint(scenes, t, triangle, point));
+         cutAway(materialTriangle(scenes, triangle, areaOf(t)), barycentrics(t, point));
 }

@@ -9,6 +9,7 @@ IRAD_BEGIN
 // Facets.
 IRAD_CONST uint CONSTANT_NORMALS = 18u;           ///< how their normals are encoded
 IRAD_CONST uint CONSTANT_SAMPLES_TEXTURES = 19u;  ///< gi/voxel_material.glsl
+IRAD_CONST uint CONSTANT_MATERIAL_FLAGS = 57u;    ///< likewise
 IRAD_CONST uint CONSTANT_CLIPS_SHARED = 22u;      ///< gi/voxel_clip.h
 
 // Rays through the voxels (gi/trace.glsl).
