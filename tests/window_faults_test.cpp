@@ -122,7 +122,7 @@ TEST_F(WindowFaultsTest, ADroppedPictureOfTheSphereIsTheSky) {
 }
 
 TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
-  const std::filesystem::path shaders = copyShaders();
+  const std::filesystem::path shaders = copyShaders({"gi/facet_mean.comp", "gi/gather.comp"});
   start({"--shaders", shaders.string(), "--view", "voxel-albedo"});
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
@@ -159,7 +159,7 @@ TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
 }
 
 TEST_F(WindowFaultsTest, ABannerNamesWrongNumbersUntilTheyAreGone) {
-  const std::filesystem::path shaders = copyShaders();
+  const std::filesystem::path shaders = copyShaders({"gi/gather.comp"});
   // By the thesis's rule a kernel gathers direct light on CPU devices, too.
   start({"--shaders", shaders.string(), "--set", "matrix.hit_rule=thesis"});
   goAside();
@@ -209,7 +209,7 @@ TEST_F(WindowFaultsTest, ALostDeviceEndsItWithAMessage) {
 
 TEST_F(WindowFaultsTest, LoadsAndRebuildsCanBeCancelled) {
   // Large enough for some seconds of work.
-  const std::filesystem::path shaders = copyShaders();
+  const std::filesystem::path shaders = copyShaders({"gi/piece_shade.comp"});
   start({"--shaders", shaders.string(), "--set", "voxel.resolution=64", "--set", "matrix.rays=256"});
   goAside();
   ASSERT_TRUE(viewportSettles(lit));

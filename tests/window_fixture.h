@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 
@@ -297,9 +298,17 @@ class WindowTest : public ::testing::Test {
     EXPECT_EQ(times(), before + 1) << "the button does not cancel";
     goAside();
   }
-  std::filesystem::path copyShaders() const {
-    const std::filesystem::path copy = folder_.path / "shaders";
-    std::filesystem::copy(sourceFolder() / "shaders", copy, std::filesystem::copy_options::recursive);
+  /// A folder for --shaders with these sources and every header. F5 compiles what it finds there: all sources take it
+  /// four processor seconds (they are compiled in tests/shader_test.cpp).
+  std::filesystem::path copyShaders(const std::vector<std::string>& sources) const {
+    const std::filesystem::path from = sourceFolder() / "shaders", copy = folder_.path / "shaders";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(from)) {
+      const std::string name = entry.path().lexically_relative(from).string(), extension = entry.path().extension();
+      if (extension != ".h" && extension != ".glsl" && std::ranges::find(sources, name) == sources.end()) continue;
+      std::filesystem::create_directories((copy / name).parent_path());
+      std::filesystem::copy_file(entry.path(), copy / name);
+    }
+    for (const std::string& source : sources) EXPECT_TRUE(std::filesystem::exists(copy / source)) << source;
     return copy;
   }
 

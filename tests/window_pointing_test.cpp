@@ -136,7 +136,7 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
 }
 
 TEST_F(WindowPointingTest, EndsOfTheRangeAreDraggedOnTheHistogram) {
-  begin({"--view", "depth"});
+  begin({"--view", "depth", "--shaders", copyShaders({"gi/gather.comp"}).string()});  // for F5
   const ScreenPart before = viewport();
   click("View/Histogram");
   ASSERT_TRUE(appears("View/histogram/high"));

@@ -133,7 +133,7 @@ TEST_F(WindowTest, PanelsFoldToTheEdgeAndThePictureFillsTheWindow) {
 }
 
 TEST_F(WindowTest, NotesEndByThemselvesAndErrorsAreCleared) {
-  start();
+  start({"--shaders", copyShaders({"gi/gather.comp"}).string()});
   away();
   ASSERT_TRUE(viewportSettles(lit));
   key("F5");
