@@ -126,7 +126,6 @@ Allocator::Impl::Block* Allocator::Impl::keptBlock(uint32_t type, uint64_t bytes
       best = b.get();
   if (!best) return nullptr;
   best->emptied = 0;
-  kept -= best->size;
   device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<uint64_t>(best->memory), name);
   return best;
 }
@@ -140,10 +139,16 @@ bool Allocator::Impl::dropOldest() {
 }
 
 void Allocator::Impl::giveBack(Block& block) {
-  if (block.emptied > 0) kept -= block.size;
   if (memory.memoryTypes[block.type].heapIndex == deviceHeap) deviceTaken -= block.size;
   vkFreeMemory(device.handle, block.memory, nullptr);
   std::erase_if(blocks, [&](const auto& b) { return b.get() == &block; });
+}
+
+uint64_t Allocator::Impl::kept() const {
+  uint64_t bytes = 0;
+  for (const auto& b : blocks)
+    if (b->emptied > 0) bytes += b->size;
+  return bytes;
 }
 
 bool Allocator::Impl::fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset) {
@@ -231,8 +236,7 @@ void Allocator::Impl::free(uint64_t id) {
   if (here->second != block.size) return;
   if (block.dedicated) {
     block.emptied = ++emptyings;
-    kept += block.size;
-    while (kept > mostKept) dropOldest();
+    while (kept() > mostKept) dropOldest();
     return;
   }
   // An empty shared block goes back, except the last one of its kind.

@@ -18,7 +18,7 @@ struct Allocator::Impl {
     uint64_t size = 0;
     uint32_t type = 0;
     bool images = false, dedicated = false;
-    uint64_t emptied = 0;  ///< of a dedicated block that is kept without a resource: the how-manieth of all; or 0
+    uint64_t emptied = 0;  ///< when its only resource went, by `emptyings`, and it was kept; 0: it is in use, or shared
     std::byte* mapped = nullptr;
     std::map<uint64_t, uint64_t> free;  ///< offset -> size; neighbours are merged
   };
@@ -58,8 +58,9 @@ struct Allocator::Impl {
   std::vector<std::unique_ptr<Block>> blocks;
   std::unordered_map<uint64_t, Allocation> live;
   uint64_t nextId = 1, used = 0, peak = 0;
-  uint64_t deviceUsed = 0, deviceTaken = 0;        ///< of the device's own heap: by resources, by whole blocks
-  uint64_t kept = 0, mostKept = 0, emptyings = 0;  ///< bytes of empty dedicated blocks, these at most; blocks so far
+  uint64_t deviceUsed = 0, deviceTaken = 0;  ///< of the device's own heap: by resources, by whole blocks
+  uint64_t mostKept = 0;                     ///< bytes of kept blocks
+  uint64_t emptyings = 0;                    ///< so far, of dedicated blocks
   VkCommandPool pool = VK_NULL_HANDLE;
 
  private:
@@ -70,6 +71,7 @@ struct Allocator::Impl {
   /// Gives the memory of the kept block that has waited longest back to the driver; false: none is kept.
   bool dropOldest();
   void giveBack(Block& block);
+  uint64_t kept() const;  ///< bytes of kept blocks
   uint64_t heapBudget() const;
   void checkRoom(SubsystemName subsystem, const std::string& name, uint64_t bytes, uint64_t gone) const;
   bool fit(Block& block, uint64_t bytes, uint64_t alignment, uint64_t& offset);
