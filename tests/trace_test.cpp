@@ -66,7 +66,8 @@ TEST_F(Trace, RaysThatWaitMeetTheSame) {
       const std::vector<uint32_t> words = downloadAs<uint32_t>(context(), waiting->lists[i]);
       WaitingHead head{};
       std::memcpy(&head, words.data(), sizeof(head));
-      EXPECT_GT(head.count, 0u);  // of its last round
+      // Of its last round. Which rays found room among the few, and so how long they wait, is a matter of order.
+      if (waiting == &enough) EXPECT_GT(head.count, 0u);
       EXPECT_EQ(head.groups.x, (std::min(head.count, waiting->room[i]) + WAITING_GROUP - 1) / WAITING_GROUP);
     }
   }
