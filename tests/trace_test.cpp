@@ -67,7 +67,9 @@ TEST_F(Trace, RaysThatWaitMeetTheSame) {
       WaitingHead head{};
       std::memcpy(&head, words.data(), sizeof(head));
       // Of its last round. Which rays found room among the few, and so how long they wait, is a matter of order.
-      if (waiting == &enough) EXPECT_GT(head.count, 0u);
+      if (waiting == &enough) {
+        EXPECT_GT(head.count, 0u);
+      }
       EXPECT_EQ(head.groups.x, (std::min(head.count, waiting->room[i]) + WAITING_GROUP - 1) / WAITING_GROUP);
     }
   }
