@@ -203,30 +203,15 @@ TEST_F(SurfaceTest, RaysMeetTheFirstOfAllTriangles) {
   const std::vector<uint32_t> met = downloadAs<uint32_t>(context(), out);
   const oracle::Facets host = oracleFacets(context(), w.facets);
   const HostFacets facets = hostFacets(context(), w.facets);
-  const Scene& scene = *w.scene;
   size_t wrong = 0, compared = 0;
   for (uint32_t f = 0; f < w.facets.count; f += 3)
     for (uint32_t k = 0; k < oracle::raysOf(host, f, params); ++k) {
       const oracle::Ray ray = oracle::facetRay(host, f, k, params);
-      double nearest = 1e300, edge = 1;
-      uint32_t first = 0;
-      for (uint32_t t = 0; t < scene.triangleCount(); ++t) {
-        if (t == ray.triangle) continue;
-        const glm::dvec3 a = host.corner(t, 0), b = host.corner(t, 1) - a, c = host.corner(t, 2) - a;
-        const glm::dvec3 p = glm::cross(ray.direction, c), from = ray.origin - a, q = glm::cross(from, b);
-        const double det = glm::dot(b, p);
-        if (std::abs(det) < 1e-12) continue;
-        const double u = glm::dot(from, p) / det, v = glm::dot(ray.direction, q) / det, at = glm::dot(c, q) / det,
-                     least = std::min({u, v, 1 - u - v});
-        if (at <= 0 || at >= nearest || least < -1e-6) continue;
-        nearest = at;
-        edge = std::abs(least);
-        first = t;
-      }
+      const auto [first, nearest, edge] = oracle::firstOfAll(host, ray);
       if (edge < 1e-4) continue;  // a decision for double precision
       ++compared;
       const uint32_t got = met[size_t{f} * params.rays + k];
-      if (nearest > 1e100) {
+      if (first == oracle::kNoTriangle) {
         wrong += got != TRACE_ESCAPED;
         continue;
       }

@@ -79,6 +79,13 @@ struct Passage {
 };
 Hit trace(const Facets& facets, const Ray& ray, HitRule hitRule, const Passage& passage = {});
 
+/// The first of all triangles that a ray meets, without voxels, sides or masks.
+struct First {
+  uint32_t triangle = kNoTriangle;
+  double t = 0, edge = 0;  ///< voxels; how close to an edge: its least weight of a corner, without sign
+};
+First firstOfAll(const Facets& facets, const Ray& ray);
+
 /// The first voxel with a facet along a ray from anywhere.
 std::optional<glm::uvec3> firstSolid(const Facets& facets, const Ray& ray);
 

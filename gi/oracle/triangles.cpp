@@ -65,6 +65,22 @@ bool isThere(const Facets& facets, uint32_t piece, uint32_t triangle, const dvec
 
 }  // namespace
 
+First firstOfAll(const Facets& facets, const Ray& ray) {
+  constexpr double kBeside = 1e-6;  // what passes an edge by so little is found, too, for its `edge` to say so
+  First first{.t = std::numeric_limits<double>::infinity(), .edge = 1};
+  for (uint32_t t = 0; t < facets.corners.size() / 3; ++t) {
+    if (t == ray.triangle) continue;
+    const dvec3 a = facets.corner(t, 0), b = facets.corner(t, 1) - a, c = facets.corner(t, 2) - a;
+    const dvec3 p = glm::cross(ray.direction, c), from = ray.origin - a, q = glm::cross(from, b);
+    const double det = glm::dot(b, p);
+    if (std::abs(det) < 1e-12) continue;
+    const double u = glm::dot(from, p) / det, v = glm::dot(ray.direction, q) / det, at = glm::dot(c, q) / det,
+                 least = std::min({u, v, 1 - u - v});
+    if (at > 0 && at < first.t && least >= -kBeside) first = {t, at, std::abs(least)};
+  }
+  return first;
+}
+
 Hit traceTriangles(const Facets& facets, const Ray& ray, const Passage& passage) {
   Hit hit{TRACE_ESCAPED};
   double nearest = std::numeric_limits<double>::infinity(), second = nearest;  // along the ray; of another triangle
