@@ -55,6 +55,7 @@ struct Targets {
 
   // Lists of pixels (shaders/shared/picked.h), where there are the passes that make them:
   Buffer sought;   ///< whose facet is searched for
+  Buffer soughtAround;  ///< and in other voxels, too, where the search has parts
   Buffer doubted;  ///< whose direct light is asked of rays
   Buffer glossy;   ///< that trace specular rays
 
