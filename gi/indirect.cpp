@@ -25,7 +25,7 @@ uint32_t soughtLanes(const Device& device) {
 /// In compute, where no lane is spent outside a triangle.
 void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, bool lights,
                   Targets& targets) {
-  const uint32_t lanes = soughtLanes(frame.context().device);
+  const uint32_t lanes = from.searchers > 0 ? from.searchers : soughtLanes(frame.context().device);
   pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought, lanes);
   const uint32_t parts = lanes > 1 ? 1 : SOUGHT_PARTS;
   if (parts > 1)
@@ -33,6 +33,7 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
   if (lights) pickNone(frame, kForwardStage, "pixels whose light is doubted", targets.size, targets.doubted);
   // First all pixels, then, in one part or several, those whose facet is not found at once.
   for (uint32_t step = 0; step <= parts; ++step) {
+    if (step == 1 + SOUGHT_OWN) continue;
     const bool seeks = step > 0;
     Pass pass = frame.pass(kForwardStage);
     IndirectPush push{};

@@ -34,6 +34,7 @@ struct IndirectPush {
 /// rounding has put into another, the next ones; 1 + i is voxel i of the 27 around, for pixels that are left. Mesa's CPU driver ends all loops of eight invocations side by side after
 /// 65,535 rounds, which 27 crowded voxels take more than together, and one far fewer (docs/performance-log.md).
 IRAD_CONST uint SOUGHT_PARTS = 28u;
+IRAD_CONST uint SOUGHT_OWN = 14u;  ///< the pixel's voxel once more: left out
 
 /// gi/direct_seen.comp.
 struct DirectSeenPush {
