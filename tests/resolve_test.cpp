@@ -206,7 +206,8 @@ TEST_F(Resolve, Sponza) {
   same("Sponza", draw(lit, 0, {}, false), draw(lit, 0, {}, true), 0.1);
 }
 
-/// Leaves without an order, more of them in each of 27 voxels than it may have facets.
+/// Leaves that go through each other, in 27 voxels and more: of many nothing is seen from a point, though they face
+/// alike.
 Scene thicket() {
   SceneBuilder b;
   b.scene.materials[0].doubleSided = true;
@@ -216,18 +217,19 @@ Scene thicket() {
   const auto about = [&random](float most) {
     return most * (2.0f * static_cast<float>(random() >> 8) / static_cast<float>(1u << 24) - 1.0f);
   };
-  for (int i = 0; i < 4000; ++i) {
-    const glm::vec3 at(about(0.35f), about(0.35f), about(0.35f));
-    b.addQuad(at, {about(0.1f), about(0.1f), about(0.1f)}, {about(0.1f), about(0.1f), about(0.1f)});
+  for (int i = 0; i < 400; ++i) {
+    const glm::vec3 at{about(0.35f), about(0.35f), about(0.35f)};
+    b.addQuad(at, {0.4f + about(0.2f), about(0.48f), about(0.2f)}, {about(0.2f), about(0.48f), -0.4f + about(0.2f)});
   }
   b.addLight(LightType::Sun, 2);
-  b.addCamera({0.3, 0.4, 1.0}, {0, 0, 0}, 0.8f);
+  b.addCamera({0.1, 0.9, 0.4}, {0, 0.1, 0}, 0.8f);
   return b.finish();
 }
 
 /// An invocation alone searches by parts, or Mesa's CPU driver would end its loops in a thicket: pixels would have the
 /// wrong facet, and another one in the next picture.
 TEST_F(Resolve, TheSearchForAPixelsFacetIsTheSameByOneAndByMany) {
+  if (!context().device.isCpu) GTEST_SKIP() << "others have two pipelines for it, which may round differently";
   Settings s = small();
   s.voxel.resolution = 8;
   s.matrix.gpu.rays = 32;
