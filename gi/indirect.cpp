@@ -25,10 +25,16 @@ uint32_t soughtLanes(const Device& device) {
 /// In compute, where no lane is spent outside a triangle.
 void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera, bool emitted, bool lights,
                   Targets& targets) {
-  const uint32_t lanes = soughtLanes(frame.context().device);
+  const uint32_t lanes = from.searchers > 0 ? from.searchers : soughtLanes(frame.context().device);
   pickNone(frame, kForwardStage, "pixels whose facet is sought", targets.size, targets.sought, lanes);
+  const uint32_t parts = lanes > 1 ? 1 : SOUGHT_PARTS;
+  if (parts > 1)
+    pickNone(frame, kForwardStage, "pixels whose facet is sought around", targets.size, targets.soughtAround);
   if (lights) pickNone(frame, kForwardStage, "pixels whose light is doubted", targets.size, targets.doubted);
-  for (const bool seeks : {false, true}) {
+  // First all pixels, then, in one part or several, those whose facet is not found at once.
+  for (uint32_t step = 0; step <= parts; ++step) {
+    if (step == 1 + SOUGHT_OWN) continue;
+    const bool seeks = step > 0;
     Pass pass = frame.pass(kForwardStage);
     IndirectPush push{};
     push.camera = pass.in(camera);
@@ -38,7 +44,9 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
     push.surface = pass.in(from.facets->surface.record);
     push.shaded = pass.in(*from.shaded);
     if (emitted) push.shadedEmitted = pass.in(*from.shadedEmitted);
-    push.sought = seeks ? pass.in(targets.sought) : pass.out(targets.sought);
+    const Buffer& list = step > 1 ? targets.soughtAround : targets.sought;
+    push.sought = seeks ? pass.in(list) : pass.out(list);
+    if (step == 1 && parts > 1) push.soughtAround = pass.out(targets.soughtAround);
     if (lights) {
       push.direct = pass.in(*from.direct);
       push.doubted = pass.out(targets.doubted);
@@ -46,6 +54,7 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
     if (targets.facet) push.facet = pass.out(targets.facet);
     push.sampling = from.sample;
     push.size = targets.size;
+    push.part = seeks ? step - 1 : 0;
     pass.shader("gi/indirect_links.comp")
         .constant(CONSTANT_EMITTED, emitted)
         .constant(CONSTANT_KEEPS_POSITION, from.keepPosition)
@@ -57,7 +66,7 @@ void lookUpFacets(Frame& frame, const IndirectInputs& from, const Buffer& camera
         .read(targets.direct)
         .push(push);
     if (seeks)
-      pass.dispatchIndirect(targets.sought);
+      pass.dispatchIndirect(list);
     else
       pass.dispatch(targets.size);
   }
@@ -103,7 +112,10 @@ void drawScene(Frame& frame, const SceneOnDevice& scene, const ShadowMaps& shado
   const VolumeLookup lookup{fromVolume ? indirect.volume : nullptr, indirect.grid, indirect.sample};
   drawForward(frame, scene, shadows, camera, shade, targets, drawn, lookup);
   const bool lights = fromFacets && indirect.direct != nullptr && !scene.shining.empty();
-  if (!fromFacets) targets.sought = Buffer();
+  if (!fromFacets) {
+    targets.sought = Buffer();
+    targets.soughtAround = Buffer();
+  }
   if (!lights) targets.doubted = Buffer();
   if (const bool keeps = fromFacets && indirect.keepFacet; keeps != static_cast<bool>(targets.facet))
     targets.facet = keeps ? Buffer(frame.context().device, "facets of pixels", Subsystem::Targets,

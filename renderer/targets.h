@@ -54,9 +54,10 @@ struct Targets {
                  ///< none; where reflections are written back and lookups go by facets
 
   // Lists of pixels (shaders/shared/picked.h), where there are the passes that make them:
-  Buffer sought;   ///< whose facet is searched for
-  Buffer doubted;  ///< whose direct light is asked of rays
-  Buffer glossy;   ///< that trace specular rays
+  Buffer sought;        ///< whose facet is searched for
+  Buffer soughtAround;  ///< and in other voxels, too, where the search has parts
+  Buffer doubted;       ///< whose direct light is asked of rays
+  Buffer glossy;        ///< that trace specular rays
 
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);

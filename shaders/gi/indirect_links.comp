@@ -27,6 +27,14 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D directTarget;
 #include "gi/sought_facet.glsl"
 #include "gi/outer_irradiance.glsl"
 
+/// What is known between two parts of a search is kept in the place of the lookup's y, whose 0 stands for no facet, and z.
+vec4 keptCandidate(vec4 lookup, Candidate known) {
+  return vec4(lookup.x, known.facet == NO_FACET ? 0.0 : seenAs(known.facet), known.rank, lookup.w);
+}
+Candidate candidateKept(vec4 lookup) {
+  return lookup.y == 0.0 ? NO_CANDIDATE : Candidate(seenTriangle(lookup.y), lookup.z);
+}
+
 /// Of F M, over its mean: what one sees as blotches.
 const float LEAST_NOISE = 0.05;
 
@@ -67,7 +75,17 @@ void main() {
     imageStore(indirectTarget, pixel, vec4(lookup.x * outerIrradiance(surface, side, p), seen));
     return;
   }
-  if (SEEKS) {
+  if (SEEKS && SOUGHT_LANES == 1u) {
+    if (!listed) return;
+    Candidate known =
+        soughtInPart(surface, push.reverse, grid.dims, p, viewer, side, push.part, candidateKept(lookup));
+    facet = known.facet;
+    if (push.part + 1u < SOUGHT_PARTS && (push.part > 0u || facet == NO_FACET)) {
+      if (push.part == 0u) pick(push.soughtAround, pixel);
+      imageStore(lookupTarget, pixel, keptCandidate(lookup, known));
+      return;
+    }
+  } else if (SEEKS) {
     facet = soughtFacet(surface, push.reverse, grid.dims, p, viewer, side, listed);
     if (!listed || soughtLane() != 0u) return;
   } else {

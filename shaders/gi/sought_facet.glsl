@@ -106,9 +106,9 @@ uint nextFacet(UintArray reverse, uvec3 dims, inout FacetsAround f) {
 
 /// A lane's candidate by its distance: of its share of the cube's facets the one whose nearest surfel is nearest to a point
 /// of the surface, on its side. They are asked the nearest first: looking for that is little beside `continues`. A lane by
-/// itself takes a voxel at a time: Mesa's CPU driver ends all loops after 65,535 rounds.
-Candidate foundIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 low, int edge, SidePoint from) {
-  Candidate found = NO_CANDIDATE;
+/// itself takes a voxel at a time. What is no nearer than `found` is not asked.
+Candidate foundIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 low, int edge, SidePoint from,
+                  Candidate found) {
   SurfelPoint p = from.at;
   int voxels = edge * edge * edge, atOnce = SOUGHT_LANES == 1u ? 1 : voxels;
   for (int voxel = 0; voxel < voxels; voxel += atOnce) {
@@ -141,6 +141,13 @@ Candidate foundIn(SurfaceArrays surface, UintArray reverse, uvec3 dims, ivec3 lo
   return found;
 }
 
+/// The side of the triangle that has the pieces, and a point there.
+SurfelPoint soughtPoint(SurfaceArrays surface, vec3 p, inout uint side) {
+  uint triangle = firstInPlace(surface.corners, side & ~SURFEL_BACK);
+  side = triangle | (side & SURFEL_BACK);
+  return SurfelPoint(p, triangleFacing(surface, side), triangle);
+}
+
 /// The facet of a point of a triangle's side, seen from the direction `viewer`: where rounding has put it into another
 /// voxel, in the next one; where no surfel of the side is seen from p, that of the nearest surfel that is, in its voxel or
 /// else in the 27 around; where none is seen in a crowd, a likely one. All invocations of a workgroup call it, those of
@@ -149,22 +156,40 @@ uint soughtFacet(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, v
   SurfelPoint point = SurfelPoint(p, vec3(0.0), 0u);
   Candidate mine = NO_CANDIDATE;
   if (listed) {
-    point.triangle = firstInPlace(surface.corners, side & ~SURFEL_BACK);
-    side = point.triangle | (side & SURFEL_BACK);
-    point.facing = triangleFacing(surface, side);
+    point = soughtPoint(surface, p, side);
     mine = foundByRounding(surface, reverse, dims, p, p + NEARER * viewer, side);
   }
   uint found = bestOf(mine).facet;
   bool seeks = listed && found == NO_FACET;
   SidePoint from = SidePoint(point, seeks ? liftOf(surface, reverse, dims, point) : 0.0);
   ivec3 cell = ivec3(floor(p));
-  uint inVoxel = bestOf(seeks ? foundIn(surface, reverse, dims, cell, 1, from) : NO_CANDIDATE).facet;
+  uint inVoxel = bestOf(seeks ? foundIn(surface, reverse, dims, cell, 1, from, NO_CANDIDATE) : NO_CANDIDATE).facet;
   if (seeks) found = inVoxel;
   seeks = seeks && found == NO_FACET;
-  uint around = bestOf(seeks ? foundIn(surface, reverse, dims, cell - 1, 3, from) : NO_CANDIDATE).facet;
+  uint around = bestOf(seeks ? foundIn(surface, reverse, dims, cell - 1, 3, from, NO_CANDIDATE) : NO_CANDIDATE).facet;
   if (seeks) found = around;
   if (seeks && found == NO_FACET) found = facetInCrowd(surface, reverse, dims, cell, point);
   return found;
+}
+
+/// The same by parts (SOUGHT_PARTS): the best that is known after one of them, of what was known before it. It is over
+/// with the first part where that finds one, and with the last.
+Candidate soughtInPart(SurfaceArrays surface, UintArray reverse, uvec3 dims, vec3 p, vec3 viewer, uint side, uint part,
+                       Candidate known) {
+  SurfelPoint point = soughtPoint(surface, p, side);
+  ivec3 cell = ivec3(floor(p)), low = cell;
+  if (part == 0u) {
+    known = foundByRounding(surface, reverse, dims, p, p + NEARER * viewer, side);
+    if (known.facet != NO_FACET) return known;
+  } else {
+    int voxel = int(part) - 1;
+    low += ivec3(voxel % 3, (voxel / 3) % 3, voxel / 9) - 1;
+  }
+  SidePoint from = SidePoint(point, liftOf(surface, reverse, dims, point));
+  known = foundIn(surface, reverse, dims, low, 1, from, known);
+  if (part + 1u == SOUGHT_PARTS && known.facet == NO_FACET)
+    known.facet = facetInCrowd(surface, reverse, dims, cell, point);
+  return known;
 }
 
 #endif

@@ -21,12 +21,20 @@ struct IndirectPush {
   Vec4Array shaded;         ///< H per facet
   Vec4Array shadedEmitted;  ///< F M per facet
   Vec4Array direct;         ///< D per facet; 0: no light shines, or none is asked for
-  UintArray sought;         ///< Targets::sought
+  UintArray sought;         ///< Targets::sought or, of later parts of the search, Targets::soughtAround
+  UintArray soughtAround;   ///< Targets::soughtAround, which the search's first part fills; 0: it has one part
   UintArray doubted;        ///< Targets::doubted, where there is `direct`
   UintArray facet;          ///< Targets::facet; 0: none is asked for
   SampleParams sampling;
   uvec2 size;
+  uint part;  ///< of the search, where it has several
 };
+
+/// Parts of the search for a pixel's facet where one invocation does it alone: 0 is the pixel's voxel and, of a point that
+/// rounding has put into another, the next ones; 1 + i is voxel i of the 27 around, for pixels that are left. Mesa's CPU driver ends all loops of eight invocations side by side after
+/// 65,535 rounds, which 27 crowded voxels take more than together, and one far fewer (docs/performance-log.md).
+IRAD_CONST uint SOUGHT_PARTS = 28u;
+IRAD_CONST uint SOUGHT_OWN = 14u;  ///< the pixel's voxel once more: left out
 
 /// gi/direct_seen.comp.
 struct DirectSeenPush {
