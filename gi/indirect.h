@@ -22,8 +22,8 @@ struct IndirectInputs {
   bool keepPosition = false;              ///< of the pixel, local space, in Targets::linear
   const Image* volume = nullptr;          ///< RGBA16F, the thesis's lookup, where there is no surface
   SampleParams sample{};
-  uint32_t searchers =
-      0;  ///< invocations that share the search for a pixel's facet: 1, 32, or 0, as the device calls for
+  /// Invocations that share the search for a pixel's facet: 1, 32, or 0, as the device calls for.
+  uint32_t searchers = 0;
 };
 
 /// drawForward with the lookup of indirect light: in the facets by a pass of its own ("RE Forward", too). What shadow

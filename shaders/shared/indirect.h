@@ -31,8 +31,9 @@ struct IndirectPush {
 };
 
 /// Parts of the search for a pixel's facet where one invocation does it alone: 0 is the pixel's voxel and, of a point that
-/// rounding has put into another, the next ones; 1 + i is voxel i of the 27 around, for pixels that are left. Mesa's CPU driver ends all loops of eight invocations side by side after
-/// 65,535 rounds, which 27 crowded voxels take more than together, and one far fewer (docs/performance-log.md).
+/// rounding has put into another, the next ones; 1 + i is voxel i of the 27 around, for pixels that are left. Mesa's CPU
+/// driver ends all loops of eight invocations side by side after 65,535 rounds, which 27 crowded voxels take more than
+/// together, and one far fewer.
 IRAD_CONST uint SOUGHT_PARTS = 28u;
 IRAD_CONST uint SOUGHT_OWN = 14u;  ///< the pixel's voxel once more: left out
 
