@@ -16,8 +16,9 @@ struct Meeting {
   double edge = 0;    ///< least weight of a corner: how close to an edge
 };
 
-/// Where a line meets a triangle (Moller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection").
-std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& ray) {
+/// Where a line meets a triangle, or its plane by no more than `beside` of a corner's weight outside an edge (Moller
+/// and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection").
+std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& ray, double beside = 0) {
   const dvec3 a = facets.corner(triangle, 0), b = facets.corner(triangle, 1) - a, c = facets.corner(triangle, 2) - a;
   const dvec3 p = glm::cross(ray.direction, c);
   const double determinant = glm::dot(b, p);
@@ -27,7 +28,7 @@ std::optional<Meeting> meet(const Facets& facets, uint32_t triangle, const Ray& 
   const dvec3 q = glm::cross(from, b);
   const double v = glm::dot(ray.direction, q) / determinant;
   const double least = std::min({u, v, 1 - u - v});
-  if (least < 0) return std::nullopt;
+  if (least < -beside) return std::nullopt;
   const double t = glm::dot(c, q) / determinant;
   const bool front = determinant > 0;
   if (front || facets.showsBack(triangle)) return Meeting{t, front, t, least};
@@ -70,13 +71,8 @@ First firstOfAll(const Facets& facets, const Ray& ray) {
   First first{.t = std::numeric_limits<double>::infinity(), .edge = 1};
   for (uint32_t t = 0; t < facets.corners.size() / 3; ++t) {
     if (t == ray.triangle) continue;
-    const dvec3 a = facets.corner(t, 0), b = facets.corner(t, 1) - a, c = facets.corner(t, 2) - a;
-    const dvec3 p = glm::cross(ray.direction, c), from = ray.origin - a, q = glm::cross(from, b);
-    const double det = glm::dot(b, p);
-    if (std::abs(det) < 1e-12) continue;
-    const double u = glm::dot(from, p) / det, v = glm::dot(ray.direction, q) / det, at = glm::dot(c, q) / det,
-                 least = std::min({u, v, 1 - u - v});
-    if (at > 0 && at < first.t && least >= -kBeside) first = {t, at, std::abs(least)};
+    const std::optional<Meeting> m = meet(facets, t, ray, kBeside);
+    if (m && m->t > 0 && m->t < first.t) first = {t, m->t, std::abs(m->edge)};
   }
   return first;
 }
