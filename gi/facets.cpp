@@ -121,8 +121,9 @@ void shadeAnew(Context& context, const SceneOnDevice& scene, const Buffer& gridR
     recordFacets(context, list);
   }
   if (list.count == 0) return;
-  list.clampedAlbedo = list.surface ? shadeParts(context, kStage, scene, gridRecord, parts, list)
-                                    : shadeFacets(context, kStage, scene, gridRecord, list, settings);
+  list.clampedAlbedo = list.surface
+                           ? shadeParts(context, kStage, scene, gridRecord, parts, list, listsFaster(context.device))
+                           : shadeFacets(context, kStage, scene, gridRecord, list, settings);
 }
 
 FacetList compactFacets(Context& context, Voxels& voxels, const Settings& settings) {

@@ -101,7 +101,6 @@ void gatherEmitters(Context& context, const FacetList& facets, const FormFactors
     pass.shader("gi/emission.comp")
         .push(EmissionPush{pass.in(facets.record), pass.out(light.radiosityNext)})
         .dispatch(facets.count);
-    sweep.begin(frame, kGatherEmittersStage, light.radiosityNext);
     sweep.record(frame, kGatherEmittersStage, SOLVE_PRODUCT, light.radiosityNext, light.emitted, light);
     frame.submitAndWait();
   };

@@ -8,9 +8,10 @@
 #include <list>
 #include <vector>
 
+#include "renderer/resources.h"
+
 namespace irad {
 
-class Buffer;
 class Context;
 
 /// Work of the host, as the time of a stage.
@@ -25,7 +26,8 @@ class HostPass {
   HostPass& operator=(const HostPass&) = delete;
   uint64_t in(const Buffer& buffer) { return addressOf(buffer, /*written=*/false); }
   /// Read, and written: finish() gives the device what is there then.
-  uint64_t out(const Buffer& buffer) { return addressOf(buffer, /*written=*/true); }
+  uint64_t out(const Buffer& buffer, uint64_t offset = 0) { return addressOf(buffer, /*written=*/true) + offset; }
+  uint64_t inIfAny(const Buffer& buffer) { return buffer ? in(buffer) : 0; }
   uint64_t accumulate(const Buffer& buffer) { return out(buffer); }
   void finish();
 

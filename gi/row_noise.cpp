@@ -25,7 +25,6 @@ void rowNoise(Frame& frame, const FacetList& facets, const FormFactors& matrix, 
     pass.shader("gi/light_squares.comp").push(push).dispatch(facets.count);
   }
   Sweep sweep(frame.context(), facets, matrix, settings);
-  sweep.begin(frame, kStage, lightSquares);
   sweep.record(frame, kStage, SOLVE_PRODUCT, lightSquares, squares, light);
 
   Pass pass = frame.pass(kStage);

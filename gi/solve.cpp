@@ -168,7 +168,6 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
   uint32_t batch = 2;
   if (!before.settled() && before.sweeps > 0 && before.largestGain < 1 && !before.dark)
     batch = std::min(sweepsToGo(before, guard.omega, settings.solver.tolerance), longest);
-  bool fresh = true;    // B is new to the kernel
   bool steady = false;  // B held lambda when the history began
   report.kappa = before.kappa;
   report.kappaSlack = before.kappaSlack;
@@ -181,7 +180,6 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
     sweep.omega = guard.omega;
     Frame frame = context.begin();
     frame.pass(kSolveStage).fill(light.residual, 0);
-    if (std::exchange(fresh, false)) sweep.begin(frame, kSolveStage, light.radiosity);
     if (history.left() == SOLVE_VECTORS)
       steady = std::abs(light.gain.radiosity - params.lambda) <= 1e-6f * params.lambda;
     for (uint32_t i = 0; i < count; ++i) {
@@ -227,7 +225,6 @@ SolveReport solve(Context& context, const FacetList& facets, const FormFactors& 
       history.forget();
       if (mixed > 0) {
         left = mixed;
-        fresh = true;
         batch = std::min(batch, 2u);
       }
     }

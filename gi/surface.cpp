@@ -322,7 +322,7 @@ Listed listSurface(Context& context, const SceneOnDevice& scene, const SceneShap
 
 /// Albedo and exitance of the pieces, then of the facets.
 uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& scene, const Buffer& gridRecord,
-                    const FacetParts& parts, const FacetList& list) {
+                    const FacetParts& parts, const FacetList& list, ListedBy by) {
   const Surface& surface = list.surface;
   const Device& device = context.device;
   const Order order =
@@ -348,26 +348,8 @@ uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& sc
     push.hasEmission = list.hasEmission;
     return push;
   });
-  Pass pass = frame.pass(stage);
-  FacetMeanPush push{};
-  push.surface = pass.in(surface.record);
-  push.voxel = pass.in(list.voxel);
-  push.reverse = pass.in(list.reverse);
-  push.firstPoint = pass.in(parts.firstPoint);
-  push.classes = pass.in(parts.classes);
-  push.points = pass.in(parts.points);
-  push.pointArea = pass.in(parts.pointArea);
-  push.pieceAlbedo = pass.in(albedo);
-  push.pieceEmission = pass.in(emission);
-  push.shape = pass.out(list.shape);
-  push.albedo = pass.out(list.albedo);
-  push.emission = pass.out(list.emission);
-  push.dims = list.grid.dims;
-  push.count = list.count;
-  push.encoding = list.encoding;
-  push.hasEmission = list.hasEmission;
-  pass.shader("gi/facet_mean.comp").push(push).dispatch(list.count);
-  frame.submitAndWait();
+  frame.submit();
+  meanFacets(context, by, stage, parts, list, albedo, emission);
   return downloadAs<uint32_t>(context, clamped).at(0);
 }
 
@@ -381,7 +363,7 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneSh
   if (watch) watch();
   FacetList& facets = listed.list;
   if (facets.count > 0)
-    facets.clampedAlbedo = shadeParts(context, kVoxelizeStage, scene, listed.grid, listed.parts, facets);
+    facets.clampedAlbedo = shadeParts(context, kVoxelizeStage, scene, listed.grid, listed.parts, facets, by);
   recordFacets(context, facets);
   return std::move(facets);
 }

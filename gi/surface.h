@@ -47,6 +47,6 @@ FacetList listFacets(Context& context, const SceneOnDevice& scene, const SceneSh
 FacetParts listParts(Context& context, const SceneOnDevice& scene, const SceneShape& shape, const Settings& settings);
 /// Albedo, exitance and normals of such a list. `stage`: whose time it is. Returns how many albedos had to be clamped.
 uint32_t shadeParts(Context& context, const char* stage, const SceneOnDevice& scene, const Buffer& gridRecord,
-                    const FacetParts& parts, const FacetList& list);
+                    const FacetParts& parts, const FacetList& list, ListedBy by);
 
 }  // namespace irad

@@ -7,6 +7,7 @@
 
 #include "renderer/base/parallel.h"
 #include "shaders/gi/class_point.h"
+#include "shaders/gi/facet_mean.h"
 #include "shaders/gi/facet_surfels.h"
 #include "shaders/gi/links.h"
 #include "shaders/gi/piece_points.h"
@@ -261,6 +262,11 @@ void linkFacetsOnHost(const LinkFacetsPush& push, const SurfaceArrays& surface) 
   parallelFor(size_t{FACET_SURFELS} * push.count, place, /*threads=*/0, kVoxelBlock * FACET_SURFELS);
   const auto find = [&](size_t facet) { FacetLinker(push, surface, static_cast<uint32_t>(facet)).find(); };
   parallelFor(push.count, find, /*threads=*/0, kVoxelBlock);
+}
+
+void meanFacetsOnHost(const FacetMeanPush& push, const SurfaceArrays& surface) {
+  const auto mean = [&](size_t facet) { meanFacet(push, surface, static_cast<uint32_t>(facet)); };
+  parallelFor(push.count, mean, /*threads=*/0, kVoxelBlock);
 }
 
 }  // namespace irad

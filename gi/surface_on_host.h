@@ -21,5 +21,7 @@ void findSidesOnHost(const PieceSidesPush& push, const SurfaceArrays& surface);
 void placeSurfelsOnHost(const FacetSurfelsPush& push, const SurfaceArrays& surface);
 /// gi/link_points.comp, which makes push.points, and gi/link_facets.comp.
 void linkFacetsOnHost(const LinkFacetsPush& push, const SurfaceArrays& surface);
+/// gi/facet_mean.comp.
+void meanFacetsOnHost(const FacetMeanPush& push, const SurfaceArrays& surface);
 
 }  // namespace irad

@@ -127,6 +127,27 @@ LinkFacetsPush facetsToLink(auto& pass, const FacetList& list, const Buffer& fac
   return push;
 }
 
+FacetMeanPush facetsToMean(auto& pass, const FacetParts& parts, const FacetList& list, const Buffer& pieceAlbedo,
+                           const Buffer& pieceEmission) {
+  FacetMeanPush push{};
+  push.voxel = pass.in(list.voxel);
+  push.reverse = pass.in(list.reverse);
+  push.firstPoint = pass.in(parts.firstPoint);
+  push.classes = pass.in(parts.classes);
+  push.points = pass.in(parts.points);
+  push.pointArea = pass.in(parts.pointArea);
+  push.pieceAlbedo = pass.in(pieceAlbedo);
+  push.pieceEmission = pass.in(pieceEmission);
+  push.shape = pass.out(list.shape);
+  push.albedo = pass.out(list.albedo);
+  push.emission = pass.out(list.emission);
+  push.dims = list.grid.dims;
+  push.count = list.count;
+  push.encoding = list.encoding;
+  push.hasEmission = list.hasEmission;
+  return push;
+}
+
 }  // namespace
 
 void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Buffer& unsorted,
@@ -266,6 +287,26 @@ void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffe
   push.points = pass.in(at);
   pass.shader("gi/link_facets.comp").push(push).dispatchWorkgroups((list.count + LINK_FACETS - 1) / LINK_FACETS);
   frame.submit();
+}
+
+void meanFacets(Context& context, ListedBy by, const char* stage, const FacetParts& parts, const FacetList& list,
+                const Buffer& pieceAlbedo, const Buffer& pieceEmission) {
+  if (by == ListedBy::host) {
+    HostPass pass(context);
+    const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
+    const FacetMeanPush push = facetsToMean(pass, parts, list, pieceAlbedo, pieceEmission);
+    timedOnHost(context, stage, [&] {
+      meanFacetsOnHost(push, surface);
+      pass.finish();
+    });
+    return;
+  }
+  Frame frame = context.begin();
+  Pass pass = frame.pass(stage);
+  FacetMeanPush push = facetsToMean(pass, parts, list, pieceAlbedo, pieceEmission);
+  push.surface = pass.in(list.surface.record);
+  pass.shader("gi/facet_mean.comp").push(push).dispatch(list.count);
+  frame.submitAndWait();
 }
 
 }  // namespace irad

@@ -76,5 +76,8 @@ void fillFacets(Context& context, ListedBy by, const Buffer& gridRecord, const S
                 const SurfacePoints& points, const FacetList& list, const Buffer& facings);
 /// Which facets of the voxels around each facet continue its surface, and how many.
 void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffer& facings, const Buffer& found);
+/// Albedo and exitance of the facets from those of their pieces, and their normals. `stage`: whose time it is.
+void meanFacets(Context& context, ListedBy by, const char* stage, const FacetParts& parts, const FacetList& list,
+                const Buffer& pieceAlbedo, const Buffer& pieceEmission);
 
 }  // namespace irad

@@ -1,9 +1,12 @@
 #include "gi/sweep.h"
 
+#include <vector>
+
 #include "gi/facets.h"
+#include "gi/host_pass.h"
 #include "gi/lighting.h"
 #include "gi/matrix.h"
-#include "gi/subsystems.h"
+#include "gi/sweep_on_host.h"
 #include "renderer/frame/frame.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/solve.h"
@@ -37,36 +40,14 @@ Sweep::Sweep(Context& context, const FacetList& facets, const FormFactors& matri
       lambda_(settings.gpu.lambda),
       kernel_(chooseKernel(context.device, facets, matrix, settings.kernel)),
       gains_(kernel_ == SolverKernel::tree ? chooseKernel(context.device, facets, matrix, SolverKernel::automatic)
-                                           : kernel_) {
-  const uint32_t height = (facets.count + SOLVE_IMAGE_WIDTH - 1) / SOLVE_IMAGE_WIDTH;
-  images_ = context.device.isCpu && kernel_ == SolverKernel::row && matrix.format == MatrixFormat::csr &&
-            height <= context.device.limits.maxImageDimension2D;
-  if (!images_) return;
-  ImageDesc desc;
-  desc.name = "solver vector";
-  desc.subsystem = Subsystem::Solver;
-  desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-  desc.width = SOLVE_IMAGE_WIDTH;
-  desc.height = height;
-  for (Image& image : vectors_) image = Image(context.device, desc);
-}
+                                           : kernel_),
+      onHost_(context.device.isCpu && settings.kernel == SolverKernel::automatic &&
+              matrix.format == MatrixFormat::csr) {}
 
-void Sweep::begin(Frame& frame, const char* stage, const Buffer& input) {
-  if (!images_) return;
-  Pass pass = frame.pass(stage);
-  pass.shader("gi/solve_image.comp")
-      .write(vectors_[0])
-      .push(SolveImagePush{pass.in(input), facets_.count, 0})
-      .dispatch(facets_.count);
-  current_ = 0;
-}
-
-void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
-                   const Lighting& light, uint32_t record) {
-  Pass pass = frame.pass(stage);
+template <class AnyPass>
+SolvePush Sweep::rowsToSum(AnyPass& pass, uint32_t work, const Buffer& input, const Buffer& output,
+                           const Lighting& light, uint32_t record) const {
   SolvePush push{};
-  push.matrix = pass.in(matrix_.record);
-  push.facets = pass.in(facets_.record);
   push.direct = pass.in(light.direct);
   push.input_ = pass.in(input);
   push.output_ = pass.out(output);
@@ -82,6 +63,37 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
   push.flush = flush;
   push.sky = pass.inIfAny(light.sky);
   push.reflected = pass.inIfAny(light.writeback.used);
+  return push;
+}
+
+void Sweep::sweepByHost(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
+                        const Lighting& light, uint32_t record) const {
+  Context& context = frame.context();
+  frame.submitAndWait();
+  HostPass pass(context);
+  const SolvePush push = rowsToSum(pass, work, input, output, light, record);
+  const FacetArrays facets = facets_.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
+  MatrixArrays matrix = MatrixRecord(pass.in(matrix_.record)).at[0];
+  std::vector<UintArray> segments;
+  for (const Buffer& segment : matrix_.segments) segments.emplace_back(pass.in(segment));
+  matrix.segments = SegmentArray(segments.data());
+  matrix.rowStart = pass.in(matrix_.rowStart);
+  matrix.rowInfo = pass.in(matrix_.rowInfo);
+  const SolveWork how{work, static_cast<bool>(light.sky), static_cast<bool>(light.writeback.used)};
+  timedOnHost(context, stage, [&] {
+    sweepOnHost(push, matrix, facets, how, matrix_.tinted);
+    pass.finish();
+  });
+  frame = context.begin();
+}
+
+void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
+                   const Lighting& light, uint32_t record) {
+  if (onHost_) return sweepByHost(frame, stage, work, input, output, light, record);
+  Pass pass = frame.pass(stage);
+  SolvePush push = rowsToSum(pass, work, input, output, light, record);
+  push.matrix = pass.in(matrix_.record);
+  push.facets = pass.in(facets_.record);
   pass.constant(CONSTANT_MATRIX_FORMAT, matrix_.format)
       .constant(CONSTANT_TINTED, matrix_.tinted)
       .constant(CONSTANT_SOLVE_WORK, work)
@@ -90,13 +102,7 @@ void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer&
       .push(push);
   switch (work == SOLVE_GAINS ? gains_ : kernel_) {
     case SolverKernel::row:
-      if (images_) {
-        pass.read(vectors_[current_]).write(vectors_[1 - current_]);
-        pass.shader("gi/solve_row_image.comp").dispatch(matrix_.rows);
-        current_ = 1 - current_;
-      } else {
-        pass.shader("gi/solve_row.comp").dispatch(matrix_.rows);
-      }
+      pass.shader("gi/solve_row.comp").dispatch(matrix_.rows);
       break;
     case SolverKernel::tree:
       pass.shader("thesis/solve_tree.comp").dispatchWorkgroups(matrix_.rows);

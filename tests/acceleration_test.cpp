@@ -277,7 +277,8 @@ TEST_F(AccelerationTest, EndsWithinItsBoundOfADirectSolve) {
 TEST_F(AccelerationTest, KernelsAgree) {
   const System s = randomSystem(9, 0.5f, 0.95f);
   const Exact exact = solveExactly(s);
-  for (const SolverKernel kernel : {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row}) {
+  for (const SolverKernel kernel :
+       {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row, SolverKernel::automatic}) {
     Stage at = stage(s, SolverAcceleration::anderson, kernel);
     at.settings.solver.tolerance = 1e-5f;
     EXPECT_TRUE(run(at).converged);

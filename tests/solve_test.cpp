@@ -130,7 +130,8 @@ TEST_F(Solve, SweepsEqualTheOracle) {
       rows.push_back({r.columns, {}});
       for (const uint32_t h : r.hits) rows.back().weights.push_back(h * double{r.weight});
     }
-    for (const SolverKernel kernel : {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row}) {
+    for (const SolverKernel kernel :
+         {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row, SolverKernel::automatic}) {
       settings.solver.kernel = kernel;
       settings.solver.gpu = {0.8f, 0.7f, 1e-12f};
       Lighting light = makeLighting(context(), w.facets, settings);

@@ -51,7 +51,8 @@ TEST_F(Watch, AWrongNumberIsTracedToItsStageAndFacet) {
   const uint32_t bad = w.facets.count / 3;
   ASSERT_EQ(emission[bad], glm::vec3(0)) << "a lamp's facet: choose another";
 
-  for (const SolverKernel kernel : {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row})
+  for (const SolverKernel kernel :
+       {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row, SolverKernel::automatic})
     for (const auto& [value, word] : {std::pair{kNan, "NaN"}, {kInf, "infinite"}, {-1.0f, "negative"}}) {
       settings.solver.kernel = kernel;
       Lighting light = makeLighting(context(), w.facets, settings);

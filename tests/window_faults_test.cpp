@@ -122,7 +122,7 @@ TEST_F(WindowFaultsTest, ADroppedPictureOfTheSphereIsTheSky) {
 }
 
 TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
-  const std::filesystem::path shaders = copyShaders({"gi/facet_mean.comp", "gi/gather.comp"});
+  const std::filesystem::path shaders = copyShaders({"gi/piece_shade.comp", "gi/gather.comp"});
   start({"--shaders", shaders.string(), "--view", "voxel-albedo"});
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
@@ -132,26 +132,25 @@ TEST_F(WindowFaultsTest, ReloadsShadersAndWhatTheyMade) {
   EXPECT_TRUE(says("no shader has changed"));
 
   // An error: the message names file and line, the old shaders stay.
-  const std::filesystem::path facets = shaders / "gi/facet_mean.comp";
-  const std::string good = slurp(facets);
-  std::ofstream(facets) << good << "\nmistake\n";
+  const std::filesystem::path shading = shaders / "gi/piece_shade.comp";
+  const std::string good = slurp(shading);
+  std::ofstream(shading) << good << "\nmistake\n";
   key("F5");
   EXPECT_TRUE(says("The old shaders stay in use"));
-  EXPECT_TRUE(says("facet_mean.comp")) << window_->log();
+  EXPECT_TRUE(says("piece_shade.comp")) << window_->log();
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }));
 
   // A voxelization shader: the voxels are made anew, and everything after them.
-  const std::string included = "#include \"gi/";  // the first of these
+  const std::string written = "push.albedo.at[piece] = albedo";
   std::string changed = good;
-  ASSERT_NE(changed.find(included), std::string::npos);
-  changed.insert(changed.find(included),
-                 "#include \"shared/facets.h\"\n#define packAlbedo(a) packAlbedo(vec3(0.9, 0.1, 0.5) * (a))\n");
-  std::ofstream(facets) << changed;
+  ASSERT_NE(changed.find(written), std::string::npos);
+  changed.insert(changed.find(written) + written.size(), " * vec3(0.9, 0.1, 0.5)");
+  std::ofstream(shading) << changed;
   key("F5");
-  EXPECT_TRUE(says("Compiled again: gi/facet_mean.comp"));
+  EXPECT_TRUE(says("Compiled again: gi/piece_shade.comp"));
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.5; }))
       << "the voxels keep what the old shader made of them";
-  std::ofstream(facets) << good;
+  std::ofstream(shading) << good;
   key("F5");
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p == first; }))
       << "the first picture did not come back with its shader";

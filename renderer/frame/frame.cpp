@@ -33,6 +33,12 @@ void everythingBarrier(VkCommandBuffer commands) {
 
 Frame::Frame(Frame&&) noexcept = default;
 
+Frame& Frame::operator=(Frame&& other) noexcept {
+  Frame dropped(std::move(*this));
+  impl_ = std::move(other.impl_);
+  return *this;
+}
+
 Frame::~Frame() {
   if (!impl_ || !impl_->slot) return;
   // Dropped: run what was recorded, deliver nothing.

@@ -36,6 +36,7 @@ class Frame {
   VkCommandBuffer commands() const;
   ~Frame();
   Frame(Frame&&) noexcept;
+  Frame& operator=(Frame&&) noexcept;  ///< what is overwritten is dropped
 
  private:
   friend class Context;

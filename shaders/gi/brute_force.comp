@@ -77,7 +77,7 @@ Watch finishFacet(FacetArrays f, uint facet, Brought sum) {
 
   Watch w = NOTHING;
   watchLight(w, source, mean, radiosity);
-  if (w.nonFinite == 0u) w.gain = p.lambda * largest(rho) * float(sum.met) * weight;
+  if (w.nonFinite == 0u) w.gain = p.lambda * largestOf(rho) * float(sum.met) * weight;
   return w;
 }
 
@@ -92,15 +92,7 @@ void main() {
     if (EMITTED) sum.emitted = subgroupAdd(sum.emitted);
     sum.met = subgroupAdd(sum.met);
     sum.counted = subgroupAdd(sum.counted);
-    if (subgroupElect()) {
-      Watch next = finishFacet(f, p.firstFacet + i, sum);
-      w.h = max(w.h, next.h);
-      w.gain = max(w.gain, next.gain);
-      w.source = max(w.source, next.source);
-      w.nonFinite += next.nonFinite;
-      w.nan += next.nan;
-      w.negative += next.negative;
-    }
+    if (subgroupElect()) addWatch(w, finishFacet(f, p.firstFacet + i, sum));
   }
   reduceWatch(w, p.residual, /*gains=*/false);
 }

@@ -1,46 +1,11 @@
-// Attributes of each facet, weighted by the areas of the pieces that it is made of (docs/method.md 4).
+// meanFacet() of every facet.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gi/facet_points.h"
-#include "gi/surface_point.h"
+#include "gi/facet_mean.h"
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { FacetMeanPush push; };
 
 void main() {
   uint facet = irad_index();
-  if (facet >= push.count) return;
-  SurfaceArrays surface = push.surface.at[0];
-  uvec3 voxel = unpackVoxel(push.voxel.at[facet]);
-  uint entry = push.reverse.at[voxelIndex(voxel, push.dims)];
-
-  // Normal and plane from the surfels, which stand for equal areas.
-  vec3 normal = vec3(0.0), middle = vec3(0.0);
-  FacetSurfels surfels = surfelsOf(surface, facet);
-  for (uint k = 0u; k < FACET_SURFELS; ++k) {
-    SurfelPoint s = surfelOf(surface, surfels, k);
-    normal += s.facing;
-    middle += s.position - vec3(voxel) - 0.5;
-  }
-  normal = normalize(normal);
-  uint code = encodeNormal(normal, push.encoding);
-  float offset = dot(middle * (1.0 / float(FACET_SURFELS)), decodeNormal(code, push.encoding));
-  push.shape.at[facet] = code | packFacetOffset(offset);
-
-  // Running means: those of equal values are these values to the bit. (A quotient of equal numbers need not be 1.)
-  vec3 albedo = vec3(0.0), emission = vec3(0.0);
-  float weights = 0.0;
-  FacetPoints points = pointsOf(surface, push.firstPoint, facet, entry);
-  for (uint i = points.first; i < points.end; ++i) {
-    if ((push.classes.at[i] & ~CLASS_LEADER) != points.own) continue;
-    PiecePoint p = push.points.at[i];
-    float weight = push.pointArea.at[i];
-    if (!(weight > 0.0)) continue;
-    uint piece = p.side & ~SURFEL_BACK;
-    weights += weight;
-    float share = weights > weight ? weight / weights : 1.0;
-    albedo += share * (push.pieceAlbedo.at[piece] - albedo);
-    if (push.hasEmission != 0u) emission += share * (push.pieceEmission.at[piece] - emission);
-  }
-  push.albedo.at[facet] = packAlbedo(albedo);
-  if (push.hasEmission != 0u) push.emission.at[facet] = emission;
+  if (facet < push.count) meanFacet(push, push.surface.at[0], facet);
 }

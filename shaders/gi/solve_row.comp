@@ -11,7 +11,7 @@ void main() {
   Watch w = NOTHING;
   if (row < m.rows) {
     Row r = openRow(m, row);
-    Sum sum = NO_SUM;
+    RowSum sum = NO_SUM;
     for (uint i = 0u; i < r.count; ++i) addEntry(sum, r, m.columnBits, i);
     w = finishRow(row, sum, r.weight);
   }

@@ -12,24 +12,12 @@ void main() {
   Watch w = NOTHING;
   for (uint row = group * gl_NumSubgroups + gl_SubgroupID; row < m.rows; row += subgroups) {
     Row r = openRow(m, row);
-    Sum sum = NO_SUM;
+    RowSum sum = NO_SUM;
     for (uint i = gl_SubgroupInvocationID; i < r.count; i += gl_SubgroupSize) addEntry(sum, r, m.columnBits, i);
     sum.light.xyz = subgroupAdd(sum.light.xyz);
     if (WATCHES) sum.row = subgroupAdd(sum.row);
     if (GAINS) sum.light.w = subgroupAdd(sum.light.w);
-    if (subgroupElect()) {
-      Watch next = finishRow(row, sum, r.weight);
-      w.delta = max(w.delta, next.delta);
-      w.h = max(w.h, next.h);
-      w.gain = max(w.gain, next.gain);
-      w.source = max(w.source, next.source);
-      w.rise = max(w.rise, next.rise);
-      w.fall = max(w.fall, next.fall);
-      w.reach = max(w.reach, next.reach);
-      w.nonFinite += next.nonFinite;
-      w.nan += next.nan;
-      w.negative += next.negative;
-    }
+    if (subgroupElect()) addWatch(w, finishRow(row, sum, r.weight));
   }
   report(w);
 }

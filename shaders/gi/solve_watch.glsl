@@ -1,31 +1,9 @@
-// What a pass over the facets' light reduces into a SolveResidual: the largest values, and what is no light at all.
+// What invocations have found (gi/solve_watch.h), reduced into a SolveResidual.
 #ifndef IRAD_SOLVE_WATCH_GLSL
 #define IRAD_SOLVE_WATCH_GLSL
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "gi/solve_watch.h"
 #include "shared/solve.h"
-
-/// What a row hands to the reductions.
-struct Watch {
-  float delta, h, gain, source, rise, fall, reach;
-  uint nonFinite, nan, negative;
-};
-const Watch NOTHING = Watch(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u, 0u, 0u);
-
-uint trues(bvec3 b) { return uint(b.x) + uint(b.y) + uint(b.z); }
-
-float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
-
-/// What is wrong with a row's new light, and how large it is.
-void watchLight(inout Watch w, vec3 source, vec3 h, vec3 radiosity) {
-  w.nan = trues(isnan(radiosity));
-  w.nonFinite = w.nan + trues(isinf(radiosity));
-  w.negative = trues(lessThan(min(min(source, h), radiosity), vec3(0.0f)));
-  // A maximum with NaN may be either operand, so what is not finite is counted and left out.
-  if (w.nonFinite == 0u) {
-    w.h = largest(abs(h));
-    w.source = largest(abs(source));
-  }
-}
 
 /// All invocations of the subgroup that are still here call this once. `gains`: rise, fall and reach, too.
 void reduceWatch(Watch w, ResidualArray r, bool gains) {

@@ -29,7 +29,7 @@ IRAD_CONST uint SOLVE_RESIDUALS = 16u;     ///< sweeps of a submission at most: 
 IRAD_CONST float SOLVE_REACH_MAX = 1e20f;  ///< a larger v is given up, and a rise that is no number is this
 IRAD_ARRAY(ResidualArray, SolveResidual, 16)
 
-// Specialization constant 1 of gi/solve_*.comp (0: the matrix's format): what is computed.
+// What a sweep computes.
 IRAD_CONST uint SOLVE_SWEEP = 0u;    ///< H = F B, then B'; v stays
 IRAD_CONST uint SOLVE_WATCH = 1u;    ///< the same with the reductions of SolveResidual, but for those of v
 IRAD_CONST uint SOLVE_PRODUCT = 2u;  ///< output = F input alone
@@ -50,17 +50,6 @@ struct SolvePush {
   float lambda, omega, flush;
   float correctionGain;  ///< the factor on M in B, and so on the correction to F B. 0: there is none
 };
-
-/// gi/solve_image.comp: a vector of facets as an image, row by row.
-struct SolveImagePush {
-  Vec4Array vector;
-  uint count;
-  uint pad;
-};
-IRAD_CONST uint SOLVE_IMAGE_WIDTH = 1024u;
-IRAD_FN ivec2 solveTexel(uint i) {
-  return ivec2(int(i % SOLVE_IMAGE_WIDTH), int(i / SOLVE_IMAGE_WIDTH));
-}
 
 // Acceleration (docs/method.md 1): x_0 ... x_n are B, v before and after n sweeps, r_j = x_j+1 - x_j.
 IRAD_CONST uint SOLVE_VECTORS = 4u;  ///< n at most

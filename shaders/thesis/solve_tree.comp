@@ -13,7 +13,7 @@ void main() {
   if (row >= m.rows) return;
   uint me = gl_LocalInvocationID.x;
   Row r = openRow(m, row);
-  Sum sum = NO_SUM;
+  RowSum sum = NO_SUM;
   for (uint i = me; i < r.count; i += 64u) addEntry(sum, r, m.columnBits, i);
   partial[me] = vec4(sum.light.xyz, sum.row);
   barrier();
@@ -22,7 +22,7 @@ void main() {
     barrier();
   }
   if (me == 0u) {
-    Watch w = finishRow(row, Sum(vec4(partial[0].xyz, 0.0f), partial[0].w), r.weight);
+    Watch w = finishRow(row, RowSum(vec4(partial[0].xyz, 0.0f), partial[0].w), r.weight);
     report(w);
   }
 }
