@@ -9,10 +9,12 @@
 #include "gi/facets.h"
 #include "gi/grid.h"
 #include "gi/group_by_material.h"
+#include "gi/host_pass.h"
 #include "gi/scan.h"
 #include "gi/scene_shape.h"
 #include "gi/settings.h"
 #include "gi/subsystems.h"
+#include "gi/surface_on_host.h"
 #include "gi/surface_steps.h"
 #include "gi/voxel_pass.h"
 #include "renderer/base/error.h"
@@ -33,19 +35,40 @@ void makeRecord(Context& context, FacetList& list) {
 }
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
-void listOrCount(Frame& frame, const SceneOnDevice& scene, const Buffer& grid, const Buffer& corners,
+/// The host does so at once: the frame is submitted before, and then begun anew.
+void listOrCount(Frame& frame, ListedBy by, const SceneOnDevice& scene, const Buffer& grid, const Buffer& corners,
                  const Tiles& tiles, const std::vector<TriangleRange>& ranges, const Buffer& counts,
                  const Buffer* pieces) {
   if (ranges.empty()) return;
-  Pass pass = frame.pass(kVoxelizeStage);
   ListPiecesPush push{};
-  push.scene = pass.in(scene.record);
-  push.grid = pass.in(grid);
-  push.corners = pass.in(corners);
-  push.tileStart = pass.in(tiles.starts);
-  push.counts = pass.accumulate(counts);
-  if (pieces) push.pieces = pass.accumulate(*pieces);
   push.lists = pieces != nullptr;
+  const auto take = [&](auto& pass) {
+    push.grid = pass.in(grid);
+    push.corners = pass.in(corners);
+    push.counts = pass.accumulate(counts);
+    if (pieces) push.pieces = pass.accumulate(*pieces);
+  };
+  if (by == ListedBy::host) {
+    Context& context = frame.context();
+    frame.submitAndWait();
+    HostPass pass(context);
+    take(pass);
+    GpuScene record{};
+    record.positions = pass.in(scene.positions);
+    record.indices = pass.in(scene.indices);
+    push.scene = SceneArray(&record);
+    push.endTriangle = scene.scene.triangleCount();
+    timedOnHost(context, kVoxelizeStage, [&] {
+      listPiecesOnHost(push);
+      pass.finish();
+    });
+    frame = context.begin();
+    return;
+  }
+  Pass pass = frame.pass(kVoxelizeStage);
+  take(pass);
+  push.scene = pass.in(scene.record);
+  push.tileStart = pass.in(tiles.starts);
   // Its polygons stay in shared memory on GPUs, too: it is faster so.
   pass.shader("gi/list_pieces.comp").run([&](Commands& commands) {
     for (size_t i = 0; i < ranges.size(); ++i) {
@@ -72,7 +95,7 @@ SurfacePieces listPieces(Context& context, ListedBy by, const SceneOnDevice& sce
   const Device& device = context.device;
   SurfacePieces p;
   const auto ranges = scene.scene.triangleCount() > 0 ? triangleRanges(scene) : std::vector<TriangleRange>{};
-  const Tiles tiles = ranges.empty() ? Tiles{} : countTiles(context, scene, gridRecord, ranges);
+  const Tiles tiles = ranges.empty() || by == ListedBy::host ? Tiles{} : countTiles(context, scene, gridRecord, ranges);
   Buffer counts = facetWords(device, "pieces of voxels", grid.voxels);
   SolidPush push{};
   push.blocks = 1u << (grid.mortonBits.x + grid.mortonBits.y + grid.mortonBits.z - 6);
@@ -84,7 +107,7 @@ SurfacePieces listPieces(Context& context, ListedBy by, const SceneOnDevice& sce
     Frame frame = context.begin();
     frame.pass(kVoxelizeStage).fill(counts, 0);
     frame.pass(kVoxelizeStage).fill(most, 0);
-    listOrCount(frame, scene, gridRecord, corners, tiles, ranges, counts, nullptr);
+    listOrCount(frame, by, scene, gridRecord, corners, tiles, ranges, counts, nullptr);
     Pass pass = frame.pass(kListStage);
     push.grid = pass.in(gridRecord);
     push.counts = pass.in(counts);
@@ -128,7 +151,7 @@ SurfacePieces listPieces(Context& context, ListedBy by, const SceneOnDevice& sce
     push.solid = pass.out(p.voxel);
     push.firstPiece = pass.out(p.first);
     pass.shader("gi/solid_emit.comp").push(push).dispatch(push.blocks);
-    listOrCount(frame, scene, gridRecord, corners, tiles, ranges, counts, &unsorted);
+    listOrCount(frame, by, scene, gridRecord, corners, tiles, ranges, counts, &unsorted);
     frame.submit();
   }
   if (p.count > 0) sortAndShape(context, by, corners, unsorted, p);

@@ -10,6 +10,7 @@
 #include "shaders/gi/facet_mean.h"
 #include "shaders/gi/facet_surfels.h"
 #include "shaders/gi/links.h"
+#include "shaders/gi/list_pieces.h"
 #include "shaders/gi/piece_points.h"
 #include "shaders/gi/piece_shape.h"
 #include "shaders/gi/piece_sides.h"
@@ -213,6 +214,21 @@ class FacetLinker {
 };
 
 }  // namespace
+
+void listPiecesOnHost(const ListPiecesPush& push) {
+  const glm::uvec3 dims = push.grid.at[0].dims;
+  const auto list = [&](size_t i) {
+    const uint32_t triangle = push.firstTriangle + static_cast<uint32_t>(i);
+    if (firstInPlace(push.corners, triangle) != triangle) return;
+    const VoxelTriangle t = loadTriangle(push.scene, push.grid, triangle);
+    glm::ivec3 lo, hi;
+    if (degenerate(t) || !cellBounds(t, dims, lo, hi)) return;
+    lo = dominantLast(lo, t.axis);
+    hi = dominantLast(hi, t.axis);
+    listPieces(push, t, triangle, dims, lo, hi, glm::ivec2(lo), glm::ivec2(hi));
+  };
+  parallelFor(push.endTriangle - push.firstTriangle, list, /*threads=*/0, kVoxelBlock);
+}
 
 void sortPiecesOnHost(const SortPiecesPush& push) {
   const auto sort = [&](size_t voxel) {

@@ -7,6 +7,8 @@
 
 namespace irad {
 
+/// gi/list_pieces.comp, of the triangles from push.firstTriangle on; there are no tiles.
+void listPiecesOnHost(const ListPiecesPush& push);
 /// gi/sort_pieces.comp.
 void sortPiecesOnHost(const SortPiecesPush& push);
 /// gi/piece_shape.comp.

@@ -5,6 +5,7 @@
 
 #ifdef __cplusplus
 
+#include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -25,6 +26,8 @@ class SharedArray {
   SharedArray(uint64_t deviceAddress) : at(reinterpret_cast<T*>(deviceAddress)) {}
   explicit SharedArray(T* hostArray) : at(hostArray) {}
 };
+/// GLSL's, for threads of the host.
+inline uint atomicAdd(uint& at, uint value) { return std::atomic_ref(at).fetch_add(value, std::memory_order_relaxed); }
 }  // namespace irad
 
 #define IRAD_BEGIN namespace irad {
