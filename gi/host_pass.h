@@ -17,19 +17,20 @@ class Context;
 /// Work of the host, as the time of a stage.
 void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
 
-/// As a Pass (renderer/frame/pass.h) gives out addresses, which hold as long as it lives. Blocking: nothing that uses
-/// the buffers may be recorded and not submitted.
+/// As a Pass (renderer/frame/pass.h) gives out addresses, which hold as long as it lives.
 class HostPass {
  public:
   explicit HostPass(Context& context) : context_(context) {}
   HostPass(const HostPass&) = delete;
   HostPass& operator=(const HostPass&) = delete;
   uint64_t in(const Buffer& buffer) { return addressOf(buffer, /*written=*/false); }
-  /// Read, and written: finish() gives the device what is there then.
-  uint64_t out(const Buffer& buffer, uint64_t offset = 0) { return addressOf(buffer, /*written=*/true) + offset; }
   uint64_t inIfAny(const Buffer& buffer) { return buffer ? in(buffer) : 0; }
+  /// Read, and written.
+  uint64_t out(const Buffer& buffer, uint64_t offset = 0) { return addressOf(buffer, /*written=*/true) + offset; }
   uint64_t accumulate(const Buffer& buffer) { return out(buffer); }
-  void finish();
+  /// The work, as the time of a stage: what lies at the addresses is there now. Blocking: nothing that uses the buffers
+  /// may be recorded and not submitted.
+  void run(const char* stage, const std::function<void()>& work);
 
  private:
   struct Used {
@@ -38,6 +39,8 @@ class HostPass {
     bool written = false;
   };
   uint64_t addressOf(const Buffer& buffer, bool written);
+  void receive();   ///< from the device
+  void giveBack();  ///< what was written
   Context& context_;
   std::list<Used> used_;
 };

@@ -58,10 +58,7 @@ void listOrCount(Frame& frame, ListedBy by, const SceneOnDevice& scene, const Bu
     record.indices = pass.in(scene.indices);
     push.scene = SceneArray(&record);
     push.endTriangle = scene.scene.triangleCount();
-    timedOnHost(context, kVoxelizeStage, [&] {
-      listPiecesOnHost(push);
-      pass.finish();
-    });
+    pass.run(kVoxelizeStage, [&] { listPiecesOnHost(push); });
     frame = context.begin();
     return;
   }

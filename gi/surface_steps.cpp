@@ -156,10 +156,9 @@ void sortAndShape(Context& context, ListedBy by, const Buffer& corners, const Bu
     HostPass pass(context);
     const SortPiecesPush sort = piecesToSort(pass, corners, unsorted, p);
     const PieceShapePush shape = piecesToShape(pass, corners, p);
-    timedOnHost(context, kListStage, [&] {
+    pass.run(kListStage, [&] {
       sortPiecesOnHost(sort);
       shapePiecesOnHost(shape);
-      pass.finish();
     });
     return;
   }
@@ -184,10 +183,9 @@ void findClasses(Context& context, ListedBy by, const SurfacePieces& pieces, con
     const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
     const PiecePointsPush points = piecesWithPoints(pass, pieces, list.surface, p);
     const ClassPointsPush classes = classPoints(pass, pieces, p);
-    timedOnHost(context, kListStage, [&] {
+    pass.run(kListStage, [&] {
       findPointsOnHost(points, surface);
       classPointsOnHost(classes, surface);
-      pass.finish();
     });
     return;
   }
@@ -235,10 +233,9 @@ void fillFacets(Context& context, ListedBy by, const Buffer& gridRecord, const S
     const PieceSidesPush sides = sidesToFind(pass, gridRecord, pieces, points, list);
     const FacetSurfelsPush surfels = surfelsToPlace(pass, pieces, points, list, facings);
     const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
-    timedOnHost(context, kListStage, [&] {
+    pass.run(kListStage, [&] {
       findSidesOnHost(sides, arrays);
       placeSurfelsOnHost(surfels, arrays);
-      pass.finish();
     });
     return;
   }
@@ -263,11 +260,10 @@ void findLinks(Context& context, ListedBy by, const FacetList& list, const Buffe
     HostPass pass(context);
     LinkFacetsPush push = facetsToLink(pass, list, facings, found);
     const SurfaceArrays arrays = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
-    timedOnHost(context, kListStage, [&] {
+    pass.run(kListStage, [&] {
       std::vector<glm::vec4> points(surfels);
       push.points = Vec4Array(points.data());
       linkFacetsOnHost(push, arrays);
-      pass.finish();
     });
     return;
   }
@@ -295,10 +291,7 @@ void meanFacets(Context& context, ListedBy by, const char* stage, const FacetPar
     HostPass pass(context);
     const SurfaceArrays surface = surfaceArrays(list, [&](const Buffer& b) { return pass.in(b); });
     const FacetMeanPush push = facetsToMean(pass, parts, list, pieceAlbedo, pieceEmission);
-    timedOnHost(context, stage, [&] {
-      meanFacetsOnHost(push, surface);
-      pass.finish();
-    });
+    pass.run(stage, [&] { meanFacetsOnHost(push, surface); });
     return;
   }
   Frame frame = context.begin();

@@ -73,16 +73,18 @@ void Sweep::sweepByHost(Frame& frame, const char* stage, uint32_t work, const Bu
   HostPass pass(context);
   const SolvePush push = rowsToSum(pass, work, input, output, light, record);
   const FacetArrays facets = facets_.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
-  MatrixArrays matrix = MatrixRecord(pass.in(matrix_.record)).at[0];
+  const MatrixRecord arrays(pass.in(matrix_.record));
   std::vector<UintArray> segments;
   for (const Buffer& segment : matrix_.segments) segments.emplace_back(pass.in(segment));
-  matrix.segments = SegmentArray(segments.data());
-  matrix.rowStart = pass.in(matrix_.rowStart);
-  matrix.rowInfo = pass.in(matrix_.rowInfo);
+  const UintArray rowStart(pass.in(matrix_.rowStart));
+  const Uvec2Array rowInfo(pass.in(matrix_.rowInfo));
   const SolveWork how{work, static_cast<bool>(light.sky), static_cast<bool>(light.writeback.used)};
-  timedOnHost(context, stage, [&] {
+  pass.run(stage, [&] {
+    MatrixArrays matrix = arrays.at[0];
+    matrix.segments = SegmentArray(segments.data());
+    matrix.rowStart = rowStart;
+    matrix.rowInfo = rowInfo;
     sweepOnHost(push, matrix, facets, how, matrix_.tinted);
-    pass.finish();
   });
   frame = context.begin();
 }

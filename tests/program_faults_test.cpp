@@ -72,7 +72,7 @@ TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
   // In the load, in the building, and (of 100 frames) in those of the second picture.
   const std::vector<Case> cases{{"oom=1", 4, "(scene) needs"},          {"oom=60", 4, ") needs "},
                                 {"lost=1", 1, "the device was lost"},   {"lost=60", 1, "the device was lost"},
-                                {"lost=260", 1, "the device was lost"}, {"oom=100000", 0, ""}};
+                                {"lost=360", 1, "the device was lost"}, {"oom=100000", 0, ""}};
   for (const Case& c : cases) {
     const fs::path out = folder.path / c.fault;
     const RunResult result = startIrad(render(out, {"--inject", c.fault, "--validate"}), 120);
@@ -84,7 +84,7 @@ TEST(ProgramFaults, NoMemoryIsStatus4AndALostDeviceStatus1) {
     const auto files = contents(out);
     expectWhole(files, reference);
     EXPECT_EQ(files.contains("manifest.json"), c.status == 0) << c.fault;
-    EXPECT_EQ(files.empty(), c.status != 0 && c.fault != "lost=260") << c.fault;
+    EXPECT_EQ(files.empty(), c.status != 0 && c.fault != "lost=360") << c.fault;
     EXPECT_TRUE(std::none_of(files.begin(), files.end(), [](const auto& f) { return isTemporary(f.first); }))
         << c.fault;
   }
