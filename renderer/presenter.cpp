@@ -227,9 +227,12 @@ bool Presenter::poll(double waitSeconds) {
 bool Presenter::acquire() {
   Impl& p = *impl_;
   IRAD_CHECK(p.context, "the presenter is not attached");
-  if (p.acquired) return true;  // the last one was not presented
   const glm::uvec2 size = p.size();
   if (size.x == 0 || size.y == 0) return false;
+  if (p.acquired) {  // the last one was not presented
+    if (p.extent.width == size.x && p.extent.height == size.y) return true;
+    p.outdated = true;
+  }
   for (int attempt = 0; attempt < 4; ++attempt) {
     if ((p.outdated || p.surfaceLost || !p.swapchain) && !p.rebuild()) return false;
     VkSemaphore semaphore = VK_NULL_HANDLE;

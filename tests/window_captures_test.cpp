@@ -38,6 +38,7 @@ std::string clipboard(const std::string& display) {
 
 class WindowCapturesTest : public WindowTest {
  protected:
+  WindowCapturesTest() { windowSize_ = kLow; }
   std::filesystem::path out_ = folder_.path / "out";
 
   void begin(std::vector<std::string> more = {}) {

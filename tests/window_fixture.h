@@ -19,6 +19,8 @@ class WindowTest : public ::testing::Test {
  protected:
   static constexpr const char* kWidePanels = R"("left": 370, "right": 320, "bottom": 288, )";
   bool exposesFiles_ = false;  ///< as the window does where no exposure is given
+  /// Three quarters of the pixels, of window and picture; of panels more has to be scrolled.
+  static constexpr const char* kLow = "1280x560";
   std::string windowSize_ = "1280x720";
   std::string detail_ = "16";  ///< voxels along the Box, and rays of a facet
   /// Panels at the sizes of a first start. Otherwise fold() makes them wide: most of what a window takes on a CPU

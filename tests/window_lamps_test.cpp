@@ -12,6 +12,7 @@ namespace {
 
 class WindowLampsTest : public WindowTest {
  protected:
+  WindowLampsTest() { windowSize_ = kLow; }
   void begin() {
     fold(
         R"(["Accuracy", "Settings", "Scene", "Effects", "View", "Materials", "Inspector", "Compare", "Solver", "Memory",

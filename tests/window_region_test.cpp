@@ -10,6 +10,7 @@ namespace {
 
 class WindowRegionTest : public WindowTest {
  protected:
+  WindowRegionTest() { windowSize_ = kLow; }
   /// What the panel Scene says of `name`.
   std::string row(const std::string& name) {
     for (const Control& c : controls())

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -18,7 +19,26 @@ namespace irad {
 static_assert(sizeof(UiVertex) == sizeof(ImDrawVert));
 static_assert(sizeof(UiDraw) <= 128);
 
-ImGuiLayer::ImGuiLayer(Context& context, GLFWwindow* window) : context_(context) {
+/// Of a frame, its lists one after another.
+struct ImGuiLayer::Triangles {
+  struct Range {
+    uint32_t first, count, texture;
+    VkImage image;
+    ImageUse use;
+    glm::vec4 clip;
+    bool operator==(const Range&) const = default;
+  };
+  std::vector<ImDrawVert> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<Range> ranges;
+  bool operator==(const Triangles& other) const {
+    return ranges == other.ranges && indices == other.indices && vertices.size() == other.vertices.size() &&
+           std::memcmp(vertices.data(), other.vertices.data(), vertices.size() * sizeof(ImDrawVert)) == 0;
+  }
+};
+
+ImGuiLayer::ImGuiLayer(Context& context, GLFWwindow* window)
+    : context_(context), ended_(std::make_unique<Triangles>()), drawn_(std::make_unique<Triangles>()) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
@@ -106,37 +126,46 @@ void* ImGuiLayer::texture(const Image& image, ImageUse use) {
   return reinterpret_cast<void*>(textures_.size() - 1);
 }
 
-void ImGuiLayer::draw(Frame& frame, const Image& target) {
+bool ImGuiLayer::endFrame() {
   ImGui::Render();
   const ImDrawData& data = *ImGui::GetDrawData();
 
   // All lists into one vertex and one index array; indices are made absolute on the way.
-  const auto vertexCount = static_cast<size_t>(data.TotalVtxCount),
-             indexCount = static_cast<size_t>(data.TotalIdxCount);
-  const Buffer& vertices = frame.hostFilled("ui vertices", Subsystem::Ui, vertexCount * sizeof(ImDrawVert));
-  const Buffer& indices = frame.hostFilled("ui indices", Subsystem::Ui, indexCount * sizeof(uint32_t));
-  struct Range {
-    uint32_t first, count, texture;
-    ImVec4 clip;
-  };
-  std::vector<Range> ranges;
-  uint32_t base = 0, first = 0;
+  Triangles& t = *ended_;
+  t.vertices.clear();
+  t.indices.clear();
+  t.ranges.clear();
   for (int l = 0; l < data.CmdListsCount; ++l) {
     const ImDrawList& list = *data.CmdLists[l];
-    const auto count = static_cast<uint32_t>(list.VtxBuffer.Size);
-    if (count > 0)
-      std::memcpy(static_cast<ImDrawVert*>(vertices.mapped) + base, list.VtxBuffer.Data, count * sizeof(ImDrawVert));
+    const auto base = static_cast<uint32_t>(t.vertices.size());
+    t.vertices.insert(t.vertices.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
     for (const ImDrawCmd& command : list.CmdBuffer) {
       if (command.UserCallback) continue;  // none is installed
-      ranges.push_back({first, command.ElemCount, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(command.TextureId)),
-                        command.ClipRect});
-      uint32_t* to = static_cast<uint32_t*>(indices.mapped) + first;
+      const auto texture = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(command.TextureId));
+      const Texture& shown = textures_.at(texture);
+      const ImVec4& clip = command.ClipRect;
+      t.ranges.push_back({static_cast<uint32_t>(t.indices.size()),
+                          command.ElemCount,
+                          texture,
+                          shown.image->handle,
+                          shown.use,
+                          {clip.x, clip.y, clip.z, clip.w}});
       const ImDrawIdx* from = list.IdxBuffer.Data + command.IdxOffset;
-      for (uint32_t i = 0; i < command.ElemCount; ++i) to[i] = base + command.VtxOffset + from[i];
-      first += command.ElemCount;
+      for (uint32_t i = 0; i < command.ElemCount; ++i) t.indices.push_back(base + command.VtxOffset + from[i]);
     }
-    base += count;
   }
+  return t != *drawn_;
+}
+
+void ImGuiLayer::draw(Frame& frame, const Image& target) {
+  const auto filled = [&](const char* name, const auto& values) -> const Buffer& {
+    const size_t bytes = values.size() * sizeof(values[0]);
+    const Buffer& buffer = frame.hostFilled(name, Subsystem::Ui, bytes);
+    if (bytes > 0) std::memcpy(buffer.mapped, values.data(), bytes);
+    return buffer;
+  };
+  const Buffer &vertices = filled("ui vertices", ended_->vertices), &indices = filled("ui indices", ended_->indices);
+  const std::vector<Triangles::Range>& ranges = ended_->ranges;
 
   // Where a run of draws with one image begins, a pass begins: there is no descriptor indexing on Mesa's CPU driver,
   // and a branch over images would have it sample each of them.
@@ -157,7 +186,7 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
     const uint64_t vertexArray = pass.in(vertices), indexArray = pass.in(indices);
     pass.run([&](Commands& commands) {
       for (size_t i = begin; i < end; ++i) {
-        const Range& range = ranges[i];
+        const Triangles::Range& range = ranges[i];
         const glm::vec2 low = glm::max(glm::floor(glm::vec2(range.clip.x, range.clip.y)), glm::vec2(0.0f));
         const glm::vec2 high = glm::min(glm::ceil(glm::vec2(range.clip.z, range.clip.w)), size);
         if (range.count == 0 || high.x <= low.x || high.y <= low.y) continue;
@@ -168,6 +197,7 @@ void ImGuiLayer::draw(Frame& frame, const Image& target) {
       }
     });
   }
+  std::swap(ended_, drawn_);
 }
 
 }  // namespace irad

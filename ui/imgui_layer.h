@@ -20,6 +20,7 @@ inline constexpr SubsystemName Ui{"ui"};
 struct ImageUse {
   bool blends = false;   ///< by its alpha, which pictures have for other ends
   bool nearest = false;  ///< its texels are told apart, however large they are shown
+  bool operator==(const ImageUse&) const = default;
 };
 
 /// A picture for texture(), of bytes as screens show them, top row first. Between frames.
@@ -42,11 +43,15 @@ class ImGuiLayer {
   void beginFrame();
   /// Registers an image for this frame and returns what ImGui::Image takes. It must live until the frame is submitted.
   void* texture(const Image& image, ImageUse use = {});
-  /// Ends ImGui's frame and records it onto `target`, cleared to the theme's background first: one pass for each run of
+  /// Ends ImGui's frame. False: its triangles, and the images on them, are those that were drawn last (what is in these
+  /// images may be other).
+  bool endFrame();
+  /// Records the frame that has ended onto `target`, cleared to the theme's background first: one pass for each run of
   /// draws with the same image, two or three in all.
   void draw(Frame& frame, const Image& target);
 
  private:
+  struct Triangles;
   void buildFonts();
   /// The wheel over a list that has come to its end turns the list or column around it, in which ImGui would trap it.
   void passWheelOn();
@@ -59,6 +64,7 @@ class ImGuiLayer {
     ImageUse use;
   };
   std::vector<Texture> textures_;
+  std::unique_ptr<Triangles> ended_, drawn_;
 };
 
 }  // namespace irad

@@ -30,7 +30,7 @@ Input::Input(GLFWwindow* window)
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { of(w).event_ = true; });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { of(w).event_ = true; });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { of(w).event_ = true; });
-  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).event_ = true; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).event_ = of(w).refresh_ = true; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     of(w).event_ = true;
     if (!focused)  // releases are not delivered to a window without focus
@@ -67,6 +67,9 @@ void Input::key(int key, int scancode, int action, int modifiers) {
 
 bool Input::takeEvent() {
   return std::exchange(event_, false);
+}
+bool Input::takeRefresh() {
+  return std::exchange(refresh_, false);
 }
 std::vector<Input::Press> Input::takePresses() {
   return std::exchange(presses_, {});

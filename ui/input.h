@@ -16,7 +16,8 @@ class Input {
   explicit Input(GLFWwindow* window);
   Input(const Input&) = delete;
 
-  bool takeEvent();  ///< anything happened since the last call
+  bool takeEvent();    ///< anything happened since the last call
+  bool takeRefresh();  ///< what the window shows was lost since the last call
   struct Press {
     int key;              ///< GLFW's; with Ctrl that of the letter that is printed on it, whatever the layout
     bool shift, control;  ///< was held
@@ -40,7 +41,7 @@ class Input {
   };
   GLFWwindow* window_;
   std::array<Held, 6> held_;
-  bool event_ = true;
+  bool event_ = true, refresh_ = false;
   std::vector<Press> presses_;
   std::vector<std::filesystem::path> drops_;
 };

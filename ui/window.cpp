@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <functional>
 #include <utility>
@@ -43,10 +44,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBusyInterval{100};  ///< between frames while a load or a rebuild runs
-constexpr double kHiddenInterval = 0.1;  ///< seconds between looks whether a window without area has one again
-constexpr double kWatchInterval = 0.2;   ///< seconds between frames while all that goes on is a reference
-constexpr double kWriteInterval = 0.02;  ///< seconds between looks whether a file of the window's own is written
-constexpr int kFramesPerEvent = 3;       ///< ImGui needs a few to settle after an event
+constexpr double kHiddenInterval = 0.1;     ///< seconds between looks whether a window without area has one again
+constexpr double kWatchInterval = 0.2;      ///< seconds between frames while all that goes on is a reference
+constexpr double kWriteInterval = 0.02;     ///< seconds between looks whether a file of the window's own is written
+constexpr int kFramesPerEvent = 3;          ///< ImGui needs a few to settle after an event
+constexpr double kSameInterval = 1.0 / 60;  ///< seconds between frames while nothing comes that would be seen
 
 /// CPU time of this thread, ms: what drivers and other programs do meanwhile is not counted.
 double threadMilliseconds() {
@@ -82,6 +84,7 @@ class Window {
   void replay(const std::filesystem::path& manifest);
   void fly();
   void drawFrame();
+  std::array<uint64_t, 5> drawnSoFar() const;
   bool working() const;
   bool settled() const;
   bool measured();
@@ -102,8 +105,10 @@ class Window {
   CapturesDialog capturesDialog_;
   Panels panels_ = makePanels();
   std::optional<RenderDoc> renderDoc_ = RenderDoc::find();
-  Image image_;          ///< the whole window
-  bool visible_ = true;  ///< the last frame had something to be drawn on
+  Image image_;                        ///< the whole window
+  bool visible_ = true;                ///< the last frame had something to be drawn on
+  bool same_ = false;                  ///< the last frame would have shown what the one before had
+  std::array<uint64_t, 5> shownAt_{};  ///< drawnSoFar() when it had been shown
   int framesLeft_ = kFramesPerEvent;
   uint32_t settledFrames_ = 0;
   bool measuring_ = false, choseAll_ = false;  ///< for WindowOptions::measuredFrames
@@ -354,6 +359,8 @@ void Window::wait() {
   const auto message = session_.nextMessageEnds();
   if (hidden)
     glfwWaitEventsTimeout(kHiddenInterval);
+  else if (!idle && same_)
+    glfwWaitEventsTimeout(kSameInterval);
   else if (!idle)
     glfwPollEvents();
   else if (watches)
@@ -531,7 +538,8 @@ void Window::drawFrame() {
     context_.finish();
   else
     context_.collect();
-  if (image_.desc.width != size.x || image_.desc.height != size.y)
+  const bool resized = image_.desc.width != size.x || image_.desc.height != size.y;
+  if (resized)
     image_ = Image(context_.device, ImageDesc{.name = "window",
                                               .subsystem = Subsystem::Ui,
                                               .format = VK_FORMAT_R8G8B8A8_UNORM,
@@ -604,12 +612,27 @@ void Window::drawFrame() {
     session_.histogram.record(session_, frame);
   }
   uiBegan = threadMilliseconds();
-  layer_.draw(frame, image_);
+  // Of three frames that an event brings, most would show what is there: triangles that are the same, of images in
+  // which nothing has been drawn since.
+  const bool others = layer_.endFrame(), lost = input_.takeRefresh(),
+             counts = options_.exitAfter + options_.measuredFrames > 0;
+  same_ = !others && !lost && !counts && !resized && !pictured && shownAt_ == drawnSoFar();
+  if (!same_) layer_.draw(frame, image_);
   uiMs += threadMilliseconds() - uiBegan;
   if (measuring_) options_.uiMilliseconds->push_back(uiMs);
   if (controls_) controls_->write();
-  presenter_.present(frame, image_);
+  if (same_)
+    frame.submit();
+  else
+    presenter_.present(frame, image_);
+  shownAt_ = drawnSoFar();
   --framesLeft_;
+}
+
+/// While it stays as it is, nothing is drawn into any image, and the window shows what it was given last.
+std::array<uint64_t, 5> Window::drawnSoFar() const {
+  const Counters all = context_.counters();
+  return {all.dispatches, all.draws, all.submissions, all.images, presenter_.rebuilds()};
 }
 
 }  // namespace
