@@ -15,6 +15,8 @@ void timedOnHost(Context& context, const char* stage, const std::function<void()
   context.timings.add(stage, context.timings.now() - began);
 }
 
+HostPass::HostPass(Frame& frame) : context_(frame.context()), frame_(&frame) {}
+
 uint64_t HostPass::addressOf(const Buffer& buffer, bool written) {
   const auto found = std::ranges::find(used_, buffer.handle, [](const Used& used) { return used.buffer->handle; });
   Used& used = found != used_.end() ? *found : used_.emplace_back(Used{&buffer});
@@ -25,11 +27,13 @@ uint64_t HostPass::addressOf(const Buffer& buffer, bool written) {
 }
 
 void HostPass::run(const char* stage, const std::function<void()>& work) {
+  if (frame_ != nullptr) frame_->submit();
   receive();
   timedOnHost(context_, stage, [&] {
     work();
     giveBack();
   });
+  if (frame_ != nullptr) *frame_ = context_.begin();
 }
 
 void HostPass::receive() {

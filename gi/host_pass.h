@@ -13,6 +13,7 @@
 namespace irad {
 
 class Context;
+class Frame;
 
 /// Work of the host, as the time of a stage.
 void timedOnHost(Context& context, const char* stage, const std::function<void()>& work);
@@ -21,6 +22,8 @@ void timedOnHost(Context& context, const char* stage, const std::function<void()
 class HostPass {
  public:
   explicit HostPass(Context& context) : context_(context) {}
+  /// In the middle of a frame: run() submits what has been recorded of it before, and begins it anew after.
+  explicit HostPass(Frame& frame);
   HostPass(const HostPass&) = delete;
   HostPass& operator=(const HostPass&) = delete;
   uint64_t in(const Buffer& buffer) { return addressOf(buffer, /*written=*/false); }
@@ -42,6 +45,7 @@ class HostPass {
   void receive();   ///< from the device
   void giveBack();  ///< what was written
   Context& context_;
+  Frame* frame_ = nullptr;
   std::list<Used> used_;
 };
 

@@ -35,7 +35,7 @@ void makeRecord(Context& context, FacetList& list) {
 }
 
 /// Counts the pieces of each voxel, or writes them where `counts` says that the voxel's next one belongs.
-/// The host does so at once: the frame is submitted before, and then begun anew.
+/// The host does so at once, in the middle of the frame (gi/host_pass.h).
 void listOrCount(Frame& frame, ListedBy by, const SceneOnDevice& scene, const Buffer& grid, const Buffer& corners,
                  const Tiles& tiles, const std::vector<TriangleRange>& ranges, const Buffer& counts,
                  const Buffer* pieces) {
@@ -49,9 +49,7 @@ void listOrCount(Frame& frame, ListedBy by, const SceneOnDevice& scene, const Bu
     if (pieces) push.pieces = pass.accumulate(*pieces);
   };
   if (by == ListedBy::host) {
-    Context& context = frame.context();
-    frame.submitAndWait();
-    HostPass pass(context);
+    HostPass pass(frame);
     take(pass);
     GpuScene record{};
     record.positions = pass.in(scene.positions);
@@ -59,7 +57,6 @@ void listOrCount(Frame& frame, ListedBy by, const SceneOnDevice& scene, const Bu
     push.scene = SceneArray(&record);
     push.endTriangle = scene.scene.triangleCount();
     pass.run(kVoxelizeStage, [&] { listPiecesOnHost(push); });
-    frame = context.begin();
     return;
   }
   Pass pass = frame.pass(kVoxelizeStage);

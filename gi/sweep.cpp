@@ -68,9 +68,7 @@ SolvePush Sweep::rowsToSum(AnyPass& pass, uint32_t work, const Buffer& input, co
 
 void Sweep::sweepByHost(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
                         const Lighting& light, uint32_t record) const {
-  Context& context = frame.context();
-  frame.submitAndWait();
-  HostPass pass(context);
+  HostPass pass(frame);
   const SolvePush push = rowsToSum(pass, work, input, output, light, record);
   const FacetArrays facets = facets_.arrays([&](const Buffer& buffer) { return pass.in(buffer); });
   const MatrixRecord arrays(pass.in(matrix_.record));
@@ -86,7 +84,6 @@ void Sweep::sweepByHost(Frame& frame, const char* stage, uint32_t work, const Bu
     matrix.rowInfo = rowInfo;
     sweepOnHost(push, matrix, facets, how, matrix_.tinted);
   });
-  frame = context.begin();
 }
 
 void Sweep::record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,

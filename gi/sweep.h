@@ -19,7 +19,7 @@ class Sweep {
   Sweep(Context& context, const FacetList& facets, const FormFactors& matrix, const SolverSettings& settings);
 
   /// `work`: SOLVE_SWEEP, SOLVE_WATCH, SOLVE_GAINS or SOLVE_PRODUCT of shared/solve.h. `record`: of light.residual,
-  /// where it is watched. Where the host sweeps, which is at once, the frame is submitted before, and then begun anew.
+  /// where it is watched. The host sweeps at once, in the middle of the frame (gi/host_pass.h).
   void record(Frame& frame, const char* stage, uint32_t work, const Buffer& input, const Buffer& output,
               const Lighting& light, uint32_t record = 0);
 
