@@ -64,7 +64,7 @@ PictureFiles renderPicture(DeviceSession& session, Pipeline& pipeline, const Cam
   for (uint32_t i = 0; i < frames; ++i) {
     const auto start = std::chrono::steady_clock::now();
     Frame frame = session.context->begin(i);
-    pipeline.render(frame, camera, view.view, targets);
+    pipeline.render(frame, camera, view.view, targets, {.shareSurfaces = frames == 1});
     frame.submitAndWait();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     session.timings.endFrame(i, /*setup=*/false, elapsed.count());

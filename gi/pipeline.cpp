@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,23 @@ namespace irad {
 
 namespace {
 
+/// No other state of any pipeline has this number.
+uint64_t newState() {
+  static std::atomic<uint64_t> last = 0;
+  return ++last;
+}
+
+/// What surfaces give pictures, of all that those are drawn from.
+constexpr uint32_t kFromSurfaces =
+    FROM_TARGETS | FROM_DEPTH | FROM_DIRECT_LIGHT | FROM_INDIRECT_LIGHT | FROM_REFLECTIONS | FROM_EMITTED;
+
+/// Whether surfaces are there that a picture may be drawn from. What comes straight from emitters is told apart where a
+/// picture asks, which changes the roundings of the rest.
+bool holdsSurfaces(const Targets::Surfaces& held, const Targets::Surfaces& wanted) {
+  const uint32_t there = (held.from & FROM_TARGETS) != 0 ? held.from | FROM_DEPTH : held.from;
+  return held.key == wanted.key && (wanted.from & ~there) == 0 && ((wanted.from ^ there) & FROM_EMITTED) == 0;
+}
+
 /// Wall-clock milliseconds since `start`.
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -74,6 +92,7 @@ struct Pipeline::Impl {
   Buffer camera;
   uint64_t frameIndex = 0;
   Revision revision;
+  uint64_t state = newState();  ///< of all that pictures are drawn from
   uint64_t solvedFrame = 0;  ///< of the last solve
   uint64_t shaders = 0;      ///< ShaderLibrary::generation() of the last build
 
@@ -520,6 +539,11 @@ struct Pipeline::Impl {
 
   // ---- Pictures ----
 
+  /// Of what surfaces are drawn from.
+  uint64_t surfacesKey(const GpuCamera& from) const {
+    return Digest().add(state).add(context.shaders.generation()).add(from).value();
+  }
+
   ShadowNeeds shadowNeeds() const {
     ShadowNeeds needs = irad::shadowNeeds(settings);
     needs.shines = [this](const GpuLight& light) { return planned.shines(light, scene, settings); };
@@ -535,6 +559,11 @@ Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings, Expe
   impl_->camera = Buffer(context.device, "Camera", Subsystem::Targets, sizeof(GpuCamera));
 }
 Pipeline::~Pipeline() = default;
+
+Pipeline::Impl& Pipeline::changed() {
+  impl_->state = newState();
+  return *impl_;
+}
 
 const Scene& Pipeline::scene() const {
   return impl_->scene;
@@ -559,7 +588,7 @@ const SceneTraits& Pipeline::traits() const {
 }
 
 Redo Pipeline::set(const Settings& settings) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   p.lookAtRegion(p.regionWith(settings));
   p.settings = settings;
   p.lookAgain();
@@ -578,14 +607,14 @@ Redo Pipeline::due(const Settings& settings) const {
 }
 
 void Pipeline::setRegion(const std::optional<RegionBox>& box) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   p.scene.region = box;
   p.lookAtRegion(regionOrWhole(p.scene, p.settings));
   p.lookAgain();
 }
 
 void Pipeline::setLights(std::vector<Light> lights) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   for (const Light& light : lights)
     if (const std::string problem = unsound(light); !problem.empty()) throw UsageError(problem);
   std::vector<GpuLight> values = p.withSun(lights);
@@ -617,7 +646,7 @@ void Pipeline::setLights(std::vector<Light> lights) {
 }
 
 void Pipeline::setMaterials(std::vector<MaterialEdit> edits) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   std::vector<Material> materials = editedMaterials(p.scene, edits);
   for (const Material& material : materials)
     if (const std::string problem = unsound(material, p.scene.images.size()); !problem.empty())
@@ -651,7 +680,7 @@ Redo Pipeline::due(const std::vector<MaterialEdit>& edits) const {
 }
 
 bool Pipeline::adopt(Scene& scene) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   const SurfaceContent surfaces(scene);
   const std::vector<Material>&mine = fileMaterials(p.scene), &its = fileMaterials(scene);
   if (surfaces.surfaces(its) != p.surfaces.surfaces(mine) || surfaces.materials(its) != p.surfaces.materials(mine))
@@ -665,12 +694,13 @@ bool Pipeline::adopt(Scene& scene) {
 }
 
 void Pipeline::lightsChanged() {
-  impl_->shadowsMade = 0;
-  impl_->made.forget(Redo::Gather);
+  Impl& p = changed();
+  p.shadowsMade = 0;
+  p.made.forget(Redo::Gather);
 }
 
 void Pipeline::setSky(std::shared_ptr<const SkyImage> image) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   p.scene.sky = std::move(image);
   p.lookAgain();
 }
@@ -679,7 +709,7 @@ const Sky& Pipeline::sky() const {
 }
 
 void Pipeline::darken() {
-  Impl& p = *impl_;
+  Impl& p = changed();
   if (!p.now.light) return;
   if (*p.now.light) p.now.light = makeLighting(p.context, *p.now.facets, p.planned.settings());
   for (const Redo gone : {Redo::Emission, Redo::Gather}) p.made.forget(gone);
@@ -690,7 +720,7 @@ void Pipeline::invalidate(Redo from) {
 }
 
 void Pipeline::prepare(const Progress& progress, uint32_t maxSweeps) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   p.context.timings.about(fmt::format("{}, {} voxels", p.scene.path.stem().string(), p.settings.voxel.resolution));
   if (p.shadowsDue()) {
     p.lookAtLights(p.onDevice.lightValues);  // they may have been edited there
@@ -734,7 +764,7 @@ bool Pipeline::current() const {
 }
 
 void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()>& draw) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   IRAD_CHECK(current(), "what the settings call for has not been prepared");
   if (progress && !progress("GI Solve", 0)) throw WorkError("cancelled");
   // The mean over the frames begins in the dark in any case.
@@ -745,6 +775,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
     uint64_t solvedFrame = p.solvedFrame;
     Planned planned = p.planned;
     ~Before() {
+      p.state = newState();
       p.planned = std::move(planned);
       p.now.light = std::move(light);
       p.solvedFrame = solvedFrame;
@@ -755,7 +786,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
 }
 
 void Pipeline::showLight(std::span<const glm::vec4> indirect, std::span<const glm::vec4> radiosity) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   IRAD_CHECK(current() && *p.now.light, "no light has been prepared");
   const auto put = [&](const Buffer& buffer, std::span<const glm::vec4> values) {
     if (values.empty()) return;
@@ -769,7 +800,7 @@ void Pipeline::showLight(std::span<const glm::vec4> indirect, std::span<const gl
 }
 
 void Pipeline::goOn(const SavedFrames& frames) {
-  Impl& p = *impl_;
+  Impl& p = changed();
   IRAD_CHECK(current() && *p.now.light && p.framewise(), "no frames to go on with");
   restoreFrames(p.context, *p.now.light, frames);
   ++p.revision.light;
@@ -796,7 +827,7 @@ std::vector<uint32_t> Pipeline::lightsWithoutShadow() const {
   return without;
 }
 
-void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range) {
+void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& targets, const PictureOptions& options) {
   Impl& p = *impl_;
   p.planned.traits.pixels = uint64_t{targets.size.x} * targets.size.y;
   const GpuCamera gpu = makeGpuCamera(p.scene, camera, targets.size);
@@ -805,7 +836,8 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   // Stages whose result the view does not show are left out.
   const Settings& obeyed = p.planned.settings();
   uint32_t from = sourcesOf(view, obeyed, p.pictureOf);
-  if (p.now.light && p.now.light->writeback.used) from |= FROM_TARGETS | FROM_REFLECTIONS;  // every picture writes back
+  const bool writesBack = p.now.light && p.now.light->writeback.used;
+  if (writesBack) from |= FROM_TARGETS | FROM_REFLECTIONS;  // every picture does
   const auto isFrom = [&](uint32_t sources) { return (from & sources) != 0; };
   const bool pixelEmitters = p.planned.plan().pixelEmitters;
   const uint32_t indirectly = FROM_INDIRECT_LIGHT | FROM_EMITTED | FROM_REFLECTIONS;
@@ -815,7 +847,7 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   if (p.picture) inputs.picture = &p.picture;
   inputs.pictureOf = p.pictureOf;
   if (p.skyOnDevice) inputs.sky = &p.skyOnDevice.record;
-  inputs.range = range;
+  inputs.range = options.range;
 
   const auto drawSurfaces = [&](Layer layer) {
     if (isFrom(FROM_TARGETS | FROM_DEPTH)) {
@@ -843,14 +875,21 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
   const ViewInfo* info = viewInfo(seen);
   inputs.composed = p.planned.on(Effect::glass) && info != nullptr && info->addsUp();
   targets.fitLayers(p.context, inputs.composed, p.planned.tinted());
+
+  // Surfaces that are in the targets already.
+  const Targets::Surfaces wanted{p.surfacesKey(gpu), from & kFromSurfaces};
+  const bool shares = options.shareSurfaces && !inputs.composed && holdsSurfaces(targets.surfaces, wanted);
+  if (wanted.from != 0 && !shares) targets.surfaces = {};
   const auto drawLayer = [&](Layer layer) {
     drawSurfaces(layer);
     drawTargets(frame, seen, inputs, p.camera, obeyed, targets);
   };
-  if (inputs.composed)
+  if (inputs.composed) {
     drawLayers(frame, p.settings.camera.glassLayers, p.planned.tinted(), drawLayer, targets);
-  else
+  } else if (wanted.from != 0 && !shares) {
     drawSurfaces(Layer::first);
+    if (!writesBack) targets.surfaces = wanted;
+  }
   drawView(frame, view, inputs, p.camera, obeyed, targets);
 }
 

@@ -58,6 +58,13 @@ struct WritebackRounds {
 /// The indirect irradiance H, W/m^2, at a local point of a surface with this normal, where it is known (check scenes).
 using ExpectedIrradiance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
 
+struct PictureOptions {
+  const Buffer* range = nullptr;  ///< ViewInputs::range
+  /// Where the last picture in these targets was drawn from the same place, and nothing has changed since, its surfaces
+  /// with their light are not drawn again. The picture is the same, bit for bit; what it takes is not measured.
+  bool shareSurfaces = false;
+};
+
 class Pipeline {
  public:
   Pipeline(Context& context, Scene scene, const Settings& settings, ExpectedIrradiance expected = {});
@@ -133,8 +140,8 @@ class Pipeline {
   /// Those of scene().lights that shine but cast no shadow: the device has not the layers for their maps.
   std::vector<uint32_t> lightsWithoutShadow() const;
 
-  /// One picture of `view` into targets.linear and targets.display; `range`: ViewInputs::range.
-  void render(Frame& frame, const Camera& camera, View view, Targets& targets, const Buffer* range = nullptr);
+  /// One picture of `view` into targets.linear and targets.display.
+  void render(Frame& frame, const Camera& camera, View view, Targets& targets, const PictureOptions& options = {});
 
   /// Where reflections are written back: draws the camera's picture and relights, in turn, until what the picture
   /// writes back changes no more (docs/method.md 8), or does not settle, or kMost times. Blocking. Must be current().
@@ -159,6 +166,7 @@ class Pipeline {
 
  private:
   struct Impl;
+  Impl& changed();  ///< for whatever changes what pictures are drawn from
   std::unique_ptr<Impl> impl_;
 };
 

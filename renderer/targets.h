@@ -59,6 +59,12 @@ struct Targets {
   Buffer doubted;       ///< whose direct light is asked of rays
   Buffer glossy;        ///< that trace specular rays
 
+  /// Whose surfaces are in it, with what light: for pictures that share them (PictureOptions::shareSurfaces).
+  struct Surfaces {
+    uint64_t key = 0;   ///< of what they are drawn from; 0: none that can be shared
+    uint32_t from = 0;  ///< FROM_* (shaders/shared/debug_views.h)
+  } surfaces;
+
   /// Who writes `depth`: the graphics pipeline, or kernels, by way of `visible`.
   void fitRaster(Context& context, bool kernels, uint32_t triangles);
   /// Makes what layers are put together in, or frees it. After fitRaster().

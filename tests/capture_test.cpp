@@ -162,5 +162,79 @@ TEST_F(Capture, StagesThatAViewDoesNotShowAreNotRunAndItsBitsStay) {
   EXPECT_TRUE(runs(draw(VIEW_VOXEL_IRRADIANCE, used)).reflects);
 }
 
+TEST_F(Capture, PicturesThatShareSurfacesAreTheSameAndDrawThemOnce) {
+  Settings s = small();
+  Pipeline pipeline(context(), box(), s);
+  pipeline.prepare();
+  Camera camera = pipeline.scene().cameras.at(0);
+  struct Drawn {
+    bool anew;
+    std::vector<std::byte> linear, display;
+  };
+  const auto draw = [&](View view, Targets& targets, bool shares) {
+    context().pipelinesUsed();
+    Frame frame = context().begin();
+    pipeline.render(frame, camera, view, targets, {.shareSurfaces = shares});
+    frame.submitAndWait();
+    bool anew = false;
+    for (const PipelineUse& use : context().pipelinesUsed())
+      anew = anew || std::ranges::find(use.shaders, "forward/background.comp") != use.shaders.end();
+    return Drawn{anew, download(context(), targets.linear), download(context(), targets.display)};
+  };
+  Targets fresh(context(), {96, 64}), shared(context(), {96, 64});
+  const auto shades = [&](View view) {
+    const Drawn wanted = draw(view, fresh, false), got = draw(view, shared, true);
+    EXPECT_EQ(got.linear, wanted.linear) << views().at(view).name;
+    EXPECT_EQ(got.display, wanted.display) << views().at(view).name;
+    return got.anew;
+  };
+  EXPECT_TRUE(shades(VIEW_LIT));
+  for (const ViewInfo& view : views())
+    if (!view.isFrom(FROM_EMITTED | FROM_PICTURE)) {
+      EXPECT_FALSE(shades(view.view)) << view.name;
+    }
+  EXPECT_TRUE(draw(VIEW_LIT, shared, false).anew) << "only where it is asked for";
+
+  // What they hold may not do.
+  EXPECT_TRUE(shades(VIEW_EMITTER_IRRADIANCE));
+  EXPECT_TRUE(shades(VIEW_INDIRECT));
+  EXPECT_FALSE(shades(VIEW_DEPTH));
+  EXPECT_TRUE(shades(VIEW_NO_GI));
+  EXPECT_TRUE(shades(VIEW_LIT));
+
+  // Something has changed.
+  const auto expectAnew = [&](const char* why) {
+    EXPECT_TRUE(shades(VIEW_IRRADIANCE)) << why;
+    EXPECT_FALSE(shades(VIEW_NORMAL)) << why;
+  };
+  camera.position.x += 0.1;
+  expectAnew("camera");
+  s.sample.gpu.filter_ = SampleFilter::nearest;
+  pipeline.set(s);
+  pipeline.prepare();
+  expectAnew("settings");
+  std::vector<Light> lights = pipeline.scene().lights;
+  lights.at(0).intensity *= 0.5f;
+  pipeline.setLights(lights);
+  expectAnew("lights, before the facets have them");
+  pipeline.prepare();
+  expectAnew("lights");
+  pipeline.setMaterials({{.material = pipeline.scene().materials.at(0).name, .roughness = 0.25f}});
+  expectAnew("materials");
+  pipeline.prepare();
+  pipeline.darken();
+  expectAnew("dark");
+  pipeline.prepare();
+  pipeline.solvedAfresh({}, [&] { expectAnew("solved afresh"); });
+  expectAnew("the light from before");
+  pipeline.showLight(std::vector<glm::vec4>(pipeline.facets().count, glm::vec4(1.0f)), {});
+  expectAnew("given light");
+  s.writeback.mode = WritebackMode::compute;
+  pipeline.set(s);
+  pipeline.prepare();
+  EXPECT_TRUE(shades(VIEW_NORMAL)) << "every picture is written back";
+  EXPECT_TRUE(shades(VIEW_NORMAL));
+}
+
 }  // namespace
 }  // namespace irad::capture_suite

@@ -94,7 +94,7 @@ class Pictures {
   const Scene& scene() const { return pipeline_.scene(); }
   ExrPicture draw(const char* view, size_t camera) {
     Frame frame = context_.begin();
-    pipeline_.render(frame, scene().cameras.at(camera), findView(view).value(), targets_);
+    pipeline_.render(frame, scene().cameras.at(camera), findView(view).value(), targets_, {.shareSurfaces = true});
     frame.submitAndWait();
     const std::vector<std::byte> bytes = download(context_, targets_.linear);
     ExrPicture picture{kSide, kSide, std::vector<glm::vec3>(size_t{kSide} * kSide)};

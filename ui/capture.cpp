@@ -30,7 +30,7 @@ void saveSide(Session& session, Pipeline& pipeline, const std::vector<ViewInfo>&
       const float done = static_cast<float>(manifest.views.size()) / static_cast<float>(chosen.size());
       if (!progress(view.label, done)) throw WorkError("cancelled");
       Frame frame = context.beginUntimed();
-      pipeline.render(frame, manifest.cameras.front(), view.view, targets);
+      pipeline.render(frame, manifest.cameras.front(), view.view, targets, {.shareSurfaces = true});
       frame.submitAndWait();
       for (const std::filesystem::path& path : writePicture(context, targets, view, folder / view.name).paths)
         manifest.files.push_back(path.filename().string());

@@ -43,7 +43,7 @@ void drawPictures(Session& session, Frame& frame) {
   const ViewInfo* info = viewInfo(session.view);
   const Buffer* range = nullptr;
   for (Side* side : session.sides()) {
-    side->pipeline->render(frame, session.shown, session.view, side->targets, range);
+    side->pipeline->render(frame, session.shown, session.view, side->targets, {.range = range});
     if (info != nullptr && hasRange(*info, session)) range = &session.targets.viewRange;
   }
   if (session.comparison) session.comparison->result.reset(), session.comparison->wantFlip = false;
@@ -52,7 +52,7 @@ void drawPictures(Session& session, Frame& frame) {
   if (session.split && !session.comparison) {
     Targets& targets = session.split->targets;
     if (targets.size != session.targets.size) targets = Targets(session.context, session.targets.size);
-    session.pipeline->render(frame, session.shown, VIEW_REFERENCE_PICTURE, targets, range);
+    session.pipeline->render(frame, session.shown, VIEW_REFERENCE_PICTURE, targets, {.range = range});
   }
   drawDifference(session, frame);
   readRange(session, frame);
