@@ -53,7 +53,9 @@ TEST_F(Watch, AWrongNumberIsTracedToItsStageAndFacet) {
 
   for (const SolverKernel kernel :
        {SolverKernel::tree, SolverKernel::subgroup, SolverKernel::row, SolverKernel::automatic})
-    for (const auto& [value, word] : {std::pair{kNan, "NaN"}, {kInf, "infinite"}, {-1.0f, "negative"}}) {
+    for (const auto& wrong : {std::pair{kNan, "NaN"}, {kInf, "infinite"}, {-1.0f, "negative"}}) {
+      const float value = wrong.first;
+      const char* word = wrong.second;
       settings.solver.kernel = kernel;
       Lighting light = makeLighting(context(), w.facets, settings);
       gatherEmitters(context(), w.facets, m, {&emitters, &w.field}, settings, light);
