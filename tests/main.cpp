@@ -1,11 +1,12 @@
 // The main of every test program: GoogleTest's, and --suites=NAME,NAME, which runs the tests of tests/NAME_test.cpp
-// alone (those of them that --gtest_filter lets through). Beside the times, the results have each test's file and
-// processor seconds, which say more where other things run.
+// alone (those of them that --gtest_filter lets through). With IRAD_TEST_QUICK set those of tests/slow.txt are left out.
+// Beside the times, the results have each test's file and processor seconds, which say more where other things run.
 #include <fnmatch.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -52,6 +53,14 @@ std::string filterOf(const std::vector<std::string>& suites, const std::string& 
   return (out.empty() ? "no test" : out) + unwanted;
 }
 
+/// `filter` without the tests of tests/slow.txt.
+std::string withoutSlow(const std::string& filter) {
+  std::string slow;
+  for (const std::string& name : split(irad::test::slurp(irad::test::sourceFolder() / "tests" / "slow.txt"), '\n'))
+    if (name.front() != '#') slow += ":" + name;
+  return filter + (filter.find('-') == std::string::npos ? "-" : "") + slow;
+}
+
 /// Processor time of this process, of those that it has waited for, and of those that outlive a test.
 double processorSeconds() {
   double seconds = 0;
@@ -91,6 +100,7 @@ int main(int argc, char** argv) {
     if (filter.empty()) return 2;
     testing::GTEST_FLAG(filter) = filter;
   }
+  if (std::getenv("IRAD_TEST_QUICK") != nullptr) testing::GTEST_FLAG(filter) = withoutSlow(testing::GTEST_FLAG(filter));
   testing::UnitTest::GetInstance()->listeners().Append(new Meter);
   return RUN_ALL_TESTS();
 }
