@@ -13,8 +13,6 @@
 namespace irad {
 namespace {
 
-static_assert(FORWARD_TARGETS < CONSTANT_NORMALS, "a kind of light more moves these: shared/constants.h begins above");
-
 bool hasFlag(const SceneOnDevice& scene, const Draw& draw, uint32_t flag) {
   return (scene.materialValues.at(draw.material).flags & flag) != 0;
 }

@@ -232,7 +232,9 @@ TEST(Plan, EachRowFollowsWhatCallsForIt) {
     expectRow(p.row(c.effect), c.row);
     std::vector<std::string> noLight;  // the reasons of all kinds
     if ((p.row(matrix).reason + p.row(bruteForce).reason).find("no light at all") != std::string::npos)
-      for (const Effect e : {sun, point, spot, emission, sky}) noLight.push_back(p.row(e).reason);
+#define IRAD_EFFECT_OF_KIND(constant, number, id, effect, ...) effect,
+      for (const Effect e : {IRAD_LIGHT_KINDS(IRAD_EFFECT_OF_KIND) emission, sky}) noLight.push_back(p.row(e).reason);
+#undef IRAD_EFFECT_OF_KIND
     EXPECT_EQ(p.noLight, noLight) << c.row;
     // The settings that stages get are decided, and what no effect decides stays as it is.
     const S o = obeyed(s, p);

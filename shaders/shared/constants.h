@@ -1,6 +1,7 @@
 // The specialization constants of the shaders, by one name in both languages; each has a number of its own, so that a
-// shader may be put together from any pieces. The constants of the lights, of "RE Forward" and of the rasterizing
-// kernels are declared with these (shared/scene_gpu.h, shared/passes.h, shared/raster.h) and have lower numbers.
+// shader may be put together from any pieces. The constants of lights that are gathered and of the rasterizing kernels
+// are declared with these (shared/solve.h, shared/raster.h) and have lower numbers; those of "RE Forward"
+// (shared/passes.h) begin at 64, so that a kind of light may come.
 #ifndef IRAD_SHARED_CONSTANTS_H
 #define IRAD_SHARED_CONSTANTS_H
 #include "shared/types.h"

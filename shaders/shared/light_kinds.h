@@ -1,6 +1,6 @@
 // The list of kinds of light: files, panels, the effect plan, shadow maps and shaders go by it.
 //   X(CONSTANT, number, LightType, Effect, glTF type, name, one, many, shadow map, traits)
-// A new kind is one row here, its formula in shaders/forward/shadow.glsl, its effect in gi/plan.h, and the text of that
+// A new kind is one row here, its formula in shaders/forward/light.h, its effect in gi/plan.h, and the text of that
 // effect's setting in gi/settings_table.cpp. `name` is that of manifests, sidecars and panels.
 #ifndef IRAD_SHARED_LIGHT_KINDS_H
 #define IRAD_SHARED_LIGHT_KINDS_H

@@ -23,7 +23,7 @@ struct DepthPush {
 
 /// Specialization constants of "RE Forward" (forward/shade.glsl, forward/resolve.comp). The effects leave out what they
 /// are false for.
-IRAD_CONST uint FORWARD_LIGHTS = 0u;                                  ///< LIGHT_CONSTANTS of them
+IRAD_CONST uint FORWARD_LIGHTS = 64u;                                 ///< LIGHT_CONSTANTS of them
 IRAD_CONST uint FORWARD_TEXTURED = FORWARD_LIGHTS + LIGHT_CONSTANTS;  ///< effect: a material of the pass has a texture
 IRAD_CONST uint FORWARD_NORMAL_MAP = FORWARD_TEXTURED + 1u;           ///< effect: ... a normal map
 IRAD_CONST uint FORWARD_EMISSION = FORWARD_TEXTURED + 2u;             ///< effect
