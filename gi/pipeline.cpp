@@ -93,8 +93,8 @@ struct Pipeline::Impl {
   uint64_t frameIndex = 0;
   Revision revision;
   uint64_t state = newState();  ///< of all that pictures are drawn from
-  uint64_t solvedFrame = 0;  ///< of the last solve
-  uint64_t shaders = 0;      ///< ShaderLibrary::generation() of the last build
+  uint64_t solvedFrame = 0;     ///< of the last solve
+  uint64_t shaders = 0;         ///< ShaderLibrary::generation() of the last build
 
   // What there is to be made, and what was made, by content. Shadow maps are not the product of a stage, but have a key
   // like one.

@@ -1,6 +1,7 @@
 // The main of every test program: GoogleTest's, and --suites=NAME,NAME, which runs the tests of tests/NAME_test.cpp
-// alone (those of them that --gtest_filter lets through). With IRAD_TEST_QUICK set those of tests/slow.txt are left out.
-// Beside the times, the results have each test's file and processor seconds, which say more where other things run.
+// alone (those of them that --gtest_filter lets through). With IRAD_TEST_QUICK set those of tests/slow.txt are left
+// out. Beside the times, the results have each test's file and processor seconds, which say more where other things
+// run.
 #include <fnmatch.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
