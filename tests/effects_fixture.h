@@ -124,7 +124,8 @@ class EffectsTest : public GiTest {
       out.insert(fmt::format("{} {}", row.info().name, row.stateName()));
     for (const PipelineUse& use : context().pipelinesUsed()) {
       for (const std::string& shader : use.shaders) out.insert("shader " + shader);
-      for (uint32_t id = 0; use.shaders.front() == "forward/forward.vert" && id < FORWARD_PCF; ++id)
+      if (use.shaders.front() != "forward/forward.vert") continue;
+      for (uint32_t id = FORWARD_LIGHTS; id < FORWARD_PCF; ++id)
         if (!use.constants.contains(id)) out.insert(fmt::format("forward with {}.", id));
     }
     return out;
