@@ -23,7 +23,13 @@ Scene randomScene(Dice& dice) {
   const bool black = dice.one(5), emits = dice.one(2), textured = dice.one(2), masked = dice.one(3),
              mapped = dice.one(3), lobes = dice.one(2), coloured = dice.one(3), alone = dice.one(4);
   Scene scene = room(emits, {}, /*textured=*/true);
-  if (alone) scene.draws = {*std::ranges::find(scene.draws, 1u, &Draw::material)};
+  if (alone) {
+    // As a file's: no triangle is without a draw.
+    const Draw draw = *std::ranges::find(scene.draws, 1u, &Draw::material);
+    scene.indices.erase(scene.indices.begin() + draw.firstIndex + draw.indexCount, scene.indices.end());
+    scene.indices.erase(scene.indices.begin(), scene.indices.begin() + draw.firstIndex);
+    scene.draws = {{draw.material, 0, draw.indexCount}};
+  }
   enum { normals, holes, noise, darkness };  // images: the room's, and two more
   std::vector<uint8_t> texels(4 * 8 * 2);
   for (uint8_t& byte : texels) byte = static_cast<uint8_t>(dice.below(256));
