@@ -10,7 +10,7 @@ def main():
     root = Path(__file__).parent.parent
     limit = float(sys.argv[1])
     folders = [Path(name) for name in sys.argv[2:]] or [root / "build" / "test-results"]
-    names, slow, all_seconds, left_out = set(), [], 0, 0
+    names, all_seconds, left_out = set(), 0, 0
     for case in (c for folder in folders for file in sorted(folder.glob("*.xml")) for c in xml.parse(file).iter("testcase")):
         seconds = sum(float(p.get("value")) for p in case.iter("property") if p.get("name") == "processor_seconds")
         name = f"{case.get('classname')}.{case.get('name')}"

@@ -878,15 +878,16 @@ void Pipeline::render(Frame& frame, const Camera& camera, View view, Targets& ta
 
   // Surfaces that are in the targets already.
   const Targets::Surfaces wanted{p.surfacesKey(gpu), from & kFromSurfaces};
-  const bool shares = options.shareSurfaces && !inputs.composed && holdsSurfaces(targets.surfaces, wanted);
-  if (wanted.from != 0 && !shares) targets.surfaces = {};
+  const bool there = options.shareSurfaces && !inputs.composed && holdsSurfaces(targets.surfaces, wanted);
+  const bool draws = wanted.from != 0 && !there;
+  if (draws) targets.surfaces = {};
   const auto drawLayer = [&](Layer layer) {
     drawSurfaces(layer);
     drawTargets(frame, seen, inputs, p.camera, obeyed, targets);
   };
   if (inputs.composed) {
     drawLayers(frame, p.settings.camera.glassLayers, p.planned.tinted(), drawLayer, targets);
-  } else if (wanted.from != 0 && !shares) {
+  } else if (draws) {
     drawSurfaces(Layer::first);
     if (!writesBack) targets.surfaces = wanted;
   }
