@@ -47,7 +47,7 @@ TEST_P(FamilyOf, IsLitOrDarkAsMeant) {
         EXPECT_GT(tracer->render(outside, {32, 32}, {.samples = 2}).lit.pictureMean.y, 0.1) << "seed " << seed;
       }
       for (size_t c = 0; c < cameras.size(); ++c) {
-        const TracedPicture p = tracer->render(cameras[c], {32, 32}, {.samples = 64});
+        const TracedPicture p = tracer->render(cameras[c], {32, 32}, {.samples = 16});
         const double mean = p.lit.pictureMean.y;
         if (GetParam().dark)
           EXPECT_EQ(p.lit.pictureMean, glm::dvec3(0)) << "seed " << seed << ", N " << resolution << ", camera " << c;

@@ -337,8 +337,9 @@ TEST_P(AgainstCycles, SameMean) {
   const ExrPicture cycles = readExr(*scenes / "real" / (name + ".exr"));
   Scene scene = loadScene(*scenes / "real" / (file + ".glb"), {.lambertian = true, .doubleSided = true});
   const Camera camera = scene.cameras.at(static_cast<size_t>(name.back() - '0'));
+  const uint32_t samples = everything() ? 128 : 32;
   const TracedPicture p = makePathTracer(std::move(scene))
-                              ->render(camera, {cycles.width, cycles.height}, {.samples = everything() ? 400u : 32u});
+                              ->render(camera, {cycles.width, cycles.height}, {.samples = samples});
   const glm::dvec3 ratio = p.lit.pictureMean / cycles.mean(), error = p.lit.pictureError / cycles.mean();
   CheckPicture theirs{.size = p.size, .pixels = {}};
   for (const glm::vec3& c : cycles.pixels) theirs.pixels.emplace_back(c, 1);
@@ -349,7 +350,7 @@ TEST_P(AgainstCycles, SameMean) {
   // meet the other, and it stays black; here rays start just in front.
   const double doubled = name == "living_room.1" ? 0.006 : 0;
   // Of Cycles' own noise all that is known is its 400 samples: as much as ours of as many, at least.
-  const double theirShare = std::sqrt((everything() ? 400.0 : 32.0) / 400);
+  const double theirShare = std::sqrt(samples / 400.0);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(ratio[c], 1, 4 * error[c] * (1 + theirShare) + 0.002 + doubled) << c;
 }
 INSTANTIATE_TEST_SUITE_P(Scene, AgainstCycles,

@@ -54,7 +54,7 @@ class Reference : public GpuTest {
     std::vector<ExrPicture> out;
     for (const char* name : viewNames) {
       Frame frame = context().begin();
-      pipeline.render(frame, from, findView(name).value(), targets);
+      pipeline.render(frame, from, findView(name).value(), targets, {.shareSurfaces = true});
       frame.submitAndWait();
       const std::vector<std::byte> bytes = download(context(), targets.linear);
       const auto* texels = reinterpret_cast<const glm::vec4*>(bytes.data());
@@ -79,10 +79,10 @@ class Reference : public GpuTest {
                      bounced = readExr(reference, "ViewLayer.DiffInd");
     // H holds the emitters' first gather, which Cycles counts as direct: that view's D + F M is compared.
     const std::vector<ExrPicture> ours = render(scene, camera, {direct.width, direct.height},
-                                                {"direct-irradiance", "irradiance", "emitter-irradiance"}, quality);
-    ExrPicture oursDirect = ours[0], oursBounced = ours[1];
+                                                {"direct-irradiance", "emitter-irradiance", "irradiance"}, quality);
+    ExrPicture oursDirect = ours[0], oursBounced = ours[2];
     for (size_t i = 0; i < oursDirect.pixels.size(); ++i) {
-      oursBounced.pixels[i] = (ours[1].pixels[i] - ours[2].pixels[i]) / 3.14159265f;
+      oursBounced.pixels[i] = (ours[2].pixels[i] - ours[1].pixels[i]) / 3.14159265f;
       oursDirect.pixels[i] = ours[0].pixels[i] / 3.14159265f;
     }
     const Ratios r{oursDirect.mean() / direct.mean(), oursBounced.mean() / bounced.mean()};

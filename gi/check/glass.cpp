@@ -122,7 +122,7 @@ void againstTruth(CheckRun& run, Scene (*make)()) {
   const auto tracer = makePathTracer(scene);
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const TracedPicture truth =
-        tracer->render(scene.cameras[c], kGlassPicture, {.samples = run.options.quick ? 256u : 1024u, .centred = true});
+        tracer->render(scene.cameras[c], kGlassPicture, {.samples = run.samples(1024), .centred = true});
     const CheckPicture picture = run.picture(*pipeline, scene.cameras[c], VIEW_LIT, kGlassPicture);
     const TruthError all = compare(picture, truth.lit);
     run.near(fmt::format("camera {}: mean / truth", c), all.ratio, 1, 0.03);

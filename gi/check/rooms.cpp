@@ -95,7 +95,7 @@ void judgeLit(CheckRun& run, const Lit& lit) {
   if (const auto share = emittedShare(scene, run.facets(lit.pipeline)))
     run.info(lit.name + ": emitted by facets / by triangles", *share);
   const auto tracer = makePathTracer(scene);
-  const TraceOptions options{.samples = judged ? 1024u : 256u, .centred = true};
+  const TraceOptions options{.samples = run.samples(judged ? 1024 : 256), .centred = true};
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const Camera& camera = scene.cameras[c];
     const TracedPicture truth = tracer->render(camera, kRoomPicture, options);
@@ -126,7 +126,7 @@ void judgeOutside(CheckRun& run, const Lit& lit) {
   const auto tracer = makePathTracer(scene);
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const Camera& camera = scene.cameras[c];
-    const TracedPicture truth = tracer->render(camera, kRoomPicture, {.samples = 512, .centred = true});
+    const TracedPicture truth = tracer->render(camera, kRoomPicture, {.samples = run.samples(512), .centred = true});
     const auto error = [&](Pipeline& of, View view) {
       return compare(run.picture(of, camera, view, kRoomPicture), view == VIEW_LIT ? truth.lit : truth.indirect);
     };

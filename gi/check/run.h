@@ -23,7 +23,7 @@ struct CheckFigure {
 };
 
 struct CheckOptions {
-  bool quick = false;  ///< soak cases take a fraction of their frames
+  bool quick = false;  ///< soak cases take a fraction of their frames, truths of their samples
   /// The program, for cases that need another process; empty: they say that they could not.
   std::string program;
   std::vector<std::filesystem::path> scenes;  ///< those shipped with the program
@@ -48,6 +48,8 @@ class CheckRun {
 
   /// Sizes at which thousands of frames or dozens of rebuilds take seconds on a CPU device.
   Settings small() const;
+  /// Samples of a pixel of a truth: an eighth with `quick`. Means are judged by marks ten times their noise, even so.
+  uint32_t samples(uint32_t whole) const { return options.quick ? whole / 8 : whole; }
   /// To open this run's device once more.
   DeviceOptions sameDevice() const;
 

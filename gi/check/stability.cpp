@@ -52,7 +52,7 @@ uint64_t ulps(float a, float b) {
 }
 
 void soakCase(CheckRun& run) {
-  const uint32_t frames = run.options.quick ? 500 : 10000, settled = frames / 5;
+  const uint32_t frames = run.options.quick ? 200 : 10000, settled = frames / 5;
   const auto pipeline = run.prepare(mixedRoom(), run.small());
   Targets targets(run.context, kStabilityPicture);
   std::vector<glm::vec3> before;
