@@ -49,7 +49,7 @@ def main():
             print(f"tests/slow.txt: {name}: FAILED, there is no such test")
             failed += 1
     if quick:
-        print(f"{len(slow)} slow tests (tests/slow.txt) were left out: ./test --slow runs them, as CI does")
+        print(f"{len(slow)} slow tests (tests/slow.txt) were left out: ./test --all runs them, as CI does")
     if status != 0 and failed == 0:
         print(f"a step ended with status {status} although no test reported a failure")
         failed += 1

@@ -1,4 +1,4 @@
-"""list_slow_tests.py SECONDS [FOLDER…]: tests/slow.txt anew, from the results of `./test --slow` (default: build/test-results):
+"""list_slow_tests.py SECONDS [FOLDER…]: tests/slow.txt anew, from the results of `./test --all` (default: build/test-results):
 the tests that took more processor seconds, on a machine whose only Vulkan device is Mesa's CPU driver."""
 
 import sys
@@ -19,7 +19,7 @@ def main():
             left_out += seconds
             names.add(name)
     (root / "tests" / "slow.txt").write_text(
-        f"# What ./test leaves out and ./test --slow runs: tests that took more than {limit:g} processor seconds on Mesa's CPU driver,\n"
+        f"# What ./test leaves out and ./test --all runs: tests that took more than {limit:g} processor seconds on Mesa's CPU driver,\n"
         f"# {left_out:.0f} of {all_seconds:.0f} in all. Made by .ci/list_slow_tests.py.\n"
         + "".join(f"{name}\n" for name in sorted(names)))
 

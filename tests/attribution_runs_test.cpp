@@ -86,9 +86,6 @@ const Spoilt kSpoilt[] = {
      "lit"},
 };
 
-/// Of these `./test` runs all but four, whose stages are the thesis's or are spoilt by what nobody sets.
-constexpr std::string_view kWithAll[] = {"normals", "traversal", "storage", "lookup"};
-
 class AttributionRuns : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { truths_ = std::make_unique<TemporaryFolder>(); }
@@ -154,7 +151,6 @@ INSTANTIATE_TEST_SUITE_P(Stages, SpoiltStages, ::testing::ValuesIn(kSpoilt),
 
 TEST_P(SpoiltStages, AreNamed) {
   const Spoilt& spoilt = GetParam();
-  if (std::ranges::find(kWithAll, spoilt.stage) != std::end(kWithAll)) IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer() && !spoilt.truth) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   makeTruth(spoilt);
   const RunResult run = runIrad(study(spoilt, "out"));
@@ -168,7 +164,6 @@ TEST_P(SpoiltStages, AreNamed) {
 }
 
 TEST_F(AttributionRuns, AKilledStudyGoesOnToTheSameFigures) {
-  IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   const Spoilt plain{"", {"voxel.resolution=8"}, std::nullopt};
   const RunResult whole = runIrad(study(plain, "whole"));
@@ -239,7 +234,6 @@ std::optional<double> aboutSeconds(const std::string& text) {
 }
 
 TEST_F(AttributionRuns, SayBeforehandHowLongTheyTake) {
-  IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   // Times go to the gather and to many rays; to finer voxels.
   struct Kind {

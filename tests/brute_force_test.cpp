@@ -408,7 +408,6 @@ TEST_F(AgainstMatrix, BoxByTheThesissRule) {
 }
 
 TEST_F(AgainstMatrix, Sponza) {
-  IRAD_ONLY_WITH_ALL();
   const auto scenes = sharedScenes();
   if (!scenes) GTEST_SKIP() << "Sponza lies beside the project, in ../shared/scenes, which is absent";
   agrees("sponza", loadScene(*scenes / "sponza/sponza_small_lit_m.glb"), framewise(16, 32, 16));

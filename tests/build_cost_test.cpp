@@ -116,7 +116,6 @@ TEST_F(BuildCostTest, AnEditTellsTheStagesThatItRedoes) {
 /// they are given. Times are the machine's, and waver by more than the growth is off: they are printed, and what is
 /// held is the growth itself, above.
 TEST_F(BuildCostTest, IsNearToWhatRealBuildsTake) {
-  IRAD_ONLY_WITH_ALL();
   const std::vector<std::pair<uint32_t, uint32_t>> sizes{{32, 64}, {48, 64}, {64, 64}, {64, 128}, {48, 128}};
   Pipeline pipeline(context(), loadScene(assets() / "box.glb"), sized(32, 64));
   BuildTimes times;

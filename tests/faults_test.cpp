@@ -93,20 +93,18 @@ uint64_t held() {
 
 class NoMemory : public GpuTest {
  protected:
-  /// Each resource in turn with `./test --all`; otherwise every fourth.
-  const uint64_t kStep = everything() ? 1 : 4;
   /// Runs without memory at each resource in turn; the subsystems that they belong to.
   std::set<std::string> everyResource(const Settings& settings) {
     const Pixels expected = fresh(context(), settings);
     const uint64_t before = held();
     std::set<std::string> subsystems;
-    for (uint64_t n = 1;; n += kStep) {
+    for (uint64_t n = 1;; ++n) {
       Pixels pixels;
       const std::string message = withoutMemoryAt(n, [&] { pixels = fresh(context(), settings); });
       EXPECT_EQ(held(), before) << "after resource " << n << ": " << message;
       if (message.empty()) {
         EXPECT_TRUE(pixels == expected);
-        std::printf("%u resources, tried in steps of %u\n", static_cast<uint32_t>(n - 1), static_cast<uint32_t>(kStep));
+        std::printf("%u resources\n", static_cast<uint32_t>(n - 1));
         return subsystems;
       }
       expectNamed(message);
@@ -117,7 +115,6 @@ class NoMemory : public GpuTest {
 };
 
 TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
-  IRAD_ONLY_WITH_ALL();
   Settings ours = small(8), thesis = small(8, "thesis");
   ours.writeback.mode = WritebackMode::compute;
   ours.sky.source = SkySource::preetham;
@@ -125,10 +122,8 @@ TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
   std::set<std::string> subsystems = everyResource(ours);
   subsystems.merge(everyResource(thesis));
   subsystems.merge(everyResource(framewise(8)));
-  if (kStep == 1) {
-    EXPECT_EQ(subsystems, (std::set<std::string>{"facets", "field", "matrix", "scene", "shadow", "solver", "specular",
-                                                 "staging", "targets", "volumes", "voxels", "writeback"}));
-  }
+  EXPECT_EQ(subsystems, (std::set<std::string>{"facets", "field", "matrix", "scene", "shadow", "solver", "specular",
+                                               "staging", "targets", "volumes", "voxels", "writeback"}));
   // With the context goes what it kept.
   gpu().context.reset();
   gpu().device->waitIdle();
@@ -136,14 +131,13 @@ TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
 }
 
 TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
-  IRAD_ONLY_WITH_ALL();
   const Pixels pictures[] = {fresh(context(), small(8)), fresh(context(), small(10))};
   ASSERT_FALSE(pictures[0] == pictures[1]);
   Pipeline pipeline(context(), box(), small(8));
   pipeline.prepare();
   int shown = 0;
   uint64_t n = 1;
-  for (;; n += kStep) {
+  for (;; ++n) {
     pipeline.set(small(shown == 0 ? 10 : 8));
     const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
     if (message.empty()) break;
@@ -164,7 +158,7 @@ TEST_F(NoMemory, InAnotherMethodCanBeTakenBack) {
   pipeline.prepare();
   const Pixels before = draw(context(), pipeline);
   uint64_t n = 1;
-  for (;; n += kStep) {
+  for (;; ++n) {
     pipeline.set(framewise(12));
     const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
     if (message.empty()) break;
@@ -189,7 +183,7 @@ TEST_F(NoMemory, InNewShadowsAndNewRaysCanBeTakenBack) {
   pipeline.prepare();
   const Pixels before = draw(context(), pipeline);
   uint64_t n = 1;
-  for (;; n += kStep) {
+  for (;; ++n) {
     pipeline.set(settings[1]);
     const std::string message = withoutMemoryAt(n, [&] { pipeline.prepare(); });
     if (message.empty()) break;

@@ -198,7 +198,6 @@ TEST_F(GoldenImages, OnlyIndirectLightReachesIntoTheArenasCaves) {
 }
 
 TEST_F(GoldenImages, Sponza) {
-  IRAD_ONLY_WITH_ALL();
   const auto shared = sharedScenes();
   if (!shared) GTEST_SKIP() << "../shared/scenes is absent: no pictures of Sponza";
   Pictures sponza(context(), *shared / "sponza/sponza_small_lit_m.glb");

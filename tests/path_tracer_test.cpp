@@ -337,9 +337,9 @@ TEST_P(AgainstCycles, SameMean) {
   const ExrPicture cycles = readExr(*scenes / "real" / (name + ".exr"));
   Scene scene = loadScene(*scenes / "real" / (file + ".glb"), {.lambertian = true, .doubleSided = true});
   const Camera camera = scene.cameras.at(static_cast<size_t>(name.back() - '0'));
-  const uint32_t samples = everything() ? 128 : 32;
-  const TracedPicture p = makePathTracer(std::move(scene))
-                              ->render(camera, {cycles.width, cycles.height}, {.samples = samples});
+  const uint32_t samples = 128;
+  const TracedPicture p =
+      makePathTracer(std::move(scene))->render(camera, {cycles.width, cycles.height}, {.samples = samples});
   const glm::dvec3 ratio = p.lit.pictureMean / cycles.mean(), error = p.lit.pictureError / cycles.mean();
   CheckPicture theirs{.size = p.size, .pixels = {}};
   for (const glm::vec3& c : cycles.pixels) theirs.pixels.emplace_back(c, 1);

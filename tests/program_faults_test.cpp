@@ -168,7 +168,6 @@ TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholePicturesOnly) {
 }
 
 TEST(ProgramFaults, AFullDiskIsStatus1AndLeavesWholeArraysOnly) {
-  IRAD_ONLY_WITH_ALL();
   fillDisks(smallExport);
 }
 
@@ -283,7 +282,6 @@ void killThroughout(size_t step, const Arguments& arguments) {
 }
 
 TEST(ProgramFaults, KilledWhileExportingLeavesWholeFilesOnly) {
-  IRAD_ONLY_WITH_ALL();
   killThroughout(2, smallExport);
 }
 

@@ -110,14 +110,12 @@ Camera lookFrom(glm::dvec3 eye, float yfovDegrees) {
 }
 
 TEST_F(Reference, CornellAgainstCycles) {
-  IRAD_ONLY_WITH_ALL();
   const Camera camera = lookFrom({0, 1, 3.4}, 40.0f);
   expectMarks(compare(sourceFolder() / "tests/references/cornell_one_sided.exr", *scenes_ / "variants/cornell_base.glb",
                       &camera, {}));
 }
 
 TEST_F(Reference, CornellWithATwoSidedLamp) {
-  IRAD_ONLY_WITH_ALL();
   const Camera camera = lookFrom({0, 1, 3.4}, 40.0f);
   // The strip of ceiling that is seen is one pixel high: like Cycles, several samples of a pixel. It is .6 voxel from
   // the lamp: pixels look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
@@ -126,7 +124,6 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {
-  IRAD_ONLY_WITH_ALL();
   expectMarks(
       compare(*scenes_ / "references/sponza_lit_diffuse.exr", *scenes_ / "sponza/sponza_small_lit_m.glb", nullptr, {}));
 }

@@ -397,10 +397,9 @@ void expectCycles(const char* picture, const char* scenePath, const Camera* came
 
 TEST_F(Truths, CornellIsThatOfCycles) {
   const Camera camera{.position = {0, 1, 3.4}, .yfov = glm::radians(40.0f)};
-  expectCycles("cornell_base_diffuse.exr", "variants/cornell_base.glb", &camera, everything() ? 64 : 32);
+  expectCycles("cornell_base_diffuse.exr", "variants/cornell_base.glb", &camera, 64);
 }
 TEST_F(Truths, SponzaIsThatOfCycles) {
-  IRAD_ONLY_WITH_ALL();
   expectCycles("sponza_lit_diffuse.exr", "sponza/sponza_small_lit_m.glb", nullptr, 32);
 }
 #endif

@@ -199,7 +199,6 @@ TEST_F(Resolve, Box) {
 }
 
 TEST_F(Resolve, Sponza) {
-  IRAD_ONLY_WITH_ALL();
   const auto scenes = sharedScenes();
   if (!scenes) GTEST_SKIP() << "no shared scenes";
   Lit lit(context(), loadScene(*scenes / "sponza/sponza_small_lit_m.glb"), small());

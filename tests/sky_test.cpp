@@ -647,7 +647,6 @@ TEST_F(SkyPictures, AreThePathTracers) {
 }
 
 TEST_F(SkyPictures, OfSponzaIsThePathTracers) {
-  IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   const auto folder = sharedScenes();
   if (!folder) GTEST_SKIP() << "no shared scenes";
@@ -703,7 +702,6 @@ TEST(SkyCommands, RefuseWhatIsNoSkyAndTakeWhatIs) {
 }
 
 TEST_F(SkyPictures, OfSponzaInTheSunIsThePathTracers) {
-  IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   const auto folder = sharedScenes();
   if (!folder) GTEST_SKIP() << "no shared scenes";

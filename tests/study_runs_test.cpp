@@ -56,7 +56,6 @@ class StudyRuns : public ::testing::Test {
 };
 
 TEST_F(StudyRuns, AKilledStudyGoesOnAndShardsMergeToTheSameErrors) {
-  IRAD_ONLY_WITH_ALL();
   const RunResult whole = runIrad(study("whole", {"--repeats", "1"}));
   ASSERT_EQ(whole.status, 0) << whole.err;
   EXPECT_TRUE(contains(whole.out, "Build: ")) << whole.out;
@@ -359,7 +358,6 @@ TEST_F(StudyRuns, ThePathTracersErrorFallsWithItsSamples) {
 }
 
 TEST_F(StudyRuns, WhatTuneChoosesHoldsForOtherSeeds) {
-  IRAD_ONLY_WITH_ALL();
   if (!hasPathTracer()) GTEST_SKIP() << "this build has no path tracer (IRAD_EMBREE)";
   const Family& family = *std::ranges::find(families(), std::string_view("half-filled"), &Family::name);
   const fs::path scene = folder_.path / "half-filled.glb";

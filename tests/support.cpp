@@ -62,10 +62,6 @@ std::filesystem::path buildFolder() {
   return std::filesystem::path(IRAD_BINARY).parent_path();
 }
 
-bool everything() {
-  return std::getenv("IRAD_TEST_ALL") != nullptr;
-}
-
 double processorSeconds(pid_t process) {
   const std::string stat = slurp(fmt::format("/proc/{}/stat", process));
   if (stat.empty()) return 0;

@@ -50,12 +50,6 @@ std::filesystem::path sourceFolder();  ///< the checkout
 std::filesystem::path buildFolder();
 std::string iradProgram();  ///< the program's path
 
-/// Whether `./test --all` asked for what takes minutes: $IRAD_TEST_ALL is set.
-bool everything();
-/// For tests that take minutes where other tests are a quick sample of them.
-#define IRAD_ONLY_WITH_ALL() \
-  if (!::irad::test::everything()) GTEST_SKIP() << "takes long: ./test --all runs it"
-
 using irad::TemporaryFolder;
 
 /// Processor time used so far by all threads of a process that is a child of this one, and by its own children that

@@ -25,7 +25,7 @@ TEST_F(VoxelsTest, BoxHasWallsOneVoxelThick) {
       for (const glm::vec3 hi :
            {glm::vec3(1), glm::vec3(10.65f, 10.65f, 10.65f), glm::vec3(4, 2, 1), glm::vec3(3, 2, 1.7f)})
         for (const uint32_t n : {8u, 9u, 16u, 33u, 64u, 65u}) {
-          if (n > 33 && (hi.x < 10 || !everything())) continue;
+          if (n > 33 && hi.x < 10) continue;
           Soup soup;
           soup.box(soup.diffuse(glm::vec3(0.5f)), -0.5f * hi, 0.5f * hi, inwards);
           const Result result = run(soup.build(), with(n, method));

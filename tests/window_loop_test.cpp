@@ -154,7 +154,6 @@ class WindowLoop : public ::testing::Test {
 };
 
 TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
-  IRAD_ONLY_WITH_ALL();
   std::ofstream(options_.preferences) << R"({"format": 1, "folded": []})";
   const auto autosave = [this] {
     std::filesystem::path file;
@@ -260,7 +259,6 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
 
 /// With something to measure and nobody to look at it: no thread, nothing read back, nothing drawn beside the frames.
 TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
-  IRAD_ONLY_WITH_ALL();
   const glm::uvec2 size(64, 48);
   options_.reference = ReferencePicture{.path = "/a.exr", .picture = {.size = size}};
   options_.reference->picture.pixels.assign(size_t{size.x} * size.y, glm::vec4(0.3f, 0.3f, 0.3f, 1));

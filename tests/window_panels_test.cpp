@@ -173,14 +173,12 @@ TEST_F(WindowPanelsTest, EveryControlAndReadOutSaysWhatItIs) {
 }
 
 TEST_F(WindowPanelsTest, NothingIsCutOffOrLiesOverAnotherInALargerWindow) {
-  IRAD_ONLY_WITH_ALL();
   begin("1600x900", "1");
   lookThrough("1600x900");
   quit();
 }
 
 TEST_F(WindowPanelsTest, NothingIsCutOffOrLiesOverAnotherWithLargeText) {
-  IRAD_ONLY_WITH_ALL();
   begin("1280x720", "1.5");
   lookThrough("1280x720-1.5");
   quit();

@@ -21,7 +21,6 @@ class WindowToolsTest : public WindowTest {
 };
 
 TEST_F(WindowToolsTest, CapturesReplayToTheSameBits) {
-  IRAD_ONLY_WITH_ALL();
   start({"--set", "solver.tolerance=0.01", "--set", "camera.exposure=1"});
   goAside();
   ASSERT_TRUE(viewportSettles(lit));

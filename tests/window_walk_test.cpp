@@ -121,7 +121,6 @@ class WindowWalk : public WindowTest {
 };
 
 TEST_F(WindowWalk, EveryViewIsTheHeadlessPicture) {
-  IRAD_ONLY_WITH_ALL();
   fold(R"(["Accuracy", "Scene", "Cameras", "Settings", "Compare", "Inspector", "Solver", "Memory"])");
   start(settings());
   takeSize();
@@ -145,7 +144,6 @@ TEST_F(WindowWalk, EveryViewIsTheHeadlessPicture) {
 }
 
 TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
-  IRAD_ONLY_WITH_ALL();
   std::string titles;
   for (const auto& panel : makePanels()) titles += fmt::format("{}\"{}\"", titles.empty() ? "" : ", ", panel->title());
   fold(fmt::format("[{}]", titles).c_str());
@@ -330,7 +328,6 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
 
 /// Settings with which the scene is read anew, and what a pixel looks for itself.
 TEST_F(WindowWalk, SettingsOfTheSceneAndOfEmittersAreDrawnAtOnce) {
-  IRAD_ONLY_WITH_ALL();
   std::vector<std::string> folded;
   for (const auto& panel : makePanels())
     if (panel->title() != std::string("Settings")) folded.emplace_back(panel->title());
