@@ -202,7 +202,7 @@ Command checkCommand() {
                 "`irad check --list` names them");
             options.flag("--list", arguments->list, "List the cases with set-up, oracle and mark");
             options.flag("--quick", arguments->quick,
-                         "Without the thesis's figures, and with fewer frames in long cases");
+                         "Without the thesis's figures; fewer frames in long cases, fewer samples in truths");
             options.flag("--figures", arguments->figures, "Every figure of a case, not the decisive one alone");
             options.value("--seeds", "COUNT", arguments->seeds,
                           "Members of each family of scenes (default: 3; with --quick 1)");

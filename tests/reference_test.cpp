@@ -125,7 +125,8 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
 
 TEST_F(Reference, SponzaAgainstCycles) {
   expectMarks(
-      compare(*scenes_ / "references/sponza_lit_diffuse.exr", *scenes_ / "sponza/sponza_small_lit_m.glb", nullptr, {}));
+      compare(*scenes_ / "references/sponza_lit_diffuse.exr", *scenes_ / "sponza/sponza_small_lit_m.glb", nullptr,
+              {.rays = 128}));
 }
 
 /// The largest radiance within a centred square of `half` pixels, and at the centre.

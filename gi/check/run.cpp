@@ -31,8 +31,8 @@ uint64_t nonFinite(float x) {
 
 Settings CheckRun::small() const {
   Settings s = settings;
-  s.voxel.resolution = options.quick ? 16 : 24;
-  s.matrix.gpu.rays = options.quick ? 32 : 64;
+  s.voxel.resolution = 24;
+  s.matrix.gpu.rays = 64;
   s.light.shadowResolution = 256;
   return s;
 }

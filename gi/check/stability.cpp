@@ -106,7 +106,8 @@ void toggle(const Setting& setting, Settings& settings) {
 }
 
 void toggleCase(CheckRun& run) {
-  const Settings settings = run.small();
+  Settings settings = run.small();
+  if (run.options.quick) settings.voxel.resolution = 16, settings.matrix.gpu.rays = 32;
   const auto pipeline = run.prepare(mixedRoom(), settings);
   const auto shot = [&] {
     return run.picture(*pipeline, pipeline->scene().cameras.at(0), VIEW_LIT, kStabilityPicture);
