@@ -400,7 +400,7 @@ TEST_F(Truths, CornellIsThatOfCycles) {
   expectCycles("cornell_base_diffuse.exr", "variants/cornell_base.glb", &camera, 64);
 }
 TEST_F(Truths, SponzaIsThatOfCycles) {
-  expectCycles("sponza_lit_diffuse.exr", "sponza/sponza_small_lit_m.glb", nullptr, 32);
+  expectCycles("sponza_lit_diffuse.exr", "sponza/sponza_small_lit_m.glb", nullptr, 16);
 }
 #endif
 
