@@ -1,5 +1,5 @@
 // Against path tracing and closed forms: Cycles renders (diffuse only, same camera and lights) and the analytic scenes
-// of ../shared. N = 128, 256 rays (less for the analytic scenes), every material Lambertian.
+// of ../shared. N = 128, 256 rays (Sponza 128, the analytic scenes less), every material Lambertian.
 //
 // The Cornell box is compared twice. As glTF has it, with culled backs, with tests/references/cornell_one_sided.exr, in
 // which the lamp emits from its front alone. With every material double-sided, as Cycles has them, with
@@ -124,9 +124,8 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {
-  expectMarks(
-      compare(*scenes_ / "references/sponza_lit_diffuse.exr", *scenes_ / "sponza/sponza_small_lit_m.glb", nullptr,
-              {.rays = 128}));
+  expectMarks(compare(*scenes_ / "references/sponza_lit_diffuse.exr", *scenes_ / "sponza/sponza_small_lit_m.glb",
+                      nullptr, {.rays = 128}));
 }
 
 /// The largest radiance within a centred square of `half` pixels, and at the centre.
