@@ -18,7 +18,7 @@ Pipeline::Pipeline(Context& context, Scene scene, const Settings& settings, Expe
 Pipeline::~Pipeline() = default;
 
 Pipeline::Impl& Pipeline::changed() {
-  impl_->state = newState();
+  impl_->state = Impl::newState();
   return *impl_;
 }
 
@@ -232,7 +232,7 @@ void Pipeline::solvedAfresh(const Progress& progress, const std::function<void()
     uint64_t solvedFrame = p.solvedFrame;
     Planned planned = p.planned;
     ~Before() {
-      p.state = newState();
+      p.state = Impl::newState();
       p.planned = std::move(planned);
       p.now.light = std::move(light);
       p.solvedFrame = solvedFrame;

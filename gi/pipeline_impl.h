@@ -18,11 +18,11 @@
 
 namespace irad {
 
-/// A number that no other state of any pipeline has.
-uint64_t newState();
-
 struct Pipeline::Impl {
   Impl(Context& context, Scene scene, const Settings& settings, ExpectedIrradiance expected);
+
+  /// A number that no other state of any pipeline has.
+  static uint64_t newState();
 
   Context& context;
   Scene scene;

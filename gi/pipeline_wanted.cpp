@@ -9,7 +9,7 @@
 
 namespace irad {
 
-uint64_t newState() {
+uint64_t Pipeline::Impl::newState() {
   static std::atomic<uint64_t> last = 0;
   return ++last;
 }

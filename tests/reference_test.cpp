@@ -78,6 +78,7 @@ class Reference : public GpuTest {
     const ExrPicture direct = readExr(reference, "ViewLayer.DiffDir"),
                      bounced = readExr(reference, "ViewLayer.DiffInd");
     // H holds the emitters' first gather, which Cycles counts as direct: that view's D + F M is compared.
+    // (F M comes next to it: those two share their surfaces.)
     const std::vector<ExrPicture> ours = render(scene, camera, {direct.width, direct.height},
                                                 {"direct-irradiance", "emitter-irradiance", "irradiance"}, quality);
     ExrPicture oursDirect = ours[0], oursBounced = ours[2];

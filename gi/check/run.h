@@ -48,7 +48,7 @@ class CheckRun {
 
   /// Sizes at which thousands of frames or dozens of rebuilds take seconds on a CPU device.
   Settings small() const;
-  /// Samples of a pixel of a truth: an eighth with `quick`. Means are judged by marks ten times their noise, even so.
+  /// Samples of a pixel of a truth: an eighth with `quick`, when marks are still nine times the noise of a mean.
   uint32_t samples(uint32_t whole) const { return options.quick ? whole / 8 : whole; }
   /// To open this run's device once more.
   DeviceOptions sameDevice() const;

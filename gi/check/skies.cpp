@@ -89,7 +89,7 @@ void skyGroundCase(CheckRun& run) {
   const CheckPicture seen = run.picture(*room, camera, VIEW_LIT, kSize);
   if (!hasPathTracer()) throw WorkError("the room could not be judged: this build has no path tracer (IRAD_EMBREE)");
   const TracedPicture truth =
-      makePathTracer(room->scene(), room->sky())->render(camera, kSize, {.samples = 512, .centred = true});
+      makePathTracer(room->scene(), room->sky())->render(camera, kSize, {.samples = run.samples(512), .centred = true});
   const TruthError error = compare(seen, truth.lit);
   run.near("room: mean / truth", error.ratio, 1, 0.03);
   run.atMost("room: relMSE", error.relMse, 0.02);
