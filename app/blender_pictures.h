@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 
 namespace irad::app {
 

@@ -33,7 +33,8 @@ std::string facts(const DeviceSession& session, const Pipeline& pipeline) {
   const uint32_t rays = session.settings.matrix.gpu.rays;
   return fmt::format(
       "{}, {}\n{} x {} x {} voxels: V = {}; {} solid: M_s = {}; R = {}; {} facets; matrix {}, {} entries\n"
-      "With T Table 1's M_s = 2^20 eq. 31 has {:.3f} MiB. At its peak, while all was built, the device held {:.3f} "
+      "With M_s = 2^20, as in the thesis's Table 1, its eq. 31 has {:.3f} MiB. At its peak, while all was built, the "
+      "device held {:.3f} "
       "MiB.\n",
       pipeline.scene().path.filename().string(), session.device->info.name, dims.x, dims.y, dims.z, facets.grid.voxels,
       facets.solidVoxels, thesisCapacity(facets.solidVoxels), rays, facets.count,
@@ -57,7 +58,7 @@ void run(const MemoryArguments& arguments, Machine& machine) {
   session.progress.finish();
 
   const std::vector<std::vector<std::string>> cells = memoryCells(table, "mib", mebibyteNumber);
-  print("{}\n{}\nT 5.14 as printed does not agree with itself; its Sponza, by its own formulas:\n",
+  print("{}\n{}\nWhat the thesis prints does not agree with itself; its Sponza, by its own formulas:\n",
         facts(session, pipeline),
         arguments.markdown ? markdownTable(cells) : formatTable(cells, {false, false, false, true, true, true, false}));
   for (const std::string& misprint : thesisMisprints()) print("- {}\n", misprint);

@@ -28,9 +28,9 @@
 #include "gi/thesis/memory.h"
 #include "renderer/base/csv.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "renderer/scene/scene_content.h"
 
 namespace irad::app {

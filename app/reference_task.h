@@ -13,8 +13,8 @@
 #include "app/arguments.h"
 #include "gi/manifest.h"
 #include "gi/views/views.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 
 namespace irad {
 struct Targets;

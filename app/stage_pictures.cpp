@@ -20,10 +20,10 @@
 #include "gi/sky.h"
 #include "gi/watch.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 
 namespace irad::app {
 namespace {

@@ -13,9 +13,9 @@
 #include "gi/study/attribution.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "shaders/shared/color_map.h"
 
 namespace irad::app {

@@ -17,10 +17,10 @@
 #include "gi/study/named_report.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/json_reader.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 
 namespace irad::app {
 namespace {
@@ -116,7 +116,7 @@ void printFindings(const NamedReport& report) {
     if (!e.skipped.empty()) print("  {:<12} skipped: {}\n", e.experiment.name, e.skipped);
   for (const Claim& claim : report.study->claims) {
     const Answer answer = answerTo(claim, report.results);
-    print("  {}: {}\n    here: {}\n    {}\n", claim.section, claim.said, answer.text, toString(answer.verdict));
+    print("  Section {}: {}\n    here: {}\n    {}\n", claim.section, claim.said, answer.text, toString(answer.verdict));
   }
 }
 

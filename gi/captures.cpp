@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "renderer/base/error.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 
 namespace irad {
 namespace fs = std::filesystem;

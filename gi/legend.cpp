@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "gi/views/views.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/ticks.h"
-#include "renderer/image_io.h"
 #include "shaders/shared/color_map.h"
 
 namespace irad {

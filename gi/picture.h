@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gi/views/views.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/scene.h"
 
 namespace irad {
@@ -22,8 +22,8 @@ struct PictureFiles {
   std::vector<std::filesystem::path> paths;
   std::string bad;  ///< what findBadPixels says of it; the files are written all the same, they show where
 };
-/// What is in `targets` after Pipeline::render() of `view`: stem.png as shown, stem.exr linear (renderer/image_io.h).
-/// `legend` and the lines of `notice` are drawn into the PNG.
+/// What is in `targets` after Pipeline::render() of `view`: stem.png as shown, stem.exr linear
+/// (renderer/base/image_io.h). `legend` and the lines of `notice` are drawn into the PNG.
 PictureFiles writePicture(Context& context, const Targets& targets, const ViewInfo& view,
                           const std::filesystem::path& stem, const Legend* legend = nullptr,
                           const std::vector<std::string>& notice = {});

@@ -33,7 +33,7 @@ class Planner {
   }
 
   EffectPlan run() {
-    for (const LightKind& kind : lightKinds()) lit(light(kind));
+    for (const LightKind& kind : lightKinds()) lamps_ |= lit(light(kind));
     emits_ = lit(emission());
     lit(sky());
     if (shines_) plan_.noLight.clear();
@@ -192,11 +192,16 @@ class Planner {
   /// H, by either method: in `row` bytes for each facet and D, F M, H, B twice, as shading samples them.
   EffectRow indirectLight(Effect effect, uint64_t row) const {
     const float albedo = most(&MaterialTraits::albedo);
-    return {.effect = effect,
-            .state = when(shines_ && (albedo > 0 || plan_.on(Effect::specular))),
-            .reason = shines_ ? fmt::format("light, and albedos of up to {:.3g}", albedo)
-                              : "no light at all: H is 0 everywhere",
-            .bytesNotAllocated = b_.facets * (row + 6 * 16)};
+    const bool shown = albedo > 0 || plan_.on(Effect::specular);
+    // No surface shows H, but D of facets tells where shadow maps let light through (gi/direct_seen.comp).
+    const bool highlights = lamps_ && byTriangles() && most(&MaterialTraits::f0) > 0;
+    EffectRow r{.effect = effect,
+                .state = when(shines_ && (shown || highlights)),
+                .reason = shines_ ? fmt::format("light, and albedos of up to {:.3g}", albedo)
+                                  : "no light at all: H is 0 everywhere",
+                .bytesNotAllocated = b_.facets * (row + 6 * 16)};
+    if (shines_ && !shown && highlights) r.reason += ", but highlights, which facets keep behind walls";
+    return r;
   }
   EffectRow matrix() const {
     // csr keeps 4 B per distinct column, of which there are at most as many as rays.
@@ -350,8 +355,8 @@ class Planner {
   const Settings& s_;
   const EffectPlan* before_;
   EffectPlan plan_;
-  std::vector<MaterialTraits> used_;     ///< by any triangle
-  bool emits_ = false, shines_ = false;  ///< surfaces; any light enters the scene
+  std::vector<MaterialTraits> used_;                     ///< by any triangle
+  bool emits_ = false, lamps_ = false, shines_ = false;  ///< surfaces; lights of the scene; any light enters it
 };
 
 }  // namespace

@@ -13,8 +13,8 @@
 #include <span>
 
 #include "gi/pipeline.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "renderer/scene/scene.h"
 #include "renderer/targets.h"
 #include "tests/exr.h"

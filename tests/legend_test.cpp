@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gi/views/views.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "shaders/shared/color_map.h"
 #include "tests/exr.h"
 #include "tests/support.h"

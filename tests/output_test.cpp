@@ -16,8 +16,8 @@
 
 #include "gi/picture.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "tests/support.h"
 
 #ifdef IRAD_OIIO

@@ -56,6 +56,7 @@ const Edit unlit = EDIT(t.materials[1].emission = 0);
 const Edit dark = unlit + EDIT(t.build.reset());
 const Edit turnedDown = unlit + EDIT(t.lights = {light(LightType::Point, /*shines=*/false)});
 const Edit dimSun = EDIT(t.lights = {light(LightType::Sun, /*shines=*/false)});
+const Edit lamp = EDIT(t.lights = {light(LightType::Point)});
 const Edit black = EDIT(t.materials[0].albedo = t.materials[1].albedo = 0);
 const Edit glossy = EDIT(t.materials[0].f0 = 0.04f, t.materials[0].leastRoughness = 0.3f);
 const Edit rough = glossy + EDIT(t.materials[0].leastRoughness = 0.9f);
@@ -114,8 +115,11 @@ const Case kCases[]{
     {matrix, black, "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
     {matrix, black + glossy, "on: light, and albedos of up to 0; 0 % of the rays escape"},
     {matrix, black + noMode, "off, 320000 B: light, and albedos of up to 0; 0 % of the rays escape"},
+    {matrix, black + noMode + lamp, "on: light, and albedos of up to 0, but highlights, *"},
+    {matrix, black + noMode + lamp + thesisRays, "off, *: light, and albedos of up to 0; *"},
+    {matrix, black + lamp, "off, *: light, and albedos of up to 0; *"},
     {matrix, dark, "off: no light at all: H is 0 everywhere"},
-    {matrix, dark + EDIT(t.lights = {light(LightType::Point)}), "on: light, and albedos of up to 0.5"},
+    {matrix, dark + lamp, "on: light, and albedos of up to 0.5"},
     {matrix, turnedDown, "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},
     {matrix, unlit + EDIT(t.emitted = true),
      "asleep: no light at all: H is 0 everywhere; 0 % of the rays escape; kept for the *"},

@@ -18,7 +18,7 @@
 #include "gi/check/path_state.h"
 #include "gi/check/process.h"
 #include "renderer/base/error.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/scene.h"
 #include "tests/support.h"
 

@@ -109,13 +109,19 @@ class RandomEffects : public EffectsTest {};
 /// Each seed's scene with settings that it shares with others: compiling their kernels is what takes the time.
 TEST_F(RandomEffects, EverythingForcedOnGivesTheSameBits) {
   std::map<Effect, int> leftOut;  // how often
-  for (uint32_t seed = 1; seed <= 18; ++seed) {
-    Dice dice{std::mt19937(seed)}, settingsDice{std::mt19937(1000 + seed / 6)};
+  struct Pair {
+    uint32_t scene, settings;  // seeds
+  };
+  std::vector<Pair> pairs;
+  for (uint32_t seed = 1; seed <= 18; ++seed) pairs.push_back({seed, 1000 + seed / 6});
+  pairs.push_back({9, 1000});  // black metals, whose highlights a shadow map let through a wall
+  for (const Pair& pair : pairs) {
+    Dice dice{std::mt19937(pair.scene)}, settingsDice{std::mt19937(pair.settings)};
     const Scene scene = randomScene(dice);
     const Settings settings = randomSettings(settingsDice);
     const auto planned = bench(scene, settings), forced = bench(scene, app::allForcedOn(settings));
     const EffectPlan plan = planned->pipeline().plan(), all = forced->pipeline().plan();
-    std::string name = fmt::format("seed {}, left out:", seed);
+    std::string name = fmt::format("seeds {} and {}, left out:", pair.scene, pair.settings);
     for (const EffectRow& row : plan.rows)
       if (row.state == EffectState::off && !all.off(row.effect)) {
         name += std::string(" ") + row.info().name;

@@ -21,7 +21,7 @@
 #include "gi/matrix.h"
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "tests/support.h"
 #ifdef IRAD_OIIO
 #include "tests/exr.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "tests/scene_files.h"
 
 namespace irad::scene_words_suite {

@@ -21,7 +21,7 @@
 #include "gi/preetham.h"
 #include "gi/ray_kernel.h"
 #include "renderer/base/error.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/targets.h"
 #include "tests/gi_fixture.h"
 

@@ -10,8 +10,8 @@
 
 #include "gi/check/path_tracer.h"
 #include "gi/check/process.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "tests/support.h"
 
 namespace irad::test::study_named_runs_suite {

@@ -11,8 +11,8 @@
 #include "gi/study/sweep.h"
 #include "gi/study/thesis_tables.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "tests/support.h"
 
 namespace irad::test::study_named_suite {
@@ -406,7 +406,7 @@ TEST(NamedReports, AreWholeAndStandByThemselves) {
       ++pictures;
     EXPECT_EQ(pictures, 3u) << "the truth and both points";
   }
-  EXPECT_TRUE(contains(slurp(folder.path / "findings.csv"), "rq4,T 7.6,"));
+  EXPECT_TRUE(contains(slurp(folder.path / "findings.csv"), "rq4,7.6,"));
 
   report.tables = {{"Table 3: geometry", {{"a", "b"}, {"1", "2"}}}};
   writeThesisReport(folder.path, {report});

@@ -18,7 +18,7 @@
 #include "gi/check/process.h"
 #include "gi/study/results.h"
 #include "gi/study/sweep.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/scene.h"
 #include "tests/support.h"
 

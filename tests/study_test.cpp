@@ -26,8 +26,8 @@
 #include "gi/study/sweep.h"
 #include "gi/study/tune.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 #include "renderer/scene/camera_json.h"
 #include "tests/support.h"
 

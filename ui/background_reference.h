@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gi/check/path_tracer.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/scene.h"
 
 namespace irad {

@@ -13,8 +13,8 @@
 #include "gi/shadow_needs.h"
 #include "renderer/base/console.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/frame/pipeline_wait.h"
-#include "renderer/image_io.h"
 #include "renderer/scene/nodes.h"
 #include "renderer/scene/sky_image.h"
 

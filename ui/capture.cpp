@@ -9,8 +9,8 @@
 #include "gi/picture.h"
 #include "gi/plan.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/output_file.h"
-#include "renderer/image_io.h"
 
 namespace irad {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/base/error.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/srgb.h"
 #include "ui/imgui_layer.h"
 #include "ui/session.h"

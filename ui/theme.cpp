@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "ui/imgui.h"
 
 namespace irad {

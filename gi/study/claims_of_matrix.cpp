@@ -90,7 +90,7 @@ Answer buildTakesSeconds(const NamedResults& r) {
   const auto times = buildTimes(r, "-thesis");
   const auto seconds = std::ranges::count_if(times, [](const auto& t) { return t.second >= 2000; });
   const std::string text = fmt::format(
-      "By the thesis's settings the matrix takes {}{}: 2 s or more in {} of {} scenes. (T Tables 6 to 9 "
+      "By the thesis's settings the matrix takes {}{}: 2 s or more in {} of {} scenes. (Its Tables 6 to 9 "
       "themselves have 53 to 1109 ms.)",
       listed(times), caveat(r), seconds, times.size());
   if (!comparableTimes(r)) return {Judgement::Open, text};

@@ -265,10 +265,12 @@ Answer writebackCostsAMultiple(const NamedResults& r) {
         "times) by the mean over pixels",
         e->experiment.name, plainNumber(off), plainNumber(mask), mask / off, plainNumber(compute), compute / off));
   }
-  return {atFullSize(r, meanOf(factors) >= 2),
-          fmt::format("{}{} (several times: 2 and more, by the mask). T Tables 7 and 10 have medians of 0.375 and 3.39 "
-                      "ms of RE Forward.",
-                      fmt::join(parts, "; "), caveat(r))};
+  return {
+      atFullSize(r, meanOf(factors) >= 2),
+      fmt::format(
+          "{}{} (several times: 2 and more, by the mask). The thesis's Tables 7 and 10 have medians of 0.375 and 3.39 "
+          "ms of RE Forward.",
+          fmt::join(parts, "; "), caveat(r))};
 }
 
 Answer writebackFlickers(const NamedResults& r) {

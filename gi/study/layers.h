@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/metrics.h"
 
 namespace irad {

@@ -102,7 +102,7 @@ struct Answer {
 };
 /// Something that the thesis found, in our words.
 struct Claim {
-  const char* section;  ///< "T 7.6"
+  const char* section;  ///< of the thesis: "7.6, RQ4"
   const char* said;
   Answer (*judge)(const NamedResults&);  ///< may throw NotMeasured
 };

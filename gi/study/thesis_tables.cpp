@@ -176,13 +176,14 @@ const std::vector<ThesisTime>& thesisTimes() {
 
 const char* experimentOfTable(int table) {
   constexpr const char* names[] = {"arena", "sponza", "park", "box", "writeback-sponza"};
-  IRAD_CHECK(table >= 6 && table <= 10, "T Tables 6 to 10");
+  IRAD_CHECK(table >= 6 && table <= 10, "the thesis's Tables 6 to 10");
   return names[table - 6];
 }
 
 TextTable timeTable(int table, const std::vector<TimeRow>& here) {
-  TextTable out{{"stage", "T mean ms", "T min", "T max", "T std", "T p50", "T p95", "T p99", "T samples", "stage here",
-                 "mean ms", "min", "max", "std", "p50", "p95", "p99", "samples", "mean here / T mean"}};
+  TextTable out{{"stage", "thesis mean ms", "thesis min", "thesis max", "thesis std", "thesis p50", "thesis p95",
+                 "thesis p99", "thesis samples", "stage here", "mean ms", "min", "max", "std", "p50", "p95", "p99",
+                 "samples", "mean here / thesis mean"}};
   const auto addStats = [](std::vector<std::string>& row, const TimingStats& t) {
     for (const double value : {t.mean, t.min, t.max, t.std, t.p50, t.p95, t.p99})
       row.push_back(fmt::format("{:.4f}", value));
@@ -210,7 +211,8 @@ TextTable timeTable(int table, const std::vector<TimeRow>& here) {
 }
 
 TextTable extentTable(const NamedResults& results) {
-  TextTable out{{"scene", "T extent", "extent", "N", "T grid", "grid", "T edge", "edge", "edge / T edge"}};
+  TextTable out{
+      {"scene", "thesis extent", "extent", "N", "thesis grid", "grid", "thesis edge", "edge", "edge / thesis edge"}};
   for (const PublishedScene& s : kPublished) {
     const ExperimentResult* e = experimentOfScene(results, s.scene);
     const bool known = e && e->figures.contains("extent x");
@@ -241,8 +243,8 @@ TextTable extentTable(const NamedResults& results) {
 }
 
 TextTable geometryTable(const NamedResults& results) {
-  TextTable out{
-      {"scene", "T vertices", "vertices", "T triangles", "triangles", "T solid voxels, N = 256", "solid voxels", "N"}};
+  TextTable out{{"scene", "thesis vertices", "vertices", "thesis triangles", "triangles",
+                 "thesis solid voxels, N = 256", "solid voxels", "N"}};
   for (const PublishedScene& s : kPublished) {
     const ExperimentResult* e = experimentOfScene(results, s.scene);
     out.push_back({s.name, fmt::format("{}", s.vertices), figure(e, "vertices"), fmt::format("{}", s.triangles),

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gi/settings.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 
 namespace irad {
 

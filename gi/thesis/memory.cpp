@@ -154,15 +154,16 @@ std::vector<std::string> thesisMisprints() {
   const double volumes = inMebibytes(formula.volumes), matrix = inMebibytes(formula.matrix),
                total = inMebibytes(formula.total), hits = inMebibytes(8 * kRays * kPrintedCapacity);
   return {
-      fmt::format("T 5.14 speaks of seven textures; it names six, and eq. 29 counts six (3 x 8 + 3 x 4 = 36 B)."),
-      fmt::format("T Table 1 has {:.2f} MiB for a texture of 8 B; 8 V is {:.2f}. Hence its volumes are {:.2f} MiB, "
+      fmt::format("Section 5.14 of the thesis speaks of seven textures; it names six, and eq. 29 counts six (3 x 8 + 3 "
+                  "x 4 = 36 B)."),
+      fmt::format("Table 1 has {:.2f} MiB for a texture of 8 B; 8 V is {:.2f}. Hence its volumes are {:.2f} MiB, "
                   "those of eq. 29 {:.2f}.",
                   kWideTexture, inMebibytes(8 * kVoxels), kVolumes, volumes),
-      fmt::format("T 5.14 speaks of six buffers of the matrix, and eq. 30 counts three vec4 arrays (84 = 32 + 4 + 3 x "
-                  "16); T Table 1 lists five with two: {:.2f} MiB instead of {:.2f}.",
+      fmt::format("It speaks of six buffers of the matrix, and eq. 30 counts three vec4 arrays (84 = 32 + 4 + 3 x "
+                  "16); Table 1 lists five with two: {:.2f} MiB instead of {:.2f}.",
                   kMatrix, matrix),
-      fmt::format("T 5.14 has eq. 31 \"yield\" {:.2f} MiB, the sum of T Table 1; it yields {:.2f}, {:.2f} more.",
-                  kTotal, total, total - kTotal),
+      fmt::format("It has eq. 31 \"yield\" {:.2f} MiB, the sum of Table 1; it yields {:.2f}, {:.2f} more.", kTotal,
+                  total, total - kTotal),
       fmt::format("M_s is 2^20 there, but by its definition 2^{} for {} solid voxels: eq. 31 yields {:.2f} MiB.",
                   std::bit_width(thesisCapacity(kSolid)) - 1, kSolid, inMebibytes(defined.total)),
       fmt::format("97 % \"of total\" is the entries' share of eq. 30 ({:.1f} %); of eq. 31 they are {:.1f} %, and the "

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/base/sha256.h"
-#include "renderer/image_io.h"
 #include "renderer/scene/scene.h"
 
 namespace irad {

@@ -43,8 +43,8 @@ inline constexpr uint32_t kMostSkyWidth = 4096;
 
 /// Whether a picture may be one of the whole sphere: twice as wide as high.
 bool maySkyBe(const LinearPicture& picture);
-/// What a file (renderer/image_io.h, readLinear) holds as a sky. InputError where that is no picture of the sphere,
-/// holds integers, which end at white, or numbers that are no light.
+/// What a file (renderer/base/image_io.h, readLinear) holds as a sky. InputError where that is no picture of the
+/// sphere, holds integers, which end at white, or numbers that are no light.
 SkyImage skyOf(const std::filesystem::path& path, const LinearPicture& picture);
 SkyImage readSky(const std::filesystem::path& path);
 

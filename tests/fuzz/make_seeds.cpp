@@ -10,7 +10,7 @@
 
 #include "gi/check/path_state.h"
 #include "gi/settings.h"
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/light_json.h"
 #include "tests/scene_files.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/sky_image.h"
 #include "tests/fuzz/readers.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/image_io.h"
+#include "renderer/base/image_io.h"
 
 #include <fmt/format.h>
 
