@@ -14,28 +14,28 @@ class Mouse {
 
   /// To "x y" of the screen.
   void moveTo(const std::string& place) const {
-    screen_.xdotool("mousemove " + place);
+    screen_.act("mousemove " + place);
     waitUntilSeen(place, /*down=*/false);
   }
   /// Moves it there and presses a button (1: the left one), which stays down.
   void pressAt(const std::string& place, int button = 1) const {
     moveTo(place);
-    screen_.xdotool(fmt::format("mousedown {}", button));
+    screen_.act(fmt::format("mousedown {}", button));
     waitUntilSeen(place, /*down=*/true);
   }
   void tap(const std::string& place) const {
     pressAt(place);
-    screen_.xdotool("mouseup 1");
+    screen_.act("mouseup 1");
     waitUntilSeen(place, /*down=*/false);  // a button that is let go elsewhere is not clicked
   }
   /// Presses at the first place, moves through the others, and lets go at the last.
   void dragThrough(const std::vector<std::string>& places, int button = 1) const {
     pressAt(places.front(), button);
     for (size_t i = 1; i < places.size(); ++i) {
-      screen_.xdotool("mousemove " + places[i]);
+      screen_.act("mousemove " + places[i]);
       waitUntilSeen(places[i], /*down=*/true);
     }
-    screen_.xdotool(fmt::format("mouseup {}", button));
+    screen_.act(fmt::format("mouseup {}", button));
     waitUntilSeen(places.back(), /*down=*/false);
   }
 

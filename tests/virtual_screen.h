@@ -18,6 +18,7 @@
 
 #include "gi/check/process.h"
 #include "tests/support.h"
+#include "tests/synthetic_input.h"
 
 namespace irad::test {
 
@@ -189,6 +190,7 @@ class VirtualScreen {
     close(fds[0]);
     if (number.empty()) throw std::runtime_error("Xvfb did not start: " + server_->log());
     display_ = fmt::format(":{}", std::atoi(number.c_str()));
+    input_ = std::make_unique<SyntheticInput>(display_);
   }
   std::map<std::string, std::string> environment() const {
     return {
@@ -197,12 +199,10 @@ class VirtualScreen {
 
   const std::string& display() const { return display_; }
   const Program& server() const { return *server_; }
-  /// Keys, mouse and window, by xdotool's own words. They have reached the program's socket when it returns.
-  void xdotool(const std::string& arguments) const {
-    const std::string command = fmt::format("DISPLAY={} xdotool {}", display_, arguments);
-    ASSERT_EQ(std::system(command.c_str()), 0) << command;
-  }
-  void key(const std::string& name) const { xdotool("key --delay 40 " + name); }
+  SyntheticInput& input() const { return *input_; }
+  /// Keys, mouse and window.
+  void act(const std::string& commands) const { input_->act(commands); }
+  void key(const std::string& name) const { act("key --delay 40 " + name); }
 
   /// The framebuffer is in the XWD format: big-endian header, then rows of BGRX.
   ScreenPart grab(int x, int y, int width, int height) const {
@@ -236,6 +236,7 @@ class VirtualScreen {
   TemporaryFolder folder_;
   std::unique_ptr<Program> server_;
   std::string display_;
+  std::unique_ptr<SyntheticInput> input_;
 };
 
 }  // namespace irad::test

@@ -123,15 +123,15 @@ TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
 
   // Where picture and reference differ, and both beside each other.
   key("4");
-  xdotool("mousemove 1500 900");
+  act("mousemove 1500 900");
   rests();
   const ScreenPart indirect = viewport();
   choose("Accuracy/show", "heat map");
-  xdotool("mousemove 1500 900");
+  act("mousemove 1500 900");
   rests();
   EXPECT_GT(viewport().difference(indirect), 0.05) << "no heat map";
   choose("Accuracy/show", "split");
-  xdotool("mousemove 1500 900");
+  act("mousemove 1500 900");
   rests();
   const ScreenPart split = viewport();
   const auto apart = [&](int from, int to) {
@@ -147,7 +147,7 @@ TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
   EXPECT_GT(apart(line + 15, split.width), 1) << "the right half is the reference, of few samples";
 
   // It is of this camera alone.
-  xdotool("keydown w sleep 0.3 keyup w");
+  act("keydown w sleep 0.3 keyup w");
   rests();
   EXPECT_TRUE(appears("Accuracy/flip", /*wanted=*/false)) << "figures against another camera's reference";
   quit();
@@ -157,7 +157,7 @@ TEST_F(WindowAccuracy, AReferenceIsTracedMeasuredAndCancelled) {
   ASSERT_TRUE(appears("Accuracy/flip")) << "no figures against the file";
   EXPECT_FALSE(has("Accuracy/save reference"));
   if (std::string(linearExtension()) == ".exr") {
-    xdotool("keydown w sleep 0.3 keyup w");
+    act("keydown w sleep 0.3 keyup w");
     rests();
     EXPECT_TRUE(appears("Accuracy/flip", /*wanted=*/false)) << "figures against another camera's file";
   }

@@ -83,7 +83,7 @@ TEST_F(WindowCapturesTest, SayWhatTheyAreAndAreListedReplayedAndCompared) {
   // Another one, with other settings and from elsewhere; two recordings.
   choose("Settings/sample.filter", "nearest");
   away();
-  xdotool("keydown w sleep 0.4 keyup w");
+  act("keydown w sleep 0.4 keyup w");
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(first) > 0.05; }));
   const ScreenPart second = part();
   key("F12");

@@ -1,5 +1,5 @@
 // The window as a user has it: `irad view` under a virtual X server of the test's own, driven by synthetic keys and
-// mouse, watched through the server's framebuffer. Skipped, in words, where Xvfb or xdotool is not installed.
+// mouse, watched through the server's framebuffer. Skipped, in words, where Xvfb is not installed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,8 +31,7 @@ class WindowTest : public ::testing::Test {
   bool startsProgram_ = false;
 
   void SetUp() override {
-    for (const char* program : {"Xvfb", "xdotool"})
-      if (!installed(program)) GTEST_SKIP() << program << " is not installed: the window is not tested";
+    if (!installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed: the window is not tested";
     screen_ = std::make_unique<VirtualScreen>(1600, 1000);
   }
   void TearDown() override {
@@ -56,7 +55,7 @@ class WindowTest : public ::testing::Test {
     std::map<std::string, std::string> environment = screen_->environment();
     environment.insert(environment_.begin(), environment_.end());
     // Where it covers nothing that is compared: the server draws its pointer, too.
-    xdotool("mousemove 700 6");
+    act("mousemove 700 6");
     window_.reset();
     if (startsProgram_)
       window_ = std::make_unique<Program>(command, folder_.path, environment);
@@ -76,7 +75,7 @@ class WindowTest : public ::testing::Test {
     fold(R"(["Accuracy", "Scene", "Lights", "Effects", "Materials", "Objects", "Cameras", "View", "Compare", "Solver",
              "Memory", "Settings", "Inspector", "History"])");
   }
-  void xdotool(const std::string& arguments) { screen_->xdotool(arguments); }
+  void act(const std::string& commands) { screen_->act(commands); }
   void key(const std::string& name) { screen_->key(name); }
 
   // ---- Controls by name (ui/controls.h) ----
@@ -117,8 +116,8 @@ class WindowTest : public ::testing::Test {
       if (middle >= c.region.y && !below) return c;
       const int turns = 1 + (below ? middle - c.region.bottom() : c.region.y - middle) / kMostPerTurn;
       // At its edge: in its middle a list within it may take the wheel.
-      xdotool(fmt::format("mousemove {} {} click --repeat {} --delay 1 {}", c.region.x + 3,
-                          c.region.y + c.region.height / 2, turns, below ? 5 : 4));
+      act(fmt::format("mousemove {} {} click --repeat {} --delay 1 {}", c.region.x + 3,
+                      c.region.y + c.region.height / 2, turns, below ? 5 : 4));
       rests();
       c = control(name);
     }
@@ -128,7 +127,7 @@ class WindowTest : public ::testing::Test {
   bool appearsUnder(const std::string& above, const std::string& name) {
     for (int turn = 0; turn < 20 && !has(name); ++turn) {
       const Control::Area region = control(above).region;
-      xdotool(fmt::format("mousemove {} {} click 5", region.x + 3, region.y + region.height / 2));
+      act(fmt::format("mousemove {} {} click 5", region.x + 3, region.y + region.height / 2));
       rests();
     }
     return has(name);
@@ -168,17 +167,17 @@ class WindowTest : public ::testing::Test {
   /// Turns the wheel there with Ctrl, which is held until that has been seen.
   void zoomAt(const std::string& place, int turns) {
     mouse().moveTo(place);
-    xdotool(fmt::format("keydown ctrl click --repeat {} --delay 1 4", turns));
+    act(fmt::format("keydown ctrl click --repeat {} --delay 1 4", turns));
     rests();
-    xdotool("keyup ctrl");
+    act("keyup ctrl");
     rests();
   }
   /// Presses a key long enough for ImGui, which looks at keys once per frame, to see it.
   void hold(const std::string& key, const std::string& with = "") {
     const std::string second = with.empty() ? "" : " keydown " + with, up = with.empty() ? "" : " keyup " + with;
-    xdotool("keydown " + key + second);
+    act("keydown " + key + second);
     rests();
-    xdotool("keyup " + key + up);
+    act("keyup " + key + up);
     rests();
   }
   /// In place of what the field holds; Return leaves it.
@@ -194,17 +193,17 @@ class WindowTest : public ::testing::Test {
     const std::string place = placeOf(name, across);
     mouse().moveTo(place);
     // Ctrl is held until the click has been seen: a frame may take seconds, and sees the keys as they are at its start.
-    xdotool("keydown ctrl");
+    act("keydown ctrl");
     rests();
     press(place);
-    xdotool("keyup ctrl");
+    act("keyup ctrl");
     rests();
     hold("ctrl", "a");
     type(text);
     hold("Return");
   }
   void type(const std::string& text) {
-    if (!text.empty()) xdotool("type --delay 15 '" + text + "'");
+    if (!text.empty()) screen_->input().type(text);
     rests();
   }
   /// Where the picture is; the program says it, so that no test knows the layout.
@@ -231,7 +230,7 @@ class WindowTest : public ::testing::Test {
     return fmt::format("{} {}", p.x + 28, p.bottom() - 22);
   }
   /// Moves the mouse there.
-  void goAside() { xdotool("mousemove " + aside()); }
+  void goAside() { act("mousemove " + aside()); }
   void away() {
     goAside();
     rests();

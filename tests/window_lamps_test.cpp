@@ -43,9 +43,9 @@ class WindowLampsTest : public WindowTest {
   void pull(const std::string& name, glm::ivec2 by, const std::string& with = "") {
     const glm::ivec2 from = at(name), half = from + by / 2, to = from + by;
     const auto place = [](const glm::ivec2& p) { return fmt::format("{} {}", p.x, p.y); };
-    if (!with.empty()) xdotool("keydown " + with);
+    if (!with.empty()) act("keydown " + with);
     mouse().dragThrough({place(from), place(half), place(to)});
-    if (!with.empty()) xdotool("keyup " + with);
+    if (!with.empty()) act("keyup " + with);
     rests();
   }
 };

@@ -55,8 +55,7 @@ bool until(const std::function<bool()>& holds) {
 class WindowLoop : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (const char* program : {"Xvfb", "xdotool"})
-      if (!installed(program)) GTEST_SKIP() << program << " is not installed: the window is not tested";
+    if (!installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed: the window is not tested";
     screen_.emplace(1280, 720);
     setenv("DISPLAY", screen_->display().c_str(), 1);
     device_ = Device::create({.validate = true, .presentable = true});
@@ -80,7 +79,7 @@ class WindowLoop : public ::testing::Test {
   void run(const std::function<void()>& user, bool discards = false) {
     std::thread thread([&] {
       EXPECT_TRUE(until([&] { return picture().width > 0; })) << "no frame";
-      screen_->xdotool("mousemove " + aside());  // out of the part looked at: the server draws its pointer
+      screen_->act("mousemove " + aside());  // out of the part looked at: the server draws its pointer
       EXPECT_TRUE(until([&] { return rests() && viewport().deviation() > 0.02; })) << "no picture";
       user();
       screen_->key("ctrl+q");
@@ -122,7 +121,7 @@ class WindowLoop : public ::testing::Test {
         if (c.name.starts_with("Settings/") && c.name.find('.') != std::string::npos && c.region.holds(x, y))
           return fmt::format("{} {}", x, y);
       }
-      screen_->xdotool("mousemove 4 400 click 5 sleep 0.3");  // at the column's edge no list takes the wheel
+      screen_->act("mousemove 4 400 click 5 sleep 0.3");  // at the column's edge no list takes the wheel
     }
     ADD_FAILURE() << "no setting is in view";
     return aside();
@@ -177,21 +176,21 @@ TEST_F(WindowLoop, AsksForNothingWhileItIdles) {
         };
         // Wherever the mouse is: over the picture, over a setting with its tooltip, over a plot with its own.
         for (const std::string& place : {aside(), placeOfSetting(), at(470, picture().height + 90)}) {
-          screen_->xdotool("mousemove " + place);
+          screen_->act("mousemove " + place);
           idles("mouse at " + place, 5);
         }
         // With the keyboard in a field.
-        screen_->xdotool("key ctrl+f");
+        screen_->act("key ctrl+f");
         idles("the search has the keyboard", 3);
-        screen_->xdotool("key Escape");
-        screen_->xdotool("mousemove 4 400 click --repeat 60 --delay 50 4 sleep 0.5");
+        screen_->act("key Escape");
+        screen_->act("mousemove 4 400 click --repeat 60 --delay 50 4 sleep 0.5");
         // With something unsaved: every edit is soon in the autosave, and then that is left alone.
         EXPECT_EQ(autosave(), "");
         click("Lights/point");
         EXPECT_TRUE(until([&] { return autosave() != "" && rests(); }));
         click("Lights/sun");
         EXPECT_TRUE(until([&] { return contains(slurp(autosave()), "\"sun\""); })) << "no autosave of the last edit";
-        screen_->xdotool("mousemove " + aside());
+        screen_->act("mousemove " + aside());
         EXPECT_TRUE(until([&] { return rests(); }));
         const auto written = std::filesystem::last_write_time(autosave());
         idles("with unsaved lights", 3);
@@ -224,10 +223,10 @@ TEST_F(WindowLoop, ACameraThatMovesAloneRedoesNoLightAndTakesTheHandlesAlong) {
     before = context_->counters();
     from = timings_.now();
     // By a key, by the mouse, and by a panel, which is drawn after the handles.
-    screen_->xdotool("keydown w sleep 0.5 keyup w");
+    screen_->act("keydown w sleep 0.5 keyup w");
     mouse().dragThrough({at(168, 270), at(188, 275), at(208, 280)}, /*button=*/3);
     click("Cameras/0");
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     to = timings_.now();
     after = context_->counters();
@@ -297,10 +296,10 @@ TEST_F(WindowLoop, AFoldedAccuracyPanelCostsNothing) {
     ofPictures();  // views that were not there before take memory once
     free("at first");
     click("Accuracy");
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     EXPECT_GE(ofPictures().beside, kPictures - 1) << "an open one measures each";
     click("Accuracy");
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     free("folded again");
   });
 }
@@ -329,7 +328,7 @@ TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
     };
     std::set<std::string> pixels, values;
     for (const std::string& place : {at(88, 220), at(308, 270), at(468, 420)}) {
-      screen_->xdotool("mousemove " + place);
+      screen_->act("mousemove " + place);
       EXPECT_TRUE(until([&] { return rests(); }));
       pixels.insert(reading("pixel"));
       values.insert(reading("value"));
@@ -339,13 +338,13 @@ TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
     EXPECT_FALSE(values.contains(""));
     rendersNothing("pointed at");
     mouse().moveTo(at(308, 270));
-    screen_->xdotool("keydown ctrl click --repeat 3 --delay 1 4");
+    screen_->act("keydown ctrl click --repeat 3 --delay 1 4");
     EXPECT_TRUE(until([&] { return reading("zoom") != ""; })) << "the wheel does not zoom";
     EXPECT_TRUE(until([&] { return rests(); }));
-    screen_->xdotool("keyup ctrl");
+    screen_->act("keyup ctrl");
     rendersNothing("zoomed");
     mouse().dragThrough({at(308, 270), at(328, 290)}, /*button=*/2);
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     EXPECT_GT(viewport().difference(whole), 0.2);
     rendersNothing("moved");
@@ -378,10 +377,10 @@ TEST_F(WindowLoop, PointingAndZoomingRenderNothing) {
       eachFrame();
       return driversPresent(queue, info);
     });
-    screen_->xdotool("mousemove 10 400");  // so that a frame is drawn, and another one
+    screen_->act("mousemove 10 400");  // so that a frame is drawn, and another one
     EXPECT_TRUE(until([&] { return rests(); }));
     vkQueuePresentKHR = driversPresent;
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     EXPECT_TRUE(until(cut)) << "the plot is scaled to one peak, or does not say so";
   });
 }
@@ -394,7 +393,7 @@ TEST_F(WindowLoop, FramesOfBruteForceEndInRestAndBeginAnewFromTheDark) {
     from = timings_.now();
     const uint64_t before = context_->counters().dispatches;
     click("Solver/H = 0");
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     // It rests until the click arrives, too; panels are drawn without a dispatch.
     EXPECT_TRUE(until([&] { return context_->counters().dispatches > before; })) << "the click does nothing";
     EXPECT_TRUE(until([&] { return rests(); }));
@@ -422,7 +421,7 @@ TEST_F(WindowLoop, ALightThatMovesLeavesVoxelsAndMatrix) {
       return at(p.width / 2 + 325 * p.height / 1000 + right, p.height / 2 - 416 * p.height / 1000 + down);
     };
     mouse().dragThrough({lamp(0, 0), lamp(-69, 18), lamp(-129, 48)});
-    screen_->xdotool("mousemove " + aside());
+    screen_->act("mousemove " + aside());
     EXPECT_TRUE(until([&] { return rests(); }));
     moved = viewport();
     to = timings_.now();

@@ -229,9 +229,9 @@ TEST_F(WindowObjectsTest, AreIsolatedAndFramed) {
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(alone) > 0.1; })) << "not framed";
   // Around it; what moves the camera one after the other is one step.
   const ScreenPart framed = viewport();
-  xdotool("keydown alt");
+  act("keydown alt");
   mouse().dragThrough({"600 360", "640 370", "680 380"});
-  xdotool("keyup alt");
+  act("keyup alt");
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p.difference(framed) > 0.03; })) << "no orbit";
   key("ctrl+z");
   away();

@@ -117,13 +117,13 @@ class WindowPanelsTest : public WindowTest {
     for (const auto& [side, region] : {std::pair("left", Region::Left), std::pair("right", Region::Right)}) {
       const std::string last = titles[region].back();
       const Control first = control(titles[region].front());
-      xdotool(fmt::format("mousemove {} {} click --repeat 150 --delay 1 4", first.region.x + 3, first.region.y + 5));
+      act(fmt::format("mousemove {} {} click --repeat 150 --delay 1 4", first.region.x + 3, first.region.y + 5));
       rests();
       int shot = 0;
       for (int before = INT_MAX; control(last).area.y < before;) {
         before = control(last).area.y;
         look(fmt::format("{}-{}-{}", name, side, shot++));
-        xdotool("click --repeat 8 --delay 1 5");
+        act("click --repeat 8 --delay 1 5");
         rests();
       }
     }
@@ -137,8 +137,8 @@ TEST_F(WindowPanelsTest, EveryControlAndReadOutSaysWhatItIs) {
   // A list that is at its top passes the wheel on to its column, which is at its end.
   const Control row = shown("Objects/1");
   const int before = control("Cameras").area.y;
-  xdotool(fmt::format("mousemove {} {} click --repeat 20 --delay 5 4", row.region.x + row.region.width / 2,
-                      row.region.y + row.region.height / 2));
+  act(fmt::format("mousemove {} {} click --repeat 20 --delay 5 4", row.region.x + row.region.width / 2,
+                  row.region.y + row.region.height / 2));
   rests();
   EXPECT_GT(control("Cameras").area.y, before) << "the list keeps the wheel";
   click("Compare/Compare with these settings");

@@ -21,7 +21,7 @@ class WindowPointingTest : public WindowTest {
     return "";
   }
   void point(const std::string& place) {
-    xdotool("mousemove " + place);
+    act("mousemove " + place);
     rests();
   }
   void undo() {
@@ -72,12 +72,12 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
   const ScreenPart whole = viewport();
   const Control::Area p = picture();
   const std::string middle = fmt::format("{} {}", p.x + 318, p.y + 260);
-  xdotool(fmt::format("mousemove {} keydown ctrl", middle));
+  act(fmt::format("mousemove {} keydown ctrl", middle));
   for (int i = 0; i < 5; ++i) {
-    xdotool("click 4");
+    act("click 4");
     rests();
   }
-  xdotool("keyup ctrl");
+  act("keyup ctrl");
   rests();
   EXPECT_EQ(reading("zoom"), "8 \u00D7");
   EXPECT_EQ(reading("pixel"), "x 318 y 260") << "the pixel under the mouse stays";
@@ -100,9 +100,9 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
   EXPECT_EQ(best, all) << "pixels are blurred";
   // The middle button moves the picture, by what the mouse moves.
   point(fmt::format("{} {}", p.x + 168, p.y + 270));
-  xdotool("mousedown 2");
+  act("mousedown 2");
   point(fmt::format("{} {}", p.x + 184, p.y + 270));
-  xdotool("mouseup 2");
+  act("mouseup 2");
   rests();
   point(aside());
   const ScreenPart moved = viewport();
@@ -111,12 +111,12 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
     for (int x = 20; x < 400; x += 9, ++compared) follows += moved.at(x + 16, y, 1) == large.at(x, y, 1);
   EXPECT_EQ(follows, compared);
   // Numbers in the pixels, once there is room for them.
-  xdotool(fmt::format("mousemove {} keydown ctrl", middle));
+  act(fmt::format("mousemove {} keydown ctrl", middle));
   for (int i = 0; i < 6; ++i) {
-    xdotool("click 4");
+    act("click 4");
     rests();
   }
-  xdotool("keyup ctrl");
+  act("keyup ctrl");
   point(aside());
   EXPECT_EQ(reading("zoom"), "64 \u00D7");
   const ScreenPart numbers = viewport();

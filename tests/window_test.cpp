@@ -44,7 +44,7 @@ TEST_F(WindowTest, ShowsBoxAndAnswersKeysAndMouse) {
       << "key 1 did not bring the picture back";
 
   // W flies forward.
-  xdotool("keydown w sleep 0.4 keyup w");
+  act("keydown w sleep 0.4 keyup w");
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return lit(p) && p.difference(first) > 0.2; }))
       << "W changed nothing";
 
@@ -394,9 +394,7 @@ TEST_F(WindowTest, OpensScenesFromFoldersAndSaysWhyItsLayoutIsLost) {
 TEST_F(WindowTest, FollowsItsSize) {
   start();
   ASSERT_TRUE(viewportSettles(lit));
-  const auto resize = [&](int width, int height) {
-    xdotool(fmt::format("search --onlyvisible --name irad windowsize --sync {} {}", width, height));
-  };
+  const auto resize = [&](int width, int height) { act(fmt::format("windowsize {} {}", width, height)); };
   // Beyond the old right edge there is nothing; after growing, the right column is there.
   const auto right = [this] { return screen_->grab(1300, 50, 280, 600); };
   EXPECT_EQ(right().deviation(), 0.0);
@@ -420,16 +418,16 @@ TEST_F(WindowTest, SurvivesBeingUnmappedAndResizedInAHurry) {
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart first = viewport();
-  xdotool("search --onlyvisible --name irad windowunmap --sync");
+  act("windowunmap");
   pause(0.5);
-  xdotool("search --name irad windowmap --sync");
+  act("windowmap");
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; })) << "not drawn again when mapped";
 
   // Sizes that come faster than frames.
   std::string sizes;
   for (const char* size : {"900 500", "1500 800", "700 700", "1100 400", "1280 720"})
-    sizes += fmt::format(" search --name irad windowsize {} sleep 0.03", size);
-  xdotool(sizes);
+    sizes += fmt::format(" windowsize {} sleep 0.03", size);
+  act(sizes);
   ASSERT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == first; })) << "the picture did not come back";
   quit();
 }

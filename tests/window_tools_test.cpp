@@ -24,7 +24,7 @@ TEST_F(WindowToolsTest, CapturesReplayToTheSameBits) {
   start({"--set", "solver.tolerance=0.01", "--set", "camera.exposure=1"});
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
-  xdotool("keydown w sleep 0.3 keyup w");
+  act("keydown w sleep 0.3 keyup w");
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart first = part();
   const std::filesystem::path captures = folder_.path / "out/captures";
@@ -74,7 +74,7 @@ TEST_F(WindowToolsTest, AManifestOpensWithItsViewAndCamera) {
   goAside();
   ASSERT_TRUE(viewportSettles(lit));
   const ScreenPart begun = part();
-  xdotool("keydown w sleep 0.3 keyup w");
+  act("keydown w sleep 0.3 keyup w");
   ASSERT_TRUE(settles([this] { return part(); }, [&](const ScreenPart& p) { return p.difference(begun) > 0.02; }, 30));
   const ScreenPart flown = part();
   key("F12");
@@ -215,9 +215,9 @@ TEST_F(WindowToolsTest, InspectsWhatIsClicked) {
   away();
   // Another facet's row beside it.
   const ScreenPart before = panel();
-  xdotool("keydown shift");
+  act("keydown shift");
   pick(at(-369, -301));
-  xdotool("keyup shift");
+  act("keyup shift");
   ASSERT_TRUE(changes(before)) << "no comparison";
   // A drag turns the camera and picks nothing; a click beside the scene lets go.
   pick(at(-637, 37));
@@ -249,7 +249,7 @@ TEST_F(WindowToolsTest, LightsAreAddedDraggedAndSavedBesideTheScene) {
     for (const std::string& step : {fmt::format("mousemove {} {}", fromX, fromY), std::string("mousedown 1"),
                                     fmt::format("mousemove {} {}", (fromX + toX) / 2, (fromY + toY) / 2),
                                     fmt::format("mousemove {} {}", toX, toY), std::string("mouseup 1")}) {
-      xdotool(step);
+      act(step);
       rests();
     }
     away();

@@ -108,7 +108,7 @@ TEST_F(WindowUndoTest, ADragIsOneStepAndPresetsLightsViewsAndFlightsComeBack) {
   key("3");
   rests();
   for (int i = 0; i < 2; ++i) {
-    xdotool("keydown w sleep 0.3 keyup w");
+    act("keydown w sleep 0.3 keyup w");
     rests();
   }
   EXPECT_EQ(steps(), 3);
@@ -230,15 +230,15 @@ TEST_F(WindowUndoTest, ACancelledRebuildReturnsTheSettingThatWasBuilt) {
   const ScreenPart first = part();  // above the messages
   cancel([&] {
     // As enterNumber(), which would wait until the rebuild is done.
-    xdotool("keydown ctrl");
+    act("keydown ctrl");
     mouse().tap(placeOf("Settings/matrix.rays"));
     rests();
-    xdotool("keyup ctrl");
+    act("keyup ctrl");
     hold("ctrl", "a");
     type("4096");
-    xdotool("keydown Return");
+    act("keydown Return");
     EXPECT_TRUE(appears("progress/cancel"));
-    xdotool("keyup Return");
+    act("keyup Return");
   });
   EXPECT_TRUE(says("the settings are those of the picture again"));
   rests();

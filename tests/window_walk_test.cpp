@@ -111,7 +111,7 @@ class WindowWalk : public WindowTest {
 
   /// Moves the mouse to an empty place in the menu bar; its picture ends above the viewport.
   void rest() {
-    xdotool("mousemove 700 6");
+    act("mousemove 700 6");
     rests();
   }
 
@@ -208,7 +208,7 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
 
   // Cameras: a bookmark of where one has flown to, beside the scene's two.
   click("Cameras");
-  xdotool("keydown w sleep 0.3 keyup w");
+  act("keydown w sleep 0.3 keyup w");
   rest();
   const ScreenPart flown = shown();
   EXPECT_GT(flown.difference(direct), 0.1);
@@ -304,7 +304,7 @@ TEST_F(WindowWalk, EveryPanelUnfoldsAndDoesWhatItSays) {
   const ScreenPart unread = window();
   std::vector<ScreenPart> readings;
   for (const int x : {370, 620}) {
-    xdotool(fmt::format("mousemove {} {}", picture().x + x, picture().bottom() + 90));
+    act(fmt::format("mousemove {} {}", picture().x + x, picture().bottom() + 90));
     rests();
     readings.push_back(window());
     EXPECT_GT(readings.back().difference(unread), 0.005) << "nothing is read at " << x;
@@ -394,7 +394,7 @@ class WholeWindowTest : public WindowWalk {
     more.insert(more.end(), {"--set", "solver.tolerance=1e-3", "--set", "solver.sweeps_per_frame=4"});
     start(settings(more));
     rests();
-    xdotool("mousemove 1500 900");  // out of the picture
+    act("mousemove 1500 900");  // out of the picture
     rests();
     const ScreenPart ours = screen_->grab(0, 0, WholeWindow::kWidth, WholeWindow::kHeight);
     const bool bless = std::getenv("IRAD_BLESS") != nullptr;
