@@ -48,11 +48,13 @@ configure() {
   (cd "$root" && cmake --preset "$preset" "${options[@]}") >&2
 }
 
-# build FOLDER [TARGET]
+# build FOLDER [TARGET…]
 build() {
-  local folder=$1 target=${2:-all}
-  say "Building $folder ($target) on $(nproc) cores"
-  cmake --build "$root/$folder" --target "$target" --parallel "$(nproc)" >&2
+  local folder=$1
+  shift
+  (($#)) || set -- all
+  say "Building $folder ($*) on $(nproc) cores"
+  cmake --build "$root/$folder" --target "$@" --parallel "$(nproc)" >&2
 }
 
 # Caches stay in the checkout; a folder that the user has chosen is respected. ccache is to take precompiled headers, and
