@@ -10,33 +10,34 @@ fails where a name there is no test's.
 import json
 import os
 import sys
-import xml.etree.ElementTree as xml
 from pathlib import Path
+from xml.etree.ElementTree import ParseError
+
+from test_results import cases_of, name_of, slow_tests
 
 
 def main():
     status, folders = int(sys.argv[1]), [Path(name) for name in sys.argv[2:]]
     quick = "IRAD_TEST_QUICK" in os.environ
-    lines = (Path(__file__).parent.parent / "tests" / "slow.txt").read_text().splitlines()
-    slow = {line for line in lines if not line.startswith("#")}
+    slow = slow_tests(Path(__file__).parent.parent)
     missing = set(slow)
     grouped = False
     passed = failed = skipped = 0
     for folder, suite in [(f, t["name"]) for f in folders for t in json.loads((f / "suites.json").read_text())["tests"]]:
         try:
-            cases = list(xml.parse(folder / f"{suite}.xml").iter("testcase"))
-        except (OSError, xml.ParseError) as error:
+            cases = cases_of(folder / f"{suite}.xml")
+        except (OSError, ParseError) as error:
             cases = []
             print(f"{folder.parent.name}: {suite}: no results ({error})")
         grouped |= suite.startswith("group_")
-        missing -= {f"{case.get('classname')}.{case.get('name')}" for case in cases}
+        missing -= set(map(name_of, cases))
         if not cases and not (quick and (folder / f"{suite}.xml").exists()):
             print(f"{folder.parent.name}: {suite}: FAILED, not one test ran")
             failed += 1
         for case in cases:
             failures = case.findall("failure") + case.findall("error")
             if failures:
-                print(f"{folder.parent.name}: {suite}: FAILED {case.get('classname')}.{case.get('name')}")
+                print(f"{folder.parent.name}: {suite}: FAILED {name_of(case)}")
                 for failure in failures[:3]:
                     print("    " + (failure.text or failure.get("message")).strip()[:2000].replace("\n", "\n    "))
                 failed += 1

@@ -2,8 +2,9 @@
 the tests that took more processor seconds, on a machine whose only Vulkan device is Mesa's CPU driver."""
 
 import sys
-import xml.etree.ElementTree as xml
 from pathlib import Path
+
+from test_results import cases_of, name_of, processor_seconds
 
 
 def main():
@@ -11,9 +12,8 @@ def main():
     limit = float(sys.argv[1])
     folders = [Path(name) for name in sys.argv[2:]] or [root / "build" / "test-results"]
     names, all_seconds, left_out = set(), 0, 0
-    for case in (c for folder in folders for file in sorted(folder.glob("*.xml")) for c in xml.parse(file).iter("testcase")):
-        seconds = sum(float(p.get("value")) for p in case.iter("property") if p.get("name") == "processor_seconds")
-        name = f"{case.get('classname')}.{case.get('name')}"
+    for case in (c for folder in folders for file in sorted(folder.glob("*.xml")) for c in cases_of(file)):
+        seconds, name = processor_seconds(case), name_of(case)
         all_seconds += seconds
         if seconds > limit and name not in names:
             left_out += seconds

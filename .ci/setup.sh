@@ -60,7 +60,7 @@ build() {
 # Caches stay in the checkout; a folder that the user has chosen is respected. ccache is to take precompiled headers, and
 # to learn from the compiler what a source includes, not to read all of that first by itself.
 export CCACHE_DIR=${CCACHE_DIR:-$root/.cache/ccache} CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} CCACHE_NOHASHDIR=1
-export CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros} CCACHE_DEPEND=1
 export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-$root/.cache/mesa}
 mkdir -p "$MESA_SHADER_CACHE_DIR"
 

@@ -1,8 +1,9 @@
 // Pictures of the built-in scenes and of Sponza against those of tests/golden, which a person has looked at. After a
 // change that is meant:
 //
-//   IRAD_BLESS=1 ctest --test-dir build -R '^images$'    (then look at them: git difftool, or any viewer of EXR)
+//   IRAD_BLESS=1 ctest --test-dir build -C suite -R '^images$'
 //
+// Then look at them (git difftool, or any viewer of EXR).
 // Where a picture differs, NAME.ours.png, NAME.golden.png and NAME.difference.png (4 times |ours - golden|) lie
 // together in build/test-results/images.
 #include <gtest/gtest.h>
