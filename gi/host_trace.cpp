@@ -165,7 +165,8 @@ class EmbreeTrace : public HostTrace {
   void emitters(const EmitterSamples& from, std::span<glm::vec4> light, uint32_t threads) const override {
     IRAD_CHECK_OP(light.size(), >=, facets_.voxel.size());
     IRAD_CHECK_OP(from.exitance.size(), ==, facets_.voxel.size());
-    const auto gather = [&](size_t f) { light[f] = lightOf(from, static_cast<uint32_t>(f)); };
+    const EmitterSurfels to(*this, from.table);
+    const auto gather = [&](size_t f) { light[f] = lightOf(from, to, static_cast<uint32_t>(f)); };
     parallelFor(facets_.voxel.size(), gather, threads, kBlock);
   }
 
@@ -184,6 +185,7 @@ class EmbreeTrace : public HostTrace {
  private:
   /// The channels that panes have kept off, as bits, of each ray of a packet.
   using Closed = std::array<uint32_t, kPacket>;
+  using FacetSurfels = std::array<SurfelPoint, FACET_SURFELS>;
 
   static uint64_t free(const Allocator& memory) { return memory.budget() - std::min(memory.budget(), memory.used()); }
   static std::vector<glm::vec3> positions(const oracle::Facets& facets) {
@@ -286,8 +288,28 @@ class EmbreeTrace : public HostTrace {
     return sum / float{FACET_SURFELS};
   }
 
+  /// Of the facets of a table: each is drawn by thousands of others.
+  class EmitterSurfels {
+   public:
+    EmitterSurfels(const EmbreeTrace& trace, std::span<const Emitter> table)
+        : place_(trace.facets_.voxel.size(), kNone) {
+      for (const Emitter& e : table)
+        for (const uint32_t facet : {e.facet, e.other}) {
+          if (place_[facet] != kNone) continue;
+          place_[facet] = static_cast<uint32_t>(surfels_.size());
+          surfels_.push_back(trace.liftedSurfels(facet));
+        }
+    }
+    const SurfelPoint& at(uint32_t facet, uint32_t surfel) const { return surfels_[place_[facet]][surfel]; }
+
+   private:
+    static constexpr uint32_t kNone = ~0u;
+    std::vector<uint32_t> place_;  ///< of facets among these
+    std::vector<FacetSurfels> surfels_;
+  };
+
   /// gi/sample_emitters.comp.
-  glm::vec4 lightOf(const EmitterSamples& emitters, uint32_t facet) const {
+  glm::vec4 lightOf(const EmitterSamples& emitters, const EmitterSurfels& ofEmitters, uint32_t facet) const {
     const uint32_t voxel = facets_.voxel[facet];
     const uvec4 shifts = rayShifts(voxel, emitters.seed ^ EMITTERS_SEED, 1);
     const FacetSurfels surfels = liftedSurfels(facet);
@@ -303,7 +325,7 @@ class EmbreeTrace : public HostTrace {
       const uint32_t emitter =
           emitterFacet(emitters.table, shifts.x + (2 * k + 1) * (0x80000000u / emitters.samples), x);
       if (areNear(unpackVoxel(voxel), unpackVoxel(facets_.voxel[emitter]))) continue;
-      const SurfelPoint to = liftedSurfel(emitter, static_cast<uint32_t>(x * static_cast<float>(FACET_SURFELS)));
+      const SurfelPoint& to = ofEmitters.at(emitter, static_cast<uint32_t>(x * static_cast<float>(FACET_SURFELS)));
       const SurfelPoint& start = surfels[raySurfel(k, shifts)];
       const glm::vec3 way = to.position - start.position;
       const float reach = glm::length(way);
@@ -350,7 +372,6 @@ class EmbreeTrace : public HostTrace {
     return closed != TINT_NONE_LEFT;
   }
 
-  using FacetSurfels = std::array<SurfelPoint, FACET_SURFELS>;
   FacetSurfels liftedSurfels(uint32_t facet) const {
     FacetSurfels all;
     for (uint32_t i = 0; i < FACET_SURFELS; ++i) all[i] = liftedSurfel(facet, i);
