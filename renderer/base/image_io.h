@@ -1,5 +1,5 @@
 // Pictures to files: EXR (linear, fp32) and PNG (display) with OpenImageIO; .pfm and .npy in builds without it. All
-// appear whole or not at all (renderer/output_file.h), and hold no date, so two runs give the same bytes.
+// appear whole or not at all (renderer/base/output_file.h), and hold no date, so two runs give the same bytes.
 #pragma once
 
 #include <array>
