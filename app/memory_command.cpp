@@ -34,8 +34,7 @@ std::string facts(const DeviceSession& session, const Pipeline& pipeline) {
   return fmt::format(
       "{}, {}\n{} x {} x {} voxels: V = {}; {} solid: M_s = {}; R = {}; {} facets; matrix {}, {} entries\n"
       "With M_s = 2^20, as in the thesis's Table 1, its eq. 31 has {:.3f} MiB. At its peak, while all was built, the "
-      "device held {:.3f} "
-      "MiB.\n",
+      "device held {:.3f} MiB.\n",
       pipeline.scene().path.filename().string(), session.device->info.name, dims.x, dims.y, dims.z, facets.grid.voxels,
       facets.solidVoxels, thesisCapacity(facets.solidVoxels), rays, facets.count,
       nameOf(session.settings.matrix.format), pipeline.matrix().stats.entries,

@@ -43,6 +43,11 @@ void SyntheticInput::act(const std::string& commands) {
     in.seekg(before);
     return otherwise;
   };
+  const auto window = [&] {
+    const Window found = windowTitled(xdo->xdpy, "irad");
+    if (!found) throw std::runtime_error(commands + ": there is no such window");
+    return found;
+  };
   for (std::string command; in >> command;) {
     int failed = 0;
     if (command == "mousemove") {
@@ -67,19 +72,13 @@ void SyntheticInput::act(const std::string& commands) {
     } else if (command == "sleep") {
       XFlush(xdo->xdpy);
       pause(next(0.0));
-    } else if (command.starts_with("window")) {
-      const Window window = windowTitled(xdo->xdpy, "irad");
-      if (!window) throw std::runtime_error(commands + ": there is no such window");
-      if (command == "windowsize") {
-        const int width = next(0), height = next(0);
-        failed = xdo_set_window_size(xdo, window, width, height, /*flags=*/0);
-      } else if (command == "windowmap") {
-        failed = xdo_map_window(xdo, window);
-      } else if (command == "windowunmap") {
-        failed = xdo_unmap_window(xdo, window);
-      } else {
-        throw std::runtime_error(commands + ": what is '" + command + "'?");
-      }
+    } else if (command == "windowsize") {
+      const int width = next(0), height = next(0);
+      failed = xdo_set_window_size(xdo, window(), width, height, /*flags=*/0);
+    } else if (command == "windowmap") {
+      failed = xdo_map_window(xdo, window());
+    } else if (command == "windowunmap") {
+      failed = xdo_unmap_window(xdo, window());
     } else {
       throw std::runtime_error(commands + ": what is '" + command + "'?");
     }

@@ -198,7 +198,7 @@ TEST_F(WindowFaultsTest, ALostDeviceEndsItWithAMessage) {
     const auto given = std::chrono::steady_clock::now();
     for (int i = 0; window_->running() && std::chrono::steady_clock::now() - given < std::chrono::minutes(2); ++i) {
       screen_->act(fmt::format("mousemove {} 500", 400 + i % 2));
-      pause(0.05);  // a move makes some frames, and takes processes
+      pause(0.05);  // a move makes some frames
     }
     EXPECT_EQ(window_->wait(60), 1) << fault;
     EXPECT_TRUE(says("irad: error: ")) << fault;
