@@ -1,4 +1,4 @@
-"""count_tests.py STATUS FOLDER…: sums the GoogleTest XML files of folders; suites.json there (ctest --show-only=json-v1)
+"""count_tests.py STATUS FOLDER: sums the GoogleTest XML files of a folder; suites.json there (ctest --show-only=json-v1)
 says which suites must have left one.
 
 Prints the failed tests with what they said, then one line `N passed, N failed[, N skipped]`. Exits with 1 on a failed test, on no test at
@@ -17,27 +17,27 @@ from test_results import cases_of, name_of, slow_tests
 
 
 def main():
-    status, folders = int(sys.argv[1]), [Path(name) for name in sys.argv[2:]]
+    status, folder = int(sys.argv[1]), Path(sys.argv[2])
     quick = "IRAD_TEST_QUICK" in os.environ
     slow = slow_tests(Path(__file__).parent.parent)
     missing = set(slow)
     grouped = False
     passed = failed = skipped = 0
-    for folder, suite in [(f, t["name"]) for f in folders for t in json.loads((f / "suites.json").read_text())["tests"]]:
+    for suite in [test["name"] for test in json.loads((folder / "suites.json").read_text())["tests"]]:
         try:
             cases = cases_of(folder / f"{suite}.xml")
         except (OSError, ParseError) as error:
             cases = []
-            print(f"{folder.parent.name}: {suite}: no results ({error})")
+            print(f"{suite}: no results ({error})")
         grouped |= suite.startswith("group_")
         missing -= set(map(name_of, cases))
         if not cases and not (quick and (folder / f"{suite}.xml").exists()):
-            print(f"{folder.parent.name}: {suite}: FAILED, not one test ran")
+            print(f"{suite}: FAILED, not one test ran")
             failed += 1
         for case in cases:
             failures = case.findall("failure") + case.findall("error")
             if failures:
-                print(f"{folder.parent.name}: {suite}: FAILED {name_of(case)}")
+                print(f"{suite}: FAILED {name_of(case)}")
                 for failure in failures[:3]:
                     print("    " + (failure.text or failure.get("message")).strip()[:2000].replace("\n", "\n    "))
                 failed += 1
