@@ -3,9 +3,9 @@
 
 #include <set>
 
+#include "gi/check/scenes.h"
 #include "gi/pipeline.h"
 #include "renderer/base/error.h"
-#include "renderer/scene/scene.h"
 #include "renderer/targets.h"
 #include "tests/support.h"
 
@@ -28,8 +28,14 @@ Settings framewise(uint32_t resolution) {
   return s;
 }
 
-const Scene& box() {
-  static const Scene scene = loadScene(assets() / "box.glb");
+/// Of few triangles: it is built hundreds of times.
+const Scene& room() {
+  static const Scene scene = [] {
+    SceneBuilder b = lampRoom();
+    b.point({0.2, 0.3, 0.1}, 5);
+    b.sun(glm::normalize(glm::vec3(0.3f, -1, 0.2f)), 2);
+    return b.finish("room");
+  }();
   return scene;
 }
 
@@ -45,7 +51,7 @@ Pixels draw(Context& context, Pipeline& pipeline, View view = VIEW_LIT) {
 
 /// A picture from nothing: every allocation that a run makes.
 Pixels fresh(Context& context, const Settings& settings) {
-  Pipeline pipeline(context, box(), settings);
+  Pipeline pipeline(context, room(), settings);
   pipeline.prepare();
   return draw(context, pipeline);
 }
@@ -133,7 +139,7 @@ TEST_F(NoMemory, AtAnyResourceOfARunIsAnErrorThatLeavesNothing) {
 TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
   const Pixels pictures[] = {fresh(context(), small(8)), fresh(context(), small(10))};
   ASSERT_FALSE(pictures[0] == pictures[1]);
-  Pipeline pipeline(context(), box(), small(8));
+  Pipeline pipeline(context(), room(), small(8));
   pipeline.prepare();
   int shown = 0;
   uint64_t n = 1;
@@ -154,7 +160,7 @@ TEST_F(NoMemory, InARebuildKeepsThePictureAndTheNextRebuildSucceeds) {
 }
 
 TEST_F(NoMemory, InAnotherMethodCanBeTakenBack) {
-  Pipeline pipeline(context(), box(), small(12));
+  Pipeline pipeline(context(), room(), small(12));
   pipeline.prepare();
   const Pixels before = draw(context(), pipeline);
   uint64_t n = 1;
@@ -179,7 +185,7 @@ TEST_F(NoMemory, InNewShadowsAndNewRaysCanBeTakenBack) {
   settings[1].light.shadowResolution = 128;
   settings[1].light.shadowFilter = ShadowFilter::vsm;
   settings[1].matrix.gpu.rays = 24;
-  Pipeline pipeline(context(), box(), settings[0]);
+  Pipeline pipeline(context(), room(), settings[0]);
   pipeline.prepare();
   const Pixels before = draw(context(), pipeline);
   uint64_t n = 1;

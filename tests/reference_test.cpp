@@ -121,7 +121,7 @@ TEST_F(Reference, CornellWithATwoSidedLamp) {
   // The strip of ceiling that is seen is one pixel high: like Cycles, several samples of a pixel. It is .6 voxel from
   // the lamp: pixels look for the lamp themselves. (From the facets the direct light is 1.06; docs/performance.md.)
   expectMarks(compare(*scenes_ / "references/cornell_base_diffuse.exr", *scenes_ / "variants/cornell_base.glb", &camera,
-                      {.doubleSided = true, .samples = 3, .emitters = EmitterLookup::pixels}));
+                      {.doubleSided = true, .samples = 2, .emitters = EmitterLookup::pixels}));
 }
 
 TEST_F(Reference, SponzaAgainstCycles) {

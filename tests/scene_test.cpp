@@ -466,9 +466,10 @@ std::string manyNodes(size_t count) {
 /// 300,000 nodes, in time that goes with their number: a reader that walks all nodes at the end of each takes sixteen
 /// times as long for four times as many. They are to take 2 s of a processor. As seconds that would be a mark that a
 /// slow machine misses, and a fast one meets whatever we do: so it is one of the time in which the JSON library makes
-/// values of the same text, which other work on the machine lengthens alike.
+/// values of the same text. Of each the least of three: other work on the machine lengthens now one, now another.
 TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
-  double parsed = 0;
+  constexpr size_t kMany = 300'000;
+  double parsed = 1e9;
   const auto load = [&](size_t count) {
     const std::string text = manyNodes(count);
     const std::filesystem::path path = folder.path / fmt::format("{}.gltf", count);
@@ -476,11 +477,12 @@ TEST_F(SceneLoading, TimeIsLinearInNodesAndManyAreTaken) {
     const double begun = threadSeconds();
     EXPECT_EQ(nlohmann::json::parse(text)["nodes"].size(), count);
     const double before = threadSeconds();
-    parsed = before - begun;
+    if (count == kMany) parsed = std::min(parsed, before - begun);
     EXPECT_EQ(loadScene(path).triangleCount(), count / 5);
     return threadSeconds() - before;
   };
-  const double few = load(75'000), many = load(300'000);
+  double few = 1e9, many = 1e9;
+  for (int i = 0; i < 3; ++i) few = std::min(few, load(kMany / 4)), many = std::min(many, load(kMany));
   fmt::print("75,000 nodes: {:.2f} s, 300,000: {:.2f} s; JSON by its library takes {:.2f} s\n", few, many, parsed);
   EXPECT_LT(many, 6 * few) << few << " s and " << many << " s";
   EXPECT_LT(many, 1.4 * parsed) << many << " s, and JSON alone " << parsed << " s";

@@ -88,8 +88,8 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
   for (int begin = 0; begin < 8; ++begin) {
     size_t same = 0;
     all = 0;
-    for (int y = 40; y < 200; y += 3)
-      for (int x = begin; x + 7 < 400; x += 8, ++all) {
+    for (int y = 40; y < large.height; y += 3)
+      for (int x = begin; x + 7 < large.width; x += 8, ++all) {
         bool one = true;
         for (int c = 0; c < 3; ++c)
           for (int i = 1; i < 8; ++i) one = one && large.at(x, y, c) == large.at(x + i, y, c);
@@ -108,7 +108,7 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
   const ScreenPart moved = viewport();
   size_t follows = 0, compared = 0;
   for (int y = 10; y < moved.height; y += 7)
-    for (int x = 20; x < 400; x += 9, ++compared) follows += moved.at(x + 16, y, 1) == large.at(x, y, 1);
+    for (int x = 20; x + 16 < moved.width; x += 9, ++compared) follows += moved.at(x + 16, y, 1) == large.at(x, y, 1);
   EXPECT_EQ(follows, compared);
   // Numbers in the pixels, once there is room for them.
   act(fmt::format("mousemove {} keydown ctrl", middle));
@@ -122,7 +122,7 @@ TEST_F(WindowPointingTest, PixelsAreShownLargeAndToldApart) {
   const ScreenPart numbers = viewport();
   size_t edges = 0, pairs = 0;
   for (int y = 0; y < numbers.height; y += 3)
-    for (int x = 0; x < 400; ++x, ++pairs) edges += numbers.at(x, y, 1) != numbers.at(x + 1, y, 1);
+    for (int x = 0; x + 1 < numbers.width; ++x, ++pairs) edges += numbers.at(x, y, 1) != numbers.at(x + 1, y, 1);
   EXPECT_GT(edges, pairs / 8) << "no numbers: one in 64 at most were the edges of pixels";
   key("0");
   EXPECT_TRUE(viewportSettles([&](const ScreenPart& p) { return p == whole; })) << "not the whole picture again";

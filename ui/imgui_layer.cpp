@@ -151,7 +151,10 @@ bool ImGuiLayer::endFrame() {
                           shown.use,
                           {clip.x, clip.y, clip.z, clip.w}});
       const ImDrawIdx* from = list.IdxBuffer.Data + command.IdxOffset;
-      for (uint32_t i = 0; i < command.ElemCount; ++i) t.indices.push_back(base + command.VtxOffset + from[i]);
+      const size_t written = t.indices.size();
+      t.indices.resize(written + command.ElemCount);
+      std::transform(from, from + command.ElemCount, t.indices.begin() + static_cast<ptrdiff_t>(written),
+                     [first = base + command.VtxOffset](ImDrawIdx index) { return first + index; });
     }
   }
   return t != *drawn_;

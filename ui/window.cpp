@@ -355,6 +355,7 @@ void Window::drawFrame() {
   if (!busy) session_.pointing.take(session_);
   const bool due = session_.viewDirty;
   layer_.takeInput();
+  if (measuring_) context_.device.waitIdle();  // a CPU device's threads would share the core with this one
   double uiBegan = threadMilliseconds();
   layer_.beginFrame();
   // Drawn first: among windows that focus does not raise, ImGui keeps the order in which they were drawn.
