@@ -30,12 +30,7 @@ Settings framewise(uint32_t resolution) {
 
 /// Of few triangles: it is built hundreds of times.
 const Scene& room() {
-  static const Scene scene = [] {
-    SceneBuilder b = lampRoom();
-    b.point({0.2, 0.3, 0.1}, 5);
-    b.sun(glm::normalize(glm::vec3(0.3f, -1, 0.2f)), 2);
-    return b.finish("room");
-  }();
+  static const Scene scene = mixedRoom();
   return scene;
 }
 

@@ -12,16 +12,9 @@
 namespace irad::test::poison_suite {
 namespace {
 
-Scene room() {
-  SceneBuilder b = lampRoom();
-  b.point({0.2, 0.3, 0.1}, 5);
-  b.sun(glm::normalize(glm::vec3(0.3f, -1, 0.2f)), 2);
-  return b.finish("room");
-}
-
 /// Everything that a run computes, in words of 32 bits: the values per facet, and every view.
 std::vector<std::vector<uint32_t>> results(Context& context, const Settings& settings) {
-  Scene scene = room();
+  Scene scene = mixedRoom();
   const Camera camera = scene.cameras.at(0);
   Pipeline pipeline(context, std::move(scene), settings);
   pipeline.prepare();
