@@ -96,6 +96,15 @@ IRAD_FN bool clearInVoxel(VoxelPieces voxel, vec3 a, vec3 b, uint except1, uint 
   return true;
 }
 
+/// Cuts off what of a segment is outside of a plane: it begins `at` inside and goes inward by `rate`. Whether any of it,
+/// from `first` to `last`, is left.
+IRAD_FN bool cutAtPlane(float at, float rate, IRAD_INOUT(float) first, IRAD_INOUT(float) last) {
+  if (rate == 0.0f) return at >= 0.0f;
+  if (rate > 0.0f) first = max(first, -at / rate);
+  else last = min(last, -at / rate);
+  return first < last;
+}
+
 /// Whether a triangle crosses the plane `above` another one's side, over that triangle, away from its edges and in a
 /// box. `facing`: the side's unit normal.
 IRAD_FN bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, vec3 facing, float above) {
@@ -109,32 +118,20 @@ IRAD_FN bool crossesAbove(vec3 low, vec3 high, Triangle standing, Triangle t, ve
   vec3 from = mix(other[i], other[j], height[i] / (height[i] - height[j]));
   vec3 along = mix(other[i], other[k], height[i] / (height[i] - height[k])) - from;
   float first = 0.0f, last = 1.0f;
-  vec3 corner[3] = {t.a, t.b, t.c};
-  for (uint e = 0u; e < 9u; ++e) {
-    // Inside: of the triangle's three edges, and of the box's six faces.
-    vec3 inward, base;
-    float least = 0.5f * above + 1e-4f;  // what stands on the edge, and leans over it, is no cut
-    if (e < 3u) {
-      base = corner[e];
-      inward = normalize(cross(facing, corner[(e + 1u) % 3u] - base));
-      if (dot(inward, corner[(e + 2u) % 3u] - base) < 0.0f) inward = -inward;
-    } else {
-      uint axis = (e - 3u) / 2u;
-      bool upper = (e & 1u) == 0u;
-      inward = vec3(axis == 0u ? 1.0f : 0.0f, axis == 1u ? 1.0f : 0.0f, axis == 2u ? 1.0f : 0.0f) * (upper ? -1.0f : 1.0f);
-      base = upper ? high : low;
-      least = 0.0f;
-    }
-    float at = dot(inward, from - base) - least, rate = dot(inward, along);
-    if (rate == 0.0f) {
-      if (at < 0.0f) return false;
-    } else if (rate > 0.0f) {
-      first = max(first, -at / rate);
-    } else {
-      last = min(last, -at / rate);
-    }
+  // The box's faces come first: they need no root, and most segments end at them.
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    if (!cutAtPlane(from[axis] - low[axis], along[axis], first, last) ||
+        !cutAtPlane(high[axis] - from[axis], -along[axis], first, last))
+      return false;
   }
-  return first < last;
+  vec3 corner[3] = {t.a, t.b, t.c};
+  float edge = 0.5f * above + 1e-4f;  // what stands on the edge, and leans over it, is no cut
+  for (uint e = 0u; e < 3u; ++e) {
+    vec3 inward = normalize(cross(facing, corner[(e + 1u) % 3u] - corner[e]));
+    if (dot(inward, corner[(e + 2u) % 3u] - corner[e]) < 0.0f) inward = -inward;
+    if (!cutAtPlane(dot(inward, from - corner[e]) - edge, dot(inward, along), first, last)) return false;
+  }
+  return true;
 }
 
 /// Whether a triangle stands on another one's side in a box: it comes up to the surface, to what rounding leaves of
