@@ -9,6 +9,7 @@
 #include "renderer/shadow.h"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/indirect.h"
+#include "shaders/shared/passes.h"
 #include "shaders/shared/solve.h"
 
 namespace irad {
@@ -88,7 +89,7 @@ void checkDirect(Frame& frame, const SceneOnDevice& scene, const IndirectInputs&
   push.doubted = pass.in(targets.doubted);
   mayMeet(pass.shader("gi/direct_seen.comp"), *from.facets)
       .constant(CONSTANT_TRACE_METHOD, exactTraversal(*from.field))
-      .constant(CONSTANT_TARGETS, targets.present());
+      .constant(CONSTANT_TARGETS, targets.present() & TARGET_HIGHLIGHT);
   specialize(pass, GATHER_LIGHTS, kindsOf(scene.shining), scene.shining);
   pass.read(targets.indirect)
       .write(targets.direct)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/base/error.h"
+#include "renderer/pipeline_use.h"
 #include "renderer/vulkan_check.h"
 
 namespace irad {
@@ -188,9 +189,12 @@ std::unique_ptr<GpuPipeline> compile(PipelineParts parts, VkPipelineCache cache)
   };
   try {
     for (const ShaderModule& module : parts.modules) {
+      // Mesa's CPU driver and the validation layer go through what constants leave out, too, and keep nothing of it.
+      const std::vector<uint32_t> code =
+          device.isCpu ? specialized(module.spirv, parts.request.allConstants()) : module.spirv;
       const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                          .codeSize = module.spirv.size() * sizeof(uint32_t),
-                                          .pCode = module.spirv.data()};
+                                          .codeSize = code.size() * sizeof(uint32_t),
+                                          .pCode = code.data()};
       VkShaderModule handle = VK_NULL_HANDLE;
       vkCheck(vkCreateShaderModule(device.handle, &info, nullptr, &handle), module.name);
       device.name(VK_OBJECT_TYPE_SHADER_MODULE, reinterpret_cast<uint64_t>(handle), module.name);

@@ -7,27 +7,44 @@
 
 namespace irad {
 
-uint64_t specializedInstructions(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants) {
-  // Sets the constants' values, then does what a driver does: inlines everything, and drops branches on constants and
-  // whatever is unused.
-  std::unordered_map<uint32_t, std::vector<uint32_t>> values;
-  for (const auto& [id, value] : constants) values[id] = {value};
+namespace {
+
+/// The module with these values of its specialization constants, which are constants like others then, after the passes
+/// that `add` names to the optimizer.
+std::vector<uint32_t> optimized(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants,
+                                const auto& add) {
+  const std::vector<uint32_t> code = withConstants(spirv, constants);
   std::string problem;
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
   optimizer.SetMessageConsumer([&](spv_message_level_t level, const char*, const spv_position_t&, const char* text) {
     if (level <= SPV_MSG_ERROR) problem += std::string(text) + "\n";
   });
-  optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass())
-      .RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
-      .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
-      .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
-      .RegisterPerformancePasses();
-  std::vector<uint32_t> optimized;
+  optimizer.RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+      .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
+  add(optimizer);
+  std::vector<uint32_t> out;
   spvtools::OptimizerOptions options;
   options.set_run_validator(false);
-  if (!optimizer.Run(spirv.data(), spirv.size(), &optimized, options))
+  if (!optimizer.Run(code.data(), code.size(), &out, options))
     throw WorkError("SPIRV-Tools: specializing a module failed\n" + problem);
-  return functionInstructions(optimized);
+  return out;
+}
+
+}  // namespace
+
+std::vector<uint32_t> specialized(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants) {
+  return optimized(spirv, constants, [](spvtools::Optimizer& optimizer) {
+    optimizer.RegisterPass(spvtools::CreateCCPPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+  });
+}
+
+uint64_t specializedInstructions(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants) {
+  return functionInstructions(optimized(spirv, constants, [](spvtools::Optimizer& optimizer) {
+    // Inlines everything, too. Lines would count as instructions.
+    optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass()).RegisterPerformancePasses();
+  }));
 }
 
 uint64_t specializedInstructions(const ShaderLibrary& shaders, std::span<const PipelineUse> pipelines) {

@@ -1,4 +1,4 @@
-// Which pipelines were used, and how large they are.
+// Which pipelines were used, what their constants leave of them, and how large that is.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,10 @@ struct PipelineUse {
   std::vector<std::string> shaders;
   std::map<uint32_t, uint32_t> constants;  ///< specialization: id -> value; the others are as in the shader's text
 };
+
+/// A module without what these values of its specialization constants leave out (SPIRV-Tools), and without constants
+/// left to specialize.
+std::vector<uint32_t> specialized(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants);
 
 /// SPIR-V instructions of a module's functions once its specialization constants are known and what follows from them
 /// is folded and left out (SPIRV-Tools): what a driver starts from.

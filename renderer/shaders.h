@@ -45,6 +45,9 @@ std::vector<ReflectedStruct> reflectStructs(std::span<const uint32_t> spirv);
 ShaderModule reflect(std::string name, std::vector<uint32_t> spirv);
 /// What a device executes: the module without its names, sources and lines.
 std::vector<uint32_t> withoutDebugInfo(std::span<const uint32_t> spirv);
+/// The module with other values for its specialization constants, of 32 bits each: number -> value, as Vulkan takes
+/// them.
+std::vector<uint32_t> withConstants(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants);
 
 /// Instructions of the module's functions, their labels, variables and parameters included.
 uint64_t functionInstructions(std::span<const uint32_t> spirv);

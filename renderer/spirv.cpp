@@ -29,6 +29,8 @@ enum Op : uint32_t {
   OpTypeStruct = 30,
   OpTypePointer = 32,
   OpConstant = 43,
+  OpSpecConstantTrue = 48,
+  OpSpecConstantFalse = 49,
   OpSpecConstant = 50,
   OpConstantComposite = 44,
   OpSpecConstantComposite = 51,
@@ -288,6 +290,23 @@ std::vector<uint32_t> withoutDebugInfo(std::span<const uint32_t> spirv) {
                              OpString,          OpLine,   OpNoLine,          OpModuleProcessed};
     if (std::find(std::begin(kDebug), std::end(kDebug), op) == std::end(kDebug))
       code.insert(code.end(), words.begin(), words.end());
+  });
+  return code;
+}
+
+std::vector<uint32_t> withConstants(std::span<const uint32_t> spirv, const std::map<uint32_t, uint32_t>& constants) {
+  std::vector<uint32_t> code(spirv.begin(), spirv.end());
+  std::unordered_map<uint32_t, uint32_t> values;  // by SPIR-V's id
+  forEachInstruction(spirv, [&](uint32_t op, std::span<const uint32_t> words) {
+    uint32_t* const out = code.data() + (words.data() - spirv.data());
+    if (op == OpDecorate && words[2] == SpecId) {
+      if (const auto it = constants.find(words[3]); it != constants.end()) values[words[1]] = it->second;
+    } else if (op == OpSpecConstantTrue || op == OpSpecConstantFalse) {
+      if (const auto it = values.find(words[2]); it != values.end())
+        out[0] = (words[0] & ~0xFFFFu) | (it->second != 0 ? OpSpecConstantTrue : OpSpecConstantFalse);
+    } else if (op == OpSpecConstant) {
+      if (const auto it = values.find(words[2]); it != values.end()) out[3] = it->second;
+    }
   });
   return code;
 }

@@ -293,6 +293,30 @@ TEST_F(Core, FoldedDispatchHitsEveryIndexOnce) {
   }
 }
 
+TEST_F(Core, ConstantsAreTheSameSetBeforehandAndByTheDriver) {
+  // Of a workgroup's size: were it another one, indices would be hit more or less than once.
+  struct Push {
+    uint64_t hits;
+    uint32_t count;
+  };
+  for (const bool beforehand : {true, false}) {
+    const auto device = Device::create({.validate = true});
+    device->isCpu = beforehand;
+    Timings timings;
+    Context context(*device, *gpu().shaders, timings);
+    for (const uint32_t size : {1u, 16u, 64u}) {
+      const Buffer hits(*device, "hits", Subsystem::Staging, 1000 * 4);
+      Frame frame = context.begin();
+      frame.pass("Fill").fill(hits, 0);
+      Pass pass = frame.pass("Hit");
+      pass.shader(shader("hit.comp")).constant(0, size).push(Push{pass.out(hits), 1000}).dispatch(1000);
+      frame.submitAndWait();
+      EXPECT_TRUE(downloadAs<uint32_t>(context, hits) == std::vector<uint32_t>(1000, 1)) << size << " " << beforehand;
+    }
+    EXPECT_TRUE(device->validationMessages().empty());
+  }
+}
+
 TEST_F(Core, IndirectDispatchReadsItsArguments) {
   const uint32_t n = 1000;
   const Buffer a = values("a", std::vector<uint32_t>(n, 5)), b = values("b", std::vector<uint32_t>(n, 0));

@@ -4,7 +4,11 @@
 
 #include "renderer/base/error.h"
 #include "renderer/frame/frame.h"
+#include "renderer/pipeline_use.h"
 #include "shaders/embedded.h"
+#include "shaders/shared/constants.h"
+#include "shaders/shared/light_kinds.h"
+#include "shaders/shared/solve.h"
 #include "tests/support.h"
 
 namespace irad::test::shader_suite {
@@ -170,6 +174,27 @@ TEST_F(Reload, BrokenShaderKeepsTheOldOnes) {
   EXPECT_EQ(run("t/b.comp"), 120);
 
   EXPECT_NE(library.reload(folder.path / "nowhere").errors, "");
+}
+
+TEST(Constants, AreSetAndLeaveOutWhatTheySay) {
+  const ShaderLibrary library;
+  const ShaderModule& merge = library.get("gi/merge_rows.comp");
+  const ShaderModule set = reflect(merge.name, withConstants(merge.spirv, {{CONSTANT_MERGE_WORKGROUP, 48}}));
+  EXPECT_EQ(set.localSize[0], 48u);
+  EXPECT_EQ(set.localSizeId, merge.localSizeId);
+  const ShaderModule fixed = reflect(merge.name, specialized(merge.spirv, {{CONSTANT_MERGE_WORKGROUP, 48}}));
+  EXPECT_EQ(fixed.localSize[0], 48u);
+  EXPECT_EQ(fixed.localSizeId[0], UINT32_MAX);
+  EXPECT_EQ(fixed.pushBytes, merge.pushBytes);
+
+  // Without a kind of light there is nothing to look for.
+  const std::vector<uint32_t>& seen = library.get("gi/direct_seen.comp").spirv;
+  std::map<uint32_t, uint32_t> kinds;
+  for (uint32_t kind = 0; kind < LIGHT_KINDS; ++kind) kinds[GATHER_LIGHTS + kind] = 0;
+  const uint64_t all = functionInstructions(specialized(seen, {})),
+                 none = functionInstructions(specialized(seen, kinds));
+  EXPECT_LE(all, functionInstructions(seen));
+  EXPECT_LT(none, all / 4);
 }
 
 TEST(Variants, AreTheirSourceWithADefinitionMore) {

@@ -14,7 +14,7 @@
 #include "shared/passes.h"
 
 layout(local_size_x = PICKED_GROUP) in;
-layout(constant_id = CONSTANT_TARGETS) const uint TARGETS = TARGETS_ALL;
+layout(constant_id = CONSTANT_TARGETS) const uint TARGETS = TARGET_HIGHLIGHT;  ///< or none
 layout(push_constant, scalar) uniform PushBlock {
   DirectSeenPush push;
 };
@@ -48,6 +48,6 @@ void main() {
   if (seesLight(pixel, seenTriangle(imageLoad(indirectTarget, pixel).w))) return;
   imageStore(directTarget, pixel, vec4(vec3(0.0), imageLoad(directTarget, pixel).w));
   // Highlights share a target with emission: where there is that, they stay.
-  if ((TARGETS & TARGET_HIGHLIGHT) != 0u && imageLoad(highlightTarget, pixel).w == 0.0)
+  if (TARGETS != 0u && imageLoad(highlightTarget, pixel).w == 0.0)
     imageStore(highlightTarget, pixel, vec4(0.0));
 }
