@@ -106,16 +106,18 @@ Settings randomSettings(Dice& dice) {
 
 class RandomEffects : public EffectsTest {};
 
-/// Each seed's scene with settings that it shares with others: compiling their kernels is what takes the time.
+/// Scenes and settings, by seed, in which each pair of effects meets that can: one is left out while the other is
+/// there, or both are. Of 600 scenes with each of three settings (compiling their kernels is what takes the time) the
+/// one that adds most pairs, again and again: 342 of the 346 that the 1,800 have. The first has black metals, whose
+/// highlights a shadow map once let through a wall.
 TEST_F(RandomEffects, EverythingForcedOnGivesTheSameBits) {
   std::map<Effect, int> leftOut;  // how often
   struct Pair {
-    uint32_t scene, settings;  // seeds
+    uint32_t scene, settings;
   };
-  std::vector<Pair> pairs;
-  for (uint32_t seed = 1; seed <= 18; ++seed) pairs.push_back({seed, 1000 + (seed - 1) / 6});
-  pairs.push_back({9, 1000});  // black metals, whose highlights a shadow map let through a wall
-  for (const Pair& pair : pairs) {
+  constexpr Pair kPairs[]{{9, 1000},   {274, 1002}, {79, 1001}, {114, 1002}, {325, 1001},
+                          {369, 1002}, {355, 1002}, {16, 1001}, {403, 1002}, {552, 1002}};
+  for (const Pair& pair : kPairs) {
     Dice dice{std::mt19937(pair.scene)}, settingsDice{std::mt19937(pair.settings)};
     const Scene scene = randomScene(dice);
     const Settings settings = randomSettings(settingsDice);
