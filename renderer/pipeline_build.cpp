@@ -174,9 +174,15 @@ PipelineParts gatherParts(const Device& device, const ShaderLibrary& shaders, co
 std::unique_ptr<GpuPipeline> compile(PipelineParts parts, VkPipelineCache cache) {
   GpuPipeline& pipeline = *parts.pipeline;
   const Device& device = pipeline.device;
+  std::map<uint32_t, uint32_t> constants = parts.request.allConstants();
+  if (device.isCpu) {
+    // Mesa's CPU driver and the validation layer go through what constants leave out, too, and keep nothing of it.
+    for (ShaderModule& module : parts.modules) module.spirv = specialized(module.spirv, constants);
+    constants.clear();
+  }
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<uint32_t> values;
-  for (const auto& [id, value] : parts.request.allConstants()) {
+  for (const auto& [id, value] : constants) {
     entries.push_back({id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
     values.push_back(value);
   }
@@ -189,12 +195,9 @@ std::unique_ptr<GpuPipeline> compile(PipelineParts parts, VkPipelineCache cache)
   };
   try {
     for (const ShaderModule& module : parts.modules) {
-      // Mesa's CPU driver and the validation layer go through what constants leave out, too, and keep nothing of it.
-      const std::vector<uint32_t> code =
-          device.isCpu ? specialized(module.spirv, parts.request.allConstants()) : module.spirv;
       const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                          .codeSize = code.size() * sizeof(uint32_t),
-                                          .pCode = code.data()};
+                                          .codeSize = module.spirv.size() * sizeof(uint32_t),
+                                          .pCode = module.spirv.data()};
       VkShaderModule handle = VK_NULL_HANDLE;
       vkCheck(vkCreateShaderModule(device.handle, &info, nullptr, &handle), module.name);
       device.name(VK_OBJECT_TYPE_SHADER_MODULE, reinterpret_cast<uint64_t>(handle), module.name);

@@ -6,7 +6,6 @@
 #include "renderer/shaders.h"
 
 namespace irad {
-
 namespace {
 
 /// The module with these values of its specialization constants, which are constants like others then, after the passes

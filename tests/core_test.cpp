@@ -276,43 +276,38 @@ TEST_F(Core, MoreTimersThanAPoolHolds) {
   EXPECT_EQ(downloadAs<uint32_t>(context(), a)[15], 299u);
 }
 
-TEST_F(Core, FoldedDispatchHitsEveryIndexOnce) {
-  // Workgroups of one: 70,001 of them exceed the 65,535 that every device has in x.
+/// How often each of `count` indices is met by workgroups of `size`, which is a specialization constant.
+std::vector<uint32_t> hits(Context& context, const std::string& shader, uint32_t size, uint32_t count) {
   struct Push {
     uint64_t hits;
     uint32_t count;
   };
-  for (const auto& [size, threads] : {std::pair{1u, 70001u}, {8u, 70001u}, {64u, 4194303u + 64u}}) {
-    const Buffer hits(device(), "hits", Subsystem::Staging, threads * 4ull);
-    Frame frame = context().begin();
-    frame.pass("Fill").fill(hits, 0);
-    Pass pass = frame.pass("Hit");
-    pass.shader(shader("hit.comp")).constant(0, size).push(Push{pass.out(hits), threads}).dispatch(threads);
-    frame.submitAndWait();
-    EXPECT_TRUE(downloadAs<uint32_t>(context(), hits) == std::vector<uint32_t>(threads, 1)) << size << " " << threads;
-  }
+  const Buffer hits(context.device, "hits", Subsystem::Staging, count * 4ull);
+  Frame frame = context.begin();
+  frame.pass("Fill").fill(hits, 0);
+  Pass pass = frame.pass("Hit");
+  pass.shader(shader).constant(0, size).push(Push{pass.out(hits), count}).dispatch(count);
+  frame.submitAndWait();
+  return downloadAs<uint32_t>(context, hits);
+}
+
+TEST_F(Core, FoldedDispatchHitsEveryIndexOnce) {
+  // Workgroups of one: 70,001 of them exceed the 65,535 that every device has in x.
+  for (const auto& [size, threads] : {std::pair{1u, 70001u}, {8u, 70001u}, {64u, 4194303u + 64u}})
+    EXPECT_TRUE(hits(context(), shader("hit.comp"), size, threads) == std::vector<uint32_t>(threads, 1))
+        << size << " " << threads;
 }
 
 TEST_F(Core, ConstantsAreTheSameSetBeforehandAndByTheDriver) {
-  // Of a workgroup's size: were it another one, indices would be hit more or less than once.
-  struct Push {
-    uint64_t hits;
-    uint32_t count;
-  };
   for (const bool beforehand : {true, false}) {
     const auto device = Device::create({.validate = true});
     device->isCpu = beforehand;
     Timings timings;
-    Context context(*device, *gpu().shaders, timings);
-    for (const uint32_t size : {1u, 16u, 64u}) {
-      const Buffer hits(*device, "hits", Subsystem::Staging, 1000 * 4);
-      Frame frame = context.begin();
-      frame.pass("Fill").fill(hits, 0);
-      Pass pass = frame.pass("Hit");
-      pass.shader(shader("hit.comp")).constant(0, size).push(Push{pass.out(hits), 1000}).dispatch(1000);
-      frame.submitAndWait();
-      EXPECT_TRUE(downloadAs<uint32_t>(context, hits) == std::vector<uint32_t>(1000, 1)) << size << " " << beforehand;
-    }
+    Context own(*device, *gpu().shaders, timings);
+    // Were it another size, indices would be hit more or less than once.
+    for (const uint32_t size : {1u, 16u, 64u})
+      EXPECT_TRUE(hits(own, shader("hit.comp"), size, 1000) == std::vector<uint32_t>(1000, 1))
+          << size << " " << beforehand;
     EXPECT_TRUE(device->validationMessages().empty());
   }
 }
